@@ -25,6 +25,7 @@ mod quantities;
 mod ranges;
 mod remedy;
 mod singularities;
+mod steering;
 mod sweep;
 mod workspace;
 
@@ -34,6 +35,7 @@ pub use crate::system::Value;
 pub use error::{AskError, Item, Role, Unmeasured};
 pub use modes::{Mode, Modes, Solved, Store};
 pub use remedy::Holdable;
+pub use steering::Steering;
 pub use sweep::Motions;
 pub use workspace::MOST_BYTES;
 

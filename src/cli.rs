@@ -13,6 +13,7 @@ mod frames;
 mod import;
 mod mobility;
 mod search;
+mod served;
 mod singularities;
 mod solve;
 mod source;
@@ -20,6 +21,7 @@ mod statics;
 mod store;
 mod sweep;
 mod velocity;
+mod view;
 mod watched;
 mod words;
 mod workspace;
@@ -57,6 +59,7 @@ enum Command {
     Formulas(formulas::Formulas),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
+    View(view::View),
     Statics(statics::Statics),
     Sweep(sweep::Sweep),
     Singularities(singularities::Singularities),
@@ -114,6 +117,7 @@ pub fn run() -> ExitCode {
         Command::Formulas(formulas) => formulas.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
+        Command::View(view) => view.run(),
         Command::Statics(statics) => statics.run(),
         Command::Sweep(sweep) => sweep.run(),
         Command::Singularities(singularities) => singularities.run(),

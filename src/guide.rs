@@ -14,6 +14,7 @@
 //! | [`workspace`] | workspace maps, modes and aspects |
 //! | [`formulas`] | closed forms derived and checked |
 //! | [`drawing`] | pictures of the mechanism |
+//! | [`view`] | a page with the solver in it |
 //! | [`frames`] | tables from joint axes and back, conventions and cuts |
 //! | [`exchange`] | URDF and MJCF |
 //! | [`conventions`] | units, frames, angles, names, exit status |
@@ -78,6 +79,10 @@ pub mod singularities {}
 /// The assembled configuration near a guess: direct, inverse and mixed kinematics.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/solve.md"))]
 pub mod solve {}
+
+/// A page in which the mechanism can be moved, with the solver inside.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/view.md"))]
+pub mod view {}
 
 /// Workspace maps: reached values, modes, aspects and boundaries.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/workspace.md"))]

@@ -39,6 +39,7 @@
 //! | [`ask`] | questions that own their mechanism, and every analysis as a method of them |
 //! | [`scene`] | a configuration as named shapes |
 //! | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
+//! | `page` | the door through which the page of `linkwork view` asks; with the feature `page` |
 
 pub mod algebra;
 pub mod analysis;
@@ -52,6 +53,8 @@ pub mod linear;
 pub mod mechanism;
 pub mod number;
 pub mod output;
+#[cfg(feature = "page")]
+pub mod page;
 pub mod scene;
 pub mod solve;
 pub mod system;

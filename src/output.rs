@@ -39,4 +39,6 @@ pub mod solution;
 pub mod statics;
 pub mod sweep;
 pub mod velocity;
+#[cfg(feature = "cli")]
+pub mod view;
 pub mod workspace;

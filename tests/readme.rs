@@ -135,6 +135,8 @@ fn picture(command: &str) -> Option<&str> {
 fn commands_print_what_the_pages_show() {
     let update = std::env::var_os("UPDATE_README").is_some();
     let drawn = tempfile::tempdir().unwrap();
+    // where the pages write what is not kept
+    fs::create_dir_all(root().join("target")).unwrap();
     let mut count = 0;
     for name in pages() {
         let mut page = read(&name);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 ///
 /// `interchange` makes descriptions from files of other programs and such files from mechanisms: it knows both and
 /// nothing of systems and analyses.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "number",
     "linear",
     "algebra",
@@ -21,6 +21,7 @@ const ORDER: [&str; 13] = [
     "ask",
     "scene",
     "output",
+    "page",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -5,9 +5,10 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use linkwork::description::{self, Description, FileError, LoadError, Problem};
+use linkwork::description::{self, Description, FileError, LoadError, Problem, load_text};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given, Part};
+use linkwork::output::view::Viewed;
 use linkwork::output::{JsonReport, diagnostics};
 
 use super::format::Format;
@@ -110,6 +111,23 @@ impl Source {
             }),
             Err(problems) => Err(Refusal(self.wrong(text, problems, &description))),
         }
+    }
+
+    /// The file as a page shows it, with its problems if it has any.
+    pub fn viewed(&self) -> Result<Viewed, Refusal> {
+        let file = self.file.file_name().unwrap_or_default();
+        let set = self.set.iter();
+        Ok(Viewed {
+            file: file.to_string_lossy().into_owned(),
+            text: load_text(&self.file)?,
+            set: set.map(|s| (s.name.clone(), s.value.clone())).collect(),
+            watch: false,
+        })
+    }
+
+    /// The file beside it with another ending.
+    pub fn beside(&self, ending: &str) -> PathBuf {
+        self.file.with_extension(ending)
     }
 
     /// Problems of values that stand in options are shown there, the others in the file.

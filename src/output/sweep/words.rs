@@ -14,7 +14,7 @@ fn inputs_at(report: &SweepReport, met: &Met) -> String {
 }
 
 /// How a motion ended, in a sentence or two.
-pub(super) fn sentence(report: &SweepReport) -> String {
+pub fn sentence(report: &SweepReport) -> String {
     let last = report.met.last();
     let inputs = report.inputs.iter();
     let way: Vec<String> = inputs

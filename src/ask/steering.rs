@@ -1,0 +1,262 @@
+//! Moving a mechanism by hand: from where it is to new values of what is held, on its branch.
+
+use std::sync::Arc;
+
+use super::ranges::still;
+use super::{AskError, Question};
+use crate::analysis::sweep::{Row, SweepEnd, SweepReport, SweepSettings, sweep};
+use crate::geometry::Vector3;
+use crate::linear::{Decomposition, norm};
+use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::solve::{Newton, Watch};
+use crate::system::{
+    Coordinate, Driven, FrameTwists, Freedoms, Held, QuestionError, Search, System, check_count,
+};
+
+/// A mechanism in a configuration, with what is held of it.
+#[derive(Clone, Debug)]
+pub struct Steering {
+    mechanism: Arc<Mechanism>,
+    /// With what stands still so that links do not spin.
+    held: Held<f64>,
+    driven: Vec<Coordinate>,
+    at: Configuration<f64>,
+}
+
+/// Before a dead point a motion stops this far away, in rad or characteristic lengths: the rest of the mechanism, which
+/// goes by the square root, is then a thousandth away from it, where the branch is still unique.
+const BEFORE: f64 = 1e-6;
+
+impl Question {
+    /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by what is held. Where too
+    /// little is held, or something that depends on the rest, this is put right.
+    ///
+    /// # Errors
+    /// If the question is wrong or nothing assembles.
+    pub fn steering(&self, watch: &Watch) -> Result<Steering, AskError> {
+        let asked = self.clone().completed()?;
+        let (_, at) = asked.configurations(watch)?.swap_remove(0);
+        asked.steering_from(at)
+    }
+
+    /// The same near a configuration, in which alone the search begins.
+    ///
+    /// # Errors
+    /// If the question is wrong, or Newton's method leads nowhere from there.
+    pub fn steering_near(
+        &self,
+        at: &Configuration<f64>,
+        watch: &Watch,
+    ) -> Result<Steering, AskError> {
+        let asked = self.clone().completed()?;
+        let question = asked.resolved()?.near(at).with_spins_still();
+        let newton = Newton::default();
+        let found = Search::new(&question, &newton).run(0, self.seed, watch);
+        match found.assembles() {
+            true => asked.steering_from(found.attempt.at),
+            false => Err(AskError::NotAssembled {
+                held: question.held_names(),
+            }),
+        }
+    }
+
+    /// The same from an assembled configuration, at which the held coordinates may have other values.
+    ///
+    /// # Errors
+    /// If the question is wrong.
+    pub fn steering_from(&self, at: Configuration<f64>) -> Result<Steering, AskError> {
+        let resolved = self.resolved()?;
+        Ok(Steering {
+            mechanism: self.mechanism.clone(),
+            driven: resolved.held_coordinates(),
+            held: resolved.with_spins_still().held(),
+            at,
+        })
+    }
+
+    /// Holds a coordinate no longer, so that it can be an input.
+    pub fn let_go(mut self, name: &str) -> Self {
+        self.hold.retain(|(held, _)| held != name);
+        self
+    }
+
+    /// With as much held as decides the configuration.
+    fn completed(self) -> Result<Self, AskError> {
+        let counted = check_count(&self.resolved()?);
+        let (free, hold) = match counted {
+            Ok(_) => return Ok(self),
+            Err(QuestionError::TooFew { hold, .. }) => (Vec::new(), hold),
+            Err(QuestionError::TooMany { free, .. }) => (free, Vec::new()),
+            Err(QuestionError::Dependent { free, hold }) => (free, hold),
+            Err(error) => return Err(AskError::Question(error)),
+        };
+        let mut asked = self;
+        for name in free {
+            asked = asked.let_go(&name);
+            if asked.mechanism.joint(&name).is_some() {
+                asked = asked.free(name);
+            }
+        }
+        let values = asked.holdable(&hold).unwrap_or_default();
+        for holdable in values {
+            asked.free.retain(|free| *free != holdable.name);
+            asked = match holdable.value {
+                Some(value) => asked.hold(holdable.name, value),
+                None => asked.hold(holdable.name, "home"),
+            };
+        }
+        Ok(asked)
+    }
+}
+
+impl Steering {
+    /// The mechanism.
+    pub fn mechanism(&self) -> &Arc<Mechanism> {
+        &self.mechanism
+    }
+
+    /// Where it is: assembled.
+    pub fn at(&self) -> &Configuration<f64> {
+        &self.at
+    }
+
+    /// What is held.
+    pub fn held(&self) -> &Held<f64> {
+        &self.held
+    }
+
+    /// What can be moved: the coordinates that are held.
+    pub fn driven(&self) -> &[Coordinate] {
+        &self.driven
+    }
+
+    /// The question that holds what is held where it is now.
+    pub fn question(&self) -> Question {
+        let name = |coordinate: &Coordinate| coordinate.name(&self.mechanism);
+        let joints = (0..self.mechanism.joints().len()).map(Coordinate::Joint);
+        let free = joints.filter(|joint| !self.driven.contains(joint));
+        let asked = Question::new(self.mechanism.clone()).free("actuated");
+        let asked = self.driven.iter().fold(asked, |asked, coordinate| {
+            asked.hold(name(coordinate), coordinate.of(&self.at))
+        });
+        free.fold(asked, |asked, joint| {
+            asked.guess(name(&joint), joint.of(&self.at))
+        })
+    }
+
+    /// Moves held coordinates together to these values, in m or rad, as far as the branch and the limits allow. At a
+    /// dead point, and where branches cross, the mechanism stops just before it.
+    pub fn move_to(&mut self, targets: &[(Coordinate, f64)], watch: &Watch) -> SweepReport {
+        let inputs = targets.iter().map(|&(coordinate, to)| Driven {
+            coordinate,
+            from: coordinate.of(&self.at),
+            to,
+        });
+        let inputs: Vec<Driven> = inputs.filter(|input| input.from != input.to).collect();
+        let (report, end) = self.moved(&inputs, watch);
+        let part = report.met.last().and_then(|met| met.part).unwrap_or(0.0);
+        match report.ending {
+            SweepEnd::Complete | SweepEnd::Limit => self.at = end,
+            SweepEnd::Fold | SweepEnd::Crossing => {
+                let size = |input: &Driven| {
+                    (input.to - input.from).abs() / input.coordinate.scale(&self.mechanism)
+                };
+                let part = part - BEFORE / inputs.iter().map(size).fold(0.0, f64::max);
+                if part > 0.0 {
+                    let nearer = inputs.iter().map(|input| Driven {
+                        to: input.at(part),
+                        ..*input
+                    });
+                    let (nearer, end) = self.moved(&nearer.collect::<Vec<_>>(), watch);
+                    if nearer.ending == SweepEnd::Complete {
+                        self.at = end;
+                    }
+                }
+            }
+            _ => {}
+        }
+        report
+    }
+
+    /// Moves what is held so that a point comes near to a place, both seen along `sight`: the step of least squares on the
+    /// motions that what is held has together, damped (J. Baillieul 1985, C. Wampler 1986), and no longer than is sure.
+    pub fn pull(
+        &mut self,
+        point: &Point,
+        to: [f64; 3],
+        sight: Option<[f64; 3]>,
+        watch: &Watch,
+    ) -> SweepReport {
+        /// What counts as much as a motion of one, in characteristic lengths: a weak motion is not forced.
+        const DAMPING: f64 = 0.03;
+        /// The longest step, in rad and characteristic lengths.
+        const LONGEST: f64 = 0.5;
+        let mechanism = self.mechanism.clone();
+        let length = mechanism.characteristic_length();
+        let loose = (self.driven.iter()).fold(self.held.clone(), |held, of| held.without(*of));
+        let freedoms = Freedoms::at(mechanism.dimensions(), &loose, &self.at);
+        let motions = &freedoms.motions;
+        let twists = FrameTwists::new(mechanism.dimensions(), &freedoms.unknowns, &[*point]);
+        let placement = twists.placed(&self.at);
+        let seen = |v: Vector3<f64>| match sight.map(Vector3) {
+            Some(sight) => v - sight.times(v.dot(&sight) / sight.dot(&sight)),
+            None => v,
+        };
+        let way = seen(Vector3(to) - twists.origin(0, &placement)).times(1.0 / length);
+        let mut matrix = Vec::new();
+        for (k, motion) in motions.iter().enumerate() {
+            let velocity = seen(twists.twist(0, &placement, motion).velocity);
+            matrix.extend(velocity.times(1.0 / length).0);
+            matrix.extend((0..motions.len()).map(|row| if row == k { DAMPING } else { 0.0 }));
+        }
+        let rows = 3 + motions.len();
+        let right = [&way.0[..], &vec![0.0; motions.len()]].concat();
+        let parts = Decomposition::of(rows, motions.len(), &matrix).solve(&right);
+        let shorter = (LONGEST / norm(&parts).max(LONGEST)).min(1.0);
+        let system = System::new(mechanism.dimensions(), &loose);
+        let targets = self.driven.iter().map(|&of| {
+            let slope = of.slope_in(&system, &self.at);
+            let rate = |motion: &Vec<f64>| -> f64 {
+                slope
+                    .iter()
+                    .map(|(column, slope)| slope * motion[*column])
+                    .sum()
+            };
+            let step: f64 = motions
+                .iter()
+                .zip(&parts)
+                .map(|(m, part)| part * rate(m))
+                .sum();
+            let to = of.of(&self.at) + shorter * step * of.scale(&mechanism);
+            let limits = match of {
+                Coordinate::Joint(joint) => mechanism.joints()[joint].limits,
+                _ => None,
+            };
+            (
+                of,
+                limits.map_or(to, |(low, high)| to.clamp(low.min(high), high)),
+            )
+        });
+        self.move_to(&targets.collect::<Vec<_>>(), watch)
+    }
+
+    fn moved(&self, inputs: &[Driven], watch: &Watch) -> (SweepReport, Configuration<f64>) {
+        let settings = SweepSettings {
+            steps: 1,
+            ..SweepSettings::default()
+        };
+        let held = still(self.held.clone(), inputs);
+        let mut end = self.at.clone();
+        let mut last = |row: &Row| end.clone_from(row.configuration);
+        let report = sweep(
+            &self.mechanism,
+            &held,
+            inputs,
+            &self.at,
+            &settings,
+            &mut last,
+            watch,
+        );
+        (report, end)
+    }
+}

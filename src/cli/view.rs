@@ -1,0 +1,53 @@
+//! `linkwork view`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use linkwork::output::view::{Viewed, page};
+
+use super::served::serve;
+use super::source::Source;
+use super::written::save;
+use super::{Answer, Refusal};
+
+/// Write a page in which the mechanism can be moved, with the solver inside.
+///
+/// The page is one file. It opens in any browser, offline, and loads nothing: the mechanism follows what is held as in
+/// the other commands, on its branch, and stops at dead points. Without a file the page is a gallery of mechanisms.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork view mechanisms/four_bar.ron\n  \
+    linkwork view mechanisms/three_rps.ron --set b=1.2 -o three_rps.html\n  \
+    linkwork view mechanisms/four_bar.ron --watch")]
+pub struct View {
+    #[command(flatten)]
+    source: Option<Source>,
+    /// Where to write the page; beside the mechanism file if it is not given, or to linkwork.html without one
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Serve the page to this machine alone, and show the file anew whenever it is saved, until Ctrl-C
+    #[arg(long, conflicts_with = "output", requires = "file")]
+    watch: bool,
+}
+
+impl View {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let (viewed, beside, warnings) = match &self.source {
+            Some(source) if self.watch => return serve(source),
+            Some(source) => {
+                let loaded = source.load()?;
+                let viewed = source.viewed()?;
+                (viewed, source.beside("html"), loaded.warnings())
+            }
+            None => (Viewed::default(), "linkwork.html".into(), String::new()),
+        };
+        let path = self.output.as_ref().unwrap_or(&beside);
+        save(path, &page(&viewed))?;
+        let answer = Answer {
+            data: format!("{}: open it in a browser.\n", path.display()),
+            remarks: String::new(),
+            yes: true,
+        };
+        Ok(answer.after(warnings))
+    }
+}

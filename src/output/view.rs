@@ -1,0 +1,78 @@
+//! A mechanism as a page with the solver in it, which `src/page` holds and `src/page/build.sh` makes.
+
+use serde::Serialize;
+
+/// The page with its style, its script and this library for WebAssembly; [`PLACE`] stands for what it shows.
+const PAGE: &str = include_str!("../page/page.html");
+const PLACE: &str = "{mechanism}";
+
+/// What a page shows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Viewed {
+    /// The name of the file.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// Parameters with other values, as expressions.
+    pub set: Vec<(String, String)>,
+    /// Whether the page asks where it came from whether the file has changed.
+    pub watch: bool,
+}
+
+impl Viewed {
+    /// As JSON without `<`, so that nothing in it ends the block of a page that it stands in.
+    pub fn json(&self) -> String {
+        let data = serde_json::to_string(self).expect("texts can always be written as JSON");
+        data.replace('<', "\\u003c")
+    }
+}
+
+/// The page that shows a mechanism. The page's security policy runs no script but its own, and the script makes texts of
+/// what files say, never elements. Only a page that is watched asks anything of where it came from.
+pub fn page(viewed: &Viewed) -> String {
+    let (before, after) = (PAGE.split_once(PLACE)).expect("the page has a place for what it shows");
+    let before = match viewed.watch {
+        true => before.replacen(
+            "default-src 'none'",
+            "default-src 'none'; connect-src 'self'",
+            1,
+        ),
+        false => before.to_owned(),
+    };
+    [&before, &viewed.json(), after].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_ends_the_block_it_stands_in() {
+        let viewed = Viewed {
+            file: "</script><script>alert(1)</script>".into(),
+            text: "<!-- <script> {mechanism} \u{202e} \" ' &".into(),
+            set: vec![("</script>".into(), "1".into())],
+            watch: false,
+        };
+        let (before, after) = PAGE.split_once(PLACE).unwrap();
+        let page = page(&viewed);
+        let data = &page[before.len()..page.len() - after.len()];
+        assert!(!data.contains('<'));
+        let read: serde_json::Value = serde_json::from_str(data).unwrap();
+        assert_eq!(read["file"], viewed.file);
+        assert_eq!(read["text"], viewed.text);
+        assert_eq!(read["set"][0][0], viewed.set[0].0);
+    }
+
+    /// Hashes and nothing else let scripts and styles run, and nothing is loaded from anywhere.
+    #[test]
+    fn the_policy_of_the_page_is_strict() {
+        let policy = PAGE
+            .split_once("Content-Security-Policy\" content=\"")
+            .unwrap()
+            .1;
+        let policy = policy.split('"').next().unwrap();
+        assert!(policy.starts_with("default-src 'none'; script-src 'sha256-"));
+        assert!(!policy.contains("unsafe-inline") && !policy.contains("http"));
+    }
+}

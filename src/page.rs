@@ -1,0 +1,312 @@
+//! A door for the page of `linkwork view`: requests in, replies out, both JSON.
+//!
+//! The page has this library inside, compiled to WebAssembly, and asks it as the command line does. It keeps one
+//! mechanism and where it is; everything else is in [`ask`](crate::ask), [`scene`](crate::scene) and
+//! [`output`](crate::output). There are no files, threads or clocks here.
+
+#[cfg(target_arch = "wasm32")]
+mod abi;
+mod request;
+mod shown;
+mod state;
+
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use crate::analysis::assembly::AssemblySettings;
+use crate::analysis::sweep::{Row, SweepReport, SweepSettings};
+use crate::ask::{AskError, Question, Solved, Steering};
+use crate::description::{Description, Problem};
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Frame, Mechanism, Point};
+use crate::output::json::render;
+use crate::output::sweep::{sentence, worded};
+use crate::output::{JsonReport, text};
+use crate::scene::Scene;
+use crate::solve::Watch;
+use crate::system::Coordinate;
+use request::{Analysis, Load, Request, Sweep};
+use state::State;
+
+/// What a page keeps between requests.
+#[derive(Debug, Default)]
+pub struct Page {
+    mechanism: Option<Arc<Mechanism>>,
+    /// Where it is, or why it is nowhere.
+    steering: Option<Steering>,
+}
+
+/// What there is instead of an answer.
+struct Refusal(Value);
+
+impl From<AskError> for Refusal {
+    fn from(error: AskError) -> Self {
+        Refusal(json!({ "error": error.to_string() }))
+    }
+}
+
+impl Page {
+    /// The reply to a request.
+    pub fn answer(&mut self, request: &str) -> String {
+        let reply = match serde_json::from_str(request) {
+            Ok(request) => self.reply(request).unwrap_or_else(|Refusal(said)| said),
+            Err(error) => json!({ "error": error.to_string() }),
+        };
+        reply.to_string()
+    }
+
+    fn reply(&mut self, request: Request) -> Result<Value, Refusal> {
+        let watch = &Watch::none();
+        match request {
+            Request::Load(load) => return self.load(&load, watch),
+            Request::Move { to } => return self.move_to(&to, watch),
+            _ => {}
+        }
+        let mechanism = self
+            .mechanism
+            .clone()
+            .ok_or_else(|| nothing("no mechanism"))?;
+        match request {
+            Request::Hold { names } => {
+                let at = self.steering()?.at().clone();
+                let asked = holding(&mechanism, &names, &at);
+                self.steering = Some(asked.steering_near(&at, watch)?);
+                Ok(self.frame(None))
+            }
+            Request::Go { at } => {
+                let at = configuration(&at, &mechanism)?;
+                let asked = self.steering()?.question();
+                self.steering = Some(asked.steering_from(at)?);
+                Ok(self.frame(None))
+            }
+            Request::Grab { body, at } => {
+                let frame = body_frame(&mechanism, body)?;
+                let pose = mechanism.transform(Frame::Ground, frame, self.steering()?.at());
+                let offset = (pose.inverse() * Vector3(at)).0;
+                let name = Point { frame, offset }.name(&mechanism);
+                Ok(json!({ "offset": offset, "name": name }))
+            }
+            Request::Pull {
+                body,
+                offset,
+                to,
+                sight,
+            } => {
+                let frame = body_frame(&mechanism, body)?;
+                let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
+                let report = steering.pull(&Point { frame, offset }, to, sight, watch);
+                Ok(self.frame(stopped(&report).as_deref()))
+            }
+            Request::Show { at } => {
+                Ok(json!({ "scene": Scene::of(&mechanism, &configuration(&at, &mechanism)?) }))
+            }
+            Request::Ask { what, as_filed } => {
+                let asked = match as_filed {
+                    true => Question::new(mechanism.clone()),
+                    false => self.asked(&mechanism),
+                };
+                self::asked(&mechanism, &asked, what, watch)
+            }
+            Request::Sweep(sweep) => self.sweep(&mechanism, &sweep, watch),
+            Request::Load(_) | Request::Move { .. } => unreachable!("answered above"),
+        }
+    }
+
+    /// Reads a file; what is wrong with it comes back with lines and columns.
+    fn load(&mut self, load: &Load, watch: &Watch) -> Result<Value, Refusal> {
+        let text = &load.text;
+        let wrong =
+            |problems: &[Problem]| Refusal(json!({ "problems": shown::problems(text, problems) }));
+        let mut description = match Description::read(text) {
+            Ok(description) => description,
+            Err(_) => return Err(wrong(&Mechanism::problems(text))),
+        };
+        for (name, value) in &load.set {
+            description = (description.with_parameter(name, value))
+                .map_err(|error| nothing(&format!("{name} = {value}: {error:?}")))?;
+        }
+        let mechanism = Mechanism::new(&description).map_err(|problems| wrong(&problems))?;
+        let mechanism = Arc::new(mechanism);
+        self.mechanism = Some(mechanism.clone());
+        let asked = match &load.held {
+            Some(names) => holding(&mechanism, names, &mechanism.home()),
+            None => Question::new(mechanism.clone()),
+        };
+        let near = load
+            .near
+            .as_ref()
+            .and_then(|near| near.of_mechanism(&mechanism));
+        let steering = match near {
+            Some(at) => asked.steering_near(&at, watch),
+            None => asked.steering(watch),
+        };
+        let why = steering.as_ref().err().map(ToString::to_string);
+        self.steering = steering.ok();
+        let mut reply = self.frame(why.as_deref());
+        reply["mechanism"] = shown::mechanism(&mechanism, &description);
+        reply["warnings"] = shown::problems(text, mechanism.warnings()).into();
+        Ok(reply)
+    }
+
+    /// Moves what is held; the mechanism follows as far as its branch goes.
+    fn move_to(&mut self, to: &[(String, f64)], watch: &Watch) -> Result<Value, Refusal> {
+        let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
+        let mechanism = steering.mechanism().clone();
+        let of = |name: &str| {
+            let mut driven = steering.driven().iter();
+            driven.find(|of| of.name(&mechanism) == name).copied()
+        };
+        let targets = to.iter().map(|(name, value)| {
+            let coordinate = of(name).ok_or_else(|| nothing(&format!("{name} is not held")))?;
+            Ok((coordinate, *value))
+        });
+        let targets: Vec<(Coordinate, f64)> = targets.collect::<Result<_, Refusal>>()?;
+        let report = steering.move_to(&targets, watch);
+        Ok(self.frame(stopped(&report).as_deref()))
+    }
+
+    fn sweep(
+        &self,
+        mechanism: &Arc<Mechanism>,
+        sweep: &Sweep,
+        watch: &Watch,
+    ) -> Result<Value, Refusal> {
+        let mut asked = self.asked(mechanism);
+        asked = match &sweep.input {
+            Some((name, from, to)) => (asked.let_go(name)).input(name, from.clone(), to.clone()),
+            None => asked,
+        };
+        for point in &sweep.points {
+            asked = asked.point(point);
+        }
+        for quantity in &sweep.report {
+            asked = asked.report(quantity);
+        }
+        let settings = SweepSettings {
+            steps: sweep.steps,
+            follow: sweep.follow,
+            ..SweepSettings::default()
+        };
+        let motions = asked.motions(&settings, watch)?;
+        let mut states = Vec::new();
+        let mut keep = |_: Option<usize>, row: &Row| {
+            states.push(json!({
+                "at": State::of(row.configuration),
+                "special": row.special,
+                "points": row.points,
+            }));
+        };
+        let report = worded(motions.report(usize::MAX, &mut keep, watch));
+        let mut reply = report_of(&report);
+        reply["states"] = states.into();
+        Ok(reply)
+    }
+
+    fn steering(&self) -> Result<&Steering, Refusal> {
+        self.steering.as_ref().ok_or_else(not_assembled)
+    }
+
+    /// The question that holds what is held where it is.
+    fn asked(&self, mechanism: &Arc<Mechanism>) -> Question {
+        match &self.steering {
+            Some(steering) => steering.question(),
+            None => Question::new(mechanism.clone()),
+        }
+    }
+
+    /// The mechanism as it is now.
+    fn frame(&self, said: Option<&str>) -> Value {
+        let Some(mechanism) = &self.mechanism else {
+            return json!({ "said": said });
+        };
+        let home;
+        let at = match &self.steering {
+            Some(steering) => steering.at(),
+            None => {
+                home = mechanism.home();
+                &home
+            }
+        };
+        json!({
+            "said": said,
+            "assembled": self.steering.is_some(),
+            "scene": Scene::of(mechanism, at),
+            "at": State::of(at),
+            "values": shown::values(mechanism, at),
+            "held": self.steering.as_ref().map(|s| shown::held(s)),
+            "figures": self.steering.as_ref().map(shown::figures),
+        })
+    }
+}
+
+/// Why a motion did not reach its end.
+fn stopped(report: &SweepReport) -> Option<String> {
+    (!report.ending.is_whole()).then(|| sentence(report))
+}
+
+fn body_frame(mechanism: &Mechanism, body: usize) -> Result<Frame, Refusal> {
+    let bodies = mechanism.bodies();
+    let body = bodies
+        .get(body)
+        .ok_or_else(|| nothing("there is no such body"))?;
+    Ok(mechanism.body_frame(*body))
+}
+
+fn not_assembled() -> Refusal {
+    nothing("the mechanism is not assembled")
+}
+
+fn nothing(why: &str) -> Refusal {
+    Refusal(json!({ "error": why }))
+}
+
+/// The question that holds these where they are, and nothing else.
+fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>) -> Question {
+    let all: Vec<Coordinate> = Coordinate::all(mechanism).collect();
+    let named = |name: &String| all.iter().find(|of| of.name(mechanism) == *name);
+    let asked = Question::new(mechanism.clone()).free("actuated");
+    names
+        .iter()
+        .filter_map(|name| Some((name, named(name)?)))
+        .fold(asked, |asked, (name, of)| asked.hold(name, of.of(at)))
+}
+
+/// What the command line answers too.
+fn asked(
+    mechanism: &Mechanism,
+    asked: &Question,
+    what: Analysis,
+    watch: &Watch,
+) -> Result<Value, Refusal> {
+    Ok(match what {
+        Analysis::Solve => match asked.solve(&AssemblySettings::default(), watch)? {
+            Solved::Ended(report) => report_of(&*report),
+            Solved::Lost(lost) => report_of(&*lost),
+        },
+        Analysis::Assemblies => {
+            let report = asked.assemblies(Default::default(), watch)?;
+            let like = mechanism.home();
+            let states = report.assemblies.iter().map(|assembly| {
+                let at = assembly.configuration(&like);
+                json!({ "at": State::of(&at), "scene": Scene::of(mechanism, &at) })
+            });
+            let states: Vec<Value> = states.collect();
+            let mut reply = report_of(&report);
+            reply["states"] = states.into();
+            reply
+        }
+        Analysis::Mobility => report_of(&asked.mobility(watch)?),
+    })
+}
+
+/// A report as the command line prints it, as JSON and as text.
+fn report_of(report: &impl JsonReport) -> Value {
+    let json: Value = serde_json::from_str(&render(report)).expect("what was written is JSON");
+    json!({ "report": json, "text": text::render(&report.shown()) })
+}
+
+fn configuration(state: &State, mechanism: &Mechanism) -> Result<Configuration<f64>, Refusal> {
+    (state.of_mechanism(mechanism))
+        .ok_or_else(|| nothing("the configuration is of another mechanism"))
+}

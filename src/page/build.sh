@@ -1,0 +1,22 @@
+#!/bin/sh
+# Builds page.html, which `linkwork view` fills in: the library for wasm32, the script, both into one page.
+# Needs npm, and the wasm32 target of rustup or Debian's rustc-web, cargo-web, rust-web-src, rust-web-llvm and lld.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+cd "$here/../.."
+target=wasm32-unknown-unknown
+export CARGO_TARGET_DIR="${PAGE_TARGET_DIR:-$PWD/target/page}"
+# argmin and rand can ask the system for random numbers; nothing here does
+export RUSTFLAGS="-C target-feature=+simd128 -C linker=$here/link.sh --cfg getrandom_backend=\"unsupported\""
+export CARGO_PROFILE_RELEASE_PANIC=abort CARGO_PROFILE_RELEASE_STRIP=true
+options="rustc --locked --release --lib --crate-type cdylib --no-default-features --features page --target $target"
+if [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
+    cargo $options
+else
+    # Debian has no standard library for wasm32: it is built from its source
+    PATH="/usr/lib/rust-web/bin:$PATH" RUSTC_BOOTSTRAP=1 cargo $options -Zbuild-std=std,panic_abort
+fi
+cd "$here"
+npm ci --silent --no-audit --no-fund
+npm run --silent check
+npm run --silent bundle -- "$CARGO_TARGET_DIR/$target/release/linkwork.wasm"

@@ -1,0 +1,39 @@
+// Puts style, script and solver into page.html; {mechanism} is left for `linkwork view` to fill in.
+import { createHash } from "node:crypto";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const wasm = process.argv[2];
+
+const bundled = async (entry, define) => {
+  const result = await build({
+    entryPoints: [join(here, "script", entry)],
+    bundle: true, minify: true, write: false, format: "iife", target: "es2022", define, legalComments: "none",
+    nodePaths: [join(here, "node_modules")],
+  });
+  return result.outputFiles[0].text.trim();
+};
+const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+
+const worker = await bundled("worker.ts");
+const script = await bundled("main.ts", { WORKER: JSON.stringify(worker) });
+const style = readFileSync(join(here, "style.css"), "utf8").trim();
+const csp = [
+  "default-src 'none'", `script-src ${hash(script)} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`,
+  "worker-src blob:", "img-src data: blob:", "base-uri 'none'", "form-action 'none'",
+].join("; ");
+const packed = (content) => gzipSync(content, { level: 9 }).toString("base64");
+const shipped = ["", "axes"].flatMap((folder) => {
+  const path = join(here, "../../mechanisms", folder);
+  const names = readdirSync(path).filter((name) => name.endsWith(".ron")).sort();
+  return names.map((name) => [join(folder, name), readFileSync(join(path, name), "utf8")]);
+});
+const parts = { csp, style, script, files: packed(JSON.stringify(shipped)), wasm: packed(readFileSync(wasm)) };
+const page = readFileSync(join(here, "page.html.in"), "utf8")
+  .replace(/\{(csp|style|script|files|wasm)\}/g, (_, part) => parts[part]);
+writeFileSync(join(here, "page.html"), page);
+console.log(`page.html: ${page.length} bytes, of which script ${script.length} and solver ${parts.wasm.length}`);

@@ -1,0 +1,74 @@
+//! What a page can ask.
+
+use serde::Deserialize;
+
+use super::state::State;
+
+#[derive(Debug, Deserialize)]
+#[serde(tag = "do", rename_all = "snake_case")]
+pub enum Request {
+    /// Reads a mechanism file and assembles it.
+    Load(Load),
+    /// Moves held coordinates together, in rad or m.
+    Move { to: Vec<(String, f64)> },
+    /// Takes a point of a body, by its number in the scene, where it is in ground: its place in the body.
+    Grab { body: usize, at: [f64; 3] },
+    /// Pulls such a point to a place in ground, both seen along a direction.
+    Pull {
+        body: usize,
+        offset: [f64; 3],
+        to: [f64; 3],
+        #[serde(default)]
+        sight: Option<[f64; 3]>,
+    },
+    /// Holds these coordinates where they are, and no others.
+    Hold { names: Vec<String> },
+    /// Puts the mechanism into an assembled configuration.
+    Go { at: State },
+    /// Only shows a configuration.
+    Show { at: State },
+    /// What the command line answers too, with what is held where it is, or as the file has it.
+    Ask {
+        what: Analysis,
+        #[serde(default)]
+        as_filed: bool,
+    },
+    /// Moves one coordinate over a range, or follows the whole curve.
+    Sweep(Sweep),
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Load {
+    pub text: String,
+    /// Parameters with other values.
+    #[serde(default)]
+    pub set: Vec<(String, String)>,
+    /// What is held; as in the file if it is not given.
+    #[serde(default)]
+    pub held: Option<Vec<String>>,
+    /// Where the mechanism was, so that it stays on its branch.
+    #[serde(default)]
+    pub near: Option<State>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Analysis {
+    Solve,
+    Assemblies,
+    Mobility,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Sweep {
+    /// Name, from and to, in rad or m; without it the whole curve is followed.
+    #[serde(default)]
+    pub input: Option<(String, f64, f64)>,
+    pub steps: usize,
+    #[serde(default)]
+    pub follow: bool,
+    #[serde(default)]
+    pub points: Vec<String>,
+    #[serde(default)]
+    pub report: Vec<String>,
+}

@@ -1,0 +1,198 @@
+// A scene as solids: links as bars and plates, joints by the symbols of the field.
+import { Vector3 } from "three";
+import { across, Shapes } from "./shapes";
+import { bodyColour, theme } from "./theme";
+import type { BodyShape, JointShape, Scene, Triple } from "./types";
+
+const v = (t: Triple) => new Vector3(t[0], t[1], t[2]);
+
+/** The plane of a planar mechanism as it is seen: to the right, up, towards the viewer. */
+export interface Plane {
+  right: Vector3;
+  up: Vector3;
+  towards: Vector3;
+}
+
+export function planeOf(scene: Scene): Plane | null {
+  if (!scene.normal) return null;
+  const towards = v(scene.normal).normalize();
+  const up = Math.abs(towards.z) < 0.9 ? new Vector3(0, 0, 1) : new Vector3(0, 1, 0);
+  up.addScaledVector(towards, -up.dot(towards)).normalize();
+  let right = up.clone().cross(towards);
+  const largest = [right.x, right.y, right.z].reduce((a, b) => (Math.abs(b) > Math.abs(a) + 1e-9 ? b : a));
+  if (largest < 0) {
+    towards.negate();
+    right = right.negate();
+  }
+  return { right, up, towards };
+}
+
+/** Every point from which something is drawn. */
+export function points(scene: Scene): Vector3[] {
+  const bodies = scene.bodies.flatMap((body) => [...body.lines.flat(), ...body.corners]);
+  const joints = scene.joints.map((joint) => joint.at);
+  return [...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints].map(v);
+}
+
+/** How large a joint is drawn: as its neighbours leave room for, within what can be seen and hides no links. */
+export function jointSize(scene: Scene, extent: number): number {
+  let room = Infinity;
+  const places = scene.joints.map((joint) => v(joint.at));
+  for (const [i, a] of places.entries()) {
+    for (const b of places.slice(i + 1)) {
+      const apart = a.distanceTo(b);
+      if (apart > 0.008 * extent) room = Math.min(room, apart);
+    }
+  }
+  return Math.min(Math.max(0.3 * room, 0.009 * extent), 0.02 * extent);
+}
+
+export class Drawing {
+  readonly shapes = new Shapes();
+  plane: Plane | null = null;
+  size = 1;
+  /** Named coordinates whose joints are filled. */
+  held = new Set<string>();
+
+  draw(scene: Scene) {
+    const { shapes } = this;
+    shapes.begin();
+    scene.bodies.forEach((body, i) => this.body(body, i));
+    scene.rods.forEach((rod, i) => {
+      const driven = rod.driven ? theme().driven : theme().ink;
+      const [from, to] = [v(rod.ends[0]), v(rod.ends[1])];
+      shapes.rod(from, to, 0.25 * this.size, driven, { rod: i });
+      for (const end of [from, to]) shapes.ball(this.above(end, 2), 0.6 * this.size, theme().ink, { rod: i });
+    });
+    scene.joints.forEach((joint, i) => this.joint(scene, joint, i));
+    shapes.end();
+  }
+
+  /** In the plane, what is of a higher layer covers what is of a lower one. */
+  private above(point: Vector3, layer: number): Vector3 {
+    return this.plane ? point.clone().addScaledVector(this.plane.towards, 3 * layer * this.size) : point;
+  }
+
+  private body(body: BodyShape, index: number) {
+    const { shapes, size } = this;
+    const pick = { body: index };
+    const colour = body.ground ? theme().ground : bodyColour(index);
+    const corners = body.ground ? [] : outline(body.corners.map(v));
+    if (corners.length > 2) {
+      shapes.plate(corners, colour, 0.4, pick);
+      corners.forEach((corner, i) => shapes.rod(corner, corners[(i + 1) % corners.length]!, 0.18 * size, colour, pick));
+    }
+    const radius = (body.ground ? 0.18 : 0.36) * size;
+    for (const line of body.lines) {
+      for (let i = 0; i + 1 < line.length; i++) shapes.rod(v(line[i]!), v(line[i + 1]!), radius, colour, pick);
+    }
+    // a platform has no lines of a table: its corners are all that is known of it
+    if (!body.ground && corners.length <= 2 && body.lines.length === 0) {
+      const ends = body.corners.map(v);
+      for (let i = 0; i + 1 < ends.length; i++) shapes.rod(ends[i]!, ends[i + 1]!, radius, colour, pick);
+    }
+  }
+
+  private joint(scene: Scene, joint: JointShape, index: number) {
+    const { shapes, size, plane } = this;
+    const pick = { joint: index };
+    const fixed = joint.bodies.some((body) => scene.bodies[body]?.ground);
+    const colour = joint.names.some((name) => this.held.has(name)) ? theme().driven : theme().joint;
+    const at = this.above(v(joint.at), 2);
+    const axis = (k: number) => v(joint.axes[k] ?? [0, 0, 1]).normalize();
+    const facing = plane && Math.abs(plane.towards.dot(axis(0))) > 1 - 1e-9;
+    const rim = (radius: number) => plane && shapes.ball(this.above(v(joint.at), 1), radius, theme().ink, pick);
+    switch (joint.kind) {
+      case "revolute":
+      case "helical":
+        if (plane && facing) {
+          if (fixed) this.support(v(joint.at));
+          rim(0.95 * size);
+          shapes.ball(at, 0.72 * size, colour, pick);
+        } else {
+          if (fixed) this.foot(at, axis(0));
+          shapes.cylinder(at, axis(0), 0.75 * size, 1.1 * size, colour, pick);
+        }
+        break;
+      case "cylindrical":
+        this.guide(v(joint.at), axis(0), fixed);
+        shapes.cylinder(at, axis(0), 0.75 * size, 1.4 * size, colour, pick);
+        break;
+      case "prismatic":
+        this.guide(v(joint.at), axis(0), fixed);
+        if (plane) shapes.box(this.above(v(joint.at), 1), axis(0), [0.95 * size, 0.95 * size, 1.55 * size], theme().ink, pick, plane.towards);
+        shapes.box(at, axis(0), [0.75 * size, 0.75 * size, 1.35 * size], colour, pick, plane?.towards);
+        break;
+      case "universal":
+        if (fixed) this.foot(at, axis(0));
+        for (const k of [0, 1]) shapes.cylinder(at, axis(k), 0.35 * size, 1.2 * size, colour, pick);
+        break;
+      case "spherical":
+        if (fixed) this.foot(at, new Vector3(0, 0, 1));
+        rim(0.95 * size);
+        shapes.ball(at, (plane ? 0.72 : 0.9) * size, colour, pick);
+        break;
+      case "planar":
+        shapes.box(at, axis(0), [1.5 * size, 1.5 * size, 0.3 * size], colour, pick);
+        break;
+      case "rigid":
+        break;
+    }
+  }
+
+  /** The line along which a slide moves, hatched where it is fixed to ground. */
+  private guide(at: Vector3, axis: Vector3, fixed: boolean) {
+    const [from, to] = [-3.5, 3.5].map((part) => at.clone().addScaledVector(axis, part * this.size));
+    const colour = fixed ? theme().ground : theme().ink;
+    this.shapes.rod(from!, to!, 0.12 * this.size, colour);
+    if (fixed && this.plane) this.hatch(at, axis, axis.clone().cross(this.plane.towards), 3.5);
+  }
+
+  /** A pin on ground: a triangle on a hatched line. */
+  private support(at: Vector3) {
+    const { plane, size, shapes } = this;
+    if (!plane) return;
+    const foot = (x: number) => at.clone().addScaledVector(plane.right, x * size).addScaledVector(plane.up, -2.1 * size);
+    shapes.plate([at, foot(-1.2), foot(1.2)].map((p) => p.addScaledVector(plane.towards, 0.8 * size)), theme().plate, 1);
+    const corners = [at, foot(-1.2), foot(1.2)];
+    corners.forEach((corner, i) => shapes.rod(corner, corners[(i + 1) % 3]!, 0.1 * size, theme().ground));
+    shapes.rod(foot(-1.8), foot(1.8), 0.12 * size, theme().ground);
+    this.hatch(foot(0), plane.right, plane.up.clone().negate(), 1.8);
+  }
+
+  /** Short strokes along a line, on the side of the ground. */
+  private hatch(at: Vector3, along: Vector3, into: Vector3, half: number) {
+    const { size } = this;
+    for (let x = -half; x <= half - 0.3; x += 0.6) {
+      const from = at.clone().addScaledVector(along, (x + 0.5) * size);
+      const to = at.clone().addScaledVector(along, x * size).addScaledVector(into, 0.6 * size);
+      this.shapes.rod(from, to, 0.06 * size, theme().ground);
+    }
+  }
+
+  /** A square of ground under a spatial joint. */
+  private foot(at: Vector3, axis: Vector3) {
+    const down = axis.clone().multiplyScalar(axis.z < -0.5 ? 1 : -1);
+    const place = at.clone().addScaledVector(down, 1.3 * this.size);
+    this.shapes.box(place, axis, [1.7 * this.size, 1.7 * this.size, 0.12 * this.size], theme().plate);
+  }
+}
+
+/** Points in order around their middle; none if they are on a line. */
+function outline(points: Vector3[]): Vector3[] {
+  if (points.length < 3) return [];
+  const middle = points.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(points.length);
+  const first = points.reduce((far, p) => (p.distanceTo(middle) > far.distanceTo(middle) ? p : far)).clone().sub(middle);
+  const normals = points.map((p) => first.clone().cross(p.clone().sub(middle)));
+  const normal = normals.reduce((far, n) => (n.length() > far.length() ? n : far));
+  if (normal.length() < 1e-6 * first.lengthSq()) return [];
+  const right = first.normalize();
+  const up = normal.normalize().clone().cross(right);
+  const angle = (p: Vector3) => {
+    const from = p.clone().sub(middle);
+    return Math.atan2(from.dot(up), from.dot(right));
+  };
+  return [...points].sort((a, b) => angle(a) - angle(b));
+}
+
+export { across };

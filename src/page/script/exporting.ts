@@ -1,0 +1,29 @@
+// Pictures to take away: PNG and GLB of what is shown.
+import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
+import { Group, Mesh, Scene } from "three";
+import { download } from "./editor";
+import { button, find } from "./elements";
+import type { Model } from "./model";
+import type { Stage } from "./stage";
+
+export function exporting(model: Model, stage: Stage, solids: () => Group) {
+  const name = (ending: string) => `${(model.file.file || "mechanism").replace(/\.ron$/, "")}.${ending}`;
+  const png = () => {
+    stage.drawNow();
+    stage.canvas.toBlob((blob) => blob && download(name("png"), blob, "image/png"));
+  };
+  const glb = async () => {
+    const world = new Scene();
+    for (const solid of solids().children) {
+      if (!(solid instanceof Mesh) || !solid.visible) continue;
+      const copy = new Mesh(solid.geometry, solid.material);
+      copy.applyMatrix4(solid.matrix);
+      world.add(copy);
+    }
+    // glTF has y upwards
+    world.rotation.x = -Math.PI / 2;
+    const content = await new GLTFExporter().parseAsync(world, { binary: true });
+    download(name("glb"), content as ArrayBuffer, "model/gltf-binary");
+  };
+  find("export").append(button("PNG", png), " ", button("GLB", () => void glb()));
+}

@@ -1,0 +1,178 @@
+// The page: everything is put together here.
+import { Vector3 } from "three";
+import { Background } from "./background";
+import { dragging } from "./drag";
+import { Drawing, jointSize, planeOf, points } from "./drawing";
+import { Editor } from "./editor";
+import { button, find } from "./elements";
+import { exporting } from "./exporting";
+import { gallery } from "./gallery";
+import { keyboard } from "./keyboard";
+import { Labels } from "./labels";
+import * as link from "./link";
+import { Model, type File } from "./model";
+import { ModeList } from "./modes";
+import { Motion } from "./motion";
+import { Parameters } from "./parameters";
+import { Scenery } from "./scenery";
+import { Sliders } from "./sliders";
+import { Solver, unpacked } from "./solver";
+import { Stage, type View } from "./stage";
+import { onThemeChange } from "./theme";
+import type { Scene } from "./types";
+import { Values } from "./values";
+import { watching } from "./watching";
+
+const VIEWS: [string, View][] = [["Plane", "plane"], ["Iso", "iso"], ["Front", "front"], ["Side", "side"], ["Top", "top"]];
+
+function say(words: string) {
+  find("said").textContent = words;
+}
+
+/** The picture of a model, with what is shown beside it. */
+class Picture {
+  readonly stage = new Stage(find<HTMLCanvasElement>("canvas"));
+  readonly drawing = new Drawing();
+  readonly scenery = new Scenery();
+  readonly labels = new Labels();
+  /** What is shown in place of where the mechanism is. */
+  private other: Scene | null = null;
+  private shown = "";
+
+  constructor(private readonly model: Model) {
+    this.stage.world.add(this.drawing.shapes.group, this.scenery.shapes.group);
+    this.stage.orbit.addEventListener("change", () => this.labels.place(this.stage, this.scene));
+    model.onLoaded(() => this.begin());
+    model.onMoved(() => {
+      this.other = null;
+      this.draw();
+    });
+    onThemeChange(() => this.draw());
+    const names = button("Names", () => {
+      this.labels.shown = !this.labels.shown;
+      names.setAttribute("aria-pressed", String(this.labels.shown));
+      this.labels.place(this.stage, this.scene);
+    }, { "aria-pressed": "false" });
+    find("views").append(
+      ...VIEWS.map(([words, view]) => button(words, () => this.look(view), { "data-view": view })),
+      button("+", () => this.stage.zoom(1.25), { "aria-label": "nearer" }),
+      button("−", () => this.stage.zoom(0.8), { "aria-label": "farther" }),
+      names,
+    );
+  }
+
+  instead(scene: Scene | null) {
+    this.other = scene;
+    this.draw();
+  }
+
+  draw() {
+    const { scene } = this;
+    if (!scene) return;
+    this.drawing.held = new Set(this.model.frame?.held ?? []);
+    this.drawing.draw(scene);
+    this.scenery.draw(this.drawing.size, this.drawing.plane !== null);
+    this.labels.place(this.stage, scene);
+    this.stage.draw();
+  }
+
+  private get scene(): Scene | null {
+    return this.other ?? this.model.frame?.scene ?? null;
+  }
+
+  /** Another mechanism is looked at from where it is seen best; one that was changed from where it was. */
+  private begin() {
+    const { frame, mechanism } = this.model;
+    if (!frame || !mechanism) return;
+    const { scene } = frame;
+    this.other = null;
+    this.drawing.plane = planeOf(scene);
+    this.drawing.shapes.flat = this.drawing.plane !== null;
+    const all = points(scene);
+    const middle = all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(all.length, 1));
+    const extent = 2 * Math.max(...all.map((p) => p.distanceTo(middle)), 1e-9);
+    this.drawing.size = jointSize(scene, extent);
+    find("views").querySelector<HTMLElement>("[data-view=plane]")!.hidden = this.drawing.plane === null;
+    if (mechanism.name !== this.shown) this.look(this.drawing.plane ? "plane" : "iso");
+    this.shown = mechanism.name;
+  }
+
+  /** Where a body is on the canvas. */
+  pixelOf(name: string): [number, number] | null {
+    const body = this.scene?.bodies.find((body) => body.name === name);
+    const [from, to] = body?.lines[0] ?? body?.corners ?? [];
+    return from && to ? this.stage.pixel(new Vector3(...from).lerp(new Vector3(...to), 0.4)) : null;
+  }
+
+  look(view: View) {
+    if (this.scene) this.stage.look(view, points(this.scene), this.drawing.plane);
+    this.draw();
+  }
+}
+
+async function begin() {
+  const module = await WebAssembly.compile(await unpacked("wasm"));
+  const model = new Model(await Solver.of(module), new Background(module), say);
+  const sliders = new Sliders((name, to) => model.move(name, to));
+  const values = new Values((names) => model.hold(names));
+  const picture = new Picture(model);
+  model.onLoaded(() => {
+    const { mechanism } = model;
+    document.title = `${mechanism!.name} – linkwork`;
+    find("name").textContent = mechanism!.name;
+    find("source").textContent = mechanism!.source ?? "";
+  });
+  model.onMoved(() => {
+    sliders.show(model.mechanism!, model.frame!);
+    values.show(model.mechanism!, model.frame!);
+  });
+  new ModeList(model, (scenes) => {
+    picture.scenery.ghosts = scenes;
+    picture.draw();
+  });
+  const motion = new Motion(
+    model,
+    (traces) => {
+      picture.scenery.traces = traces;
+      picture.draw();
+    },
+    (scene) => picture.instead(scene),
+  );
+  new Parameters(model);
+  new Editor(model);
+  exporting(model, picture.stage, () => picture.drawing.shapes.group);
+  dragging(picture.stage, model, (point) => motion.take(point));
+  const share = button("Copy link", async () => {
+    location.hash = await link.written(model.file, model.place());
+    await navigator.clipboard?.writeText(location.href).catch(() => undefined);
+    say("The address of this page holds the mechanism and where it is.");
+  }, { id: "share" });
+  find("export").append(" ", share);
+
+  keyboard(picture.stage.canvas, model, (factor) => picture.stage.zoom(factor), (view) => picture.look(VIEWS[view]![1]));
+  const files = JSON.parse(new TextDecoder().decode(await unpacked("files"))) as [string, string][];
+  const thumbnails = await Solver.of(module);
+  const browse = gallery(files, thumbnails, (file) => {
+    history.replaceState(null, "", " ");
+    model.load(file);
+  });
+  find("browse").addEventListener("click", browse);
+
+  const given = JSON.parse(find("mechanism").textContent ?? "{}") as File & { watch: boolean };
+  const open = async () => {
+    const linked = await link.read(location.hash);
+    if (linked) model.load(linked, linked);
+    return linked !== null;
+  };
+  addEventListener("hashchange", () => void open());
+  if (!(await open())) {
+    if (given.text) model.load(given);
+    else browse();
+  }
+  if (given.watch) watching(model);
+  // for whoever tests or scripts the page
+  Object.assign(globalThis, { linkwork: model, picture });
+  document.documentElement.dataset.ready = "true";
+}
+
+begin().catch((error: unknown) => say(`The page cannot start: ${error instanceof Error ? error.message : String(error)}`));

@@ -1,0 +1,170 @@
+// A sweep of one coordinate that is held, or the whole curve: played, with traced points and a plot beside it.
+import { button, element, find } from "./elements";
+import type { Model } from "./model";
+import { Plot } from "./plot";
+import { Refused, type Row, type Scene, type Swept, type Triple } from "./types";
+
+export interface Trace {
+  points: Triple[];
+  marks: { at: Triple; words: string }[];
+}
+
+const WORDS: Record<string, string> = {
+  fold: "dead point", turning: "turning point", crossing: "crossing", limit: "limit", cusp: "cusp",
+};
+
+export class Motion {
+  private rows: Row[] = [];
+  private swept: Swept | null = null;
+  private playing = 0;
+  private readonly cursor = element("input", { type: "range", min: "0", max: "0", value: "0", id: "cursor", "aria-label": "Place in the motion" });
+  private readonly point = element("input", { type: "text", id: "traced", placeholder: "click a body, or e.g. left+0.5", "aria-label": "Traced point" });
+  private readonly quantity = element("select", { id: "quantity", "aria-label": "Quantity of the plot" });
+  private readonly input = element("select", { id: "input", "aria-label": "Input" });
+  private readonly plot: Plot;
+
+  constructor(
+    private readonly model: Model,
+    private readonly trace: (traces: Trace[]) => void,
+    private readonly picture: (scene: Scene | null) => void,
+  ) {
+    const sweep = button("Sweep", () => this.sweep(), { id: "sweep" });
+    const play = button("Play", () => this.play(), { id: "play", disabled: "" });
+    const leave = button("Clear", () => this.clear(), { id: "clear-motion" });
+    const canvas = element("canvas", { id: "plot", width: "640", height: "360", hidden: "" });
+    this.plot = new Plot(canvas, (row) => this.to(row));
+    find("motion").append(
+      element("p", {}, "Move ", this.input, " trace ", this.point),
+      element("p", {}, sweep, " ", play, " ", leave),
+      element("p", { id: "motion-said", role: "status" }),
+      this.cursor,
+      element("p", { id: "plotted", hidden: "" }, "Plot ", this.quantity),
+      canvas,
+    );
+    this.cursor.hidden = true;
+    this.cursor.addEventListener("input", () => this.to(Number(this.cursor.value)));
+    this.quantity.addEventListener("change", () => this.draw());
+    model.onLoaded(() => this.clear());
+    model.onMoved(() => this.inputs());
+  }
+
+  /** Names a point that is to be traced. */
+  take(point: string) {
+    this.point.value = point;
+  }
+
+  private inputs() {
+    const held = this.model.frame?.held ?? [];
+    const names = [...held, "the whole curve"];
+    if (JSON.stringify(names) === this.input.dataset.names) return;
+    this.input.dataset.names = JSON.stringify(names);
+    const whole = held.length === 1 ? [element("option", { value: "" }, "along the whole curve")] : [];
+    this.input.replaceChildren(...held.map((name) => element("option", { value: name }, name)), ...whole);
+  }
+
+  private async sweep() {
+    const { mechanism, frame } = this.model;
+    if (!mechanism || !frame) return;
+    const name = this.input.value;
+    const index = mechanism.coordinates.findIndex((of) => of.name === name);
+    const of = mechanism.coordinates[index];
+    const said = find("motion-said");
+    said.textContent = "Moving …";
+    const points = this.point.value.trim() ? [this.point.value.trim()] : [];
+    // forwards from where it is to the end of the range, and backwards likewise
+    const from = index < 0 ? 0 : frame.values[index]![0];
+    const ends = !of ? [] : of.angle && !of.limits ? [from + 2 * Math.PI] : [of.range[0], of.range[1]];
+    try {
+      const parts: Swept[] = [];
+      if (!of) parts.push(await this.model.study<Swept>({ do: "sweep", steps: 180, follow: true, points }));
+      for (const to of ends.filter((to) => Math.abs(to - from) > 1e-9)) {
+        parts.push(await this.model.study<Swept>({ do: "sweep", input: [name, from, to], steps: 180, points }));
+      }
+      // a turn that is not completed forwards is made backwards too
+      if (of && ends.length === 1 && parts[0]!.report.motions[0]!.ending !== "complete") {
+        parts.unshift(await this.model.study<Swept>({ do: "sweep", input: [name, from, from - 2 * Math.PI], steps: 180, points }));
+      }
+      this.take_parts(parts);
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      said.textContent = error.message;
+    }
+  }
+
+  private take_parts(parts: Swept[]) {
+    const [first, second] = parts;
+    if (!first) return;
+    this.rows = second ? [...first.states.toReversed(), ...second.states.slice(1)] : first.states;
+    const motions = parts.map((part) => part.report.motions[0]!);
+    const values = second
+      ? [...motions[0]!.values.toReversed(), ...motions[1]!.values.slice(1)]
+      : motions[0]!.values;
+    this.swept = first;
+    find("motion-said").textContent = motions.map((motion) => motion.sentence).join(" ");
+    const columns = motions[0]!.columns;
+    this.plot.columns = columns;
+    this.plot.values = values;
+    this.plot.marks = this.rows.flatMap((row, i) => (row.special ? [i] : []));
+    const chosen = this.quantity.value;
+    this.quantity.replaceChildren(...columns.slice(1).map((name, i) => element("option", { value: String(i + 1) }, name)));
+    const again = [...this.quantity.options].find((option) => option.textContent === chosen);
+    const free = columns.findIndex((name, i) => i > 0 && !name.startsWith(`${this.input.value} `));
+    this.quantity.value = again?.value ?? String(Math.max(free, 1));
+    this.cursor.max = String(this.rows.length - 1);
+    for (const shown of [this.cursor, find("plotted"), find("plot")]) shown.hidden = false;
+    find("play").removeAttribute("disabled");
+    const marks = (point: number) => this.rows.flatMap((row) =>
+      row.special && row.points[point] ? [{ at: row.points[point], words: WORDS[row.special.met] ?? row.special.met }] : []);
+    this.trace((this.rows[0]?.points ?? []).map((_, k) => ({ points: this.rows.map((row) => row.points[k]!), marks: marks(k) })));
+    this.to(0);
+  }
+
+  private draw() {
+    const x = this.plot.columns.findIndex((name) => name.startsWith(`${this.input.value} `));
+    this.plot.draw(x, Number(this.quantity.value), Number(this.cursor.value));
+  }
+
+  /** Shows a row; the mechanism itself goes there too where it can. */
+  private to(row: number) {
+    const there = this.rows[row];
+    if (!there) return;
+    this.cursor.value = String(row);
+    this.picture(this.model.scene(there.at));
+    this.draw();
+  }
+
+  private play() {
+    if (this.playing) {
+      cancelAnimationFrame(this.playing);
+      this.playing = 0;
+      find("play").textContent = "Play";
+      return;
+    }
+    find("play").textContent = "Pause";
+    let row = Number(this.cursor.value);
+    let forwards = true;
+    const step = () => {
+      if (row >= this.rows.length - 1) forwards = false;
+      if (row <= 0) forwards = true;
+      row += forwards ? 1 : -1;
+      this.to(row);
+      this.playing = requestAnimationFrame(step);
+    };
+    this.playing = requestAnimationFrame(step);
+  }
+
+  clear() {
+    if (this.playing) this.play();
+    this.rows = [];
+    this.swept = null;
+    for (const shown of [this.cursor, find("plotted"), find("plot")]) shown.hidden = true;
+    find("play").setAttribute("disabled", "");
+    find("motion-said").textContent = "";
+    this.trace([]);
+    this.picture(null);
+  }
+
+  get done(): Swept | null {
+    return this.swept;
+  }
+}

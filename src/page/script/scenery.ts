@@ -1,0 +1,48 @@
+// What stands beside the mechanism: ghosts of other assemblies and the paths of points.
+import { Vector3 } from "three";
+import type { Trace } from "./motion";
+import { Shapes } from "./shapes";
+import { theme } from "./theme";
+import type { Scene, Triple } from "./types";
+
+const v = (t: Triple) => new Vector3(...t);
+
+export class Scenery {
+  readonly shapes = new Shapes();
+  ghosts: Scene[] = [];
+  traces: Trace[] = [];
+
+  draw(size: number, flat: boolean) {
+    const { shapes } = this;
+    shapes.flat = flat;
+    shapes.begin();
+    for (const scene of this.ghosts) this.ghost(scene, size);
+    for (const trace of this.traces) {
+      const points = trace.points.map(v);
+      for (let i = 0; i + 1 < points.length; i++) {
+        shapes.cylinder(...between(points[i]!, points[i + 1]!, 0.13 * size), theme().trace);
+      }
+      for (const mark of trace.marks) shapes.ball(v(mark.at), 0.5 * size, theme().trace);
+    }
+    shapes.end();
+  }
+
+  private ghost(scene: Scene, size: number) {
+    const lines = [
+      ...scene.bodies.filter((body) => !body.ground).flatMap((body) => (body.lines.length ? body.lines : [body.corners])),
+      ...scene.rods.map((rod) => rod.ends),
+    ];
+    for (const line of lines) {
+      for (let i = 0; i + 1 < line.length; i++) {
+        this.shapes.rod(v(line[i]!), v(line[i + 1]!), 0.2 * size, theme().ghost, undefined, 0.55);
+      }
+    }
+  }
+}
+
+function between(from: Vector3, to: Vector3, radius: number): [Vector3, Vector3, number, number] {
+  const along = to.clone().sub(from);
+  const length = along.length();
+  const axis = length > 0 ? along.divideScalar(length) : new Vector3(0, 0, 1);
+  return [from.clone().addScaledVector(axis, length / 2), axis, radius, length / 2];
+}

@@ -1,0 +1,150 @@
+// The camera before the drawing: orbit, pan, zoom; orthographic, so that lengths compare.
+import {
+  AmbientLight, Box3, DirectionalLight, MOUSE, OrthographicCamera, Plane, Raycaster, Scene as World, Sphere, TOUCH,
+  Vector2, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Plane as SeenPlane } from "./drawing";
+import type { Pick } from "./shapes";
+import { theme } from "./theme";
+
+export type View = "plane" | "iso" | "front" | "top" | "side";
+
+export interface Hit {
+  at: Vector3;
+  pick: Pick;
+}
+
+export class Stage {
+  readonly world = new World();
+  readonly camera = new OrthographicCamera();
+  readonly renderer: WebGLRenderer;
+  readonly orbit: OrbitControls;
+  private readonly sun = new DirectionalLight(0xffffff, 2.2);
+  private sphere = new Sphere(new Vector3(), 1);
+  private half = 1;
+  private waiting = false;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.world.add(new AmbientLight(0xffffff, 1.6), this.sun);
+    this.camera.up.set(0, 0, 1);
+    this.orbit = new OrbitControls(this.camera, canvas);
+    this.orbit.addEventListener("change", () => this.draw());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+  }
+
+  /** Draws once before the screen shows anything next. */
+  draw() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow() {
+    this.waiting = false;
+    this.renderer.setClearColor(theme().paper);
+    const towards = this.camera.position.clone().sub(this.orbit.target);
+    this.sun.position.copy(towards).add(this.camera.up.clone().multiplyScalar(0.6 * towards.length()));
+    this.renderer.render(this.world, this.camera);
+  }
+
+  /** Shows all of these points, seen from a view. */
+  look(view: View, points: Vector3[], plane: SeenPlane | null) {
+    const box = new Box3().setFromPoints(points.length ? points : [new Vector3()]);
+    box.getBoundingSphere(this.sphere);
+    this.sphere.radius = Math.max(this.sphere.radius, 1e-6);
+    const directions: Record<View, [Vector3, Vector3]> = {
+      plane: plane ? [plane.towards, plane.up] : [new Vector3(0, 0, 1), new Vector3(0, 1, 0)],
+      iso: [new Vector3(1.3, -1.05, 0.85), new Vector3(0, 0, 1)],
+      front: [new Vector3(0, -1, 0), new Vector3(0, 0, 1)],
+      side: [new Vector3(1, 0, 0), new Vector3(0, 0, 1)],
+      top: [new Vector3(0, 0, 1), new Vector3(0, 1, 0)],
+    };
+    const [from, up] = directions[view];
+    const flat = view === "plane";
+    this.orbit.mouseButtons.LEFT = flat ? MOUSE.PAN : MOUSE.ROTATE;
+    this.orbit.mouseButtons.RIGHT = flat ? MOUSE.ROTATE : MOUSE.PAN;
+    this.orbit.touches.ONE = flat ? TOUCH.PAN : TOUCH.ROTATE;
+    const { center, radius } = this.sphere;
+    this.camera.up.copy(up);
+    this.camera.position.copy(center).addScaledVector(from.clone().normalize(), 20 * radius);
+    this.camera.near = radius;
+    this.camera.far = 60 * radius;
+    this.camera.zoom = 1;
+    this.orbit.target.copy(center);
+    this.orbit.update();
+    this.camera.updateMatrixWorld();
+    // as much as is seen from here, with room for symbols
+    const seen = points.map((point) => point.clone().applyMatrix4(this.camera.matrixWorldInverse));
+    const frame = new Box3().setFromPoints(seen.length ? seen : [new Vector3()]);
+    const size = frame.getSize(new Vector3());
+    const aspect = this.aspect();
+    this.half = 0.5 * Math.max(size.y, size.x / aspect, 0.1 * radius) * 1.3 + 0.06 * radius;
+    const middle = frame.getCenter(new Vector3()).applyMatrix4(this.camera.matrixWorld);
+    const shift = middle.sub(center);
+    shift.addScaledVector(from, -shift.dot(from) / from.lengthSq());
+    this.orbit.target.add(shift);
+    this.camera.position.add(shift);
+    this.orbit.update();
+    this.resize();
+  }
+
+  zoom(factor: number) {
+    this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** What is under a pointer. */
+  hit(event: { clientX: number; clientY: number }): Hit | null {
+    const ray = this.ray(event);
+    const found = ray.intersectObject(this.world, true).filter(
+      (hit) => hit.object.visible && Object.keys(hit.object.userData).length > 0,
+    );
+    const first = found[0];
+    return first ? { at: first.point, pick: first.object.userData as Pick } : null;
+  }
+
+  /** Where a pointer is in the plane through a point that faces the viewer. */
+  place(event: { clientX: number; clientY: number }, through: Vector3): Vector3 {
+    const normal = this.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(normal, through);
+    return this.ray(event).ray.intersectPlane(plane, new Vector3()) ?? through.clone();
+  }
+
+  /** Where a point is on the canvas, in its pixels. */
+  pixel(point: Vector3): [number, number] {
+    const seen = point.clone().project(this.camera);
+    return [(0.5 + 0.5 * seen.x) * this.canvas.clientWidth, (0.5 - 0.5 * seen.y) * this.canvas.clientHeight];
+  }
+
+  private ray(event: { clientX: number; clientY: number }): Raycaster {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector2(
+      ((event.clientX - box.left) / box.width) * 2 - 1,
+      1 - ((event.clientY - box.top) / box.height) * 2,
+    );
+    const ray = new Raycaster();
+    this.camera.updateMatrixWorld();
+    ray.setFromCamera(at, this.camera);
+    return ray;
+  }
+
+  private aspect(): number {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    return clientWidth / Math.max(clientHeight, 1) || 1;
+  }
+
+  private resize() {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(clientWidth, clientHeight);
+    const aspect = this.aspect();
+    Object.assign(this.camera, { left: -this.half * aspect, right: this.half * aspect, top: this.half, bottom: -this.half });
+    this.camera.updateProjectionMatrix();
+    this.drawNow();
+  }
+}

@@ -1,0 +1,223 @@
+// The page in a real browser: every shipped file is shown, dead points hold, nothing hostile runs, nothing is loaded.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import puppeteer from "puppeteer-core";
+import { files, root } from "./files.mjs";
+
+const program = process.env.LINKWORK;
+const folder = mkdtempSync(join(tmpdir(), "linkwork-page-"));
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+});
+let wrong = 0;
+
+function check(holds, words) {
+  if (holds) return;
+  wrong++;
+  console.log(`wrong: ${words}`);
+}
+
+/** The page of a file, made by the program; every complaint of the browser and every request is counted. */
+async function opened(file, fragment = "") {
+  const path = join(folder, `${file.replaceAll(/[/.]/g, "_")}.html`);
+  execFileSync(program, ["view", file, "-o", path], { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
+  return shown(path, fragment);
+}
+
+async function shown(path, fragment = "") {
+  const page = await browser.newPage();
+  await page.setViewport({ width: 1000, height: 700 });
+  page.complaints = [];
+  page.on("console", (message) => ["error", "warn"].includes(message.type()) && page.complaints.push(message.text()));
+  page.on("pageerror", (error) => page.complaints.push(error.message));
+  page.on("request", (request) => {
+    const own = request.url().startsWith("file:") || request.url().startsWith("blob:");
+    if (!own) page.complaints.push(`asks for ${request.url()}`);
+  });
+  await page.goto(`file://${path}${fragment}`);
+  await page.waitForSelector("html[data-ready]");
+  return page;
+}
+
+/** How many pixels of the picture are not paper. */
+const inked = (page) => page.evaluate(() => {
+  const canvas = document.getElementById("canvas");
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    if (Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]) > 30) count++;
+  }
+  return count;
+});
+
+const values = (page) => page.evaluate(() => globalThis.linkwork.frame.values.map(([value]) => value));
+const said = (page) => page.$eval("#said", (element) => element.textContent);
+
+const tests = {
+  async "every shipped file opens, without a complaint, and shows its mechanism"() {
+    for (const file of files) {
+      const page = await opened(file);
+      check(page.complaints.length === 0, `${file}: ${page.complaints.join("; ")}`);
+      check(await page.evaluate(() => globalThis.linkwork.frame?.assembled), `${file} is not assembled: ${await said(page)}`);
+      const ink = await inked(page);
+      check(ink > 1500, `${file}: only ${ink} pixels are drawn`);
+      await page.close();
+    }
+  },
+
+  async "a picture without a mechanism is empty"() {
+    const page = await opened("mechanisms/four_bar.ron");
+    await page.evaluate(() => {
+      const { frame } = globalThis.linkwork;
+      frame.scene = { ...frame.scene, bodies: [], joints: [], rods: [] };
+      globalThis.linkwork.onMoved(() => {});
+      document.querySelector("[data-view=plane]").click();
+    });
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    check((await inked(page)) < 100, "an empty scene is not empty");
+    await page.close();
+  },
+
+  async "a slider moves the mechanism on its branch and stops at a dead point"() {
+    // the rocker of a crank-rocker, driven: it locks where crank and coupler are in line
+    const page = await opened("mechanisms/four_bar.ron");
+    await page.evaluate(() => globalThis.linkwork.hold(["phi1"]));
+    const turns = (at) => Math.sign(Math.sin(at[1]));
+    const before = await values(page);
+    for (const way of [1, -1]) {
+      for (let i = 1; i <= 40; i++) {
+        await page.evaluate((to) => globalThis.linkwork.move("phi1", to), before[2] + way * 0.05 * i);
+      }
+      check(/dead point/.test(await said(page)), `no dead point is said: ${await said(page)}`);
+      const there = await values(page);
+      check(turns(there) === turns(before), "the mechanism flipped");
+      await page.evaluate((to) => globalThis.linkwork.move("phi1", to), before[2]);
+      const after = await values(page);
+      check(after.every((value, i) => Math.abs(value - before[i]) < 1e-7), `the way back ends at ${after}, not at ${before}`);
+    }
+    await page.close();
+  },
+
+  async "a body follows the pointer and never flips"() {
+    const page = await opened("mechanisms/four_bar.ron");
+    const box = await page.$eval("#canvas", (canvas) => canvas.getBoundingClientRect().toJSON());
+    const at = await page.evaluate(() => globalThis.picture.pixelOf("left.1"));
+    const before = await values(page);
+    await page.mouse.move(box.x + at[0], box.y + at[1]);
+    await page.mouse.down();
+    for (let i = 1; i <= 12; i++) {
+      await page.mouse.move(box.x + at[0] + 6 * i, box.y + at[1] + 2 * i);
+      await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
+    }
+    await page.mouse.up();
+    const after = await values(page);
+    check(Math.abs(after[0] - before[0]) > 0.05, `the crank was not moved: ${after[0]}`);
+    check(Math.sign(Math.sin(after[1])) === Math.sign(Math.sin(before[1])), "the mechanism flipped");
+    await page.close();
+  },
+
+  async "assemblies are listed, and a click goes to one"() {
+    const page = await opened("mechanisms/three_rps.ron");
+    await page.click("#list-modes");
+    await page.waitForSelector("#mode-list button", { timeout: 120_000 });
+    const modes = await page.$$("#mode-list button");
+    check(modes.length === 8, `${modes.length} assemblies are listed`);
+    await modes[5].click();
+    const pressed = await page.$$eval("#mode-list button", (all) => all.map((b) => b.getAttribute("aria-pressed")));
+    check(pressed.indexOf("true") === 5, `marked are ${pressed}`);
+    await page.close();
+  },
+
+  async "problems of the editor stand at their line and column"() {
+    const page = await opened("mechanisms/four_bar.ron");
+    const text = readFileSync(join(root, "mechanisms/four_bar.ron"), "utf8");
+    const wrongText = text.replace(/theta: "theta1"/, 'theta: "tehta1"');
+    check(wrongText !== text, "the file names theta1");
+    const before = wrongText.slice(0, wrongText.indexOf("tehta1")).split("\n");
+    await page.evaluate(() => (document.getElementById("file-part").open = true));
+    await page.$eval("#editor", (area, content) => {
+      area.value = content;
+      area.dispatchEvent(new Event("input"));
+    }, wrongText);
+    await page.waitForSelector("#problems .error");
+    const place = await page.$eval("#problems .error", (item) => [item.dataset.line, item.dataset.column, item.textContent]);
+    check(Number(place[0]) === before.length, `line ${place[0]}, not ${before.length}`);
+    check(Number(place[1]) === before.at(-1).length + 1, `column ${place[1]}, not ${before.at(-1).length + 1}`);
+    check(place[2].includes("tehta1"), place[2]);
+    await page.$eval("#editor", (area, content) => {
+      area.value = content;
+      area.dispatchEvent(new Event("input"));
+    }, text);
+    await page.waitForFunction(() => !document.querySelector("#problems .error"));
+    await page.close();
+  },
+
+  async "a link holds the mechanism and where it is"() {
+    const page = await opened("mechanisms/five_bar.ron");
+    const name = await page.evaluate(() => globalThis.linkwork.frame.held[0]);
+    await page.evaluate((of) => {
+      const { linkwork } = globalThis;
+      const index = linkwork.mechanism.coordinates.findIndex((c) => c.name === of);
+      linkwork.move(of, linkwork.frame.values[index][0] + 0.1);
+    }, name);
+    const before = await values(page);
+    await page.evaluate(() => document.getElementById("share").click());
+    await page.waitForFunction(() => location.hash.length > 10);
+    const fragment = await page.evaluate(() => location.hash);
+    await page.close();
+    const other = await opened("mechanisms/four_bar.ron", fragment);
+    const after = await values(other);
+    check((await other.$eval("#name", (e) => e.textContent)).includes("5-bar") || after.length === before.length, "another mechanism is shown");
+    check(after.every((value, i) => Math.abs(value - before[i]) < 1e-9), `${after} is not ${before}`);
+    await other.close();
+    const broken = await opened("mechanisms/four_bar.ron", "#m=AAAA");
+    check(await broken.evaluate(() => globalThis.linkwork.frame?.assembled), "a broken link breaks the page");
+    await broken.close();
+  },
+
+  async "hostile names are text and run nothing"() {
+    const name = "</script><script>globalThis.bad=1</script><img src=x onerror='globalThis.bad=1'>\u202e\\\"'&";
+    const text = readFileSync(join(root, "mechanisms/four_bar.ron"), "utf8");
+    const quoted = name.replaceAll("\\", "\\\\").replaceAll('"', '\\"');
+    const hostile = `${text.replace(/name: "[^"]*"/, () => `name: "${quoted}"`)}\n// ${"<script>bad()</script> ".repeat(4500)}\n`;
+    const path = join(folder, "hostile.ron");
+    writeFileSync(path, hostile);
+    check(hostile.length > 100_000, "the file is not long");
+    const page = await opened(path);
+    check((await page.$eval("#name", (e) => e.textContent)) === name, "the name is not shown as it is");
+    check(await page.evaluate(() => globalThis.bad === undefined), "a name ran");
+    check((await page.$$eval("script", (all) => all.length)) === 3, "there are more scripts than the page's own");
+    const inline = await page.evaluate(() => {
+      const script = document.createElement("script");
+      script.textContent = "globalThis.bad = 1";
+      document.body.append(script);
+      return globalThis.bad === undefined;
+    });
+    check(inline, "the policy lets a script run that is not the page's own");
+    await page.close();
+  },
+};
+
+const wanted = process.argv.slice(2);
+try {
+  for (const [name, test] of Object.entries(tests)) {
+    if (wanted.length && !wanted.some((part) => name.includes(part))) continue;
+    const [before, begun] = [wrong, Date.now()];
+    try {
+      await test();
+    } catch (error) {
+      wrong++;
+      console.log(`wrong: ${error.stack}`);
+    }
+    console.log(`${wrong === before ? "ok" : "FAILED"}  ${name} (${Date.now() - begun} ms)`);
+  }
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+process.exit(wrong ? 1 : 0);

@@ -1,0 +1,10 @@
+// Every shipped mechanism file.
+import { readdirSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
+
+export const files = ["mechanisms", "mechanisms/axes"].flatMap((folder) =>
+  readdirSync(join(root, folder)).filter((name) => name.endsWith(".ron")).sort().map((name) => join(folder, name)),
+);

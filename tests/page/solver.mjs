@@ -1,0 +1,23 @@
+// The solver out of the page, for node.
+import { readFileSync } from "node:fs";
+import { gunzipSync } from "node:zlib";
+
+export async function solver(page) {
+  const html = readFileSync(page, "utf8");
+  const packed = html.match(/<script type="text\/plain" id="wasm">([^<]*)</)[1];
+  const module = await WebAssembly.compile(gunzipSync(Buffer.from(packed, "base64")));
+  // no time passes, as in the page (src/page/script/clock.ts)
+  const imports = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+    (imports[from] ??= {})[name] = () => (/_now_|is_undefined/.test(name) ? 0 : 1);
+  }
+  const instance = await WebAssembly.instantiate(module, imports);
+  const { memory, room, answer, reply } = instance.exports;
+  return (request) => {
+    const bytes = new TextEncoder().encode(JSON.stringify(request));
+    const at = room(bytes.length);
+    new Uint8Array(memory.buffer).set(bytes, at);
+    const length = answer();
+    return JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, reply(), length)));
+  };
+}
