@@ -124,19 +124,22 @@ impl Page {
         };
         for (name, value) in &load.set {
             description = (description.with_parameter(name, value))
-                .map_err(|error| nothing(&format!("{name} = {value}: {error:?}")))?;
+                .map_err(|error| nothing(&format!("{name} = {value}: {error}")))?;
         }
         let mechanism = Mechanism::new(&description).map_err(|problems| wrong(&problems))?;
         let mechanism = Arc::new(mechanism);
         self.mechanism = Some(mechanism.clone());
-        let asked = match &load.held {
-            Some(names) => holding(&mechanism, names, &mechanism.home()),
-            None => Question::new(mechanism.clone()),
-        };
         let near = load
             .near
             .as_ref()
             .and_then(|near| near.of_mechanism(&mechanism));
+        let asked = match &load.held {
+            Some(names) => {
+                let home = mechanism.home();
+                holding(&mechanism, names, near.as_ref().unwrap_or(&home))
+            }
+            None => Question::new(mechanism.clone()),
+        };
         let steering = match near {
             Some(at) => asked.steering_near(&at, watch),
             None => asked.steering(watch),
@@ -172,10 +175,18 @@ impl Page {
         sweep: &Sweep,
         watch: &Watch,
     ) -> Result<Value, Refusal> {
-        let mut asked = self.asked(mechanism);
-        asked = match &sweep.input {
-            Some((name, from, to)) => (asked.let_go(name)).input(name, from.clone(), to.clone()),
-            None => asked,
+        let asked = self.asked(mechanism);
+        let mut asked = match &sweep.input {
+            Some((name, from, to)) => (asked.let_go(name)).input(name, *from, *to),
+            // along the whole curve, from where it is
+            None => {
+                let steering = self.steering()?;
+                let values = steering.driven().iter();
+                let values = values.map(|of| (of.name(mechanism), of.of(steering.at())));
+                values.fold(asked, |asked, (name, value)| {
+                    asked.let_go(&name).guess(name, value)
+                })
+            }
         };
         for point in &sweep.points {
             asked = asked.point(point);

@@ -1,8 +1,10 @@
 //! The page of `linkwork view`: its solver by node, and all of it in a browser. What is not here is said and left out:
 //! node; puppeteer-core, by `npm ci --prefix tests/page`; Chromium, at `CHROMIUM` or where Debian has it.
 
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -49,4 +51,92 @@ fn the_page_works_in_a_browser() {
         (false, _) => println!("skipped: there is no Chromium"),
         (_, false) => println!("skipped: run `npm ci --prefix tests/page` first"),
     }
+}
+
+/// What is answered to a request with such a host.
+fn asked(address: &str, path: &str, host: &str) -> String {
+    let mut stream = TcpStream::connect(address).unwrap();
+    let request = format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    answer
+}
+
+#[test]
+fn a_watched_page_is_served_to_this_machine_alone_and_follows_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("linkage.ron");
+    let text = std::fs::read_to_string(root().join("mechanisms/four_bar.ron")).unwrap();
+    std::fs::write(&file, &text).unwrap();
+    let mut server = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .args(["view", "--watch"])
+        .arg(&file)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = String::new();
+    BufReader::new(server.stdout.take().unwrap())
+        .read_line(&mut said)
+        .unwrap();
+    let address = said
+        .strip_prefix("http://")
+        .unwrap()
+        .split('/')
+        .next()
+        .unwrap();
+    assert!(address.starts_with("127.0.0.1:"), "{said}");
+    let page = asked(address, "/", address);
+    assert!(page.starts_with("HTTP/1.1 200 OK") && page.contains("connect-src 'self'"));
+    assert!(page.contains("4-bar, broken at joint 3"));
+    // a file with problems is shown with them
+    std::fs::write(&file, text.replace("4-bar, broken", "changed")).unwrap();
+    assert!(asked(address, "/file", address).contains("changed at joint 3"));
+    std::fs::write(&file, "Mechanism(").unwrap();
+    assert!(asked(address, "/file", address).contains("\"text\":\"Mechanism(\""));
+    for (path, host) in [
+        ("/other", address),
+        ("/../linkage.ron", address),
+        ("/", "elsewhere.example"),
+    ] {
+        assert!(
+            asked(address, path, host).starts_with("HTTP/1.1 404"),
+            "{path} {host}"
+        );
+    }
+    server.kill().unwrap();
+    server.wait().unwrap();
+}
+
+#[test]
+fn a_page_is_written_beside_its_file_and_a_wrong_file_gives_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("linkage.ron");
+    let text = std::fs::read_to_string(root().join("mechanisms/four_bar.ron")).unwrap();
+    let view = || {
+        let run = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+            .arg("view")
+            .arg(&file)
+            .output();
+        run.unwrap()
+    };
+    std::fs::write(
+        &file,
+        text.replace("theta: \"theta1\"", "theta: \"tehta1\""),
+    )
+    .unwrap();
+    let refused = view();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("did you mean `theta1`?"));
+    let page = folder.path().join("linkage.html");
+    assert!(!page.exists());
+    std::fs::write(&file, &text).unwrap();
+    let written = view();
+    let said = format!("{}: open it in a browser.\n", page.display());
+    assert_eq!(String::from_utf8_lossy(&written.stdout), said);
+    assert!(
+        std::fs::read_to_string(page)
+            .unwrap()
+            .contains("4-bar, broken at joint 3")
+    );
 }

@@ -260,3 +260,82 @@ impl Steering {
         (report, end)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn four_bar() -> Question {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/four_bar.ron");
+        Question::new(Mechanism::load(file).unwrap())
+    }
+
+    /// The rocker of a crank-rocker, driven, locks where crank and coupler are in line: cos φ₁ there by the law of cosines
+    /// on l0 = 5, l3 = 4 and l1 + l2 = 4 or l2 − l1 = 2.
+    #[test]
+    fn a_driven_rocker_stops_before_its_dead_points_and_comes_back() {
+        let watch = &Watch::none();
+        let asked = four_bar().free("theta1").hold("phi1", "129 deg");
+        let mut steering = asked.steering(watch).unwrap();
+        let [driven] = *steering.driven() else {
+            panic!("one coordinate is held")
+        };
+        let begin = steering.at().clone();
+        let side = |at: &Configuration<f64>| at.joints[1].sin().signum();
+        for sum in [4.0_f64, 2.0] {
+            let cosine: f64 = (25.0 + 16.0 - sum * sum) / 40.0;
+            let dead = std::f64::consts::PI - cosine.acos();
+            let way = (dead - begin.joints[2]).signum();
+            let report = steering.move_to(&[(driven, begin.joints[2] + 2.0 * way)], watch);
+            assert_eq!(report.ending, SweepEnd::Fold);
+            let there = steering.at().joints[2];
+            assert!((there - dead).abs() < 2e-6, "{there} is not {dead}");
+            assert!((dead - there) * way > 0.0, "it stops before the dead point");
+            assert_eq!(side(steering.at()), side(&begin));
+            // further on there is nothing, and the way back leads to where it began
+            let again = steering.move_to(&[(driven, begin.joints[2] + 3.0 * way)], watch);
+            assert_eq!(again.ending, SweepEnd::Fold);
+            let back = steering.move_to(&[(driven, begin.joints[2])], watch);
+            assert_eq!(back.ending, SweepEnd::Complete);
+            for (a, b) in steering.at().joints.iter().zip(&begin.joints) {
+                assert!((a - b).abs() < 1e-9, "{a} is not {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_is_pulled_to_where_the_crank_can_bring_it() {
+        let watch = &Watch::none();
+        let mut steering = four_bar().steering(watch).unwrap();
+        let frame = steering.mechanism().frame("left.2").unwrap();
+        let point = Point::from(frame);
+        // the pin of the crank, pulled to 80°; it can go nowhere else
+        let angle = 80_f64.to_radians();
+        let to = [2.0 * angle.cos(), 2.0 * angle.sin(), 0.0];
+        for _ in 0..30 {
+            steering.pull(&point, to, None, watch);
+        }
+        let reached = steering.at().joints[0];
+        assert!((reached - angle).abs() < 1e-3, "{reached} is not {angle}");
+    }
+
+    #[test]
+    fn what_leaves_freedoms_or_depends_on_itself_is_put_right() {
+        let watch = &Watch::none();
+        let none = four_bar().free("actuated").steering(watch).unwrap();
+        assert_eq!(none.driven().len(), 1);
+        let both = four_bar().hold("phi1", "129 deg").steering(watch).unwrap();
+        assert_eq!(both.driven().len(), 1);
+    }
+
+    #[test]
+    fn what_assembles_nowhere_is_refused() {
+        let watch = &Watch::none();
+        let asked = four_bar().free("theta1").hold("phi1", "0 deg");
+        let refused = asked.steering(watch);
+        assert!(
+            matches!(refused, Err(AskError::NotAssembled { .. })),
+            "{refused:?}"
+        );
+    }
+}

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds page.html, which `linkwork view` fills in: the library for wasm32, the script, both into one page.
-# Needs npm, and the wasm32 target of rustup or Debian's rustc-web, cargo-web, rust-web-src, rust-web-llvm and lld.
+# Needs npm, and either rustup's target wasm32-unknown-unknown or Debian's rustc-web, cargo-web, rust-web-src and an lld
+# in WASM_LD. PAGE_OUT is where the page goes, if not beside this script; PAGE_TARGET_DIR where cargo works.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
@@ -19,4 +20,5 @@ fi
 cd "$here"
 npm ci --silent --no-audit --no-fund
 npm run --silent check
-npm run --silent bundle -- "$CARGO_TARGET_DIR/$target/release/linkwork.wasm"
+node notices.mjs
+npm run --silent bundle -- "$CARGO_TARGET_DIR/$target/release/linkwork.wasm" "${PAGE_OUT:-$here/page.html}"

@@ -7,7 +7,7 @@ import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const wasm = process.argv[2];
+const [wasm, out] = process.argv.slice(2);
 
 const bundled = async (entry, define) => {
   const result = await build({
@@ -32,8 +32,9 @@ const shipped = ["", "axes"].flatMap((folder) => {
   const names = readdirSync(path).filter((name) => name.endsWith(".ron")).sort();
   return names.map((name) => [join(folder, name), readFileSync(join(path, name), "utf8")]);
 });
-const parts = { csp, style, script, files: packed(JSON.stringify(shipped)), wasm: packed(readFileSync(wasm)) };
+const notices = readFileSync(join(here, "LICENSES.txt"), "utf8").replace(/&/g, "&amp;").replace(/</g, "&lt;");
+const parts = { csp, style, script, notices, files: packed(JSON.stringify(shipped)), wasm: packed(readFileSync(wasm)) };
 const page = readFileSync(join(here, "page.html.in"), "utf8")
-  .replace(/\{(csp|style|script|files|wasm)\}/g, (_, part) => parts[part]);
-writeFileSync(join(here, "page.html"), page);
+  .replace(/\{(csp|style|script|notices|files|wasm)\}/g, (_, part) => parts[part]);
+writeFileSync(out, page);
 console.log(`page.html: ${page.length} bytes, of which script ${script.length} and solver ${parts.wasm.length}`);

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::algebra::SiUnit;
+use crate::algebra::{Measure, SiUnit};
 use crate::ask::Steering;
 use crate::description::{Description, Lines, Problem, Severity};
 use crate::mechanism::{Configuration, Mechanism};
@@ -46,6 +46,7 @@ pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
             "name": parameter.name,
             "written": described.value.expression.to_string(),
             "value": parameter.value,
+            "angle": parameter.measure == Measure::Angle,
             // only a number can be slid; the others follow
             "free": parameter.definition.names().next().is_none(),
         })

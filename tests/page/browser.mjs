@@ -86,7 +86,7 @@ const tests = {
   async "a slider moves the mechanism on its branch and stops at a dead point"() {
     // the rocker of a crank-rocker, driven: it locks where crank and coupler are in line
     const page = await opened("mechanisms/four_bar.ron");
-    await page.evaluate(() => globalThis.linkwork.hold(["phi1"]));
+    await page.evaluate(() => globalThis.linkwork.holdToo("phi1"));
     const turns = (at) => Math.sign(Math.sin(at[1]));
     const before = await values(page);
     for (const way of [1, -1]) {

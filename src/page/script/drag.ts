@@ -2,7 +2,7 @@
 import { Vector3 } from "three";
 import type { Model } from "./model";
 import type { Stage } from "./stage";
-import { Refused, type Frame, type Scene, type Triple } from "./types";
+import { Refused, type Scene, type Triple } from "./types";
 
 interface Grabbed {
   pointer: number;
@@ -35,12 +35,19 @@ export function dragging(stage: Stage, model: Model, point: (name: string) => vo
     for (let i = 0; i < 2; i++) model.change({ do: "pull", body, offset, to: to.toArray() as Triple, sight });
   };
 
-  canvas.addEventListener("pointerdown", (event) => {
-    const frame: Frame | null = model.frame;
-    if (event.button !== 0 || !frame?.assembled || !frame.held?.length) return;
+  /** The body under a pointer, if it can be moved. */
+  const held = (event: PointerEvent) => {
+    const { frame } = model;
+    if (!frame?.assembled || !frame.held?.length) return null;
     const hit = stage.hit(event);
     const body = hit && bodyOf(frame.scene, hit.pick);
-    if (!hit || body === null || frame.scene.bodies[body]?.ground) return;
+    return hit && body !== null && !frame.scene.bodies[body]?.ground ? { hit, body } : null;
+  };
+
+  canvas.addEventListener("pointerdown", (event) => {
+    const found = event.button === 0 ? held(event) : null;
+    if (!found) return;
+    const { body, hit } = found;
     try {
       const at = hit.at.toArray() as Triple;
       const { offset, name } = model.ask<{ offset: Triple; name: string }>({ do: "grab", body, at });
@@ -50,12 +57,14 @@ export function dragging(stage: Stage, model: Model, point: (name: string) => vo
       if (!(error instanceof Refused)) throw error;
       return;
     }
+    canvas.classList.add("dragging");
     canvas.setPointerCapture(event.pointerId);
     stage.orbit.enabled = false;
     event.stopImmediatePropagation();
   }, { capture: true });
 
   canvas.addEventListener("pointermove", (event) => {
+    if (!grabbed && event.buttons === 0) canvas.classList.toggle("over", held(event) !== null);
     if (grabbed?.pointer !== event.pointerId) return;
     if (!waiting) requestAnimationFrame(pull);
     waiting = { clientX: event.clientX, clientY: event.clientY };
@@ -65,6 +74,7 @@ export function dragging(stage: Stage, model: Model, point: (name: string) => vo
     if (grabbed?.pointer !== event.pointerId) return;
     pull();
     grabbed = null;
+    canvas.classList.remove("dragging");
     stage.orbit.enabled = true;
   };
   canvas.addEventListener("pointerup", drop);

@@ -6,6 +6,9 @@ import type { BodyShape, JointShape, Scene, Triple } from "./types";
 
 const v = (t: Triple) => new Vector3(t[0], t[1], t[2]);
 
+/** Sides of the polygon that is drawn for a circle. */
+const RING = 48;
+
 /** The plane of a planar mechanism as it is seen: to the right, up, towards the viewer. */
 export interface Plane {
   right: Vector3;
@@ -31,7 +34,12 @@ export function planeOf(scene: Scene): Plane | null {
 export function points(scene: Scene): Vector3[] {
   const bodies = scene.bodies.flatMap((body) => [...body.lines.flat(), ...body.corners]);
   const joints = scene.joints.map((joint) => joint.at);
-  return [...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints].map(v);
+  const wheels = (scene.wheels ?? []).flatMap(({ at, axis, radius }) => {
+    const right = across(v(axis)).multiplyScalar(radius);
+    const up = v(axis).cross(right);
+    return [right, up, right.clone().negate(), up.clone().negate()].map((rim) => rim.add(v(at)));
+  });
+  return [...[...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints].map(v), ...wheels];
 }
 
 /** How large a joint is drawn: as its neighbours leave room for, within what can be seen and hides no links. */
@@ -65,6 +73,7 @@ export class Drawing {
       for (const end of [from, to]) shapes.ball(this.above(end, 2), 0.6 * this.size, theme().ink, { rod: i });
     });
     scene.joints.forEach((joint, i) => this.joint(scene, joint, i));
+    for (const wheel of scene.wheels ?? []) this.ring(v(wheel.at), v(wheel.axis), wheel.radius, bodyColour(wheel.body), { body: wheel.body });
     shapes.end();
   }
 
@@ -97,7 +106,8 @@ export class Drawing {
     const { shapes, size, plane } = this;
     const pick = { joint: index };
     const fixed = joint.bodies.some((body) => scene.bodies[body]?.ground);
-    const colour = joint.names.some((name) => this.held.has(name)) ? theme().driven : theme().joint;
+    const free = plane ? theme().joint : theme().solid;
+    const colour = joint.names.some((name) => this.held.has(name)) ? theme().driven : free;
     const at = this.above(v(joint.at), 2);
     const axis = (k: number) => v(joint.axes[k] ?? [0, 0, 1]).normalize();
     const facing = plane && Math.abs(plane.towards.dot(axis(0))) > 1 - 1e-9;
@@ -138,6 +148,17 @@ export class Drawing {
       case "rigid":
         break;
     }
+  }
+
+  /** A circle about an axis. */
+  private ring(at: Vector3, axis: Vector3, radius: number, colour: string, pick: { body: number }) {
+    const right = across(axis);
+    const up = axis.clone().cross(right);
+    const place = (k: number) => {
+      const angle = (k / RING) * 2 * Math.PI;
+      return at.clone().addScaledVector(right, radius * Math.cos(angle)).addScaledVector(up, radius * Math.sin(angle));
+    };
+    for (let k = 0; k < RING; k++) this.shapes.rod(place(k), place(k + 1), 0.14 * this.size, colour, pick);
   }
 
   /** The line along which a slide moves, hatched where it is fixed to ground. */
@@ -194,5 +215,3 @@ function outline(points: Vector3[]): Vector3[] {
   };
   return [...points].sort((a, b) => angle(a) - angle(b));
 }
-
-export { across };

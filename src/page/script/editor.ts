@@ -41,7 +41,7 @@ export class Editor {
         const line = this.area.scrollHeight / this.area.value.split("\n").length;
         this.area.scrollTop = (problem.line - 4) * line;
       });
-      const help = problem.help ? element("span", { class: "soft" }, ` ${problem.help}`) : "";
+      const help = problem.help ? element("span", { class: "soft" }, ` (${problem.help})`) : "";
       return element("li", { class: problem.severity, "data-line": String(problem.line), "data-column": String(problem.column) },
         place, ` ${problem.severity}: ${problem.title}`, help);
     });

@@ -1,6 +1,6 @@
 // Pictures to take away: PNG and GLB of what is shown.
 import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
-import { Group, Mesh, Scene } from "three";
+import { Group, Mesh, type MeshLambertMaterial, MeshStandardMaterial, Scene } from "three";
 import { download } from "./editor";
 import { button, find } from "./elements";
 import type { Model } from "./model";
@@ -16,7 +16,8 @@ export function exporting(model: Model, stage: Stage, solids: () => Group) {
     const world = new Scene();
     for (const solid of solids().children) {
       if (!(solid instanceof Mesh) || !solid.visible) continue;
-      const copy = new Mesh(solid.geometry, solid.material);
+      const { color, opacity, transparent, side } = solid.material as MeshLambertMaterial;
+      const copy = new Mesh(solid.geometry, new MeshStandardMaterial({ color, opacity, transparent, side, roughness: 0.7 }));
       copy.applyMatrix4(solid.matrix);
       world.add(copy);
     }

@@ -114,7 +114,13 @@ async function begin() {
   const module = await WebAssembly.compile(await unpacked("wasm"));
   const model = new Model(await Solver.of(module), new Background(module), say);
   const sliders = new Sliders((name, to) => model.move(name, to));
-  const values = new Values((names) => model.hold(names));
+  const values = new Values(
+    (name) => model.holdToo(name),
+    () => {
+      model.again();
+      say("As much is held as decides where the mechanism is: choose what to hold instead.");
+    },
+  );
   const picture = new Picture(model);
   model.onLoaded(() => {
     const { mechanism } = model;
@@ -125,6 +131,7 @@ async function begin() {
   model.onMoved(() => {
     sliders.show(model.mechanism!, model.frame!);
     values.show(model.mechanism!, model.frame!);
+    find("branch").textContent = model.frame!.assembled ? `On ${model.branch}.` : "";
   });
   new ModeList(model, (scenes) => {
     picture.scenery.ghosts = scenes;

@@ -21,6 +21,8 @@ export class Model {
   file: File = { file: "", text: "", set: [] };
   mechanism: Mechanism | null = null;
   frame: Frame | null = null;
+  /** The assembly that the mechanism was put into, from which it has moved without leaving its branch. */
+  branch = "";
   private readonly loaded: (() => void)[] = [];
   private readonly moved: (() => void)[] = [];
   private readonly problems: ((problems: Problem[]) => void)[] = [];
@@ -50,14 +52,19 @@ export class Model {
       this.mechanism = loaded.mechanism;
       this.problems.forEach((act) => act(loaded.warnings));
       this.frame = loaded;
+      if (!near) this.branch = "the branch of the home configuration";
       this.loaded.forEach((act) => act());
       this.show(loaded);
     });
   }
 
-  /** Loads what is there with parameters at other values. */
+  /** Gives parameters other values, unless the mechanism does not assemble with them. */
   set(set: [string, string][]) {
-    this.load({ ...this.file, set }, this.place());
+    const [before, place] = [this.file, this.place()];
+    if (!this.load({ ...before, set }, place) || this.frame?.assembled !== false) return;
+    const why = this.frame.said ?? "";
+    this.load(before, place);
+    this.say(`${set.map(([name, value]) => `${name} = ${value}`).join(", ")}: ${why}`);
   }
 
   place(): Place {
@@ -72,11 +79,34 @@ export class Model {
     this.change({ do: "move", to: [[name, nearest(of, to, from)]] });
   }
 
-  hold(names: string[]) {
-    if (!this.change({ do: "hold", names }) && this.frame) this.moved.forEach((act) => act());
+  /** Holds a coordinate in place of one of those that are held, the last that gives way. */
+  holdToo(name: string) {
+    const before = this.frame?.held ?? [];
+    const others = before.toReversed().map((released) => before.filter((held) => held !== released));
+    for (const rest of others) {
+      if (this.holds([...rest, name])) {
+        this.say("");
+        return;
+      }
+    }
+    this.holds(before);
+    this.say(`${name} cannot be held in place of any of these: it depends on them or does not move.`);
   }
 
-  go(at: State) {
+  /** Holds these; whether they decide where the mechanism is, so that no others are held. */
+  holds(names: string[]): boolean {
+    this.change({ do: "hold", names });
+    const held = new Set(this.frame?.held ?? []);
+    return held.size === names.length && names.every((name) => held.has(name));
+  }
+
+  /** Tells all who listen once more. */
+  again() {
+    this.moved.forEach((act) => act());
+  }
+
+  go(at: State, branch: string) {
+    this.branch = branch;
     this.change({ do: "go", at });
   }
 

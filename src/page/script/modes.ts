@@ -62,7 +62,8 @@ export class ModeList {
 
   private go(index: number) {
     const state = this.found?.states[index];
-    if (state) this.model.go(state.at);
+    const mode = this.found?.report.assemblies[index]?.mode;
+    if (state) this.model.go(state.at, `the branch of mode ${mode} at ${this.where()}`);
   }
 
   /** Marks the mode the mechanism is in; once what is held has moved, the list is of another question. */
@@ -91,6 +92,16 @@ export class ModeList {
     find("mode-list").replaceChildren();
     find("modes-said").textContent = "";
     this.ghosts([]);
+  }
+
+  /** `theta1 = 60°`, as far as there is room. */
+  private where(): string {
+    const { frame, mechanism } = this.model;
+    const values = (frame?.held ?? []).slice(0, 3).map((name) => {
+      const index = mechanism!.coordinates.findIndex((of) => of.name === name);
+      return `${name} = ${frame!.values[index]![1]}`;
+    });
+    return values.join(", ") + ((frame?.held?.length ?? 0) > 3 ? ", …" : "");
   }
 
   private held(): string {

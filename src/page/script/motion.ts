@@ -19,6 +19,7 @@ export class Motion {
   private playing = 0;
   private readonly cursor = element("input", { type: "range", min: "0", max: "0", value: "0", id: "cursor", "aria-label": "Place in the motion" });
   private readonly point = element("input", { type: "text", id: "traced", placeholder: "click a body, or e.g. left+0.5", "aria-label": "Traced point" });
+  private readonly report = element("input", { type: "text", id: "reported", placeholder: "quantities, e.g. transmission", "aria-label": "Quantities" });
   private readonly quantity = element("select", { id: "quantity", "aria-label": "Quantity of the plot" });
   private readonly input = element("select", { id: "input", "aria-label": "Input" });
   private readonly plot: Plot;
@@ -34,7 +35,7 @@ export class Motion {
     const canvas = element("canvas", { id: "plot", width: "640", height: "360", hidden: "" });
     this.plot = new Plot(canvas, (row) => this.to(row));
     find("motion").append(
-      element("p", {}, "Move ", this.input, " trace ", this.point),
+      element("p", {}, "Move ", this.input, " trace ", this.point, this.report),
       element("p", {}, sweep, " ", play, " ", leave),
       element("p", { id: "motion-said", role: "status" }),
       this.cursor,
@@ -70,19 +71,20 @@ export class Motion {
     const of = mechanism.coordinates[index];
     const said = find("motion-said");
     said.textContent = "Moving …";
-    const points = this.point.value.trim() ? [this.point.value.trim()] : [];
+    const given = (field: HTMLInputElement) => (field.value.trim() ? [field.value.trim()] : []);
+    const [points, report] = [given(this.point), given(this.report)];
     // forwards from where it is to the end of the range, and backwards likewise
     const from = index < 0 ? 0 : frame.values[index]![0];
     const ends = !of ? [] : of.angle && !of.limits ? [from + 2 * Math.PI] : [of.range[0], of.range[1]];
     try {
       const parts: Swept[] = [];
-      if (!of) parts.push(await this.model.study<Swept>({ do: "sweep", steps: 180, follow: true, points }));
+      if (!of) parts.push(await this.model.study<Swept>({ do: "sweep", steps: 180, follow: true, points, report }));
       for (const to of ends.filter((to) => Math.abs(to - from) > 1e-9)) {
-        parts.push(await this.model.study<Swept>({ do: "sweep", input: [name, from, to], steps: 180, points }));
+        parts.push(await this.model.study<Swept>({ do: "sweep", input: [name, from, to], steps: 180, points, report }));
       }
       // a turn that is not completed forwards is made backwards too
       if (of && ends.length === 1 && parts[0]!.report.motions[0]!.ending !== "complete") {
-        parts.unshift(await this.model.study<Swept>({ do: "sweep", input: [name, from, from - 2 * Math.PI], steps: 180, points }));
+        parts.unshift(await this.model.study<Swept>({ do: "sweep", input: [name, from, from - 2 * Math.PI], steps: 180, points, report }));
       }
       this.take_parts(parts);
     } catch (error) {

@@ -18,7 +18,7 @@ export class Parameters {
       this.text = file.text;
       this.given.clear();
     }
-    const rows = mechanism.parameters.filter((parameter) => parameter.free).map(({ name, written, value }) => {
+    const rows = mechanism.parameters.filter((parameter) => parameter.free).map(({ name, written, value, angle }) => {
       if (!this.given.has(name)) this.given.set(name, value);
       const middle = this.given.get(name)!;
       const [low, high] = middle === 0 ? [-1, 1] : [Math.min(0, 2 * middle), Math.max(0, 2 * middle)];
@@ -27,8 +27,8 @@ export class Parameters {
       range.addEventListener("change", () => {
         const wanted = low + (Number(range.value) / 400) * (high - low);
         const others = this.model.file.set.filter(([other]) => other !== name);
-        // numbers without a unit are metres and radians, as in the file
-        this.model.set([...others, [name, rounded(wanted)]]);
+        const text = angle ? `${rounded((wanted * 180) / Math.PI)} deg` : rounded(wanted);
+        this.model.set([...others, [name, text]]);
       });
       return element("label", { class: "slider" }, element("span", {}, name), range, element("output", {}, written));
     });

@@ -9,17 +9,19 @@ export interface Theme {
   ground: string;
   plate: string;
   joint: string;
+  /** A joint in space, where white would be lost on paper. */
+  solid: string;
   driven: string;
   trace: string;
   ghost: string;
 }
 
 const LIGHT: Theme = {
-  paper: "#fdfdfc", ink: "#222222", ground: "#777777", plate: "#cfcfcc", joint: "#ffffff", driven: "#E69F00",
+  paper: "#fdfdfc", ink: "#222222", ground: "#777777", plate: "#cfcfcc", joint: "#ffffff", solid: "#c4c4c0", driven: "#E69F00",
   trace: "#D55E00", ghost: "#b8b8b8",
 };
 const DARK: Theme = {
-  paper: "#191a1b", ink: "#e4e4e0", ground: "#9a9a96", plate: "#45474a", joint: "#d9d9d6", driven: "#E69F00",
+  paper: "#191a1b", ink: "#e4e4e0", ground: "#9a9a96", plate: "#45474a", joint: "#d9d9d6", solid: "#d9d9d6", driven: "#E69F00",
   trace: "#ff8c42", ghost: "#55585c",
 };
 

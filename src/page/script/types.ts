@@ -29,12 +29,21 @@ export interface Rod {
   driven: boolean;
 }
 
+/** The pitch circle of a gear. */
+export interface Wheel {
+  body: number;
+  at: Triple;
+  axis: Triple;
+  radius: number;
+}
+
 export interface Scene {
   mechanism: string;
   normal: Triple | null;
   bodies: BodyShape[];
   joints: JointShape[];
   rods: Rod[];
+  wheels?: Wheel[];
 }
 
 /** A configuration: joints in rad and m; platforms as position and unit quaternion, scalar first. */
@@ -69,6 +78,7 @@ export interface Parameter {
   name: string;
   written: string;
   value: number;
+  angle: boolean;
   free: boolean;
 }
 

@@ -1,13 +1,16 @@
-// The live values of all coordinates, each of which can be chosen to be held.
+// The live values of all coordinates, each of which can be chosen to be held in place of another.
 import { element, find } from "./elements";
 import type { Frame, Mechanism } from "./types";
+
+/** Beyond this four digits are lost: a singularity is near. */
+const POOR = 1e4;
 
 export class Values {
   private names = "";
   private cells: HTMLElement[] = [];
   private boxes: HTMLInputElement[] = [];
 
-  constructor(private readonly hold: (names: string[]) => void) {}
+  constructor(private readonly hold: (name: string) => void, private readonly keep: () => void) {}
 
   show(mechanism: Mechanism, frame: Frame) {
     const names = JSON.stringify(mechanism.coordinates);
@@ -21,7 +24,9 @@ export class Values {
       this.boxes[i]!.checked = held.has(of.name);
       this.boxes[i]!.disabled = frame.held === null;
     });
-    find("condition").textContent = frame.figures ? `condition number ${frame.figures.shown}` : "";
+    const { figures } = frame;
+    find("condition").textContent = figures ? `condition number ${figures.shown}` : "";
+    find("condition").classList.toggle("poor", figures !== null && !((figures.condition ?? Infinity) < POOR));
   }
 
   private build(mechanism: Mechanism) {
@@ -30,7 +35,8 @@ export class Values {
     const rows = mechanism.coordinates.map((of) => {
       const box = element("input", { type: "checkbox", "aria-label": `hold ${of.name}`, "data-name": of.name });
       box.addEventListener("change", () => {
-        this.hold(mechanism.coordinates.filter((_, i) => this.boxes[i]!.checked).map(({ name }) => name));
+        if (box.checked) this.hold(of.name);
+        else this.keep();
       });
       const cell = element("td", { class: "right" });
       this.boxes.push(box);
