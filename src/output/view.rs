@@ -74,5 +74,6 @@ mod tests {
         let policy = policy.split('"').next().unwrap();
         assert!(policy.starts_with("default-src 'none'; script-src 'sha256-"));
         assert!(!policy.contains("unsafe-inline") && !policy.contains("http"));
+        assert!(PAGE.len() < 2_500_000, "{} bytes", PAGE.len());
     }
 }

@@ -21,9 +21,10 @@ const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base
 
 const worker = await bundled("worker.ts");
 const script = await bundled("main.ts", { WORKER: JSON.stringify(worker) });
+const loader = await bundled("loader.ts");
 const style = readFileSync(join(here, "style.css"), "utf8").trim();
 const csp = [
-  "default-src 'none'", `script-src ${hash(script)} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`,
+  "default-src 'none'", `script-src ${hash(loader)} blob: 'wasm-unsafe-eval'`, `style-src ${hash(style)}`,
   "worker-src blob:", "img-src data: blob:", "base-uri 'none'", "form-action 'none'",
 ].join("; ");
 const packed = (content) => gzipSync(content, { level: 9 }).toString("base64");
@@ -33,8 +34,8 @@ const shipped = ["", "axes"].flatMap((folder) => {
   return names.map((name) => [join(folder, name), readFileSync(join(path, name), "utf8")]);
 });
 const notices = readFileSync(join(here, "LICENSES.txt"), "utf8").replace(/&/g, "&amp;").replace(/</g, "&lt;");
-const parts = { csp, style, script, notices, files: packed(JSON.stringify(shipped)), wasm: packed(readFileSync(wasm)) };
+const parts = { csp, style, loader, script: packed(script), notices, files: packed(JSON.stringify(shipped)), wasm: packed(readFileSync(wasm)) };
 const page = readFileSync(join(here, "page.html.in"), "utf8")
-  .replace(/\{(csp|style|script|notices|files|wasm)\}/g, (_, part) => parts[part]);
+  .replace(/\{(csp|style|loader|script|notices|files|wasm)\}/g, (_, part) => parts[part]);
 writeFileSync(out, page);
-console.log(`page.html: ${page.length} bytes, of which script ${script.length} and solver ${parts.wasm.length}`);
+console.log(`page.html: ${page.length} bytes, of which script ${parts.script.length} and solver ${parts.wasm.length}`);
