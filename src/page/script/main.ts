@@ -111,6 +111,9 @@ class Picture {
   }
 }
 
+const traced = (picture: Picture) =>
+  picture.scenery.traces.flatMap((trace) => trace.points.map((point) => new Vector3(...point)));
+
 async function begin() {
   const module = await WebAssembly.compile(await unpacked("wasm"));
   const model = new Model(await Solver.of(module), new Background(module), say);
@@ -136,6 +139,7 @@ async function begin() {
   });
   new ModeList(model, (scenes) => {
     picture.scenery.ghosts = scenes;
+    if (scenes.length) picture.stage.include(scenes.flatMap(points));
     picture.draw();
   });
   const motion = new Motion(
@@ -145,6 +149,7 @@ async function begin() {
       picture.draw();
     },
     (scene) => picture.instead(scene),
+    (scenes) => picture.stage.include([...scenes.flatMap(points), ...traced(picture)]),
   );
   new Parameters(model);
   new Editor(model);

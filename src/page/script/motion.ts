@@ -17,6 +17,8 @@ export class Motion {
   private rows: Row[] = [];
   private swept: Swept | null = null;
   private playing = 0;
+  /** Whether the end is the beginning. */
+  private round = false;
   private readonly cursor = element("input", { type: "range", min: "0", max: "0", value: "0", id: "cursor", "aria-label": "Place in the motion" });
   private readonly point = element("input", { type: "text", id: "traced", placeholder: "click a body, or e.g. left+0.5", "aria-label": "Traced point" });
   private readonly report = element("input", { type: "text", id: "reported", placeholder: "quantities, e.g. transmission", "aria-label": "Quantities" });
@@ -28,6 +30,7 @@ export class Motion {
     private readonly model: Model,
     private readonly trace: (traces: Trace[]) => void,
     private readonly picture: (scene: Scene | null) => void,
+    private readonly room: (scenes: Scene[]) => void,
   ) {
     const sweep = button("Sweep", () => this.sweep(), { id: "sweep" });
     const play = button("Play", () => this.play(), { id: "play", disabled: "" });
@@ -104,20 +107,25 @@ export class Motion {
     this.swept = first;
     find("motion-said").textContent = motions.map((motion) => motion.sentence).join(" ");
     const columns = motions[0]!.columns;
+    const angle = this.model.mechanism?.coordinates.find((of) => of.name === this.input.value)?.angle ?? false;
     this.plot.columns = columns;
     this.plot.values = values;
     this.plot.marks = this.rows.flatMap((row, i) => (row.special ? [i] : []));
     const chosen = this.quantity.value;
     this.quantity.replaceChildren(...columns.slice(1).map((name, i) => element("option", { value: String(i + 1) }, name)));
     const again = [...this.quantity.options].find((option) => option.textContent === chosen);
+    const wanted = this.report.value.trim() ? columns.length - 1 : -1;
     const free = columns.findIndex((name, i) => i > 0 && !name.startsWith(`${this.input.value} `));
-    this.quantity.value = again?.value ?? String(Math.max(free, 1));
+    this.quantity.value = wanted > 0 ? String(wanted) : (again?.value ?? String(Math.max(free, 1)));
     this.cursor.max = String(this.rows.length - 1);
     for (const shown of [this.cursor, find("plotted"), find("plot")]) shown.hidden = false;
     find("play").removeAttribute("disabled");
     const marks = (point: number) => this.rows.flatMap((row) =>
       row.special && row.points[point] ? [{ at: row.points[point], words: WORDS[row.special.met] ?? row.special.met }] : []);
     this.trace((this.rows[0]?.points ?? []).map((_, k) => ({ points: this.rows.map((row) => row.points[k]!), marks: marks(k) })));
+    const few = this.rows.filter((_, i) => i % Math.ceil(this.rows.length / 24) === 0);
+    this.room(few.map((row) => this.model.scene(row.at)));
+    this.round = motions.length === 1 && (motions[0]!.ending === "closed" || (motions[0]!.ending === "complete" && angle));
     this.to(0);
   }
 
@@ -146,7 +154,10 @@ export class Motion {
     let row = Number(this.cursor.value);
     let forwards = true;
     const step = () => {
-      if (row >= this.rows.length - 1) forwards = false;
+      if (row >= this.rows.length - 1) {
+        if (this.round) row = 0;
+        else forwards = false;
+      }
       if (row <= 0) forwards = true;
       row += forwards ? 1 : -1;
       this.to(row);

@@ -75,16 +75,33 @@ export class Stage {
     this.camera.zoom = 1;
     this.orbit.target.copy(center);
     this.orbit.update();
+    this.frame(points);
+  }
+
+  /** Makes room for points that are not in the picture, seen from where it is seen. */
+  include(points: Vector3[]) {
     this.camera.updateMatrixWorld();
-    // as much as is seen from here, with room for symbols
+    const outside = points.some((point) => {
+      const { x, y } = point.clone().project(this.camera);
+      return Math.max(Math.abs(x), Math.abs(y)) > 0.96;
+    });
+    if (outside) this.frame(points);
+  }
+
+  /** As much as is seen from here, with room for symbols. */
+  private frame(points: Vector3[]) {
+    this.camera.updateMatrixWorld();
+    this.camera.zoom = 1;
+    const { radius } = this.sphere;
     const seen = points.map((point) => point.clone().applyMatrix4(this.camera.matrixWorldInverse));
     const frame = new Box3().setFromPoints(seen.length ? seen : [new Vector3()]);
     const size = frame.getSize(new Vector3());
     const aspect = this.aspect();
     this.half = 0.5 * Math.max(size.y, size.x / aspect, 0.1 * radius) * 1.3 + 0.06 * radius;
     const middle = frame.getCenter(new Vector3()).applyMatrix4(this.camera.matrixWorld);
-    const shift = middle.sub(center);
-    shift.addScaledVector(from, -shift.dot(from) / from.lengthSq());
+    const sight = this.camera.getWorldDirection(new Vector3());
+    const shift = middle.sub(this.orbit.target);
+    shift.addScaledVector(sight, -shift.dot(sight));
     this.orbit.target.add(shift);
     this.camera.position.add(shift);
     this.orbit.update();
