@@ -39,7 +39,7 @@ pub use steering::Steering;
 pub use sweep::Motions;
 pub use workspace::MOST_BYTES;
 
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Configuration, Mechanism};
 use crate::system;
 
 /// A coordinate that moves or is mapped over a range.
@@ -67,6 +67,7 @@ pub struct Question {
     hold: Vec<(String, Value)>,
     free: Vec<String>,
     guess: Vec<(String, Value)>,
+    near: Option<Configuration<f64>>,
     lock: Vec<String>,
     mode: Mode,
     seed: u64,
@@ -89,6 +90,7 @@ impl Question {
             hold: Vec::new(),
             free: Vec::new(),
             guess: Vec::new(),
+            near: None,
             lock: Vec::new(),
             mode: Mode::Nearest,
             seed: 1,
@@ -125,6 +127,12 @@ impl Question {
     /// Starts the search at a value.
     pub fn guess(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
         self.guess.push((name.into(), value.into()));
+        self
+    }
+
+    /// Starts the search at a whole configuration, such as that of a mode; what is held stays where it is held.
+    pub fn near(mut self, at: Configuration<f64>) -> Self {
+        self.near = Some(at);
         self
     }
 
@@ -281,6 +289,9 @@ impl Question {
         for (index, (name, value)) in self.guess.iter().enumerate() {
             question = (question.guess(name, value)).map_err(Role::Guess.named(index))?;
         }
-        Ok(question)
+        Ok(match &self.near {
+            Some(at) => question.near(at),
+            None => question,
+        })
     }
 }

@@ -12,6 +12,7 @@ mod formulas;
 mod frames;
 mod import;
 mod mobility;
+mod pictures;
 mod search;
 mod served;
 mod singularities;

@@ -17,6 +17,7 @@ pub use json::JsonReport;
 pub use report::{Remarks, Report, Rows};
 
 pub mod assemblies;
+pub mod canvas;
 pub mod closing;
 pub mod comparison;
 pub mod complaint;
@@ -24,13 +25,12 @@ pub mod conversion;
 mod coordinates;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
-#[cfg(feature = "plot")]
 pub mod drawing;
 pub mod formulas;
 pub mod frames;
+pub mod glb;
 pub mod mobility;
 pub mod overview;
-#[cfg(feature = "plot")]
 pub mod plot;
 pub mod quantity;
 mod screws;

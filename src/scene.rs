@@ -4,7 +4,11 @@
 //! that carries it, a closure where its frames meet. The shapes have no size or colour of their own: whoever draws
 //! them takes both from the extent of the whole.
 
+mod answers;
 mod links;
+mod motion;
+
+pub(crate) use motion::across;
 
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +32,113 @@ pub struct Scene {
     pub joints: Vec<JointShape>,
     /// The rods of given length.
     pub rods: Vec<Rod>,
+    /// How far joints may go.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub travels: Vec<Travel>,
+    /// Pitch circles of gears.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wheels: Vec<Wheel>,
+    /// Frames that are shown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frames: Vec<Triad>,
+    /// Curves that points trace.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub paths: Vec<Trace>,
+    /// Screws of freedoms gained.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub screws: Vec<Axis>,
+    /// Instant centres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub centres: Vec<Mark>,
+    /// Forces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub arrows: Vec<Arrow>,
+}
+
+/// How far a joint may go from where it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Travel {
+    /// The joint variable.
+    pub joint: String,
+    /// A point of its axis.
+    pub at: Triple,
+    /// Its axis: a unit vector.
+    pub axis: Triple,
+    /// Of a revolute joint the unit vector along the link it moves, perpendicular to the axis; none of a slide.
+    pub arm: Option<Triple>,
+    /// How far it is to the lower and to the upper limit, about or along the axis, in rad or m; negative to go back.
+    pub ends: [f64; 2],
+}
+
+/// The pitch circle of a gear. Of two that turn opposite ways the circles touch from outside, of others one lies in the
+/// other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Wheel {
+    /// The body that it belongs to, as a number in the list of bodies.
+    pub body: usize,
+    /// Its centre.
+    pub at: Triple,
+    /// Its axis: a unit vector.
+    pub axis: Triple,
+    /// Its radius, in m.
+    pub radius: f64,
+}
+
+/// A curve that a point traces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trace {
+    /// The point.
+    pub name: String,
+    /// Its places, one after the other.
+    pub points: Vec<Triple>,
+}
+
+/// A frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Triad {
+    /// Its name.
+    pub name: String,
+    /// Its origin.
+    pub at: Triple,
+    /// Unit vectors along x, y and z.
+    pub axes: [Triple; 3],
+}
+
+/// A line about and along which something moves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// What moves.
+    pub name: String,
+    /// A point of it.
+    pub at: Triple,
+    /// Its unit vector.
+    pub along: Triple,
+    /// Advance for a rotation by 1 rad, in m/rad; `None` of a translation.
+    pub pitch: Option<f64>,
+}
+
+/// A point with a name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// What it is.
+    pub name: String,
+    /// Where it is.
+    pub at: Triple,
+}
+
+/// A force or a moment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Arrow {
+    /// The frame that is loaded, or the joint or closure that passes it on.
+    pub name: String,
+    /// Whether it is applied; otherwise it is a reaction.
+    pub applied: bool,
+    /// The point it acts at.
+    pub at: Triple,
+    /// Force in N.
+    pub force: Triple,
+    /// Moment in N·m.
+    pub moment: Triple,
 }
 
 /// A rigid body.
@@ -121,6 +232,13 @@ impl Scene {
                 .collect(),
             joints: Vec::new(),
             rods: Vec::new(),
+            travels: Vec::new(),
+            wheels: Vec::new(),
+            frames: Vec::new(),
+            paths: Vec::new(),
+            screws: Vec::new(),
+            centres: Vec::new(),
+            arrows: Vec::new(),
         };
         for chain in 0..mechanism.chains().len() {
             scene.chain(mechanism, chain, &pose, &number);
@@ -150,7 +268,24 @@ impl Scene {
                 ));
             }
         }
+        scene.travels(mechanism, at, &pose);
+        scene.gears(mechanism, &pose, &number);
         scene
+    }
+
+    /// Adds the frames of chains and platforms that have names of their own.
+    #[must_use]
+    pub fn with_frames(mut self, mechanism: &Mechanism, at: &Configuration<f64>) -> Self {
+        let frames = mechanism.frames().into_iter();
+        self.frames.extend(frames.map(|frame| {
+            let pose = mechanism.transform(Frame::Ground, frame, at);
+            Triad {
+                name: mechanism.frame_name(frame),
+                at: pose.position.0,
+                axes: pose.rotation.0.map(|axis| axis.0),
+            }
+        }));
+        self
     }
 
     /// Every point from which something is drawn.
@@ -159,7 +294,20 @@ impl Scene {
         let bodies = bodies.flat_map(|body| body.lines.iter().flatten().chain(&body.corners));
         let rods = self.rods.iter().flat_map(|rod| &rod.ends);
         let joints = self.joints.iter().map(|joint| &joint.at);
-        bodies.chain(rods).chain(joints).copied().collect()
+        let traced = self.paths.iter().flat_map(|path| &path.points);
+        let wheels = self.wheels.iter().flat_map(Wheel::points);
+        let centres = self.centres.iter().map(|centre| &centre.at);
+        let all = bodies
+            .chain(rods)
+            .chain(joints)
+            .chain(traced)
+            .chain(centres);
+        let slides = self.travels.iter().filter(|travel| travel.arm.is_none());
+        let ends = slides.flat_map(|travel| {
+            let (at, axis) = (Vector3(travel.at), Vector3(travel.axis));
+            travel.ends.map(|end| (at + axis.times(end)).0)
+        });
+        all.copied().chain(wheels).chain(ends).collect()
     }
 
     fn attach(&mut self, body: usize, at: Vector3<f64>) {

@@ -124,11 +124,45 @@ fn shortened<'a>(printed: &'a str, before: &[&str]) -> Vec<&'a str> {
     }
 }
 
-/// The picture on a page that a command draws.
-fn picture(command: &str) -> Option<&str> {
-    let mut words = command.split(' ');
-    words.find(|&word| word == "--svg")?;
-    words.next().filter(|path| path.starts_with(GUIDE))
+/// The files on the pages that a command draws.
+fn pictures(command: &str) -> Vec<&str> {
+    let words: Vec<&str> = command.split(' ').collect();
+    let options = ["--svg", "--png", "--animate", "--glb"];
+    let given = words.windows(2).filter(|pair| options.contains(&pair[0]));
+    let paths = given.map(|pair| pair[1]);
+    paths.filter(|path| path.starts_with(GUIDE)).collect()
+}
+
+/// Whether two files show the same: text to the letter, painted pictures in their size and in being more than paper.
+fn same_picture(path: &str, drawn: &Path) -> bool {
+    let [shown, drawn] = [&root().join(path), drawn].map(|path| fs::read(path).unwrap());
+    match path.rsplit('.').next() {
+        Some("png") => {
+            let [shown, drawn] = [shown, drawn].map(|bytes| {
+                let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+                let mut reader = decoder.read_info().unwrap();
+                let mut dots = vec![0; reader.output_buffer_size().unwrap()];
+                let info = reader.next_frame(&mut dots).unwrap();
+                let inked = dots.iter().filter(|part| **part < 200).count();
+                (info.width, info.height, inked > dots.len() / 200)
+            });
+            shown == drawn && shown.2
+        }
+        Some("gif") => {
+            let [shown, drawn] = [shown, drawn].map(|bytes| {
+                let mut decoder = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+                let mut frames = 0;
+                while let Some(frame) = decoder.read_next_frame().unwrap() {
+                    let first = frame.buffer[0];
+                    let inked = frame.buffer.iter().filter(|dot| **dot != first).count();
+                    frames += usize::from(inked > frame.buffer.len() / 200);
+                }
+                (decoder.width(), decoder.height(), frames)
+            });
+            shown == drawn && shown.2 > 1
+        }
+        _ => shown == drawn,
+    }
 }
 
 #[test]
@@ -148,19 +182,23 @@ fn commands_print_what_the_pages_show() {
                     continue;
                 }
                 count += 1;
-                let picture = picture(command);
-                let there = drawn.path().join("picture.svg");
-                let printed = match picture {
-                    Some(path) if !update => run(&command.replace(path, there.to_str().unwrap())),
-                    _ => run(command),
+                let pictures = if update {
+                    Vec::new()
+                } else {
+                    pictures(command)
                 };
+                let there = |path: &str| drawn.path().join(Path::new(path).file_name().unwrap());
+                let replaced = pictures.iter().fold(command.to_owned(), |command, path| {
+                    command.replace(path, there(path).to_str().unwrap())
+                });
+                let printed = run(&replaced);
                 let shortened = shortened(&printed, &shown);
                 text.extend(shortened.iter().map(|line| format!("{line}\n")));
                 if !update {
                     assert_eq!(shown, shortened, "{name}: {command}");
                 }
-                if let (Some(path), false) = (picture, update) {
-                    let same = read(path) == fs::read_to_string(there).unwrap();
+                for path in pictures {
+                    let same = same_picture(path, &there(path));
                     assert!(same, "{command} draws another picture");
                 }
             }
@@ -218,7 +256,7 @@ fn files_on_the_pages_are_read_and_assemble() {
 
 #[test]
 fn files_named_on_the_pages_exist() {
-    let ends = [".ron", ".rs", ".md", ".svg", ".urdf"];
+    let ends = [".ron", ".rs", ".md", ".svg", ".png", ".gif", ".urdf"];
     for name in pages() {
         let page = read(&name);
         let words = page.split(|c: char| c.is_whitespace() || "`()[],".contains(c));

@@ -52,6 +52,8 @@ pub struct SweepSettings {
     pub pace: Pace,
     /// Points whose path is wanted.
     pub points: Vec<Point>,
+    /// Whether rows are also wanted so near to one another, whatever the steps, that a line through them looks smooth.
+    pub between: bool,
 }
 
 impl Default for SweepSettings {
@@ -62,6 +64,7 @@ impl Default for SweepSettings {
             continuation: Continuation::default(),
             pace: Pace::default(),
             points: Vec::new(),
+            between: false,
         }
     }
 }
@@ -81,6 +84,8 @@ pub struct Row<'a> {
     pub quantities: &'a [Option<f64>],
     /// What is special here: what was met in this very place.
     pub special: Option<&'a MetKind>,
+    /// Whether it only stands between the rows that were asked for; it has the number of the next.
+    pub between: bool,
 }
 
 /// What takes the rows as they come.
@@ -256,6 +261,9 @@ pub fn sweep(
         trail.reach(&leg.to, None);
         rows.between(curve, from, &leg.to, sink)
             .map_break(stopped)?;
+        if settings.between {
+            rows.passed(&leg.to, sink).map_break(stopped)?;
+        }
         length = leg.gone_at(curve, &leg.to);
         // an end that was passed unseen is worse than one that was not reached
         match (-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {

@@ -78,6 +78,13 @@ impl Motions<'_> {
         self.settings.pace.law.inverse(part.clamp(0.0, 1.0))
     }
 
+    /// The same with rows between those asked for, so near to one another that a line through them looks smooth.
+    #[must_use]
+    pub fn smooth(mut self, smooth: bool) -> Self {
+        self.settings.between = smooth;
+        self
+    }
+
     /// Moves from every start and keeps no more than `most` rows of each motion. All rows go to `sink` as they are
     /// found, with the number of their mode.
     pub fn report(
@@ -91,7 +98,9 @@ impl Motions<'_> {
         for (mode, start) in &self.starts {
             let mut rows = KeptRows::of(most);
             let mut take = |row: &Row| {
-                rows.take(&columns, row);
+                if !row.between {
+                    rows.take(&columns, row);
+                }
                 sink(*mode, row);
             };
             let (sweep, extremes) = self.measured(start, &mut take, watch);
@@ -149,7 +158,9 @@ impl Motions<'_> {
                 .step
                 .map_or_else(|| self.time(at), |step| step as f64 / steps);
             let found = meter.read(at, time);
-            extremes.take(at, found);
+            if !row.between {
+                extremes.take(at, found);
+            }
             values.clear();
             values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
             values.extend_from_slice(found);
@@ -258,6 +269,36 @@ impl Question {
             inputs,
             starts: self.starts(&question, watch)?,
         })
+    }
+
+    /// The motion along the whole curve through an assembled configuration, whatever moves it: driven joints that are
+    /// held there are let go. Rows trace the question's points.
+    ///
+    /// # Errors
+    /// If the question is wrong or leaves another number of freedoms.
+    pub fn through(
+        &self,
+        at: &Configuration<f64>,
+        sink: &mut Sink,
+        watch: &Watch,
+    ) -> Result<SweepReport, AskError> {
+        let mut asked = self.clone();
+        if let Err(AskError::NothingLeft { .. }) = asked.one_freedom() {
+            let joints = self.mechanism.joints();
+            let driven = |name: &str| {
+                let joint = self.mechanism.joint(name);
+                joint.is_some_and(|joint| joints[joint].role == description::Role::Actuated)
+            };
+            asked.hold.retain(|(name, _)| !driven(name));
+        }
+        let question = asked.one_freedom()?.with_spins_still();
+        let held = question.with_still(question.held());
+        let settings = SweepSettings {
+            points: self.asked_points()?,
+            follow: true,
+            ..SweepSettings::default()
+        };
+        Ok(follow(&self.mechanism, &held, at, &settings, sink, watch))
     }
 
     /// All circuits and branches of a mechanism with one freedom, with the cusps and double points of the paths of the

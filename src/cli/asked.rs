@@ -72,6 +72,11 @@ pub struct Forces {
 }
 
 impl Forces {
+    /// Whether there are any.
+    pub fn are_given(&self) -> bool {
+        !self.wrench.is_empty() || !self.load.is_empty()
+    }
+
     /// Puts the forces into a question.
     pub fn pose<'o>(&'o self, posed: &mut Posed<'o>) {
         posed.values(

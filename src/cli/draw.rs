@@ -3,24 +3,34 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::ask::{Mode, Question};
-use linkwork::output::drawing::{DrawingSettings, View, svg};
-use linkwork::scene::Scene;
+use linkwork::analysis::singularities::SingularitiesSettings;
+use linkwork::analysis::sweep::Row;
+use linkwork::ask::{Mode, Question, Role};
+use linkwork::description::listed;
+use linkwork::mechanism::Configuration;
+use linkwork::output::drawing::{DrawingSettings, Panel, View, sheet};
+use linkwork::output::glb::glb;
+use linkwork::output::sweep::sentence;
+use linkwork::scene::{Scene, Trace};
 
-use super::asked::Asked;
+use super::asked::{Asked, Forces, Posed};
+use super::pictures::{keep, view};
 use super::search::{Search, mode};
 use super::source::Source;
-use super::written::written;
-use super::{Answer, Refusal};
+use super::{Answer, Refusal, lines};
 
-/// Draw the assembled mechanism as SVG.
+/// Draw the assembled mechanism as SVG, PNG or GLB.
 ///
 /// A planar mechanism is drawn in its plane as a kinematic diagram: pins, sliders in their guides, ground hatched,
-/// driven joints filled. A spatial one is seen isometrically, or from where --view says.
+/// driven joints filled, gears by their pitch circles. A spatial one is seen isometrically, or from where --view says.
+/// Forces given by --wrench or --load are drawn with what joints and closures pass on.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork draw mechanisms/four_bar.ron --hold theta1=\"60 deg\" --labels --svg four_bar.svg\n  \
-    linkwork draw mechanisms/three_rps.ron --all-modes --svg modes.svg")]
+    linkwork draw mechanisms/four_bar.ron --trace left+-1.5,1 --png curve.png\n  \
+    linkwork draw mechanisms/three_rps.ron --all-modes --svg modes.svg\n  \
+    linkwork draw mechanisms/four_bar.ron --wrench left=0,-10,0 --svg forces.svg\n  \
+    linkwork draw mechanisms/stewart_gough_6ups.ron --glb stewart.glb")]
 pub struct Draw {
     #[command(flatten)]
     source: Source,
@@ -32,62 +42,172 @@ pub struct Draw {
     /// Draw every assembly mode, to one scale
     #[arg(long, conflicts_with = "mode")]
     all_modes: bool,
+    /// Draw the other modes faintly behind
+    #[arg(long, conflicts_with = "all_modes")]
+    ghosts: bool,
+    /// Trace a frame's origin, or a point beside it in its axes, e.g. --trace left+0.5,0.2: its path over the whole motion
+    /// of a mechanism with one freedom, driven joints moving
+    #[arg(long, value_name = "FRAME[+X,Y,Z]")]
+    trace: Vec<String>,
     /// From where: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
     #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
     view: Option<View>,
     /// Name joints, rods and platforms
     #[arg(long)]
     labels: bool,
+    /// Draw the frames with x red, y green, z blue
+    #[arg(long)]
+    frames: bool,
+    /// Draw how far joints may go
+    #[arg(long)]
+    limits: bool,
+    /// Mark the instant centres of a planar mechanism
+    #[arg(long)]
+    centres: bool,
+    /// Draw the axes of freedoms gained at a singular configuration
+    #[arg(long)]
+    screws: bool,
+    #[command(flatten)]
+    forces: Forces,
     #[command(flatten)]
     search: Search,
     /// Write the picture to a file, not to stdout
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-}
-
-fn view(text: &str) -> Result<View, String> {
-    let angle = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-    match text {
-        "iso" => Ok(View::Isometric),
-        "front" => Ok(View::Front),
-        "top" => Ok(View::Top),
-        _ => (text.split_once(','))
-            .and_then(|(azimuth, elevation)| Some((angle(azimuth)?, angle(elevation)?)))
-            .map(|(azimuth, elevation)| View::From(azimuth.to_radians(), elevation.to_radians()))
-            .ok_or_else(|| {
-                "a view is `iso`, `front`, `top`, or azimuth and elevation in degrees, as 30,20"
-                    .into()
-            }),
-    }
+    /// Write it painted, two dots for a pixel
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+    /// Write the mechanism as a solid for Blender, presentations and model viewers
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["all_modes", "ghosts"])]
+    glb: Option<PathBuf>,
 }
 
 impl Draw {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
+        posed.names(Role::Point, "--trace", &self.trace, Question::point);
+        self.forces.pose(&mut posed);
         posed.mode(self.mode);
-        if self.all_modes {
+        if self.all_modes || self.ghosts {
             posed.ask_with(|question| question.mode(Mode::All));
         }
         let modes = posed.ask(Question::configurations)?;
-        let mechanism = &posed.loaded.mechanism;
-        let scenes: Vec<(String, Scene)> = (modes.iter())
-            .map(|(mode, at)| {
-                let title = match mode {
-                    Some(mode) => format!("{}: mode {mode}", mechanism.name()),
-                    None => mechanism.name().to_owned(),
+        let name = posed.loaded.mechanism.name();
+        let title = |mode: Option<usize>| match mode {
+            Some(mode) => format!("{name}: mode {mode}"),
+            None => name.to_owned(),
+        };
+        let mut notes = Vec::new();
+        let mut scene = |at: &Configuration<f64>| self.scene(&posed, at, &mut notes);
+        let panels: Vec<Panel> = match self.ghosts {
+            true => {
+                let shown = self.mode.unwrap_or(1);
+                let main = modes.iter().position(|(mode, _)| *mode == Some(shown));
+                let Some(main) = main else {
+                    // the question for that mode alone says what is wrong
+                    posed.mode(self.mode);
+                    posed.ask(Question::configurations)?;
+                    return Err(Refusal(format!("error: there is no mode {shown}\n")));
                 };
-                (title, Scene::of(mechanism, at))
-            })
-            .collect();
+                let others = modes.iter().enumerate().filter(|(i, _)| *i != main);
+                vec![Panel {
+                    title: title(modes[main].0),
+                    scene: scene(&modes[main].1)?,
+                    ghosts: others
+                        .map(|(_, (_, at))| Scene::of(&posed.loaded.mechanism, at))
+                        .collect(),
+                }]
+            }
+            false => {
+                let panels = modes.iter().map(|(mode, at)| {
+                    Ok(Panel {
+                        title: title(*mode),
+                        scene: scene(at)?,
+                        ghosts: Vec::new(),
+                    })
+                });
+                panels.collect::<Result<_, Refusal>>()?
+            }
+        };
         let settings = DrawingSettings {
             view: self.view.unwrap_or_default(),
             labels: self.labels,
         };
+        let picture = sheet(&panels, &settings);
+        keep(self.svg.as_deref(), || picture.svg().into_bytes())?;
+        keep(self.png.as_deref(), || picture.png())?;
+        keep(self.glb.as_deref(), || glb(&[panels[0].scene.clone()], 0.0))?;
+        let kept = [&self.svg, &self.png, &self.glb].into_iter().flatten();
         Ok(Answer {
-            data: written(svg(&scenes, &settings), self.svg.as_deref())?,
-            remarks: String::new(),
+            data: match kept.count() {
+                0 => picture.svg(),
+                _ => String::new(),
+            },
+            remarks: lines("note", notes),
             yes: true,
         })
+    }
+
+    /// A configuration with what is asked for beside it.
+    fn scene(
+        &self,
+        posed: &Posed,
+        at: &Configuration<f64>,
+        notes: &mut Vec<String>,
+    ) -> Result<Scene, Refusal> {
+        let mechanism = &posed.loaded.mechanism;
+        let mut scene = Scene::of(mechanism, at);
+        if !self.limits {
+            scene.travels.clear();
+        }
+        if self.frames {
+            scene = scene.with_frames(mechanism, at);
+        }
+        if !self.trace.is_empty() {
+            let mut paths: Vec<Trace> = (self.trace.iter())
+                .map(|name| Trace {
+                    name: name.clone(),
+                    points: Vec::new(),
+                })
+                .collect();
+            let report = posed.ask(|question, watch| {
+                let mut sink = |row: &Row| {
+                    for (path, point) in paths.iter_mut().zip(row.points) {
+                        path.points.push(*point);
+                    }
+                };
+                question.through(at, &mut sink, watch)
+            })?;
+            if !report.ending.is_whole() {
+                notes.push(sentence(&report));
+            }
+            scene.paths = paths;
+        }
+        let here = posed.question.clone().near(at.clone()).mode(Mode::Nearest);
+        if self.centres {
+            let report = posed.ask(|_, watch| here.velocity(watch))?;
+            scene = report
+                .closed()
+                .map_or(scene.clone(), |report| scene.with_centres(&report));
+        }
+        if self.screws {
+            let settings = SingularitiesSettings::default();
+            let report = posed.ask(|_, watch| here.singularities(&settings, watch))?;
+            scene = report
+                .closed()
+                .map_or(scene.clone(), |report| scene.with_gained(&report));
+        }
+        if self.forces.are_given() {
+            let report = posed.ask(|_, watch| here.statics(watch))?;
+            if let Some(report) = report.closed() {
+                if !report.balanced {
+                    let moved = listed(&report.unbalanced);
+                    notes.push(format!("nothing balances the load: {moved} would move"));
+                }
+                scene = scene.with_forces(mechanism, at, &report);
+            }
+        }
+        Ok(scene)
     }
 }

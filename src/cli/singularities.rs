@@ -85,7 +85,7 @@ impl Singularities {
         posed.ranges(Ranges::Locus, &self.locus)?;
         let report = posed.ask(|question, watch| question.loci(&settings, watch))?;
         if let Some(path) = &self.svg {
-            save(path, &output::svg(&report))?;
+            save(path, output::svg(&report).as_bytes())?;
         }
         posed.loaded.answer(self.format, &report)
     }

@@ -137,7 +137,7 @@ impl ask::Store for Store {
 
     fn keep(&self, generic: &GenericSolutions) {
         // the answer is not lost with its store
-        if let Err(error) = replace(&self.place, &generic.to_text()) {
+        if let Err(error) = replace(&self.place, generic.to_text().as_bytes()) {
             say(&format!(
                 "warning: the solutions could not be stored in {}: {error}\n",
                 self.path.display()

@@ -7,11 +7,15 @@ use clap::builder::TypedValueParser;
 use linkwork::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::output::Report;
+use linkwork::output::canvas::gif;
 use linkwork::output::csv::Csv;
+use linkwork::output::drawing::{DrawingSettings, View, frames};
+use linkwork::output::glb::glb;
 use linkwork::output::sweep::{Picture, row_columns, row_values, worded};
 
 use super::asked::{Asked, Forces, Posed, Ranges};
 use super::format::{Format, with_rows};
+use super::pictures::{LASTS, keep, view};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
@@ -33,6 +37,7 @@ use super::{Answer, Refusal, lines, style};
     linkwork sweep mechanisms/three_rps.ron --input l1=0.6..0.8 --input l2=0.6..0.7 --mode 3\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=60deg..90deg --guess phi1=\"-130 deg\"\n  \
     linkwork sweep mechanisms/slider_crank.ron --follow --svg slider.svg\n  \
+    linkwork sweep mechanisms/jansen_leg.ron --input theta=0deg..360deg --animate leg.gif\n  \
     linkwork sweep mechanisms/four_bar.ron --circuits")]
 pub struct Sweep {
     #[command(flatten)]
@@ -57,7 +62,7 @@ pub struct Sweep {
     follow: bool,
     /// List all circuits and branches of a mechanism with one freedom; a coordinate of a platform is the input where no
     /// joint moves
-    #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "guess", "svg"])]
+    #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "guess", "animate", "glb"])]
     circuits: bool,
     /// Trace a frame's origin, or a point beside it in its axes, e.g. --of left+0.5,0.2: its path with cusps and double
     /// points; with --circuits over all of them
@@ -86,9 +91,22 @@ pub struct Sweep {
     /// How to write the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
-    /// Draw the traced paths and the quantities, or else the joints over the input, to a file
+    /// Draw the mechanism in several places with the traced paths, then the quantities or else the joints over the input,
+    /// to a file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same picture painted, two dots for a pixel
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+    /// Draw the mechanism moving, as an animated GIF of 4 s, there and back if the motion does not close
+    #[arg(long, value_name = "FILE")]
+    animate: Option<PathBuf>,
+    /// The same as a solid with an animation for Blender, presentations and model viewers
+    #[arg(long, value_name = "FILE")]
+    glb: Option<PathBuf>,
+    /// From where: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
+    #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
+    view: Option<View>,
 }
 
 /// The laws by their names.
@@ -115,9 +133,55 @@ impl Sweep {
             posed.ask_with(|question| question.mode(Mode::All));
         }
         match self.circuits {
-            true => posed.answer(self.format, Question::circuits),
+            true => self.circuits(&posed),
             false => self.moved(&posed),
         }
+    }
+
+    fn circuits(&self, posed: &Posed) -> Result<Answer, Refusal> {
+        let report = posed.ask(Question::circuits)?;
+        self.keep(
+            posed,
+            &Picture::of_circuits(&posed.loaded.mechanism, &report),
+        )?;
+        posed.loaded.answer(self.format, &report)
+    }
+
+    /// Whether the motion is drawn.
+    fn is_drawn(&self) -> bool {
+        let files = [&self.svg, &self.png, &self.animate, &self.glb];
+        files.into_iter().any(Option::is_some)
+    }
+
+    /// Keeps the pictures that are asked for.
+    fn keep(&self, posed: &Posed, picture: &Picture) -> Result<(), Refusal> {
+        let mechanism = &posed.loaded.mechanism;
+        let drawn = || picture.drawn(mechanism, self.view);
+        keep(self.svg.as_deref(), || drawn().svg().into_bytes())?;
+        keep(self.png.as_deref(), || drawn().png())?;
+        let places = || picture.scenes(mechanism).into_iter();
+        keep(self.glb.as_deref(), || {
+            glb(&places().map(|(_, scene)| scene).collect::<Vec<_>>(), LASTS)
+        })?;
+        let Some(path) = &self.animate else {
+            return Ok(());
+        };
+        let title = |mode: Option<usize>| match mode {
+            Some(mode) => format!("{}: mode {mode}", mechanism.name()),
+            None => mechanism.name().to_owned(),
+        };
+        let scenes: Vec<_> = places().map(|(mode, scene)| (title(mode), scene)).collect();
+        let settings = DrawingSettings {
+            view: self.view.unwrap_or_default(),
+            labels: false,
+        };
+        let hundredths = (100.0 * LASTS / scenes.len().max(1) as f64).round() as u16;
+        let moving = gif(&frames(scenes, &settings), hundredths.max(2));
+        let moving = moving.map_err(|error| {
+            let path = path.display();
+            Refusal(format!("error: {path} cannot be written: {error}\n"))
+        })?;
+        save(path, &moving)
     }
 
     fn moved(&self, posed: &Posed) -> Result<Answer, Refusal> {
@@ -135,16 +199,17 @@ impl Sweep {
             ..SweepSettings::default()
         };
         let all = posed.ask(|question, watch| question.motions(&settings, watch))?;
+        let all = all.smooth(self.is_drawn());
         let (mechanism, columns) = (&*posed.loaded.mechanism, all.columns());
         let quantities = all.quantities();
         let mut picture = Picture::new(mechanism, &all.inputs, all.points(), &quantities);
         let out = Lines::new(self.format == Format::Csv);
         let mut csv = Csv::new(out, row_columns(&columns)).map_err(unwritten)?;
         let mut sink = |mode: Option<usize>, row: &Row| {
-            if self.svg.is_some() {
+            if self.is_drawn() {
                 picture.take(mechanism, mode, row);
             }
-            if self.format == Format::Csv {
+            if self.format == Format::Csv && !row.between {
                 // lines keep what goes wrong
                 let _ = csv.row(row_values(&columns, mode, row));
             }
@@ -156,10 +221,8 @@ impl Sweep {
         };
         let report = worded(watched(|watch| all.report(kept, &mut sink, watch)));
         csv.finish().map_err(unwritten)?.finish()?;
-        if let Some(path) = &self.svg {
-            picture.crossed(&report);
-            save(path, &picture.svg())?;
-        }
+        picture.crossed(&report);
+        self.keep(posed, &picture)?;
         let unfinished = report.motions.iter().filter(|m| !m.sweep.ending.is_whole());
         let unfinished = unfinished.filter(|_| self.format == Format::Csv);
         let unfinished = unfinished.map(|motion| match motion.mode {

@@ -157,7 +157,7 @@ pub fn complaint(
                 let more = mobility.saturating_sub(held + 1);
                 let most = hold.len().min(more);
                 said.help(format!(
-                    "hold {} more, e.g. {}; or prescribe the inputs with --input",
+                    "hold {} more, e.g. {}; or prescribe the inputs with `linkwork sweep --input`",
                     count(more, "coordinate"),
                     hold_released(&hold[..most])
                 ))

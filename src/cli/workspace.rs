@@ -80,7 +80,7 @@ impl Workspace {
         let report = posed.ask(|question, watch| question.workspace(&settings, watch))?;
         let mut drawn = String::new();
         if let Some(path) = &self.svg {
-            save(path, &output::svg(&report))?;
+            save(path, output::svg(&report).as_bytes())?;
             let part = output::left_out(&report);
             let part = part.map(|part| format!("{part} in {}", path.display()));
             drawn = lines("note", part);

@@ -100,10 +100,10 @@ pub fn beside(path: &Path) -> PathBuf {
 }
 
 /// Writes beside a file and then puts it in its place, so that it is never half written.
-pub fn replace(path: &Path, text: &str) -> io::Result<()> {
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let beside = beside(path);
     let written = File::create(&beside).and_then(|mut file| {
-        file.write_all(text.as_bytes())?;
+        file.write_all(bytes)?;
         file.sync_all()?;
         std::fs::rename(&beside, path)
     });
@@ -114,21 +114,24 @@ pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     written
 }
 
-/// The same where there is no answer without it.
-pub fn save(path: &Path, text: &str) -> Result<(), Refusal> {
-    replace(path, text).map_err(|error| not_written(path, error))
+/// The same where there is no answer without it. What is there already and no ordinary file, such as a device, is
+/// written to.
+pub fn save(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
+    let written = match std::fs::metadata(path) {
+        Ok(there) if !there.is_file() => std::fs::write(path, bytes),
+        _ => replace(path, bytes),
+    };
+    written.map_err(|error| {
+        let path = path.display();
+        Refusal(format!("error: {path} cannot be written: {error}\n"))
+    })
 }
 
-fn not_written(path: &Path, error: io::Error) -> Refusal {
-    let path = path.display();
-    Refusal(format!("error: {path} cannot be written: {error}\n"))
-}
-
-/// What goes to stdout of a text: all, or nothing where it is written to a file, which may be a device.
+/// What goes to stdout of a text: all, or nothing where it is written to a file.
 pub fn written(text: String, file: Option<&Path>) -> Result<String, Refusal> {
     let Some(path) = file else {
         return Ok(text);
     };
-    std::fs::write(path, text).map_err(|error| not_written(path, error))?;
+    save(path, text.as_bytes())?;
     Ok(String::new())
 }

@@ -1,20 +1,19 @@
-//! A scene as SVG: bodies as lines and plates, joints by the symbols of the field, in orthographic projection.
+//! A scene as a picture: bodies as lines and plates, joints by the symbols of the field, in orthographic projection.
 //!
 //! A planar mechanism is seen along the normal of its plane and drawn as a kinematic diagram: pins, sliders in guides,
 //! ground hatched. A spatial one is drawn from the back to the front, with joints as small solids.
 
+mod beside;
 mod camera;
 mod labels;
 mod symbols;
 
+pub(crate) use camera::Camera;
 pub use camera::View;
 
-use svg::Document;
-use svg::node::element::{Line, Polygon, Polyline, Rectangle, Text};
-
+use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
 use crate::geometry::Vector3;
 use crate::scene::{BodyShape, Scene, Triple};
-use camera::Camera;
 use labels::Labels;
 
 /// How a scene is drawn.
@@ -26,111 +25,164 @@ pub struct DrawingSettings {
     pub labels: bool,
 }
 
+/// A scene with what is drawn faintly behind it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What stands above it.
+    pub title: String,
+    /// What is seen.
+    pub scene: Scene,
+    /// The same mechanism in other places.
+    pub ghosts: Vec<Scene>,
+}
+
 /// Size of a picture in pixels, and the room around what is drawn.
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 520.0;
 const MARGIN: f64 = 60.0;
 /// Pictures side by side, where there are several.
 const COLUMNS: usize = 3;
+/// How much of the colour of what is behind is left.
+const FAINT: f64 = 0.3;
 
 /// Colours that people with any colour vision tell apart, from M. Okabe and K. Ito 2008.
-const COLOURS: [&str; 6] = [
-    "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#8a7a2a",
+pub(crate) const COLOURS: [Colour; 6] = [
+    Colour(0x0072B2),
+    Colour(0x009E73),
+    Colour(0xCC79A7),
+    Colour(0x56B4E9),
+    Colour(0xD55E00),
+    Colour(0x8a7a2a),
 ];
-const GROUND: &str = "#666666";
-const INK: &str = "#222222";
-const DRIVEN: &str = "#E69F00";
-
-type Pixel = (f64, f64);
+pub(crate) const GROUND: Colour = Colour(0x666666);
+pub(crate) const DRIVEN: Colour = Colour(0xE69F00);
+pub(crate) const PATH: Colour = Colour(0xD55E00);
 
 /// Something drawn. In the plane what is of a higher layer covers what is of a lower one; in space what is nearer to the
 /// viewer, in m, covers what is farther.
 struct Piece {
     layer: Layer,
     near: f64,
-    element: Element,
+    shape: Shape,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Layer {
+    Under,
     Body,
+    Path,
     Ground,
     Slide,
     Pin,
 }
 
-enum Element {
-    Polygon(Polygon),
-    Polyline(Polyline),
+/// Scenes with their titles as one picture, all to the same scale.
+pub fn sheet(panels: &[Panel], settings: &DrawingSettings) -> Canvas {
+    let columns = panels.len().clamp(1, COLUMNS);
+    let rows = panels.len().div_ceil(columns);
+    let mut canvas = Canvas {
+        width: columns as f64 * WIDTH,
+        height: rows as f64 * HEIGHT,
+        shapes: Vec::new(),
+    };
+    let fits = panels.iter().map(|panel| {
+        let camera = Camera::new(settings.view, panel.scene.normal);
+        Fit::of(&camera, std::iter::once(&panel.scene).chain(&panel.ghosts))
+    });
+    let fits: Vec<Fit> = fits.collect();
+    let scale = fits.iter().map(|fit| fit.scale);
+    let scale = scale.fold(f64::INFINITY, f64::min);
+    for (i, (panel, fit)) in panels.iter().zip(fits).enumerate() {
+        let corner = ((i % columns) as f64 * WIDTH, (i / columns) as f64 * HEIGHT);
+        let fit = Fit { scale, ..fit };
+        canvas
+            .shapes
+            .extend(draw(panel, settings, corner, fit, None));
+    }
+    canvas
 }
 
-/// Scenes with their titles as one picture, all to the same scale.
-pub fn svg(scenes: &[(String, Scene)], settings: &DrawingSettings) -> String {
-    let columns = scenes.len().clamp(1, COLUMNS);
-    let rows = scenes.len().div_ceil(columns);
-    let (width, height) = (columns as f64 * WIDTH, rows as f64 * HEIGHT);
-    let mut document = Document::new()
-        .set("width", width)
-        .set("height", height)
-        .set("viewBox", (0, 0, width, height))
-        .set("font-family", "sans-serif")
-        .set("stroke-linejoin", "round")
-        .set("stroke-linecap", "round")
-        .add(
-            Rectangle::new()
-                .set("width", width)
-                .set("height", height)
-                .set("fill", "#ffffff"),
-        );
-    let scale = scenes.iter().map(|(_, scene)| {
-        let camera = Camera::new(settings.view, scene.normal);
-        fit(&camera, scene).1
-    });
-    let scale = scale.fold(f64::INFINITY, f64::min);
-    for (i, (title, scene)) in scenes.iter().enumerate() {
-        let corner = ((i % columns) as f64 * WIDTH, (i / columns) as f64 * HEIGHT);
-        document = draw(document, scene, title, settings, corner, scale);
-    }
-    document.to_string()
+/// The same mechanism in one configuration after the other with their titles, seen from one place.
+pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<Canvas> {
+    let Some((_, first)) = scenes.first() else {
+        return Vec::new();
+    };
+    let camera = Camera::new(settings.view, first.normal);
+    let fit = Fit::of(&camera, scenes.iter().map(|(_, scene)| scene));
+    let mut size = None;
+    let frame = |(title, scene): (String, Scene)| {
+        let panel = Panel {
+            title,
+            scene,
+            ghosts: Vec::new(),
+        };
+        let size = *size
+            .get_or_insert_with(|| Stage::new(&panel.scene, settings.view, fit, (0.0, 0.0)).size);
+        Canvas {
+            width: WIDTH,
+            height: HEIGHT,
+            shapes: draw(&panel, settings, (0.0, 0.0), fit, Some(size)),
+        }
+    };
+    scenes.into_iter().map(frame).collect()
 }
 
 /// The middle of what is seen, in m across and up, and how many pixels a metre may take.
-fn fit(camera: &Camera, scene: &Scene) -> (Pixel, f64) {
-    let points = scene.points();
-    let bounds = |of: fn(&(f64, f64, f64)) -> f64| {
-        let seen = points.iter().map(|point| of(&camera.project(point)));
-        seen.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        })
-    };
-    let (across, up) = (bounds(|p| p.0), bounds(|p| p.1));
-    if points.is_empty() {
-        return ((0.0, 0.0), 1.0);
-    }
-    let room = |(low, high): (f64, f64), pixels: f64| (pixels - 2.0 * MARGIN) / (high - low);
-    let scale = room(across, WIDTH).min(room(up, HEIGHT));
-    let middle = (0.5 * (across.0 + across.1), 0.5 * (up.0 + up.1));
-    (middle, if scale.is_finite() { scale } else { 1.0 })
+#[derive(Clone, Copy)]
+pub(crate) struct Fit {
+    pub middle: (f64, f64),
+    pub scale: f64,
 }
 
-/// What is drawn and where: a scene on its part of the sheet.
-struct Sheet<'s> {
+impl Fit {
+    fn of<'s>(camera: &Camera, scenes: impl IntoIterator<Item = &'s Scene>) -> Self {
+        let points: Vec<Triple> = scenes.into_iter().flat_map(Scene::points).collect();
+        let [across, up] = camera.bounds(&points);
+        if points.is_empty() {
+            return Fit {
+                middle: (0.0, 0.0),
+                scale: 1.0,
+            };
+        }
+        let room = |(low, high): (f64, f64), pixels: f64| (pixels - 2.0 * MARGIN) / (high - low);
+        let scale = room(across, WIDTH).min(room(up, HEIGHT));
+        Fit {
+            middle: (0.5 * (across.0 + across.1), 0.5 * (up.0 + up.1)),
+            scale: if scale.is_finite() { scale } else { 1.0 },
+        }
+    }
+}
+
+/// What is drawn and where: a scene on its part of the picture.
+struct Stage<'s> {
     scene: &'s Scene,
     camera: Camera,
-    middle: Pixel,
+    flat: bool,
+    fit: Fit,
     centre: Pixel,
-    scale: f64,
     /// Half the size of a joint in pixels.
     size: f64,
 }
 
-impl Sheet<'_> {
+impl<'s> Stage<'s> {
+    fn new(scene: &'s Scene, view: View, fit: Fit, centre: Pixel) -> Self {
+        let mut stage = Stage {
+            scene,
+            camera: Camera::new(view, scene.normal),
+            flat: view == View::Natural && scene.normal.is_some(),
+            fit,
+            centre,
+            size: 0.0,
+        };
+        stage.size = symbol_size(&stage);
+        stage
+    }
+
     fn pixel(&self, point: &Vector3<f64>) -> Pixel {
         let (x, y, _) = self.camera.project(&point.0);
-        let place = |centre: f64, x: f64| ((centre + x * self.scale) * 10.0).round() / 10.0;
         (
-            place(self.centre.0, x - self.middle.0),
-            place(self.centre.1, self.middle.1 - y),
+            self.centre.0 + (x - self.fit.middle.0) * self.fit.scale,
+            self.centre.1 + (self.fit.middle.1 - y) * self.fit.scale,
         )
     }
 
@@ -139,17 +191,14 @@ impl Sheet<'_> {
         depth.sum::<f64>() / points.len().max(1) as f64
     }
 
-    /// A line of a body, in pieces so short that joints stand before it here and behind it there.
-    fn line(&self, points: &[Triple], colour: &str, width: f64) -> Vec<Piece> {
+    /// A line in pieces so short that joints stand before it here and behind it there.
+    fn line(&self, points: &[Triple], layer: Layer, style: Style) -> Vec<Piece> {
         let pairs = points.windows(2);
         let parts = pairs.flat_map(|pair| self.parts(Vector3(pair[0]), Vector3(pair[1])));
-        let pieces = parts.map(|part| {
-            let line = self.polyline(&part).set("stroke", colour);
-            Piece {
-                layer: Layer::Body,
-                near: self.near(&part),
-                element: Element::Polyline(line.set("stroke-width", width)),
-            }
+        let pieces = parts.map(|part| Piece {
+            layer,
+            near: self.near(&part),
+            shape: self.open(&part, style),
         });
         pieces.collect()
     }
@@ -166,119 +215,113 @@ impl Sheet<'_> {
 
     /// The size of a joint in m.
     fn metres(&self) -> f64 {
-        self.size / self.scale
+        self.size / self.fit.scale
     }
 
-    fn polygon(&self, points: &[Vector3<f64>]) -> Polygon {
-        Polygon::new().set(
-            "points",
-            written(points.iter().map(|point| self.pixel(point))),
-        )
+    fn polygon(&self, points: &[Vector3<f64>], style: Style) -> Shape {
+        Shape::polygon(points.iter().map(|point| self.pixel(point)), style)
     }
 
-    fn polyline(&self, points: &[Vector3<f64>]) -> Polyline {
-        let places = written(points.iter().map(|point| self.pixel(point)));
-        Polyline::new().set("points", places).set("fill", "none")
+    fn open(&self, points: &[Vector3<f64>], style: Style) -> Shape {
+        Shape::line(points.iter().map(|point| self.pixel(point)), style)
+    }
+
+    /// The mechanism, what covers the other last.
+    fn shapes(&self) -> impl Iterator<Item = Shape> + use<> {
+        let mut pieces: Vec<Piece> = beside::under(self);
+        for (i, of) in self.scene.bodies.iter().enumerate() {
+            pieces.extend(body(self, i, of));
+        }
+        for rod in &self.scene.rods {
+            let colour = if rod.driven { DRIVEN } else { INK };
+            pieces.extend(self.line(&rod.ends, Layer::Body, Style::line(colour, 3.0)));
+            let balls = rod.ends.iter();
+            let balls = balls.flat_map(|end| symbols::ball(self, &Vector3(*end), 0.7, INK));
+            pieces.extend(balls);
+        }
+        for joint in &self.scene.joints {
+            pieces.extend(symbols::joint(self, joint));
+        }
+        for path in &self.scene.paths {
+            pieces.extend(match self.flat {
+                true => vec![Piece {
+                    layer: Layer::Path,
+                    near: 0.0,
+                    shape: Shape::line(
+                        path.points.iter().map(|point| self.pixel(&Vector3(*point))),
+                        Style::line(PATH, 1.6),
+                    ),
+                }],
+                false => self.line(&path.points, Layer::Path, Style::line(PATH, 1.6)),
+            });
+        }
+        let flat = self.flat;
+        let place = |piece: &Piece| {
+            (
+                flat.then_some(piece.layer),
+                if flat { 0.0 } else { piece.near },
+            )
+        };
+        pieces.sort_by(|a, b| {
+            let ((a, before), (b, after)) = (place(a), place(b));
+            a.cmp(&b).then(before.total_cmp(&after))
+        });
+        pieces.into_iter().map(|piece| piece.shape)
     }
 }
 
-fn written(pixels: impl Iterator<Item = Pixel>) -> String {
-    let places: Vec<String> = pixels.map(|(x, y)| format!("{x},{y}")).collect();
-    places.join(" ")
+/// A mechanism in several places in the axes of a chart, the last of them in full.
+pub(crate) fn strobe(scenes: &[Scene], view: View, fit: Fit, centre: Pixel) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    for (i, scene) in scenes.iter().enumerate() {
+        let stage = Stage::new(scene, view, fit, centre);
+        let part = if i + 1 < scenes.len() { FAINT } else { 1.0 };
+        shapes.extend(stage.shapes().map(|shape| shape.faint(part)));
+    }
+    shapes
 }
 
 fn draw(
-    document: Document,
-    scene: &Scene,
-    title: &str,
+    panel: &Panel,
     settings: &DrawingSettings,
     corner: Pixel,
-    scale: f64,
-) -> Document {
-    let camera = Camera::new(settings.view, scene.normal);
-    let (middle, _) = fit(&camera, scene);
-    let mut sheet = Sheet {
-        scene,
-        camera,
-        middle,
-        centre: (corner.0 + WIDTH / 2.0, corner.1 + HEIGHT / 2.0 + 10.0),
-        scale,
-        size: 0.0,
-    };
-    sheet.size = symbol_size(&sheet);
-    let mut pieces: Vec<Piece> = Vec::new();
-    for (i, body) in scene.bodies.iter().enumerate() {
-        pieces.extend(self::body(&sheet, i, body));
+    fit: Fit,
+    size: Option<f64>,
+) -> Vec<Shape> {
+    let centre = (corner.0 + WIDTH / 2.0, corner.1 + HEIGHT / 2.0 + 10.0);
+    let mut stage = Stage::new(&panel.scene, settings.view, fit, centre);
+    stage.size = size.unwrap_or(stage.size);
+    let mut shapes = Vec::new();
+    for scene in &panel.ghosts {
+        let ghost = Stage {
+            size: stage.size,
+            ..Stage::new(scene, settings.view, fit, centre)
+        };
+        shapes.extend(ghost.shapes().map(|shape| shape.faint(FAINT)));
     }
-    for rod in &scene.rods {
-        let colour = if rod.driven { DRIVEN } else { INK };
-        pieces.extend(sheet.line(&rod.ends, colour, 3.0));
-        pieces.extend(
-            rod.ends
-                .iter()
-                .flat_map(|end| symbols::ball(&sheet, &Vector3(*end), 0.7, INK)),
-        );
-    }
-    for joint in &scene.joints {
-        pieces.extend(symbols::joint(&sheet, joint));
-    }
-    let flat = settings.view == View::Natural && scene.normal.is_some();
-    let place = |piece: &Piece| {
-        (
-            flat.then_some(piece.layer),
-            if flat { 0.0 } else { piece.near },
-        )
-    };
-    pieces.sort_by(|a, b| {
-        let ((a, before), (b, after)) = (place(a), place(b));
-        a.cmp(&b).then(before.total_cmp(&after))
-    });
-    let mut document = pieces
-        .into_iter()
-        .fold(document, |document, piece| match piece.element {
-            Element::Polygon(polygon) => document.add(polygon),
-            Element::Polyline(line) => document.add(line),
-        });
-    document = document.add(
-        text(title, (corner.0 + WIDTH / 2.0, corner.1 + 28.0), 15.0).set("text-anchor", "middle"),
-    );
-    for (name, end) in sheet.camera.triad() {
-        let from = (corner.0 + 36.0, corner.1 + HEIGHT - 36.0);
+    shapes.extend(stage.shapes());
+    let title = (corner.0 + WIDTH / 2.0, corner.1 + 28.0);
+    shapes.push(Shape::words(&panel.title, title, 15.0, Anchor::Middle));
+    let from = (corner.0 + 36.0, corner.1 + HEIGHT - 36.0);
+    for (name, end) in stage.camera.triad() {
         let to = |part: f64| (from.0 + part * end.0, from.1 - part * end.1);
-        let (tip, letter) = (to(26.0), to(36.0));
-        document = document
-            .add(
-                Line::new()
-                    .set("x1", from.0)
-                    .set("y1", from.1)
-                    .set("x2", tip.0)
-                    .set("y2", tip.1)
-                    .set("stroke", GROUND)
-                    .set("stroke-width", 1.5),
-            )
-            .add(text(name, (letter.0, letter.1 + 4.0), 11.0).set("text-anchor", "middle"));
+        let letter = to(36.0);
+        shapes.push(Shape::line([from, to(26.0)], Style::line(GROUND, 1.5)));
+        let at = (letter.0, letter.1 + 4.0);
+        shapes.push(Shape::words(name, at, 11.0, Anchor::Middle));
     }
-    if settings.labels {
-        for (name, place) in Labels::of(&sheet) {
-            document = document.add(text(&name, place, labels::LETTERS));
-        }
+    let (over, named) = beside::over(&stage);
+    shapes.extend(over);
+    for (name, place) in Labels::of(&stage, settings.labels, named) {
+        shapes.push(Shape::words(name, place, labels::LETTERS, Anchor::Start));
     }
-    document
-}
-
-fn text(words: &str, at: Pixel, size: f64) -> Text {
-    let round = |x: f64| (x * 10.0).round() / 10.0;
-    Text::new(words)
-        .set("x", round(at.0))
-        .set("y", round(at.1))
-        .set("font-size", size)
-        .set("fill", INK)
+    shapes
 }
 
 /// A joint is as large as its neighbours leave room for, within what can be seen and what does not hide the links.
-fn symbol_size(sheet: &Sheet) -> f64 {
-    let places: Vec<Pixel> = (sheet.scene.joints.iter())
-        .map(|joint| sheet.pixel(&Vector3(joint.at)))
+fn symbol_size(stage: &Stage) -> f64 {
+    let places: Vec<Pixel> = (stage.scene.joints.iter())
+        .map(|joint| stage.pixel(&Vector3(joint.at)))
         .collect();
     let mut room: f64 = f64::INFINITY;
     for (i, a) in places.iter().enumerate() {
@@ -292,33 +335,38 @@ fn symbol_size(sheet: &Sheet) -> f64 {
     (0.3 * room).clamp(5.0, 11.0)
 }
 
-fn body(sheet: &Sheet, index: usize, body: &BodyShape) -> Vec<Piece> {
+/// Half the size of a joint in m, as the first view of a scene has it.
+pub(crate) fn joint_size(scene: &Scene) -> f64 {
+    let fit = Fit::of(&Camera::new(View::Natural, scene.normal), [scene]);
+    Stage::new(scene, View::Natural, fit, (0.0, 0.0)).metres()
+}
+
+fn body(stage: &Stage, index: usize, body: &BodyShape) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let colour = match body.ground {
         true => GROUND,
         false => COLOURS[index % COLOURS.len()],
     };
     let corners: Vec<Vector3<f64>> = body.corners.iter().map(|corner| Vector3(*corner)).collect();
-    let outline = sheet.camera.hull(&corners);
+    let outline = stage.camera.hull(&corners);
     let plate = !body.ground && outline.len() > 2;
     if plate {
-        let polygon = sheet
-            .polygon(&outline)
-            .set("fill", colour)
-            .set("fill-opacity", 0.3);
-        let polygon = polygon.set("stroke", colour).set("stroke-width", 2);
+        let style = Style {
+            fill: Some((colour, 0.3)),
+            ..Style::line(colour, 2.0)
+        };
         pieces.push(Piece {
             layer: Layer::Body,
-            near: sheet.near(&outline),
-            element: Element::Polygon(polygon),
+            near: stage.near(&outline),
+            shape: stage.polygon(&outline, style),
         });
     }
-    let width = if body.ground { 2.0 } else { 4.0 };
+    let style = Style::line(colour, if body.ground { 2.0 } else { 4.0 });
     let lines = body.lines.iter();
-    pieces.extend(lines.flat_map(|points| sheet.line(points, colour, width)));
+    pieces.extend(lines.flat_map(|points| stage.line(points, Layer::Body, style)));
     // a platform has no lines of a table: its corners are all that is known of it
     if !body.ground && !plate && body.lines.is_empty() {
-        pieces.extend(sheet.line(&body.corners, colour, width));
+        pieces.extend(stage.line(&body.corners, Layer::Body, style));
     }
     pieces
 }

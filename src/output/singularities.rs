@@ -3,11 +3,9 @@
 mod along;
 mod coupled;
 mod loci;
-#[cfg(feature = "plot")]
 mod picture;
 mod words;
 
-#[cfg(feature = "plot")]
 pub use picture::svg;
 
 use super::closing;

@@ -1,13 +1,13 @@
 //! Motions as documents, as rows and as pictures.
 
 mod circuits;
+mod course;
 mod paths;
-#[cfg(feature = "plot")]
 mod picture;
 mod words;
 
-#[cfg(feature = "plot")]
 pub use picture::Picture;
+pub use words::sentence;
 
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::quantity;

@@ -1,10 +1,8 @@
 //! Maps of the workspace as documents, as rows and as pictures.
 
-#[cfg(feature = "plot")]
 mod picture;
 mod words;
 
-#[cfg(feature = "plot")]
 pub use picture::{left_out, svg};
 use words::{completeness, sentence};
 

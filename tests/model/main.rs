@@ -8,6 +8,6 @@ mod includes;
 mod mechanisms;
 mod negative_lengths;
 mod numbers;
-#[cfg(feature = "plot")]
+mod pictures;
 mod scene;
 mod units;

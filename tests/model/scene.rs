@@ -2,7 +2,7 @@
 
 use linkwork::ask::Question;
 use linkwork::mechanism::Mechanism;
-use linkwork::output::drawing::{DrawingSettings, View, svg};
+use linkwork::output::drawing::{DrawingSettings, Panel, View, sheet};
 use linkwork::scene::{Scene, Symbol};
 use linkwork::solve::Watch;
 
@@ -134,7 +134,12 @@ fn every_shipped_mechanism_is_drawn_whole_from_every_side() {
             View::From(0.3, -1.2),
         ] {
             let settings = DrawingSettings { view, labels: true };
-            let text = svg(&[("<&\"".to_owned(), scene.clone())], &settings);
+            let panel = Panel {
+                title: "<&\"".to_owned(),
+                scene: scene.clone(),
+                ghosts: Vec::new(),
+            };
+            let text = sheet(&[panel], &settings).svg();
             assert!(
                 !text.contains("NaN") && !text.contains("inf"),
                 "{}",

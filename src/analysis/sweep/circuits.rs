@@ -94,6 +94,10 @@ pub struct Circuit {
     pub crosses: Vec<usize>,
     /// How many of the seeds lie on it.
     pub seeds: usize,
+    /// Values of all joints along it, in the order of the file, so near to one another that a line through them looks
+    /// smooth.
+    #[serde(default)]
+    pub course: Vec<Vec<f64>>,
 }
 
 /// The class of a planar 4-bar, as its circuits show it.
@@ -400,6 +404,9 @@ fn described(
             .map(|other| other + 1)
             .collect(),
         seeds: found.seeds,
+        course: (found.places.iter())
+            .map(|place| place.at.joints.clone())
+            .collect(),
     }
 }
 

@@ -72,6 +72,11 @@ impl Rows {
         self.sent.row(&place.at, None, kind, sink)
     }
 
+    /// A place that is passed on the way.
+    pub fn passed(&mut self, place: &At, sink: &mut Flow) -> ControlFlow<()> {
+        self.sent.passed(&place.at, sink)
+    }
+
     /// The rows between two places with no fold between them.
     pub fn between(
         &mut self,
@@ -184,9 +189,25 @@ impl Sent {
         special: Option<&MetKind>,
         sink: &mut Flow,
     ) -> ControlFlow<()> {
-        self.paths.place(at);
         let number = self.count;
         self.count += 1;
+        self.send(at, (number, step), special, false, sink)
+    }
+
+    pub fn passed(&mut self, at: &Configuration<f64>, sink: &mut Flow) -> ControlFlow<()> {
+        self.send(at, (self.count, None), None, true, sink)
+    }
+
+    #[inline]
+    fn send(
+        &mut self,
+        at: &Configuration<f64>,
+        (number, step): (usize, Option<usize>),
+        special: Option<&MetKind>,
+        between: bool,
+        sink: &mut Flow,
+    ) -> ControlFlow<()> {
+        self.paths.place(at);
         sink(&Row {
             number,
             step,
@@ -194,6 +215,7 @@ impl Sent {
             points: &self.paths.at,
             quantities: &[],
             special,
+            between,
         })
     }
 }

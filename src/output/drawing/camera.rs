@@ -20,7 +20,8 @@ pub enum View {
 }
 
 /// Right, up and towards the viewer: unit vectors in ground.
-pub(super) struct Camera {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Camera {
     right: Vector3<f64>,
     up: Vector3<f64>,
     towards: Vector3<f64>,
@@ -72,6 +73,16 @@ impl Camera {
             point.dot(&self.up),
             point.dot(&self.towards),
         )
+    }
+
+    /// From where to where points are seen, to the right and up, in m.
+    pub fn bounds(&self, points: &[Triple]) -> [(f64, f64); 2] {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let wider = |(low, high): (f64, f64), x: f64| (low.min(x), high.max(x));
+        let seen = points.iter().map(|point| self.project(point));
+        seen.fold([none; 2], |[across, up], (x, y, _)| {
+            [wider(across, x), wider(up, y)]
+        })
     }
 
     /// How much a direction points to the viewer.

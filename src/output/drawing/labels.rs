@@ -1,6 +1,6 @@
 //! Names beside what they name, where nothing is in the way.
 
-use super::{HEIGHT, Pixel, Sheet, WIDTH};
+use super::{HEIGHT, Pixel, Stage, WIDTH};
 use crate::geometry::Vector3;
 
 /// Height of the letters in pixels.
@@ -16,11 +16,17 @@ pub(super) struct Labels {
 }
 
 impl Labels {
-    /// Of everything that has a name in a scene.
-    pub fn of(sheet: &Sheet) -> Vec<(String, Pixel)> {
-        let scene = sheet.scene;
-        let joints = scene.joints.iter().filter(|joint| !joint.closure);
-        let joints = joints.map(|joint| (joint.names.join(", "), Vector3(joint.at)));
+    /// Of what has a name beside it anyhow and, if all are wanted, of everything that has one in a scene.
+    pub fn of(
+        stage: &Stage,
+        all: bool,
+        beside: Vec<(String, Vector3<f64>)>,
+    ) -> Vec<(String, Pixel)> {
+        let scene = stage.scene;
+        let joints = scene
+            .joints
+            .iter()
+            .map(|joint| (joint.names.join(", "), Vector3(joint.at)));
         let rods = scene.rods.iter().map(|rod| {
             let [a, b] = rod.ends.map(Vector3);
             (rod.name.clone(), (a + b).times(0.5))
@@ -39,16 +45,16 @@ impl Labels {
                 sum.times(1.0 / body.corners.len() as f64),
             )
         });
-        let reach = 1.4 * sheet.size;
+        let reach = 1.4 * stage.size;
         let joints_taken = scene.joints.iter().map(|joint| {
-            let (x, y) = sheet.pixel(&Vector3(joint.at));
+            let (x, y) = stage.pixel(&Vector3(joint.at));
             [x - reach, y - reach, x + reach, y + reach]
         });
         let lines = scene.bodies.iter().flat_map(|body| &body.lines);
         let lines = lines.flat_map(|line| line.windows(2).map(|pair| [pair[0], pair[1]]));
         let lines = lines.chain(scene.rods.iter().map(|rod| rod.ends));
         let lines_taken = lines.flat_map(|ends| {
-            let [a, b] = ends.map(|end| sheet.pixel(&Vector3(end)));
+            let [a, b] = ends.map(|end| stage.pixel(&Vector3(end)));
             let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 6.0).ceil().max(1.0);
             (0..=steps as usize).map(move |k| {
                 let part = k as f64 / steps;
@@ -58,16 +64,20 @@ impl Labels {
         });
         let mut labels = Labels {
             sheet: [
-                sheet.centre.0 - WIDTH / 2.0,
-                sheet.centre.1 - HEIGHT / 2.0,
-                sheet.centre.0 + WIDTH / 2.0,
-                sheet.centre.1 + HEIGHT / 2.0,
+                stage.centre.0 - WIDTH / 2.0,
+                stage.centre.1 - HEIGHT / 2.0,
+                stage.centre.0 + WIDTH / 2.0,
+                stage.centre.1 + HEIGHT / 2.0,
             ],
             taken: joints_taken.chain(lines_taken).collect(),
         };
-        let named = joints.chain(rods).chain(platforms);
-        named
-            .map(|(name, at)| labels.place(name, sheet.pixel(&at), reach))
+        let traced = scene.paths.iter();
+        let traced =
+            traced.filter_map(|path| Some((path.name.clone(), Vector3(*path.points.first()?))));
+        let named = joints.chain(rods).chain(platforms).chain(traced);
+        (beside.into_iter())
+            .chain(named.filter(|_| all))
+            .map(|(name, at)| labels.place(name, stage.pixel(&at), reach))
             .collect()
     }
 

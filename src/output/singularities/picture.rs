@@ -65,13 +65,15 @@ pub fn svg(report: &LocusReport) -> String {
             points: cusps,
         });
     }
-    plot::svg(&[Chart {
+    plot::stacked(&[Chart {
         title: format!("{}: singularities", report.mechanism),
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
         heat: None,
+        strobe: None,
         series,
         marks,
     }])
+    .svg()
 }

@@ -1,10 +1,15 @@
-//! Motions drawn: input–output curves, or the paths of points.
+//! Motions drawn: the mechanism in several places with the paths of points, input–output curves, quantities.
 
+use super::course::Course;
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{MetKind, MotionsReport, Row};
+use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row};
+use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism, Point, Variable};
-use crate::output::plot::{self, Chart, Marks, Series, svg};
+use crate::output::canvas::Canvas;
+use crate::output::drawing::{Camera, View};
+use crate::output::plot::{self, Chart, Marks, Series, Strobe, stacked};
 use crate::output::quantity;
+use crate::scene::{Scene, Trace, Triple};
 use crate::system::{Coordinate, Driven};
 
 /// Collects what is to be drawn; of a long motion only as many points as can be told apart.
@@ -19,8 +24,16 @@ pub struct Picture {
     /// Quantities, drawn over the first input in a panel for each unit.
     quantities: Vec<Variable>,
     motions: Vec<Drawn>,
-    double_points: Vec<[f64; 3]>,
+    /// Whether inputs were given.
+    driven: bool,
+    /// What tells motions apart.
+    what: &'static str,
+    double_points: Vec<Triple>,
+    course: Course,
 }
+
+/// A curve with its name: where it is for the values of a row.
+type Curve<'c> = (String, Box<dyn Fn(&[f64]) -> (f64, f64) + 'c>);
 
 #[derive(Clone, Debug, Default)]
 struct Drawn {
@@ -48,7 +61,7 @@ impl Picture {
             from: 0.0,
             to: 1.0,
         };
-        let driven = crate::analysis::sweep::CircuitsReport::input_of(mechanism).map(joint);
+        let driven = CircuitsReport::input_of(mechanism).map(joint);
         let input = inputs.first().copied().or(driven);
         let label = |of: Coordinate| {
             let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
@@ -72,8 +85,66 @@ impl Picture {
                 .collect(),
             quantities: quantities.to_vec(),
             motions: Vec::new(),
+            driven: !inputs.is_empty(),
+            what: "mode",
             double_points: Vec::new(),
+            course: Course::default(),
         }
+    }
+
+    /// Of the circuits of a mechanism, joints over the input.
+    pub fn of_circuits(mechanism: &Mechanism, report: &CircuitsReport) -> Self {
+        let mut picture = Picture::new(mechanism, &[], &[], &[]);
+        picture.what = "circuit";
+        if let Some(joint) = mechanism.joint(&report.input) {
+            let input = |driven: Driven| Driven {
+                coordinate: Coordinate::Joint(joint),
+                ..driven
+            };
+            picture.input = picture.input.map(input);
+        }
+        let shown = |joint: usize, x: f64| {
+            let unit = SiUnit::of_coordinate(mechanism.joints()[joint].kind.is_angle());
+            quantity::shown(x, unit)
+        };
+        let Some(Coordinate::Joint(input)) = picture.input.map(|input| input.coordinate) else {
+            return picture;
+        };
+        let joints: Vec<usize> = picture.outputs.iter().map(|(joint, ..)| *joint).collect();
+        let drawn = report.circuits.iter().map(|circuit| Drawn {
+            mode: Some(circuit.number),
+            rows: (circuit.course.iter())
+                .map(|at| {
+                    let all = std::iter::once(&input).chain(&joints);
+                    all.map(|joint| shown(*joint, at[*joint])).collect()
+                })
+                .collect(),
+            ..Drawn::default()
+        });
+        picture.motions = drawn.collect();
+        picture
+    }
+
+    /// The mechanism from place to place with the paths of its points, mode after mode, with the numbers of the modes;
+    /// there and back again where a motion does not end where it began.
+    pub fn scenes(&self, mechanism: &Mechanism) -> Vec<(Option<usize>, Scene)> {
+        let first = 1 + self.outputs.len();
+        let mut scenes = self.course.scenes(mechanism);
+        for (mode, scene) in &mut scenes {
+            let Some(drawn) = self.motions.iter().find(|drawn| drawn.mode == *mode) else {
+                continue;
+            };
+            let traced = self.points.iter().enumerate().map(|(i, name)| {
+                let from = first + 3 * i;
+                let place = |row: &Vec<f64>| [row[from], row[from + 1], row[from + 2]];
+                Trace {
+                    name: name.clone(),
+                    points: drawn.rows.iter().map(place).collect(),
+                }
+            });
+            scene.paths.extend(traced);
+        }
+        scenes
     }
 
     /// Also marks where paths cross themselves.
@@ -93,6 +164,9 @@ impl Picture {
                 ..Drawn::default()
             });
         }
+        if row.step.is_some() || (!self.driven && row.special.is_none()) {
+            self.course.take(mode, row.configuration);
+        }
         let wanted =
             (self.motions.last()).is_some_and(|drawn| drawn.seen.is_multiple_of(drawn.every));
         let values = (wanted || row.special.is_some()).then(|| self.values(mechanism, row));
@@ -100,6 +174,7 @@ impl Picture {
             return;
         };
         if let Some(values) = values {
+            let begins = drawn.seen == 0 && at_limit(mechanism, row.configuration);
             let mark = row.special.map(|kind| match kind {
                 MetKind::Fold { .. } => "dead point of the input",
                 MetKind::Turning { .. } => "turning point",
@@ -108,6 +183,7 @@ impl Picture {
                 MetKind::Cusp { .. } => "cusp",
                 MetKind::End | MetKind::Closed => "",
             });
+            let mark = mark.or(begins.then_some("limit"));
             if let Some(mark) = mark.filter(|mark| !mark.is_empty()) {
                 drawn.marks.push((mark, values.clone()));
             }
@@ -144,40 +220,36 @@ impl Picture {
             .collect()
     }
 
-    /// The picture as SVG.
-    pub fn svg(&self) -> String {
-        let charts = match (self.points.is_empty(), self.quantities.is_empty()) {
+    /// The mechanism in several places with the paths of points, seen from where it is said, then the curves.
+    pub fn drawn(&self, mechanism: &Mechanism, view: Option<View>) -> Canvas {
+        let mut charts: Vec<Chart> = self.places(mechanism, view).into_iter().collect();
+        charts.extend(match (self.points.is_empty(), self.quantities.is_empty()) {
             (true, true) => self.outputs_over_input(),
-            (true, false) => self.quantities_over_input(),
-            (false, true) => vec![self.paths()],
-            (false, false) => {
-                let mut charts = vec![self.paths()];
-                charts.extend(self.quantities_over_input());
-                charts
-            }
-        };
-        svg(&charts)
+            (false, true) => Vec::new(),
+            (_, false) => self.quantities_over_input(),
+        });
+        stacked(&charts)
     }
 
     fn label(&self, name: &str, mode: Option<usize>) -> String {
         match mode {
-            Some(mode) if self.motions.len() > 1 => format!("{name}, mode {mode}"),
+            Some(mode) if self.motions.len() > 1 => format!("{name}, {} {mode}", self.what),
             _ => name.to_owned(),
         }
     }
 
-    /// Curves of column pairs with their names, and marks on all of them.
-    fn chart(&self, pairs: &[(String, usize, usize)]) -> (Vec<Series>, Vec<Marks>) {
+    /// Curves with their names, and marks on all of them.
+    fn chart(&self, curves: &[Curve]) -> (Vec<Series>, Vec<Marks>) {
         let mut series = Vec::new();
         let mut marks: Vec<Marks> = Vec::new();
         for drawn in &self.motions {
-            for (name, x, y) in pairs {
+            for (name, at) in curves {
                 series.push(Series {
                     label: self.label(name, drawn.mode),
-                    points: drawn.rows.iter().map(|row| (row[*x], row[*y])).collect(),
+                    points: drawn.rows.iter().map(|row| at(row)).collect(),
                 });
                 for (label, values) in &drawn.marks {
-                    let point = (values[*x], values[*y]);
+                    let point = at(values);
                     match marks.iter_mut().find(|marks| marks.label == *label) {
                         Some(known) => known.points.push(point),
                         None => marks.push(Marks {
@@ -199,18 +271,19 @@ impl Picture {
                 .iter()
                 .enumerate()
                 .filter(|(_, o)| o.2 == angles);
-            let pairs: Vec<(String, usize, usize)> = outputs
-                .map(|(i, (_, name, _))| (name.clone(), 0, i + 1))
+            let pairs: Vec<Curve> = outputs
+                .map(|(i, (_, name, _))| (name.clone(), column(i + 1)))
                 .collect();
             if pairs.is_empty() {
                 continue;
             }
             let name = match &pairs[..] {
-                [(name, _, _)] => name,
+                [(name, _)] => name,
                 _ if angles => "joint angles",
                 _ => "slides",
             };
-            charts.push(self.over_input(&pairs, plot::label(name, SiUnit::of_coordinate(angles))));
+            let label = plot::label(name, SiUnit::of_coordinate(angles));
+            charts.push(self.over_input(&pairs, label));
         }
         charts
     }
@@ -232,11 +305,11 @@ impl Picture {
         }
         let chart = |unit: SiUnit| {
             let of_it = all().filter(|(_, of)| of.unit == unit);
-            let pairs: Vec<(String, usize, usize)> = of_it
-                .map(|(i, of)| (of.name.clone(), 0, first + i))
+            let pairs: Vec<Curve> = of_it
+                .map(|(i, of)| (of.name.clone(), column(first + i)))
                 .collect();
             let name = match &pairs[..] {
-                [(name, _, _)] => name.clone(),
+                [(name, _)] => name.clone(),
                 _ => "quantities".into(),
             };
             self.over_input(&pairs, plot::label(&name, unit))
@@ -244,7 +317,7 @@ impl Picture {
         units.into_iter().map(chart).collect()
     }
 
-    fn over_input(&self, pairs: &[(String, usize, usize)], label: String) -> Chart {
+    fn over_input(&self, pairs: &[Curve], label: String) -> Chart {
         let (series, marks) = self.chart(pairs);
         Chart {
             title: self.title.clone(),
@@ -252,52 +325,102 @@ impl Picture {
             y: label,
             equal: false,
             heat: None,
+            strobe: None,
             series,
             marks,
         }
     }
 
-    /// Paths seen along the axis along which they extend least.
-    fn paths(&self) -> Chart {
+    /// The mechanism in several places, and the paths; nothing of circuits.
+    fn places(&self, mechanism: &Mechanism, view: Option<View>) -> Option<Chart> {
+        let scenes = self.course.strobe(mechanism);
+        let normal = scenes.first()?.normal;
         let first = 1 + self.outputs.len();
-        let extent = |axis: usize| {
-            let last = first + 3 * self.points.len();
-            let values = self.motions.iter().flat_map(|drawn| &drawn.rows);
-            let values = values.flat_map(|row| row[first..last].iter().skip(axis).step_by(3));
-            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                (l.min(*x), h.max(*x))
-            });
-            high - low
+        let traced = (self.motions.iter())
+            .flat_map(|drawn| &drawn.rows)
+            .flat_map(|row| row[first..first + 3 * self.points.len()].chunks(3))
+            .map(|point| [point[0], point[1], point[2]]);
+        let view = view.unwrap_or_else(|| match (normal, self.points.is_empty()) {
+            (None, false) => widest(&traced.collect::<Vec<Triple>>()),
+            _ => View::Natural,
+        });
+        let camera = Camera::new(view, normal);
+        let seen = move |point: &[f64]| {
+            let (x, y, _) = camera.project(&[point[0], point[1], point[2]]);
+            (x, y)
         };
-        let flat = (0..3)
-            .rev()
-            .min_by(|&a, &b| extent(a).total_cmp(&extent(b)))
-            .unwrap_or(2);
-        let (x, y) = match flat {
-            0 => (1, 2),
-            1 => (0, 2),
-            _ => (0, 1),
-        };
-        let pairs: Vec<(String, usize, usize)> = (self.points.iter().enumerate())
-            .map(|(i, point)| (point.clone(), first + 3 * i + x, first + 3 * i + y))
+        let curves: Vec<Curve> = (self.points.iter().enumerate())
+            .map(|(i, point)| {
+                let from = first + 3 * i;
+                let at = move |row: &[f64]| seen(&row[from..from + 3]);
+                (point.clone(), Box::new(at) as Box<dyn Fn(&[f64]) -> _>)
+            })
             .collect();
-        let (series, mut marks) = self.chart(&pairs);
+        let (series, mut marks) = match curves.is_empty() {
+            true => Default::default(),
+            false => self.chart(&curves),
+        };
         if !self.double_points.is_empty() {
-            let seen = self.double_points.iter().map(|point| (point[x], point[y]));
             marks.push(Marks {
                 label: "double points".into(),
-                points: seen.collect(),
+                points: self.double_points.iter().map(|point| seen(point)).collect(),
             });
         }
-        let axis = ["x (m)", "y (m)", "z (m)"];
-        Chart {
+        let points: Vec<Triple> = scenes.iter().flat_map(Scene::points).collect();
+        let bounds = camera.bounds(&points);
+        let (right, up) = camera.screen();
+        Some(Chart {
             title: self.title.clone(),
-            x: axis[x].into(),
-            y: axis[y].into(),
+            x: axis(&right, "across"),
+            y: axis(&up, "up"),
             equal: true,
             heat: None,
+            strobe: Some(Strobe {
+                view,
+                scenes,
+                bounds,
+            }),
             series,
             marks,
-        }
+        })
     }
+}
+
+/// A column over the input.
+fn column<'c>(y: usize) -> Box<dyn Fn(&[f64]) -> (f64, f64) + 'c> {
+    Box::new(move |row| (row[0], row[y]))
+}
+
+/// The label of an axis of a picture in m.
+fn axis(along: &Vector3<f64>, otherwise: &str) -> String {
+    let names = ["x", "y", "z"].into_iter().zip(along.0);
+    let mut along = names.filter(|(_, part)| part.abs() > 1.0 - 1e-9);
+    match along.next() {
+        Some((name, part)) if part < 0.0 => format!("-{name} (m)"),
+        Some((name, _)) => format!("{name} (m)"),
+        None => format!("{otherwise} (m)"),
+    }
+}
+
+/// Along the axis along which points extend least.
+fn widest(points: &[Triple]) -> View {
+    let extent = |axis: usize| {
+        let values = points.iter().map(|point| point[axis]);
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = values.fold(none, |(l, h), x| (l.min(x), h.max(x)));
+        high - low
+    };
+    let views = [View::From(0.0, 0.0), View::Front, View::Top];
+    let ordered = views.into_iter().enumerate().rev();
+    let least = ordered.min_by(|(a, _), (b, _)| extent(*a).total_cmp(&extent(*b)));
+    least.map_or(View::Top, |(_, view)| view)
+}
+
+/// Whether a joint is at a limit.
+fn at_limit(mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
+    let scales = &mechanism.dimensions().joint_scales;
+    let joints = mechanism.joints().iter().zip(&at.joints).zip(scales);
+    joints
+        .filter_map(|((joint, x), scale)| Some((joint.limits?, x, scale)))
+        .any(|((low, high), x, scale)| (x - low).abs().min((x - high).abs()) < 1e-9 * scale)
 }

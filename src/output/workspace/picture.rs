@@ -65,7 +65,7 @@ pub fn svg(report: &WorkspaceReport) -> String {
         ),
         [] => (1, Vec::new()),
     };
-    sheet(left_out(report).as_deref(), columns, &charts)
+    sheet(left_out(report).as_deref(), columns, &charts).svg()
 }
 
 fn shown(axis: &AxisReport, x: f64) -> f64 {
@@ -150,6 +150,7 @@ fn picture(
             highest,
             label: "1/condition".into(),
         }),
+        strobe: None,
         series,
         marks: Vec::new(),
     }
@@ -193,6 +194,7 @@ fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
         y: "1/condition".into(),
         equal: false,
         heat: None,
+        strobe: None,
         series: series.collect(),
         marks: Vec::new(),
     }

@@ -1,0 +1,33 @@
+//! From where pictures are seen, and how they are kept.
+
+use std::path::Path;
+
+use linkwork::output::drawing::View;
+
+use super::Refusal;
+use super::written::save;
+
+/// The view that a text stands for.
+pub fn view(text: &str) -> Result<View, String> {
+    let angle = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    match text {
+        "iso" => Ok(View::Isometric),
+        "front" => Ok(View::Front),
+        "top" => Ok(View::Top),
+        _ => (text.split_once(','))
+            .and_then(|(azimuth, elevation)| Some((angle(azimuth)?, angle(elevation)?)))
+            .map(|(azimuth, elevation)| View::From(azimuth.to_radians(), elevation.to_radians()))
+            .ok_or_else(|| {
+                "a view is `iso`, `front`, `top`, or azimuth and elevation in degrees, as 30,20"
+                    .into()
+            }),
+    }
+}
+
+/// Seconds that an animation lasts.
+pub const LASTS: f64 = 4.0;
+
+/// Keeps a picture where that is asked for.
+pub fn keep(path: Option<&Path>, made: impl FnOnce() -> Vec<u8>) -> Result<(), Refusal> {
+    path.map_or(Ok(()), |path| save(path, &made()))
+}

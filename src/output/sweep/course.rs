@@ -1,0 +1,95 @@
+//! The places of a mechanism along a motion, to be drawn over one another or one after the other.
+
+use crate::mechanism::{Configuration, Mechanism};
+use crate::scene::Scene;
+
+/// Places along motions, of each no more than can be told apart, evenly spread.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Course {
+    motions: Vec<Places>,
+}
+
+#[derive(Clone, Debug)]
+struct Places {
+    mode: Option<usize>,
+    taken: Vec<Configuration<f64>>,
+    every: usize,
+    seen: usize,
+}
+
+impl Course {
+    /// Places of one motion at most.
+    const MOST: usize = 120;
+
+    /// Takes in a place of the motion in a mode; another mode begins another motion.
+    pub fn take(&mut self, mode: Option<usize>, at: &Configuration<f64>) {
+        if self.motions.last().is_none_or(|places| places.mode != mode) {
+            self.motions.push(Places {
+                mode,
+                taken: Vec::new(),
+                every: 1,
+                seen: 0,
+            });
+        }
+        let Some(places) = self.motions.last_mut() else {
+            return;
+        };
+        if places.seen.is_multiple_of(places.every) {
+            places.taken.push(at.clone());
+            if places.taken.len() > Self::MOST {
+                let mut keep = false;
+                places.taken.retain(|_| {
+                    keep = !keep;
+                    keep
+                });
+                places.every *= 2;
+            }
+        }
+        places.seen += 1;
+    }
+
+    /// The mechanism in a few places of each motion, where the first begins last.
+    pub fn strobe(&self, mechanism: &Mechanism) -> Vec<Scene> {
+        /// Places shown of all motions together.
+        const SHOWN: usize = 8;
+        let each = (SHOWN / self.motions.len().max(1)).max(1);
+        let shown = self.motions.iter().rev().flat_map(|places| {
+            let every = places.taken.len().div_ceil(each).max(1);
+            places.taken.iter().step_by(every).rev()
+        });
+        shown.map(|at| Scene::of(mechanism, at)).collect()
+    }
+
+    /// The mechanism from place to place.
+    pub fn scenes(&self, mechanism: &Mechanism) -> Vec<(Option<usize>, Scene)> {
+        let motions = self.motions.iter().flat_map(|places| {
+            let scene = |at: &Configuration<f64>| (places.mode, Scene::of(mechanism, at));
+            let mut scenes: Vec<(Option<usize>, Scene)> = places.taken.iter().map(scene).collect();
+            let far = |a: [f64; 3], b: [f64; 3]| {
+                let apart = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+                apart.sum::<f64>().sqrt()
+            };
+            let returns = match &scenes[..] {
+                [(_, first), .., (_, last)] => {
+                    let pairs = first.points().into_iter().zip(last.points());
+                    let apart = pairs.map(|(a, b)| far(a, b)).fold(0.0, f64::max);
+                    apart < 1e-6 * mechanism.characteristic_length()
+                }
+                _ => true,
+            };
+            match returns {
+                // the last place is the first of the next round
+                true if scenes.len() > 1 => {
+                    scenes.pop();
+                }
+                true => {}
+                false => {
+                    let back: Vec<_> = scenes[1..scenes.len() - 1].iter().rev().cloned().collect();
+                    scenes.extend(back);
+                }
+            }
+            scenes
+        });
+        motions.collect()
+    }
+}

@@ -1,0 +1,118 @@
+//! What analyses find, in the scene.
+
+use super::{Arrow, Axis, Mark, Scene, Triple};
+use crate::analysis::singularities::SingularitiesReport;
+use crate::analysis::statics::StaticsReport;
+use crate::analysis::velocity::VelocityReport;
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Frame, Mechanism, Point};
+
+impl Scene {
+    /// Adds the instant centres that are no farther from the mechanism than it is large.
+    #[must_use]
+    pub fn with_centres(mut self, report: &VelocityReport) -> Self {
+        let (middle, size) = self.extent();
+        for centre in &report.centres {
+            let Some(at) = centre.point else { continue };
+            // in the plane in which the mechanism is drawn
+            let at = match self.normal.map(Vector3) {
+                Some(normal) => {
+                    let off = Vector3(middle) - Vector3(at);
+                    (Vector3(at) + normal.times(off.dot(&normal))).0
+                }
+                None => at,
+            };
+            if (Vector3(at) - Vector3(middle)).norm() <= 1.5 * size {
+                self.centres.push(Mark {
+                    name: centre.bodies.join(" / "),
+                    at,
+                });
+            }
+        }
+        self
+    }
+
+    /// Adds the screws of the freedoms gained at a singular configuration.
+    #[must_use]
+    pub fn with_gained(mut self, report: &SingularitiesReport) -> Self {
+        let (middle, _) = self.extent();
+        let spaces = report
+            .singularity
+            .gained
+            .iter()
+            .flat_map(|gained| &gained.twists);
+        for space in spaces {
+            self.screws.extend(space.screws.iter().map(|screw| {
+                let along = Vector3(screw.direction);
+                // where the axis is nearest to the mechanism
+                let at = screw.point.map_or(middle, |point| {
+                    let off = Vector3(middle) - Vector3(point);
+                    (Vector3(point) + along.times(off.dot(&along))).0
+                });
+                Axis {
+                    name: space.body.clone(),
+                    at,
+                    along: screw.direction,
+                    pitch: screw.pitch,
+                }
+            }));
+        }
+        self
+    }
+
+    /// Adds the wrenches applied and what closures and joints of chains pass on.
+    #[must_use]
+    pub fn with_forces(
+        mut self,
+        mechanism: &Mechanism,
+        at: &Configuration<f64>,
+        report: &StaticsReport,
+    ) -> Self {
+        for load in &report.loads {
+            let Ok(point) = Point::read(mechanism, &load.frame) else {
+                continue;
+            };
+            let pose = mechanism.transform(Frame::Ground, point.frame, at);
+            self.arrows.push(Arrow {
+                name: load.frame.clone(),
+                applied: true,
+                at: point.placed(&pose).0,
+                force: load.force,
+                moment: load.moment,
+            });
+        }
+        for reaction in report.closures.iter().chain(&report.joints) {
+            // joints that meet pass on the same force
+            let same = |arrow: &Arrow| {
+                let apart = |a: Triple, b: Triple| (Vector3(a) - Vector3(b)).norm();
+                let size = Vector3(reaction.force).norm();
+                !arrow.applied
+                    && apart(arrow.at, reaction.point) < 1e-9 * report.normalising_length
+                    && apart(arrow.force, reaction.force) <= 1e-9 * size
+            };
+            if !self.arrows.iter().any(same) {
+                self.arrows.push(Arrow {
+                    name: reaction.name.clone(),
+                    applied: false,
+                    at: reaction.point,
+                    force: reaction.force,
+                    moment: reaction.moment,
+                });
+            }
+        }
+        self
+    }
+
+    /// The middle of what is drawn and its size, in m.
+    fn extent(&self) -> (Triple, f64) {
+        let points = self.points();
+        let ends = [0, 1, 2].map(|axis| {
+            let values = points.iter().map(|point| point[axis]);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            })
+        });
+        let size = Vector3(ends.map(|(low, high)| high - low)).norm();
+        (ends.map(|(low, high)| 0.5 * (low + high)), size)
+    }
+}

@@ -1,0 +1,156 @@
+//! How far joints may go, and the gears that couple them.
+
+use std::f64::consts::TAU;
+
+use super::{Scene, Travel, Triple, Wheel};
+use crate::geometry::{Pose, Vector3};
+use crate::mechanism::{Configuration, Convention, Frame, LinearForm, Mechanism};
+
+/// A row that turns a body about an axis: the body it turns on, the body turned, a point of the axis, the axis, and the
+/// angle.
+struct Turned<'m> {
+    on: usize,
+    body: usize,
+    at: Vector3<f64>,
+    axis: Vector3<f64>,
+    angle: &'m LinearForm<f64>,
+}
+
+impl Scene {
+    /// The limits of joints that stand alone in a row.
+    pub(super) fn travels(
+        &mut self,
+        mechanism: &Mechanism,
+        at: &Configuration<f64>,
+        pose: &impl Fn(Frame) -> Pose<f64>,
+    ) {
+        for (joint, of) in mechanism.joints().iter().enumerate() {
+            let Some((low, high)) = of.limits else {
+                continue;
+            };
+            let shape = self
+                .joints
+                .iter()
+                .find(|shape| shape.names.contains(&of.name));
+            let Some(shape) = shape else { continue };
+            let which = shape.names.iter().position(|name| *name == of.name);
+            let axis = shape.axes[which.unwrap_or(0).min(shape.axes.len() - 1)];
+            let rows = mechanism.dimensions().chains.iter().enumerate();
+            let mut rows = rows.flat_map(|(chain, part)| {
+                part.rows
+                    .iter()
+                    .enumerate()
+                    .map(move |(row, of)| (chain, row, of))
+            });
+            let alone = |form: &LinearForm<f64>| matches!(form.0[..], [(only, _)] if only == joint);
+            let Some((chain, row, form)) = rows.find_map(|(chain, row, of)| {
+                let form = [&of.turn, &of.slide].into_iter().find(|form| alone(form))?;
+                Some((chain, row, form))
+            }) else {
+                continue;
+            };
+            let factor = form.0[0].1;
+            let mut ends = [low, high].map(|end| factor * (end - at.joints[joint]));
+            ends.sort_by(f64::total_cmp);
+            let arm = pose(Frame::Link {
+                chain,
+                row: row + 1,
+            })
+            .rotation
+            .0[0]
+                .0;
+            self.travels.push(Travel {
+                joint: of.name.clone(),
+                at: shape.at,
+                axis,
+                arm: of.kind.is_angle().then_some(arm),
+                ends,
+            });
+        }
+    }
+
+    /// Bodies that turn about parallel axes on one body by angles of one variable are geared: ω₂ = k ω₁ makes the pitch
+    /// radii r₁ = |k| r₂, with r₁ + r₂ the distance of the axes if they turn opposite ways and |r₁ − r₂| otherwise.
+    pub(super) fn gears(
+        &mut self,
+        mechanism: &Mechanism,
+        pose: &impl Fn(Frame) -> Pose<f64>,
+        number: &impl Fn(Frame) -> usize,
+    ) {
+        let mut turned: Vec<Turned> = Vec::new();
+        for (chain, part) in mechanism.dimensions().chains.iter().enumerate() {
+            let link = |row: usize| Frame::Link { chain, row };
+            for (i, row) in part.rows.iter().enumerate() {
+                if row.turn.0.len() != 1 || !row.slide.0.is_empty() {
+                    continue;
+                }
+                let frame = match mechanism.chains()[chain].convention {
+                    Convention::Modified => pose(link(i + 1)),
+                    Convention::Standard => pose(link(i)),
+                };
+                turned.push(Turned {
+                    on: number(link(i)),
+                    body: number(link(i + 1)),
+                    at: frame.position,
+                    axis: frame.rotation.0[2],
+                    angle: &row.turn,
+                });
+            }
+        }
+        for (i, a) in turned.iter().enumerate() {
+            for b in &turned[i + 1..] {
+                let ((first, p), (second, q)) = (a.angle.0[0], b.angle.0[0]);
+                let along = a.axis.dot(&b.axis);
+                let apart = b.at - a.at;
+                let across = apart - a.axis.times(apart.dot(&a.axis));
+                let distance = across.norm();
+                let geared = first == second && a.on == b.on && a.body != b.body;
+                let size = mechanism.characteristic_length();
+                if !geared || along.abs() < 1.0 - 1e-9 || distance < 1e-9 * size {
+                    continue;
+                }
+                let ratio = q / p * along.signum();
+                let second = distance / (ratio - 1.0).abs();
+                if (ratio - 1.0).abs() < 1e-9 || ratio == 0.0 {
+                    continue;
+                }
+                for (of, radius) in [(a, ratio.abs() * second), (b, second)] {
+                    self.wheels.push(Wheel {
+                        body: of.body,
+                        at: of.at.0,
+                        axis: of.axis.0,
+                        radius,
+                    });
+                }
+            }
+        }
+        // a wheel that meshes with two others is one
+        let wheels = std::mem::take(&mut self.wheels);
+        for wheel in wheels {
+            if !self.wheels.contains(&wheel) {
+                self.wheels.push(wheel);
+            }
+        }
+    }
+}
+
+impl Wheel {
+    /// Points round it.
+    pub fn points(&self) -> Vec<Triple> {
+        let (axis, at) = (Vector3(self.axis), Vector3(self.at));
+        let [right, up] = across(&axis);
+        let place = |k: u32| {
+            let (sin, cos) = (f64::from(k) / 48.0 * TAU).sin_cos();
+            (at + (right.times(cos) + up.times(sin)).times(self.radius)).0
+        };
+        (0..=48).map(place).collect()
+    }
+}
+
+/// Two unit vectors perpendicular to one and to one another.
+pub(crate) fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let least = (0..3).min_by(|&i, &k| axis.0[i].abs().total_cmp(&axis.0[k].abs()));
+    let right = axis.cross(&Vector3::unit(least.unwrap_or(0)));
+    let right = right.times(1.0 / right.norm());
+    [right, axis.cross(&right)]
+}
