@@ -42,7 +42,7 @@ impl View {
             None => (Viewed::default(), "linkwork.html".into(), String::new()),
         };
         let path = self.output.as_ref().unwrap_or(&beside);
-        save(path, &page(&viewed))?;
+        save(path, page(&viewed).as_bytes())?;
         let answer = Answer {
             data: format!("{}: open it in a browser.\n", path.display()),
             remarks: String::new(),

@@ -17,7 +17,6 @@ use crate::analysis::sweep::{
     Columns, Extreme, Extremum, MetKind, MotionReport, MotionsReport, Row,
 };
 use crate::mechanism::Variable;
-pub use words::sentence;
 
 impl Report for MotionsReport {
     fn is_interrupted(&self) -> bool {
