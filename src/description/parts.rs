@@ -401,19 +401,15 @@ impl<E> Displacement<E> {
     /// The displacement with other entries. All are tried before an error is returned.
     pub(crate) fn try_map<F, X>(
         &self,
-        change: impl FnMut(&E) -> Result<F, X>,
+        mut change: impl FnMut(&E) -> Result<F, X>,
     ) -> Result<Displacement<F>, X> {
-        let mut changed = self
-            .entries()
-            .iter()
-            .map(change)
-            .collect::<Vec<_>>()
-            .into_iter();
-        let mut next = || changed.next().expect("as many entries as before");
         Ok(match self {
-            Self::Translate(axis, _) => Displacement::Translate(*axis, next()?),
-            Self::Rotate(axis, _) => Displacement::Rotate(*axis, next()?),
-            Self::TranslateBy(_) => Displacement::TranslateBy([next()?, next()?, next()?]),
+            Self::Translate(axis, entry) => Displacement::Translate(*axis, change(entry)?),
+            Self::Rotate(axis, entry) => Displacement::Rotate(*axis, change(entry)?),
+            Self::TranslateBy(entries) => {
+                let [x, y, z] = entries.each_ref().map(change);
+                Displacement::TranslateBy([x?, y?, z?])
+            }
         })
     }
 }

@@ -28,12 +28,6 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<St
     (description, reader.problems, reader.broken)
 }
 
-/// The same for a file of joint axes.
-fn read_axes(text: &str) -> (Option<AxesDescription>, Vec<Problem>) {
-    let (description, reader) = read_with(text, Reader::axes);
-    (description, reader.problems)
-}
-
 /// The word that a text begins with, if it is one RON value that does.
 fn first_word(text: &str) -> Option<&str> {
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
@@ -53,7 +47,7 @@ pub fn is_mechanism(text: &str) -> bool {
 impl AxesDescription {
     /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, mut problems) = read_axes(text);
+        let (description, Reader { mut problems, .. }) = read_with(text, Reader::axes);
         if let Some(description) = &description {
             super::checks::check_axes(description, &mut problems);
         }

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Row, Symbol};
 use super::{ClosureKind, Convention, Frame, Mechanism, Role};
 use crate::algebra::Affine;
+use crate::description::first_free;
 use crate::geometry::Axis;
 
 impl Mechanism {
@@ -85,10 +86,6 @@ impl Mechanism {
         let others = self.platforms.iter().map(|platform| &platform.name);
         let closures = self.closures.iter().map(|closure| &closure.name);
         let all: Vec<&String> = joints.chain(chains).chain(others).chain(closures).collect();
-        let mut name = name.to_owned();
-        while all.contains(&&name) {
-            name.push('_');
-        }
-        name
+        first_free(name, "_", |name| all.iter().all(|known| *known != name))
     }
 }

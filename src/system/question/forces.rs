@@ -86,14 +86,8 @@ impl Load {
                 number(question, name, &Value::from(*part), wanted).map_err(ForceError::Value)
             })
             .collect::<Result<Vec<f64>, _>>()?;
-        match values[..] {
-            [x, y, z] => self.forces(question, name, ([x, y, z], [0.0; 3])),
-            [x, y, z, a, b, c] => self.forces(question, name, ([x, y, z], [a, b, c])),
-            _ => {
-                let given = values.len();
-                Err(ForceError::Components { given })
-            }
-        }
+        let three = |first: usize| [0, 1, 2].map(|i| values.get(first + i).copied().unwrap_or(0.0));
+        self.forces(question, name, (three(0), three(3)))
     }
 
     /// Adds a wrench: force in N and moment in N·m at a point in directions of ground.
