@@ -10,7 +10,7 @@ use super::remark::Remark;
 use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 use crate::description::{GROUND, Role};
 use crate::geometry::{Pose, Vector3};
-use crate::mechanism::{Configuration, Frame, JointKind, LinearForm, Mechanism, RowDimensions};
+use crate::mechanism::{Configuration, Frame, JointKind, Mechanism, RowDimensions};
 
 /// An occurrence of a variable: in a row of a chain, as an angle or as a length.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -56,7 +56,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
 /// Joint values, with angles changed by full turns where that brings them within their limits.
 fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
     let joints = mechanism.joints().iter().zip(&at.joints).enumerate();
-    let value = |(i, (joint, &value)): (usize, (&crate::mechanism::Joint, &f64))| {
+    let values = joints.map(|(i, (joint, &value))| {
         let turned = mechanism.by_limits(i, value);
         match joint.limits {
             // but for rounding
@@ -65,8 +65,8 @@ fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
             }
             _ => turned,
         }
-    };
-    joints.map(value).collect()
+    });
+    values.collect()
 }
 
 /// A name for XML: without control characters.
@@ -245,10 +245,8 @@ impl Cutter<'_> {
         let mechanism = self.mechanism;
         let closures = mechanism.closures().iter();
         let closures = closures.zip(&mechanism.dimensions().closures);
-        let of = |(closure, dimensions): (&crate::mechanism::NamedClosure, _)| {
-            let dimensions: &crate::mechanism::ClosureDimensions<f64> = dimensions;
-            let LinearForm(terms) = &dimensions.extension;
-            let terms = terms.iter();
+        let loops = closures.map(|(closure, dimensions)| {
+            let terms = dimensions.extension.0.iter();
             let terms = terms.map(|&(joint, c)| (mechanism.joints()[joint].name.clone(), c));
             Loop {
                 name: printable(&closure.name),
@@ -259,8 +257,8 @@ impl Cutter<'_> {
                     terms: terms.collect(),
                 }),
             }
-        };
-        closures.map(of).collect()
+        });
+        loops.collect()
     }
 }
 
@@ -298,10 +296,10 @@ fn followers(mechanism: &Mechanism, couplings: &[Coupling]) -> Vec<Remark> {
     for joint in mechanism.joints() {
         let of = couplings.iter().filter(|c| c.leader == joint.name);
         let followers: Vec<String> = of.map(|c| c.joint.clone()).collect();
-        let joint = joint.name.clone();
-        match mechanism.joint(&joint).map(|i| mechanism.joints()[i].kind) {
+        let (kind, joint) = (joint.kind, joint.name.clone());
+        match kind {
             _ if followers.is_empty() => {}
-            Some(JointKind::Helical) => remarks.push(Remark::Helical { joint, followers }),
+            JointKind::Helical => remarks.push(Remark::Helical { joint, followers }),
             _ => remarks.push(Remark::Shared { joint, followers }),
         }
     }

@@ -111,13 +111,8 @@ pub(super) fn tag(node: Node) -> Range<usize> {
 
 /// Where the value of an attribute stands.
 fn value_span(node: Node, name: &str) -> Range<usize> {
-    let found = node.attribute_node(name).map(|attribute| {
-        let range = attribute.range();
-        let text = &node.document().input_text()[range.clone()];
-        let from = text.find(['"', '\'']).map_or(0, |i| i + 1);
-        range.start + from..range.end.saturating_sub(1).max(range.start + from)
-    });
-    found.unwrap_or_else(|| tag(node))
+    let found = node.attribute_node(name);
+    found.map_or_else(|| tag(node), |attribute| attribute.range_value())
 }
 
 /// The elements in an element, of a name.

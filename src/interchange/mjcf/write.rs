@@ -16,7 +16,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Extent, Joint, Loop, Motion, Tree};
-use crate::interchange::xml::{Xml, numbers, place, vector};
+use crate::interchange::xml::{Attributes, Xml, numbers, place, vector};
 
 /// The text of an MJCF file, with remarks on what it expresses differently from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
@@ -87,9 +87,8 @@ impl Page<'_> {
 
     /// A constraint between two sites.
     fn join(&mut self, tag: &'static str, name: &str, [a, b]: &[Site; 2]) {
-        let attributes: [(&str, &dyn std::fmt::Display); 3] =
-            [("name", &name), ("site1", &a.0), ("site2", &b.0)];
-        self.equalities.leaf(tag, &attributes);
+        let sites: Attributes = &[("name", &name), ("site1", &a.0), ("site2", &b.0)];
+        self.equalities.leaf(tag, sites);
     }
 
     fn closure(&mut self, of: &Loop) -> Option<Remark> {
@@ -152,9 +151,8 @@ impl Page<'_> {
             self.tendons.open("fixed", &[("name", &second)]);
             for (joint, c) in &length.terms {
                 let coefficient = numbers([sign * c]);
-                let term: [(&str, &dyn std::fmt::Display); 2] =
-                    [("joint", joint), ("coef", &coefficient)];
-                self.tendons.leaf("joint", &term);
+                let term: Attributes = &[("joint", joint), ("coef", &coefficient)];
+                self.tendons.leaf("joint", term);
             }
             self.tendons.close("fixed");
         }

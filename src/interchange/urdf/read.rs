@@ -65,30 +65,22 @@ impl<'a, 'i> Reader<'a, 'i> {
                     self.problems
                         .say(ImportProblemKind::Macro { element }, node);
                 }
-                "link" => {
-                    if let Some(name) = self.problems.needed(node, "name") {
-                        if !names.insert(name) {
-                            let name = name.to_owned();
-                            let problem = ImportProblemKind::Duplicate { noun: "link", name };
-                            self.problems.say(problem, node);
-                        }
-                        self.links.push(name.to_owned());
+                "link" | "joint" => {
+                    let noun = if element == "link" { "link" } else { "joint" };
+                    let Some(name) = self.problems.needed(node, "name") else {
+                        continue;
+                    };
+                    let (new, name) = (names.insert((noun, name)), name.to_owned());
+                    match noun {
+                        "link" => self.links.push(name.clone()),
+                        _ => self.joints.push((node, name.clone())),
+                    }
+                    if !new {
+                        let problem = ImportProblemKind::Duplicate { noun, name };
+                        self.problems.say(problem, node);
                     }
                     let shapes = node.descendants().filter(|part| part.has_tag_name("mesh"));
                     *ignored.entry("mesh".into()).or_default() += shapes.count();
-                }
-                "joint" => {
-                    if let Some(name) = self.problems.needed(node, "name") {
-                        if self.joints.iter().any(|(_, other)| other == name) {
-                            let name = name.to_owned();
-                            let problem = ImportProblemKind::Duplicate {
-                                noun: "joint",
-                                name,
-                            };
-                            self.problems.say(problem, node);
-                        }
-                        self.joints.push((node, name.to_owned()));
-                    }
                 }
                 "material" | "transmission" => {}
                 _ if loops::is_loop(node) => {}
