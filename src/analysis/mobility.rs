@@ -96,6 +96,10 @@ pub fn mobility(
             .collect()
     };
     let moving_joints = moving(&found.moved);
+    /// Below this a component of a unit motion is that of another one, mixed in.
+    const MIXED: f64 = 1e-2;
+    let turns = |i: usize| locked.iter().any(|motion| motion[i].abs() > MIXED);
+    let gimbal_locked_joints = moving(&(0..unknowns).map(turns).collect::<Vec<bool>>());
     let branches = (found.branches.iter())
         .map(|branch| BranchReport {
             mobility: branch.freedoms,
@@ -126,7 +130,7 @@ pub fn mobility(
         idle_joints,
         outside_limits: closed.outside_limits(mechanism),
         moving_joints,
-        gimbal_locked_joints: turning(mechanism, near.system().unknowns(), &locked),
+        gimbal_locked_joints,
         gimbal_locked: locked.len(),
         joints: mechanism.named_joints(&closed.configuration.joints),
         character: found.character,
@@ -222,18 +226,6 @@ fn names(mechanism: &Mechanism, held: &Held<f64>, locking: &Question) -> Vec<Str
             .collect(),
     });
     joints.chain(platforms).collect()
-}
-
-/// The joints that turn in any of some motions.
-fn turning(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>]) -> Vec<String> {
-    /// Below this a component of a unit motion is that of another one, mixed in.
-    const MIXED: f64 = 1e-2;
-    let places = (0..unknowns.len()).filter(|&i| motions.iter().any(|m| m[i].abs() > MIXED));
-    let names = places.filter_map(|i| match unknowns[i] {
-        Unknown::Joint(joint) => Some(mechanism.joints()[joint].name.clone()),
-        Unknown::Twist { .. } => None,
-    });
-    names.collect()
 }
 
 /// The local freedoms of the model, then one for each rod between two balls.

@@ -1,6 +1,5 @@
 //! Formulas as a document.
 
-use crate::output::report::Report;
 use std::collections::BTreeMap;
 
 use super::{Notation, Script, jacobian_rows, notes, parts, printed_rows, rows};
@@ -8,7 +7,10 @@ use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
 };
+use crate::description::count;
 use crate::output::document::{Document, Section};
+use crate::output::quantity::form;
+use crate::output::report::Report;
 
 /// Wider matrices are printed entry by entry.
 const WIDEST: usize = 110;
@@ -18,7 +20,7 @@ impl Report for FormulasReport {
         let notation = Notation::new(&self.names, Script::Unicode);
         let section = |title: &str, blocks: Vec<String>| match blocks.is_empty() {
             true => Section::new(title),
-            false => Section::new(title).code("", outdented(&blocks.join("\n"))),
+            false => Section::new(title).code("", blocks.join("\n").trim_end()),
         };
         let transforms = |transforms: &[TransformFormula]| -> Vec<String> {
             transforms.iter().map(|t| transform(&notation, t)).collect()
@@ -38,13 +40,6 @@ impl Report for FormulasReport {
     }
 }
 
-/// The text without the two spaces that sections are indented by.
-fn outdented(text: &str) -> String {
-    let lines = text.lines();
-    let lines = lines.map(|line| line.strip_prefix("  ").unwrap_or(line));
-    lines.collect::<Vec<&str>>().join("\n")
-}
-
 fn transform(notation: &Notation, transform: &TransformFormula) -> String {
     let rows = printed_rows(notation, transform);
     let names = [
@@ -52,14 +47,13 @@ fn transform(notation: &Notation, transform: &TransformFormula) -> String {
         ["r21", "r22", "r23", "py"],
         ["r31", "r32", "r33", "pz"],
     ];
-    let title = format!("  {} in {}\n", transform.of, transform.relative_to);
+    let title = format!("{} in {}\n", transform.of, transform.relative_to);
     title
         + &matrix(&rows).unwrap_or_else(|| {
             // column after column, as n, s, a and p are read
             let entries = (0..4).flat_map(|column| (0..3).map(move |row| (row, column)));
-            let entries = entries.map(|(row, column)| {
-                format!("    {} = {}\n", names[row][column], rows[row][column])
-            });
+            let entries = entries
+                .map(|(row, column)| format!("  {} = {}\n", names[row][column], rows[row][column]));
             entries.collect()
         })
 }
@@ -91,7 +85,7 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
             .zip(&widths)
             .map(|(cell, w)| format!("{cell}{}", " ".repeat(w - width(cell))));
         let cells: Vec<String> = cells.collect();
-        text += &format!("    {left} {} {right}\n", cells.join("  "));
+        text += &format!("  {left} {} {right}\n", cells.join("  "));
     }
     Some(text)
 }
@@ -107,33 +101,31 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         same_axes,
         admits_flipped,
     } = closure;
-    let mut text = format!("  {name}: {} between {a} and {b}\n", kind.word());
+    let mut text = format!("{name}: {} between {a} and {b}\n", kind.word());
     for equation in equations {
-        text += &format!("    {} = 0\n", notation.print(equation));
+        text += &format!("  {} = 0\n", notation.print(equation));
     }
     if let Some((gap, length)) = distance {
         for (axis, component) in ["x", "y", "z"].into_iter().zip(gap) {
-            text += &format!("    g{axis} = {}\n", notation.print(component));
+            text += &format!("  g{axis} = {}\n", notation.print(component));
         }
         let length = notation.print(length);
         let length = match length.contains(' ') {
             true => format!("({length})²"),
             false => format!("{length}²"),
         };
-        text += &format!("    gx² + gy² + gz² = {length}\n");
+        text += &format!("  gx² + gy² + gz² = {length}\n");
     }
     if *identically_zero > 0 {
-        let more = match identically_zero {
-            1 => "1 more equation holds".to_owned(),
-            n => format!("{n} more equations hold"),
-        };
-        text += &format!("    {more} at all joint values\n");
+        let hold = form(*identically_zero, "holds", "hold");
+        let more = format!("{} {hold}", count(*identically_zero, "more equation"));
+        text += &format!("  {more} at all joint values\n");
     }
     if *same_axes {
-        text += &format!("    and the axes n, s, a of {a} are those of {b}\n");
+        text += &format!("  and the axes n, s, a of {a} are those of {b}\n");
     }
     if *admits_flipped && equations.len() > 3 {
-        text += "    and the axes point the same way: these equations hold for opposite ones too\n";
+        text += "  and the axes point the same way: these equations hold for opposite ones too\n";
     }
     text
 }
@@ -142,13 +134,13 @@ fn jacobian(notation: &Notation, jacobian: &JacobianFormula) -> String {
     let joints = jacobian.columns.iter();
     let joints: Vec<String> = joints.map(|c| notation.name(&c.joint)).collect();
     let (of, relative_to) = (&jacobian.of, &jacobian.relative_to);
-    let title = format!("  {of} in {relative_to}, columns {}\n", joints.join(", "));
+    let title = format!("{of} in {relative_to}, columns {}\n", joints.join(", "));
     let rows = jacobian_rows(notation, jacobian);
     let listed = || -> String {
         let columns = joints.iter().enumerate().map(|(j, joint)| {
             let names = ["vx", "vy", "vz", "ωx", "ωy", "ωz"].into_iter().zip(&rows);
-            let entries = names.map(|(name, row)| format!("      {name} = {}\n", row[j]));
-            format!("    {joint}\n{}", entries.collect::<String>())
+            let entries = names.map(|(name, row)| format!("    {name} = {}\n", row[j]));
+            format!("  {joint}\n{}", entries.collect::<String>())
         });
         columns.collect()
     };
