@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::ranges::still;
 use super::{AskError, Question};
 use crate::analysis::sweep::{Row, SweepEnd, SweepReport, SweepSettings, sweep};
 use crate::geometry::Vector3;
@@ -10,15 +9,16 @@ use crate::linear::{Decomposition, norm};
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::{Newton, Watch};
 use crate::system::{
-    Coordinate, Driven, FrameTwists, Freedoms, Held, QuestionError, Search, System, check_count,
+    self, Coordinate, Driven, FrameTwists, Freedoms, Held, QuestionError, Search, Still, System,
+    check_count,
 };
 
 /// A mechanism in a configuration, with what is held of it.
 #[derive(Clone, Debug)]
 pub struct Steering {
     mechanism: Arc<Mechanism>,
-    /// With what stands still so that links do not spin.
-    held: Held<f64>,
+    /// What stands still so that links do not spin.
+    still: Vec<Still>,
     driven: Vec<Coordinate>,
     at: Configuration<f64>,
 }
@@ -69,7 +69,7 @@ impl Question {
         Ok(Steering {
             mechanism: self.mechanism.clone(),
             driven: resolved.held_coordinates(),
-            held: resolved.with_spins_still().held(),
+            still: resolved.with_spins_still().still().to_vec(),
             at,
         })
     }
@@ -120,9 +120,16 @@ impl Steering {
         &self.at
     }
 
-    /// What is held.
-    pub fn held(&self) -> &Held<f64> {
-        &self.held
+    /// What is held, where it is.
+    pub fn held(&self) -> Held<f64> {
+        self.held_but(&[])
+    }
+
+    fn held_but(&self, released: &[Coordinate]) -> Held<f64> {
+        let kept = self.driven.iter().filter(|of| !released.contains(of));
+        let kept: Vec<Coordinate> = kept.copied().collect();
+        let question = system::Question::locking(&self.mechanism, &kept, &self.at);
+        Still::beside(&self.still, question.held())
     }
 
     /// What can be moved: the coordinates that are held.
@@ -193,7 +200,7 @@ impl Steering {
         const LONGEST: f64 = 0.5;
         let mechanism = self.mechanism.clone();
         let length = mechanism.characteristic_length();
-        let loose = (self.driven.iter()).fold(self.held.clone(), |held, of| held.without(*of));
+        let loose = self.held_but(&self.driven);
         let freedoms = Freedoms::at(mechanism.dimensions(), &loose, &self.at);
         let motions = &freedoms.motions;
         let twists = FrameTwists::new(mechanism.dimensions(), &freedoms.unknowns, &[*point]);
@@ -245,7 +252,8 @@ impl Steering {
             steps: 1,
             ..SweepSettings::default()
         };
-        let held = still(self.held.clone(), inputs);
+        let moved: Vec<Coordinate> = inputs.iter().map(|input| input.coordinate).collect();
+        let held = self.held_but(&moved);
         let mut end = self.at.clone();
         let mut last = |row: &Row| end.clone_from(row.configuration);
         let report = sweep(
@@ -317,6 +325,40 @@ mod tests {
         }
         let reached = steering.at().joints[0];
         assert!((reached - angle).abs() < 1e-3, "{reached} is not {angle}");
+    }
+
+    /// A platform that is held whole moves along one of its coordinates; its legs are then as long as the points they join
+    /// are apart.
+    #[test]
+    fn a_platform_that_is_held_whole_is_moved_and_moved_again() {
+        let watch = &Watch::none();
+        let file = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/mechanisms/stewart_gough_6ups.ron"
+        );
+        let asked = Question::new(Mechanism::load(file).unwrap()).free("actuated");
+        let names = ["x", "y", "z", "roll", "pitch", "yaw"].map(|c| format!("top.{c}"));
+        let asked = names
+            .iter()
+            .fold(asked, |asked, name| asked.hold(name, "home"));
+        let mut steering = asked.steering(watch).unwrap();
+        let driven = steering.driven().to_vec();
+        assert_eq!(driven.len(), 6);
+        for (of, way) in [
+            (driven[2], 0.1),
+            (driven[0], 0.05),
+            (driven[2], -0.05),
+            (driven[5], 0.1),
+        ] {
+            let to = of.of(steering.at()) + way;
+            let before: Vec<f64> = driven.iter().map(|of| of.of(steering.at())).collect();
+            let report = steering.move_to(&[(of, to)], watch);
+            assert_eq!(report.ending, SweepEnd::Complete);
+            for (other, before) in driven.iter().zip(before) {
+                let wanted = if *other == of { to } else { before };
+                assert!((other.of(steering.at()) - wanted).abs() < 1e-9);
+            }
+        }
     }
 
     #[test]

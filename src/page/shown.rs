@@ -103,7 +103,7 @@ pub fn held(steering: &Steering) -> Vec<String> {
 /// How far the mechanism is from a singular configuration.
 pub fn figures(steering: &Steering) -> Value {
     let mechanism = steering.mechanism();
-    let freedoms = Freedoms::at(mechanism.dimensions(), steering.held(), steering.at());
+    let freedoms = Freedoms::at(mechanism.dimensions(), &steering.held(), steering.at());
     let condition = freedoms.condition();
     json!({
         "condition": condition.is_finite().then_some(condition),

@@ -25,11 +25,12 @@ async function opened(file, fragment = "") {
   const path = join(folder, `${file.replaceAll(/[/.]/g, "_")}.html`);
   if (process.env.PAGE) {
     // a page that was built anew, filled in as the program does
-    const text = readFileSync(resolve(root, file), "utf8");
+    const text = file && readFileSync(resolve(root, file), "utf8");
     const data = JSON.stringify({ file, text, set: [], watch: false }).replaceAll("<", "\\u003c");
     writeFileSync(path, readFileSync(process.env.PAGE, "utf8").replace("{mechanism}", () => data));
   } else {
-    execFileSync(program, ["view", file, "-o", path], { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
+    const given = ["view", file, "-o", path].filter(Boolean);
+    execFileSync(program, given, { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
   }
   return shown(path, fragment);
 }
@@ -139,6 +140,72 @@ const tests = {
     await modes[5].click();
     const pressed = await page.$$eval("#mode-list button", (all) => all.map((b) => b.getAttribute("aria-pressed")));
     check(pressed.indexOf("true") === 5, `marked are ${pressed}`);
+    await page.close();
+  },
+
+  async "what is held is chosen by a click, whole platforms too"() {
+    const page = await opened("mechanisms/four_bar.ron");
+    const held = () => page.evaluate(() => globalThis.linkwork.frame.held.join(" "));
+    await page.click("[data-name=phi1][type=checkbox]");
+    check((await held()) === "phi1", `held is ${await held()}`);
+    await page.close();
+    const platform = await opened("mechanisms/stewart_gough_6ups.ron");
+    const all = ["x", "y", "z", "roll", "pitch", "yaw"].map((c) => `top.${c}`);
+    check(await platform.evaluate((names) => globalThis.linkwork.holds(names), all), "a platform cannot be held whole");
+    await platform.evaluate(() => globalThis.linkwork.move("top.z", 0.95));
+    await platform.evaluate(() => globalThis.linkwork.move("top.x", 0.05));
+    const at = (await values(platform)).slice(-6);
+    check(Math.abs(at[2] - 0.95) < 1e-9 && Math.abs(at[0] - 0.05) < 1e-9, `the platform is at ${at}`);
+    check((await said(platform)) === "", await said(platform));
+    await platform.close();
+  },
+
+  async "a sweep marks dead points, and its cursor moves the picture"() {
+    const page = await opened("mechanisms/chebyshev.ron");
+    await page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = true)));
+    await page.click("#sweep");
+    await page.waitForSelector("#play:not([disabled])", { timeout: 60_000 });
+    const words = await page.$eval("#motion-said", (element) => element.textContent);
+    check((words.match(/dead point/g) ?? []).length === 2, words);
+    const picture = () => page.evaluate(() => document.getElementById("canvas").toDataURL());
+    const before = await picture();
+    await page.$eval("#cursor", (cursor) => {
+      cursor.value = "30";
+      cursor.dispatchEvent(new Event("input"));
+    });
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    check((await picture()) !== before, "the cursor does not move the picture");
+    await page.close();
+  },
+
+  async "keys move what is held"() {
+    const page = await opened("mechanisms/four_bar.ron");
+    await page.focus("#canvas");
+    for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowRight");
+    const [theta1] = await values(page);
+    check(Math.abs((theta1 * 180) / Math.PI - 63) < 1e-9, `theta1 is ${theta1}`);
+    await page.close();
+  },
+
+  async "a parameter that leaves no assembly is refused"() {
+    const page = await opened("mechanisms/four_bar.ron");
+    await page.evaluate(() => globalThis.linkwork.set([["l2", "3.2"]]));
+    check((await page.evaluate(() => globalThis.linkwork.file.set.length)) === 1, "l2 is not set");
+    await page.evaluate(() => globalThis.linkwork.set([["l2", "0.2"]]));
+    check((await page.evaluate(() => globalThis.linkwork.file.set[0][1])) === "3.2", "the old value is not kept");
+    check((await said(page)).includes("l2 = 0.2"), await said(page));
+    await page.close();
+  },
+
+  async "a page without a mechanism is a gallery of all that are shipped"() {
+    const page = await opened("");
+    await page.waitForSelector("#gallery[open]");
+    const names = await page.$$eval("#gallery-items button", (all) => all.map((item) => item.dataset.file));
+    const shipped = files.map((file) => file.replace("mechanisms/", ""));
+    check(JSON.stringify(names.toSorted()) === JSON.stringify(shipped.toSorted()), `shown are ${names}`);
+    await page.click('#gallery-items button[data-file="delta.ron"]');
+    check((await page.$eval("#name", (element) => element.textContent)) === "Delta robot", "another is opened");
+    check(page.complaints.length === 0, page.complaints.join("; "));
     await page.close();
   },
 

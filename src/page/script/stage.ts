@@ -97,7 +97,9 @@ export class Stage {
     const frame = new Box3().setFromPoints(seen.length ? seen : [new Vector3()]);
     const size = frame.getSize(new Vector3());
     const aspect = this.aspect();
-    this.half = 0.5 * Math.max(size.y, size.x / aspect, 0.1 * radius) * 1.3 + 0.06 * radius;
+    // the buttons above and the lines below are over the picture
+    const room = Math.max(1 - 110 / Math.max(this.canvas.parentElement!.clientHeight, 1), 0.6);
+    this.half = 0.5 * Math.max(size.y / room, size.x / aspect, 0.1 * radius) * 1.12 + 0.06 * radius;
     const middle = frame.getCenter(new Vector3()).applyMatrix4(this.camera.matrixWorld);
     const sight = this.camera.getWorldDirection(new Vector3());
     const shift = middle.sub(this.orbit.target);

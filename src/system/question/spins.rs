@@ -24,6 +24,17 @@ impl Still {
         }
     }
 
+    /// What is held, and what stands still too.
+    pub fn beside(all: &[Still], mut held: Held<f64>) -> Held<f64> {
+        for still in all {
+            match *still {
+                Still::Joint(joint) => held.joints[joint] = true,
+                Still::Platform(spin) => held.platforms[spin.platform].stop(&[spin]),
+            }
+        }
+        held
+    }
+
     /// The name of the joint or platform.
     pub fn name(self, mechanism: &Mechanism) -> &str {
         match self {
@@ -95,14 +106,8 @@ impl Question<'_> {
     }
 
     /// What is held, and what stands still in this question too.
-    pub fn with_still(&self, mut held: Held<f64>) -> Held<f64> {
-        for still in &self.still {
-            match *still {
-                Still::Joint(joint) => held.joints[joint] = true,
-                Still::Platform(spin) => held.platforms[spin.platform].stop(&[spin]),
-            }
-        }
-        held
+    pub fn with_still(&self, held: Held<f64>) -> Held<f64> {
+        Still::beside(&self.still, held)
     }
 }
 
