@@ -1,5 +1,6 @@
 // The page in a real browser: every shipped file is shown, dead points hold, nothing hostile runs, nothing is loaded.
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -207,6 +208,27 @@ const tests = {
     check((await page.$eval("#name", (element) => element.textContent)) === "Delta robot", "another is opened");
     check(page.complaints.length === 0, page.complaints.join("; "));
     await page.close();
+  },
+
+  async "a watched page shows its file anew when it is saved"() {
+    if (!program) return;
+    const path = join(folder, "watched.ron");
+    const text = readFileSync(join(root, "mechanisms/four_bar.ron"), "utf8");
+    writeFileSync(path, text);
+    const server = spawn(program, ["view", "--watch", path], { stdio: ["ignore", "pipe", "inherit"] });
+    try {
+      const [line] = await once(server.stdout, "data");
+      const page = await browser.newPage();
+      await page.goto(String(line).split(" ")[0]);
+      await page.waitForSelector("html[data-ready]");
+      await page.evaluate(() => globalThis.linkwork.move("theta1", 1.2));
+      writeFileSync(path, text.replace("4-bar, broken", "Changed, broken"));
+      await page.waitForFunction(() => document.getElementById("name").textContent.startsWith("Changed"));
+      check(Math.abs((await values(page))[0] - 1.2) < 1e-9, "the mechanism does not stay where it was");
+      await page.close();
+    } finally {
+      server.kill();
+    }
   },
 
   async "problems of the editor stand at their line and column"() {
