@@ -37,14 +37,17 @@ pub fn to_axes(
         bodies: BTreeMap::new(),
         joints: Vec::new(),
         own: BTreeSet::new(),
+        apart: BTreeSet::new(),
         cut: Vec::new(),
     };
     drawing.place();
     drawing.name_bodies();
-    drawing.rows();
-    drawing.closures();
-    if let Some(lost) = (description.joints.iter()).find(|j| !drawing.own.contains(&j.name.value)) {
-        let joint = lost.name.value.clone();
+    drawing.draw();
+    drawing.apart = drawing.lost().collect();
+    if !drawing.apart.is_empty() {
+        drawing.draw();
+    }
+    if let Some(joint) = drawing.lost().next() {
         return Err(ConvertError::NotAlone { joint });
     }
     let (bodies, points, renamed) = drawing.frames();
@@ -89,6 +92,8 @@ struct Drawing<'a> {
     joints: Vec<Named<AxisDescription>>,
     /// The variables that have a joint of their name.
     own: BTreeSet<String>,
+    /// The variables that stand in sums only: the first such row becomes two joints in series about the same axis.
+    apart: BTreeSet<String>,
     cut: Vec<Spanned<String>>,
 }
 
@@ -227,6 +232,36 @@ impl Drawing<'_> {
         })
     }
 
+    /// The variables that move no joint by themselves.
+    fn lost(&self) -> impl Iterator<Item = String> + '_ {
+        let all = self
+            .description
+            .joints
+            .iter()
+            .map(|joint| &joint.name.value);
+        all.filter(|name| !self.own.contains(*name)).cloned()
+    }
+
+    /// A name for a body that the tables do not have.
+    fn between_links(&self, wanted: &str) -> String {
+        let connects = |joint: &Named<AxisDescription>, name: &str| {
+            let mut ends = joint.value.between.iter().flatten();
+            ends.any(|end| end.value == name)
+        };
+        first_free(wanted, "_", |name| {
+            self.description.is_free_body(name) && !self.joints.iter().any(|j| connects(j, name))
+        })
+    }
+
+    /// Draws all joints.
+    fn draw(&mut self) {
+        self.joints.clear();
+        self.own.clear();
+        self.cut.clear();
+        self.rows();
+        self.closures();
+    }
+
     fn rows(&mut self) {
         for (chain, named) in self.description.chains.iter().enumerate() {
             let convention = self.mechanism.chains()[chain].convention;
@@ -260,9 +295,7 @@ impl Drawing<'_> {
                             }
                             continue;
                         }
-                        let middle = first_free(&format!("{to}_turned"), "_", |name| {
-                            self.description.is_free_body(name)
-                        });
+                        let middle = self.between_links(&format!("{to}_turned"));
                         let ends = [from, middle.clone()];
                         self.joint(AxisKind::Revolute, &turn, &at, ends, &wanted);
                         let wanted = format!("{wanted}_slide");
@@ -282,6 +315,13 @@ impl Drawing<'_> {
         between: [String; 2],
         wanted: &str,
     ) {
+        if let Some((alone, rest)) = self.split(sum) {
+            let [from, to] = between;
+            let middle = self.between_links(&format!("{to}_part"));
+            self.joint(kind, &alone, at, [from, middle.clone()], wanted);
+            self.joint(kind, &rest, at, [middle, to], wanted);
+            return;
+        }
         let own = match &sum.terms[..] {
             [(name, factor)] if !self.own.contains(name) => {
                 let sense = factor.as_number().filter(|factor| factor.abs() == 1.0);
@@ -318,6 +358,17 @@ impl Drawing<'_> {
             }
         };
         self.joints.push(Named::new(name, joint));
+    }
+
+    /// A sum as a variable that stands nowhere alone, and the rest.
+    fn split(&self, sum: &Affine<String>) -> Option<(Affine<String>, Affine<String>)> {
+        let waits = |name: &String| self.apart.contains(name) && !self.own.contains(name);
+        let is_one = |factor: &Expression| factor.as_number().is_some_and(|f| f.abs() == 1.0);
+        let found = |(name, factor): &(String, Expression)| waits(name) && is_one(factor);
+        let index = sum.terms.iter().position(found)?;
+        let (mut alone, mut rest) = (sum.clone(), sum.clone());
+        alone.terms = vec![rest.terms.remove(index)];
+        (!rest.terms.is_empty()).then_some((alone, rest))
     }
 
     fn closures(&mut self) {
