@@ -126,7 +126,8 @@ fn product(left: Known, right: Known, power: i32) -> Known {
     // a sum of digits fits, one of nines is cut off here
     let right = right.powi(power);
     let all = right.and_then(|right| left.times(right).powi(1));
-    all.map_or(Known::Open, Known::Unit)
+    // an arm times an angular velocity is a velocity, and over another one a plain number
+    all.map_or(Known::Open, |unit| Known::Unit(unit.of_result()))
 }
 
 #[cfg(test)]
@@ -157,6 +158,8 @@ mod tests {
             ("x/a", "m"),
             ("velocity:a*x", "m/s"),
             ("velocity:x/velocity:a", "m"),
+            ("x*velocity:a/velocity:x", ""),
+            ("velocity:a/velocity:x*x", ""),
             ("force:a*velocity:a + force:x*velocity:x", "N·m/s"),
             ("1/force:x", "1/N"),
             ("atan2(x, 2)", "rad"),

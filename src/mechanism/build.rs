@@ -167,6 +167,14 @@ impl Mechanism {
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
         // a coordinate occurs in several entries of the tables
         problems.dedup();
+        // what follows from a problem that has a place is no problem of its own
+        let placed = |problem: &Problem| problem.span != (0..0);
+        if problems
+            .iter()
+            .any(|problem| refused(problem) && placed(problem))
+        {
+            problems.retain(placed);
+        }
         if builder.problems.iter().any(refused) {
             return Err(builder.problems);
         }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::super::model::{Formula, Joint, Symbol};
 use super::Builder;
-use crate::algebra::{Affine, Measure};
+use crate::algebra::{Affine, Measure, MeasureErrorKind};
 use crate::description::{Description, Entry, Named, Problem, ProblemKind, Scope};
 
 impl Builder<'_> {
@@ -45,6 +45,19 @@ impl Builder<'_> {
         if let Err(error) = formula.check_measure(wanted, &|symbol| self.measure(symbol)) {
             self.refuse(ProblemKind::Unit(error.kind), &error.span);
         }
+    }
+
+    /// Records a factor of a joint that cannot give what is wanted: a length makes no angle, an angle no length.
+    fn check_factor(&mut self, factor: &Formula, wanted: Measure) {
+        let found = factor.measure(&|symbol| self.measure(symbol));
+        let kind = match (wanted, found) {
+            (Measure::Angle, Ok(found @ Measure::Length))
+            | (Measure::Length, Ok(found @ Measure::Angle)) => {
+                MeasureErrorKind::Wrong { wanted, found }
+            }
+            _ => return,
+        };
+        self.refuse(ProblemKind::Unit(kind), &factor.span);
     }
 
     /// Whether the definition of a name contains a unit or `pi`.
@@ -132,6 +145,9 @@ impl Builder<'_> {
         match formula.affine(|symbol| matches!(symbol, Symbol::Joint(_))) {
             Ok(affine) => {
                 self.check_bare(&affine.constant, wanted);
+                for (_, factor) in &affine.terms {
+                    self.check_factor(factor, wanted);
+                }
                 let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
                 let parts: Vec<Option<f64>> = (coefficients.chain([&affine.constant]))
                     .map(|part| self.value(part))
