@@ -51,6 +51,14 @@ impl Certifier {
         })
     }
 
+    /// Takes other rows, if they are as many: those of one assembly may depend on one another at another one.
+    pub fn with_rows(&mut self, rows: Vec<usize>) -> &mut Self {
+        if rows.len() == self.rows.len() {
+            self.rows = rows;
+        }
+        self
+    }
+
     /// The largest radius, of those tried, in which the assembly is proved to be the only one; why
     /// there is none.
     pub fn certify(&mut self, at: &Configuration<f64>, largest: f64) -> Result<f64, &'static str> {

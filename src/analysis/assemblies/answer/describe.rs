@@ -67,7 +67,9 @@ impl Question<'_> {
                 (_, 2..) => Err(
                     "singular: solutions meet here, or are too near for double precision to tell apart",
                 ),
-                (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
+                (Some(certifier), _) => certifier
+                    .with_rows(independent_rows(rows, columns, dense))
+                    .certify(&f.point, (0.49 * gap).min(0.01)),
                 (None, _) if certify => Err("singular: too few independent closure rows"),
                 (None, _) => Err("not asked for"),
             };
