@@ -145,7 +145,7 @@ pub struct AssemblyReport {
     pub joints: Named<f64>,
     /// Poses of the platforms there.
     pub platforms: Named<PlatformRecord>,
-    /// Tip frames of the chains there.
+    /// Tip frames of the chains there; of a file of joint coordinates, of the bodies and points that it names.
     pub frames: Named<FrameRecord>,
     /// For each closure how far it is open.
     pub gaps: Named<Gap>,
@@ -289,7 +289,9 @@ impl Reporter<'_> {
         let at = self.by_limits(attempt.at);
         let joints = mechanism.joints().iter().zip(&at.joints);
         let platforms = mechanism.platforms().iter().zip(&at.platforms);
-        let frames = mechanism.chains().iter().enumerate().map(|(chain, part)| {
+        let frames = mechanism.chains().iter().enumerate();
+        let frames = frames.filter(|(_, part)| mechanism.is_given(&part.name));
+        let frames = frames.map(|(chain, part)| {
             let pose = mechanism.transform(Frame::Ground, Frame::Tip { chain }, &at);
             (part.name.clone(), FrameRecord::of(&pose))
         });

@@ -11,6 +11,7 @@ pub use loops::{Loop, LoopStep};
 pub use report::*;
 
 use crate::algebra::{Affine, Node, SiUnit};
+use crate::description::AxisKind;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
     Chain, FixedStep, Formula, Frame, Given, JointKind, Mechanism, NamedClosure, Platform, Row,
@@ -93,7 +94,8 @@ fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
                 _ if !used => JointUse::Unused,
                 JointKind::Revolute => JointUse::Revolute,
                 JointKind::Prismatic => JointUse::Prismatic,
-                JointKind::Helical => JointUse::Helical,
+                JointKind::Helical if is_screw(mechanism, &joint.name) => JointUse::Helical,
+                JointKind::Helical => JointUse::Revolute,
             },
             role: joint.role,
             unit: used.then_some(SiUnit::of_coordinate(joint.kind.is_angle())),
@@ -102,6 +104,13 @@ fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
         }
     });
     joints.collect()
+}
+
+/// Whether a variable that turns something and slides something is that of a screw: gears with racks have such too.
+fn is_screw(mechanism: &Mechanism, name: &str) -> bool {
+    let given = mechanism.coordinates().map(|made| &made.axes.joints);
+    let given = given.and_then(|joints| joints.iter().find(|joint| joint.name.value == name));
+    given.is_none_or(|joint| joint.value.kind == AxisKind::Helical)
 }
 
 fn chain(mechanism: &Mechanism, chain: &Chain) -> ChainOverview {

@@ -14,6 +14,7 @@ pub use tables::Coordinates;
 
 use super::{
     ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, Named, Role, Spanned,
+    place_of,
 };
 use crate::algebra::words;
 
@@ -137,6 +138,14 @@ impl AxisPlace {
 }
 
 impl AxesDescription {
+    /// Whether a body or a point has this name; where no joint names bodies, they are named for it.
+    pub fn names(&self, frame: &str) -> bool {
+        let joints = self.joints.iter().map(|joint| &joint.value);
+        let mut bodies = joints.flat_map(|joint| joint.between.iter().flatten());
+        let named = bodies.any(|body| body.value == frame) || self.is_serial();
+        named || place_of(&self.points, frame).is_some()
+    }
+
     /// Where joints, points and bodies are.
     pub fn places(&self) -> impl Iterator<Item = &AxisPlace> {
         let joints = self.joints.iter().map(|joint| &joint.value);

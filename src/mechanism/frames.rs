@@ -85,6 +85,11 @@ impl Mechanism {
         self.coordinates.as_deref()
     }
 
+    /// Whether the file itself names this frame; tables made of joint coordinates have frames of their own besides.
+    pub fn is_given(&self, frame: &str) -> bool {
+        self.coordinates().is_none_or(|made| made.axes.names(frame))
+    }
+
     /// Warnings: peculiarities that do not prevent an analysis.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings

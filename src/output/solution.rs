@@ -24,7 +24,7 @@ impl Report for AssemblyReport {
             .notes(others(self))
             .section(Section::new("Joints").table(joints(self)))
             .sections(platforms)
-            .section(Section::new("Tips of chains").table(tips(self)))
+            .section(Section::new("Frames").table(tips(self)))
             .sections(gaps)
             .method(found(self))
     }
@@ -139,7 +139,8 @@ fn idle(report: &AssemblyReport) -> Option<String> {
 
 /// What is not known of other configurations with the same inputs.
 fn others(report: &AssemblyReport) -> Option<String> {
-    let solved = report.variables.iter().any(|joint| !joint.held);
+    let joints = report.variables.iter().any(|joint| !joint.held);
+    let solved = joints || !report.platforms.0.is_empty();
     let decided = report.left.is_none();
     let may_differ = report.is_assembled() && decided && solved && !report.gaps.is_empty();
     let another = match report.restarts {
@@ -212,7 +213,7 @@ fn pose(name: &str, platform: &PlatformRecord) -> Section {
 
 fn tips(report: &AssemblyReport) -> TableOf<&(String, FrameRecord)> {
     Table::of(&report.frames.0)
-        .words("chain", |(chain, _)| chain)
+        .words("frame", |(frame, _)| frame)
         .numbers("x", |(_, tip)| Cell::metres(tip.position[0]))
         .numbers("y", |(_, tip)| Cell::metres(tip.position[1]))
         .numbers("z", |(_, tip)| Cell::metres(tip.position[2]))

@@ -289,7 +289,8 @@ impl Tables<'_> {
         }
     }
 
-    /// A body that nothing holds yet: of its part the one with the most joints, which carries the others.
+    /// A body that nothing holds yet, which carries the others of its part: the one with a point of interest, or else
+    /// with the most joints.
     fn next_platform(&self) -> Option<usize> {
         let parts = self.graph.parts(|j| !self.cuts.contains(&j));
         let first = self.bodies.iter().position(Option::is_none)?;
@@ -301,8 +302,12 @@ impl Tables<'_> {
                 .filter(move |e| e.contains(&b))
                 .count()
         };
+        let asked = |b: usize| {
+            let name = &self.graph.bodies[b].value;
+            (self.axes.points.iter()).any(|point| point.value.body.value == *name)
+        };
         // the first of those with the most
-        same.rev().max_by_key(|&b| joints(b))
+        same.rev().max_by_key(|&b| (asked(b), joints(b)))
     }
 
     /// Places everything that hangs on a body.
