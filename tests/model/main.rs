@@ -5,6 +5,7 @@ mod description;
 mod exchange;
 mod golden;
 mod includes;
+mod machines;
 mod mechanisms;
 mod negative_lengths;
 mod numbers;
