@@ -48,7 +48,7 @@ impl Builder<'_> {
     }
 
     /// Records a factor of a joint that cannot give what is wanted: a length makes no angle, an angle no length.
-    fn check_factor(&mut self, factor: &Formula, wanted: Measure) {
+    fn check_factor(&mut self, factor: &Formula, wanted: Measure, at: &Range<usize>) {
         let found = factor.measure(&|symbol| self.measure(symbol));
         let kind = match (wanted, found) {
             (Measure::Angle, Ok(found @ Measure::Length))
@@ -57,7 +57,7 @@ impl Builder<'_> {
             }
             _ => return,
         };
-        self.refuse(ProblemKind::Unit(kind), &factor.span);
+        self.refuse(ProblemKind::Unit(kind), at);
     }
 
     /// Whether the definition of a name contains a unit or `pi`.
@@ -146,7 +146,7 @@ impl Builder<'_> {
             Ok(affine) => {
                 self.check_bare(&affine.constant, wanted);
                 for (_, factor) in &affine.terms {
-                    self.check_factor(factor, wanted);
+                    self.check_factor(factor, wanted, &entry.span);
                 }
                 let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
                 let parts: Vec<Option<f64>> = (coefficients.chain([&affine.constant]))

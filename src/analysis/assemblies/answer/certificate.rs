@@ -51,10 +51,10 @@ impl Certifier {
         })
     }
 
-    /// Takes other rows, if they are as many: those of one assembly may depend on one another at another one.
-    pub fn with_rows(&mut self, rows: Vec<usize>) -> &mut Self {
+    /// Takes other rows, if they are as many.
+    pub fn with_rows(&mut self, rows: &[usize]) -> &mut Self {
         if rows.len() == self.rows.len() {
-            self.rows = rows;
+            self.rows.copy_from_slice(rows);
         }
         self
     }

@@ -67,9 +67,13 @@ impl Question<'_> {
                 (_, 2..) => Err(
                     "singular: solutions meet here, or are too near for double precision to tell apart",
                 ),
-                (Some(certifier), _) => certifier
-                    .with_rows(independent_rows(rows, columns, dense))
-                    .certify(&f.point, (0.49 * gap).min(0.01)),
+                (Some(certifier), _) => {
+                    let largest = (0.49 * gap).min(0.01);
+                    let common = certifier.with_rows(&chosen).certify(&f.point, largest);
+                    // the common rows may depend on one another here
+                    let own = || independent_rows(rows, columns, dense);
+                    common.or_else(|_| certifier.with_rows(&own()).certify(&f.point, largest))
+                }
                 (None, _) if certify => Err("singular: too few independent closure rows"),
                 (None, _) => Err("not asked for"),
             };
