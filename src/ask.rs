@@ -21,9 +21,11 @@
 mod at_configuration;
 mod error;
 mod modes;
+mod motions;
 mod quantities;
 mod ranges;
 mod remedy;
+mod schedule;
 mod singularities;
 mod steering;
 mod sweep;
@@ -34,12 +36,14 @@ use std::sync::Arc;
 pub use crate::system::Value;
 pub use error::{AskError, Item, Role, Unmeasured};
 pub use modes::{Mode, Modes, Solved, Store};
+pub use motions::Motions;
 pub use remedy::Holdable;
+pub use schedule::{TableError, TableErrorKind};
 pub use steering::Steering;
-pub use sweep::Motions;
 pub use workspace::MOST_BYTES;
 
-use crate::mechanism::{Configuration, Mechanism};
+use crate::analysis::sweep::Schedule;
+use crate::mechanism::{Body, Configuration, Mechanism, NamedPoint};
 use crate::system;
 
 /// A coordinate that moves or is mapped over a range.
@@ -72,9 +76,11 @@ pub struct Question {
     mode: Mode,
     seed: u64,
     inputs: Vec<Range>,
+    schedule: Option<Schedule>,
     outputs: Vec<String>,
     points: Vec<String>,
     reports: Vec<String>,
+    dwells: Vec<(String, Value)>,
     rates: Vec<(String, Value)>,
     accelerations: Vec<(String, Value)>,
     wrenches: Vec<(String, Wrench)>,
@@ -95,9 +101,11 @@ impl Question {
             mode: Mode::Nearest,
             seed: 1,
             inputs: Vec::new(),
+            schedule: None,
             outputs: Vec::new(),
             points: Vec::new(),
             reports: Vec::new(),
+            dwells: Vec::new(),
             rates: Vec::new(),
             accelerations: Vec::new(),
             wrenches: Vec::new(),
@@ -111,22 +119,25 @@ impl Question {
         &self.mechanism
     }
 
-    /// Holds a joint, a coordinate of a platform or a whole platform. What is freed is freed first: `actuated` may be
-    /// free and one actuated joint held.
+    /// Holds a joint, a coordinate of a platform or of a point, `left+0.5,0.2.x`, or a whole platform. What is freed is
+    /// freed first: `actuated` may be free and one actuated joint held.
     pub fn hold(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.hold.push((name.into(), value.into()));
+        let name = self.placed(name.into());
+        self.hold.push((name, value.into()));
         self.measured()
     }
 
     /// Lets a joint be solved for; `actuated` frees all actuated joints.
     pub fn free(mut self, name: impl Into<String>) -> Self {
-        self.free.push(name.into());
+        let name = self.placed(name.into());
+        self.free.push(name);
         self.measured()
     }
 
     /// Starts the search at a value.
     pub fn guess(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.guess.push((name.into(), value.into()));
+        let name = self.placed(name.into());
+        self.guess.push((name, value.into()));
         self
     }
 
@@ -139,7 +150,8 @@ impl Question {
     /// For mobilities: makes a joint, a coordinate of a platform or a whole platform stand still where the mechanism is
     /// closed; `actuated` locks all actuated joints.
     pub fn lock(mut self, name: impl Into<String>) -> Self {
-        self.lock.push(name.into());
+        let name = self.placed(name.into());
+        self.lock.push(name);
         self
     }
 
@@ -162,8 +174,9 @@ impl Question {
         from: impl Into<Value>,
         to: impl Into<Value>,
     ) -> Self {
+        let name = self.placed(name.into());
         self.inputs.push(Range {
-            name: name.into(),
+            name,
             from: from.into(),
             to: to.into(),
         });
@@ -190,15 +203,23 @@ impl Question {
         self
     }
 
+    /// Asks for the longest part of a motion over which a quantity stays within a tolerance, to either side, of one value.
+    pub fn dwell(mut self, quantity: impl Into<String>, tolerance: impl Into<Value>) -> Self {
+        self.dwells.push((quantity.into(), tolerance.into()));
+        self
+    }
+
     /// Gives a held coordinate a rate, in m/s or rad/s.
     pub fn rate(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.rates.push((name.into(), value.into()));
+        let name = self.placed(name.into());
+        self.rates.push((name, value.into()));
         self
     }
 
     /// Gives a held coordinate an acceleration, in m/s² or rad/s².
     pub fn acceleration(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.accelerations.push((name.into(), value.into()));
+        let name = self.placed(name.into());
+        self.accelerations.push((name, value.into()));
         self
     }
 
@@ -228,6 +249,19 @@ impl Question {
         self
     }
 
+    /// A name of a coordinate. That of a point ([`NamedPoint`]), `left+0.5,0.2.x`, becomes a joint of the mechanism.
+    fn placed(&mut self, name: String) -> String {
+        let plain = system::Question::new(&self.mechanism);
+        if plain.coordinates(&name).is_err()
+            && let Some((point, "x" | "y" | "z")) = name.rsplit_once('.')
+            && let Ok(point) = NamedPoint::read(&self.mechanism, point)
+            && self.mechanism.body(point.point.frame) != Body::Ground
+        {
+            self.mechanism = self.mechanism.with_coordinates_of(&point).into();
+        }
+        name
+    }
+
     /// The same question with the mechanism measured by its dimensions and by what is held. What is wrong with values
     /// is said when the question is asked.
     fn measured(mut self) -> Self {
@@ -249,7 +283,9 @@ impl Question {
             inputs.push((coordinate, [from, to]));
         }
         // where coordinates of platforms move, actuated joints are held only if that is asked for
-        let released = inputs.iter().any(|(c, _)| ranges::of_platform(c));
+        let released = inputs
+            .iter()
+            .any(|(c, _)| ranges::of_platform(&self.mechanism, c));
         let question = match released {
             true => self.released().ok()?,
             false => self.resolved().ok()?,

@@ -30,7 +30,9 @@ mod svd;
 pub use aligned::axis_aligned;
 pub use block::{Block, DenseOnly, SparseStep};
 pub use bordered::Bordered;
-pub use decomposition::{Decomposition, add, complement, dot, norm, orthonormal, product, remove};
+pub use decomposition::{
+    Decomposition, add, complement, dot, norm, orthonormal, product, remove, singular_values,
+};
 pub use factorable::Factorable;
 pub use qr::Qr;
 #[cfg(feature = "sparse")]

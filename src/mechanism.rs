@@ -28,7 +28,7 @@ pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm,
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
-pub use point::{Point, PointError};
+pub use point::{NamedPoint, Point, PointError};
 pub use quantity::{Figure, Measured, Order, Quantity, QuantityError};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;

@@ -23,9 +23,10 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Question, QuestionError,
-    Still, Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs,
-    default_outputs, free_outputs, inputs_of, platform_outputs, with_coordinates,
+    Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,
+    QuestionError, Still, Verb, actuated, check_angle, check_angles, check_count,
+    coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
+    with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{

@@ -33,6 +33,8 @@ impl SiUnit {
     pub const RADIAN: Self = SiUnit([1, 0, 0, 0]);
     /// A length.
     pub const METRE: Self = SiUnit([0, 0, 1, 0]);
+    /// A curvature.
+    pub const PER_METRE: Self = SiUnit([0, 0, -1, 0]);
     /// A force.
     pub const NEWTON: Self = SiUnit([0, 1, 0, 0]);
     /// A time.

@@ -3,6 +3,7 @@
 //! Nothing is evaluated: rows are moved and turned round as they are written, so that names and
 //! expressions stay. Only home values of new variables are numbers.
 
+mod cognates;
 mod convention;
 mod coordinates;
 mod cut;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::description::{Convention, Description, Problem, mechanism_text};
 use crate::mechanism::Mechanism;
 
+pub use cognates::{CognateError, cognates};
 pub use coordinates::to_axes;
 pub use cut::CutError;
 
@@ -62,6 +64,13 @@ pub enum ConversionNote {
     LimitsLost {
         /// The joint.
         joint: String,
+    },
+    /// A coupler point belongs to another linkage that traces the same curve.
+    CouplerPoint {
+        /// The point of the linkage that was given.
+        point: String,
+        /// The same point of the other.
+        now: String,
     },
     /// Variables that take the place of a closure.
     Variables {

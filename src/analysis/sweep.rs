@@ -7,6 +7,7 @@
 
 mod between;
 mod circuits;
+mod dwell;
 mod follow;
 mod law;
 mod met;
@@ -14,23 +15,29 @@ mod motion;
 mod paths;
 mod points;
 mod rows;
+mod schedule;
+mod straightness;
 
 pub(crate) use between::Between;
 pub use circuits::{
     Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, JointMotion, circuits,
 };
+pub use dwell::Dwell;
+pub(crate) use dwell::{Timed, dwell};
 pub use follow::follow;
 pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
 pub use motion::{Columns, Extreme, Extremum, KeptRows, MotionReport, MotionsReport};
 pub use paths::{PathPoint, PathReport};
+pub use schedule::Schedule;
+pub use straightness::Straightness;
 
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
@@ -50,8 +57,12 @@ pub struct SweepSettings {
     pub continuation: Continuation,
     /// How the inputs go through their ranges in time; rows are equal parts of it.
     pub pace: Pace,
+    /// What the inputs follow instead, if a table gives their motion: `steps` are equal parts of its time.
+    pub schedule: Option<Schedule>,
     /// Points whose path is wanted.
-    pub points: Vec<Point>,
+    pub points: Vec<NamedPoint>,
+    /// Whether to say how straight these paths are.
+    pub straightness: bool,
     /// Whether rows are also wanted so near to one another, whatever the steps, that a line through them looks smooth.
     pub between: bool,
 }
@@ -63,7 +74,9 @@ impl Default for SweepSettings {
             follow: false,
             continuation: Continuation::default(),
             pace: Pace::default(),
+            schedule: None,
             points: Vec::new(),
+            straightness: false,
             between: false,
         }
     }
@@ -105,6 +118,17 @@ pub struct InputReport {
     pub from: f64,
     /// Its value at the end.
     pub to: f64,
+}
+
+impl InputReport {
+    fn of(mechanism: &Mechanism, input: &Driven) -> Self {
+        InputReport {
+            name: input.coordinate.name(mechanism),
+            unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
+            from: input.from,
+            to: input.to,
+        }
+    }
 }
 
 /// How a motion ended.
@@ -185,6 +209,10 @@ pub fn sweep(
     sink: &mut Sink,
     watch: &Watch,
 ) -> SweepReport {
+    if let Some(schedule) = &settings.schedule {
+        let what = (mechanism, held, inputs);
+        return schedule.followed(what, start, settings, sink, watch);
+    }
     let steps = Some(settings.steps);
     let mut reached = 0;
     let sink: &mut Flow = &mut |row| {

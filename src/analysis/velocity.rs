@@ -11,16 +11,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::mechanism::{Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
     Analysed, Closing, Coordinate, Drive, Motion, Moved, Neighbourhood, Question, QuestionError,
     Tangent, Unknown, WidestGap, check_angles, free_outputs, moving,
 };
 
-use frames::Spins;
+pub(crate) use frames::Spins;
 pub use jacobian::{Axis, InputOutput};
-pub(crate) use planar::transmission;
+pub(crate) use jacobian::{Normalised, Outputs, condition};
+pub(crate) use planar::TransmissionAngles;
 pub use planar::{InstantCentre, Transmission};
 
 /// How to look for the assembled configuration, and which points to follow.
@@ -220,7 +221,7 @@ pub fn velocity(
     let jacobian = determined.then(|| {
         let mut outputs = free_outputs(mechanism, &drive.coordinates, &spinning);
         outputs.extend(jacobian::followed(&outputs, &settings.points));
-        jacobian::input_output(mechanism, &mut motion, at, &outputs, &spins)
+        Outputs::new(mechanism, &motion, outputs).report(&mut motion, at, &spins)
     });
     let centres = match determined {
         true => planar::centres(mechanism, &mut motion, at, drive),
@@ -269,7 +270,7 @@ pub fn velocity(
         gain,
         first_order_only,
         accuracy,
-        transmission: planar::transmission(&mut near, at, &drive.coordinates),
+        transmission: TransmissionAngles::new(&mut near, at, &drive.coordinates).table(at),
         centres,
         normalising_length: mechanism.characteristic_length(),
         mismatch,
@@ -280,19 +281,15 @@ pub fn velocity(
     }))
 }
 
-/// The input–output Jacobian of the default outputs, where the inputs determine them; `motion` is factorised at the
-/// configuration, and `held` holds what drives it.
-pub(crate) fn input_output(
-    mechanism: &Mechanism,
-    motion: &mut Motion,
-    held: &mut Neighbourhood,
-    at: &Configuration<f64>,
-) -> Option<InputOutput> {
-    let rest = held.tangent(at.clone());
-    let outputs = free_outputs(mechanism, motion.coordinates(), &spinning(held, &rest));
-    let spins = Spins::of(held, &rest);
-    (rest.motions.is_empty())
-        .then(|| jacobian::input_output(mechanism, motion, at, &outputs, &spins))
+/// The input–output Jacobian of the outputs that are free where nothing else is asked for; `held` holds what drives it.
+pub(crate) fn outputs<'m>(
+    mechanism: &'m Mechanism,
+    motion: &Motion,
+    held: &Neighbourhood,
+    rest: &Tangent,
+) -> Outputs<'m> {
+    let outputs = free_outputs(mechanism, motion.coordinates(), &spinning(held, rest));
+    Outputs::new(mechanism, motion, outputs)
 }
 
 /// What is free although everything held stands still.

@@ -7,7 +7,7 @@ use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
 use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
 use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
-use crate::mechanism::{Body, Point, PoseCoordinate};
+use crate::mechanism::{Body, NamedPoint, Point, PoseCoordinate};
 use crate::solve::Watch;
 use crate::system::{
     self, Analysed, Closed, Closing, Coordinate, Drive, Load, NotClosed, check_angle, close,
@@ -152,8 +152,14 @@ impl Question {
 
     /// The points of the question.
     pub(super) fn asked_points(&self) -> Result<Vec<Point>, AskError> {
+        let named = self.named_points()?.into_iter();
+        Ok(named.map(|named| named.point).collect())
+    }
+
+    /// The same with their names.
+    pub(super) fn named_points(&self) -> Result<Vec<NamedPoint>, AskError> {
         let points = self.points.iter().enumerate().map(|(index, text)| {
-            Point::read(&self.mechanism, text).map_err(|error| AskError::Point {
+            NamedPoint::read(&self.mechanism, text).map_err(|error| AskError::Point {
                 item: Role::Point.item(index),
                 error,
             })

@@ -38,6 +38,8 @@ pub enum Role {
     Load,
     /// Quantities that a motion reports.
     Quantity,
+    /// A quantity that may dwell, with a tolerance.
+    Dwell,
 }
 
 /// A part of a question: its role and its index among those of that role, from 0.
@@ -349,6 +351,14 @@ pub enum Unmeasured {
     /// Nothing is loaded.
     #[error("without a load all forces are zero")]
     NoLoad,
+    /// Only a square Jacobian has a determinant.
+    #[error("the Jacobian has no determinant: it is {rows} × {columns}")]
+    NotSquare {
+        /// Rates of outputs.
+        rows: usize,
+        /// Inputs.
+        columns: usize,
+    },
 }
 
 impl AskError {

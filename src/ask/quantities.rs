@@ -2,33 +2,27 @@
 
 mod extremes;
 mod meter;
+mod places;
 
 pub(super) use extremes::Extremes;
 pub(super) use meter::{Meter, Metered};
 
-use super::{AskError, Question, Role, Unmeasured};
-use crate::mechanism::{Figure, Measured, Order, Point, Quantity};
-use crate::system::{self, Coordinate};
+use super::{AskError, Item, Question, Role, Unmeasured};
+use crate::algebra::{Measure, SiUnit};
+use crate::mechanism::{Figure, Measured, NamedPoint, Order, Quantity};
+use crate::system::{self, Coordinate, Lock, QuestionError, free_outputs};
 
 impl Question {
     /// The quantities that are asked for; without any those that the file names and that can be known.
     pub(super) fn quantities(
         &self,
         held: &system::Question,
-        points: &[Point],
+        points: &[NamedPoint],
     ) -> Result<Vec<Quantity>, AskError> {
         let mechanism = &*self.mechanism;
-        let unmeasured = |quantity: &Quantity| {
-            let parts = quantity.measured();
-            parts
-                .filter_map(|measured| self.unmeasured(held, measured))
-                .next()
-        };
         if self.reports.is_empty() {
-            let known = mechanism
-                .outputs()
-                .iter()
-                .filter(|output| unmeasured(output).is_none());
+            let outputs = mechanism.outputs().iter();
+            let known = outputs.filter(|output| self.unknown_in(held, output).is_none());
             return Ok(known.cloned().collect());
         }
         let mut quantities = Vec::new();
@@ -36,32 +30,87 @@ impl Question {
             let item = Role::Quantity.item(index);
             for text in Quantity::split(list) {
                 for (name, text) in self.expanded(&text, held, points) {
-                    let named = mechanism
-                        .outputs()
-                        .iter()
-                        .find(|output| output.name == text);
-                    let read = match named {
-                        Some(output) => Ok(output.clone()),
-                        None => Quantity::read(mechanism, &name, &text),
-                    };
-                    let quantity = read.map_err(|error| AskError::Quantity {
-                        item,
-                        text: text.clone(),
-                        error: Box::new(error),
-                    })?;
-                    if let Some(error) = unmeasured(&quantity) {
-                        let quantity = quantity.name;
-                        return Err(AskError::Unmeasured {
-                            item,
-                            quantity,
-                            error,
-                        });
-                    }
-                    quantities.push(quantity);
+                    quantities.push(self.quantity(held, item, &name, &text)?);
                 }
             }
         }
         Ok(quantities)
+    }
+
+    /// The quantity of that name in the file, or that of a text.
+    fn quantity(
+        &self,
+        held: &system::Question,
+        item: Item,
+        name: &str,
+        text: &str,
+    ) -> Result<Quantity, AskError> {
+        let mechanism = &*self.mechanism;
+        let mut outputs = mechanism.outputs().iter();
+        let read = match outputs.find(|output| output.name == text) {
+            Some(output) => Ok(output.clone()),
+            None => Quantity::read(mechanism, name, text),
+        };
+        let quantity = read.map_err(|error| AskError::Quantity {
+            item,
+            text: text.to_owned(),
+            error: Box::new(error),
+        })?;
+        match self.unknown_in(held, &quantity) {
+            Some(error) => Err(AskError::Unmeasured {
+                item,
+                quantity: quantity.name,
+                error,
+            }),
+            None => Ok(quantity),
+        }
+    }
+
+    /// The quantities that may dwell, by their numbers, with tolerances in SI units; those that are not reported yet are.
+    pub(super) fn tolerances(
+        &self,
+        held: &system::Question,
+        quantities: &mut Vec<Quantity>,
+    ) -> Result<Vec<(usize, f64)>, AskError> {
+        let dwells = self.dwells.iter().enumerate();
+        let dwells = dwells.map(|(index, (text, tolerance))| {
+            let known = quantities.iter().position(|known| known.name == *text);
+            let place = match known {
+                Some(place) => place,
+                None => {
+                    let item = Role::Dwell.item(index);
+                    quantities.push(self.quantity(held, item, text, text)?);
+                    quantities.len() - 1
+                }
+            };
+            let measure = match quantities[place].unit {
+                SiUnit::RADIAN => Measure::Angle,
+                SiUnit::METRE => Measure::Length,
+                _ => Measure::Number,
+            };
+            let number = tolerance.number(&self.mechanism, measure);
+            let number = number.map_err(|error| QuestionError::Value {
+                name: text.clone(),
+                text: tolerance.to_string(),
+                error,
+            });
+            let number = number.map_err(Role::Dwell.named(index))?;
+            match self.inputs.is_empty() {
+                true => Err(AskError::Unmeasured {
+                    item: Role::Dwell.item(index),
+                    quantity: text.clone(),
+                    error: Unmeasured::NoInput,
+                }),
+                false => Ok((place, number.abs())),
+            }
+        });
+        dwells.collect()
+    }
+
+    /// Why a quantity cannot be known.
+    fn unknown_in(&self, held: &system::Question, quantity: &Quantity) -> Option<Unmeasured> {
+        let mut parts = quantity.measured();
+        parts.find_map(|measured| self.unmeasured(held, measured))
     }
 
     /// Name and text of a quantity: `NAME=EXPRESSION`, or an expression that is its own name. `velocity` and
@@ -70,7 +119,7 @@ impl Question {
         &self,
         text: &str,
         held: &system::Question,
-        points: &[Point],
+        points: &[NamedPoint],
     ) -> Vec<(String, String)> {
         if let Some((name, text)) = text.split_once('=') {
             return vec![(name.trim().into(), text.trim().into())];
@@ -85,10 +134,7 @@ impl Question {
                 let free = joints.filter(|(i, _)| !known.contains(&Coordinate::Joint(*i)));
                 free.map(|(_, joint)| joint.name.clone()).collect()
             }
-            points => points
-                .iter()
-                .map(|point| point.name(&self.mechanism))
-                .collect(),
+            points => points.iter().map(|point| point.name.clone()).collect(),
         };
         let named = of.into_iter().map(|of| format!("{text}:{of}"));
         named.map(|text| (text.clone(), text)).collect()
@@ -106,6 +152,22 @@ impl Question {
             return Some(Unmeasured::NoInput);
         }
         let of = match *measured {
+            Measured::Figure(Figure::Determinant) => {
+                let outputs = free_outputs(&self.mechanism, &held.driven_coordinates(), &[]);
+                let counted = |point: bool| {
+                    let of_kind = outputs.iter();
+                    of_kind
+                        .filter(|of| matches!(of, Lock::Point(_)) == point)
+                        .map(|of| of.rows())
+                        .sum::<usize>()
+                };
+                let rows = match counted(false) {
+                    0 => counted(true),
+                    rows => rows,
+                };
+                let columns = held.driven_coordinates().len();
+                return (rows != columns).then_some(Unmeasured::NotSquare { rows, columns });
+            }
             Measured::Force(joint) => Coordinate::Joint(joint),
             Measured::PlatformForce(platform, c) => Coordinate::Pose(platform, c),
             _ => return None,

@@ -1,6 +1,7 @@
 //! Coordinates that move or are mapped, with their ranges.
 
 use super::{AskError, Question, Role};
+use crate::mechanism::Mechanism;
 use crate::system::{self, Coordinate, Driven, Held, QuestionError};
 
 impl Question {
@@ -70,9 +71,12 @@ pub(super) fn still(held: Held<f64>, moved: &[Driven]) -> Held<f64> {
     moved.iter().fold(held, without)
 }
 
-/// Whether it is a coordinate of a platform.
-pub(super) fn of_platform(coordinate: &Coordinate) -> bool {
-    coordinate.platform().is_some()
+/// Whether it is a coordinate of a platform or of a point.
+pub(super) fn of_platform(mechanism: &Mechanism, coordinate: &Coordinate) -> bool {
+    match *coordinate {
+        Coordinate::Joint(joint) => mechanism.is_of_point(joint),
+        Coordinate::Pose(..) | Coordinate::Turn(..) => true,
+    }
 }
 
 /// Whether more is held than can be.

@@ -133,7 +133,11 @@ impl Question {
         };
         let mut posed = with_inputs(self.resolved()?)?;
         let mut count = check_count(&posed.0);
-        let inverse = posed.0.held_coordinates().iter().any(of_platform);
+        let inverse = posed
+            .0
+            .held_coordinates()
+            .iter()
+            .any(|of| of_platform(&self.mechanism, of));
         if inverse && is_too_many(&count) {
             posed = with_inputs(self.released()?)?;
             count = check_count(&posed.0);

@@ -1,199 +1,21 @@
 //! Motions and circuits.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::quantities::{Extremes, Meter, Metered};
+use super::motions::Motions;
 use super::ranges::still;
 use super::{AskError, Question, Role};
-use crate::algebra::SiUnit;
 use crate::analysis::assemblies::{AssemblySolver, Wanted};
 use crate::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Columns, Extremum, KeptRows, MotionReport, MotionsReport,
-    Row, Sink, SweepReport, SweepSettings, circuits, follow, sweep,
+    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, follow,
 };
 use crate::description;
-use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate, Quantity, Variable};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::{Stage, Watch};
-use crate::system::{
-    self, Coordinate, Driven, Held, Load, Lock, QuestionError, check_count, sampling_range,
-};
+use crate::system::{self, Coordinate, QuestionError, check_count, sampling_range};
 
 /// Steps made at most.
 const MOST_STEPS: usize = 1_000_000_000;
-
-/// Motions that can begin: of one mode or of several.
-#[derive(Clone, Debug)]
-pub struct Motions<'q> {
-    mechanism: &'q Mechanism,
-    held: Held<f64>,
-    settings: SweepSettings,
-    /// With the inputs held.
-    question: system::Question<'q>,
-    quantities: Vec<Quantity>,
-    load: Load,
-    outputs: Vec<Lock>,
-    /// The inputs; none where the whole curve is followed.
-    pub inputs: Vec<Driven>,
-    /// Where each begins, with the number of its mode if one was asked for.
-    pub starts: super::Modes,
-}
-
-impl Motions<'_> {
-    /// The points that are traced.
-    pub fn points(&self) -> &[Point] {
-        &self.settings.points
-    }
-
-    /// What the columns of rows are.
-    pub fn columns(&self) -> Columns {
-        Columns::new(self.mechanism, self.points(), self.quantities())
-    }
-
-    /// What the columns of quantities are: the time if any is asked for and inputs move, then these.
-    pub fn quantities(&self) -> Vec<Variable> {
-        let of = |quantity: &Quantity| Variable::new(&quantity.name, quantity.unit);
-        let quantities: Vec<Variable> = self.quantities.iter().map(of).collect();
-        let timed = !quantities.is_empty() && !self.inputs.is_empty();
-        let time = timed.then(|| Variable::new("time", SiUnit::SECOND));
-        time.into_iter().chain(quantities).collect()
-    }
-
-    /// The part of the time that is gone where the inputs are.
-    fn time(&self, at: &Configuration<f64>) -> f64 {
-        let joint = |input: &&Driven| matches!(input.coordinate, Coordinate::Joint(_));
-        let measure = self.inputs.iter().find(joint).or(self.inputs.first());
-        let part = measure.map_or(0.0, |input| {
-            let way = input.to - input.from;
-            let gone = input.coordinate.of(at) - input.from;
-            match input.coordinate {
-                Coordinate::Joint(_) => gone / way,
-                // an angle of a platform is told modulo a turn
-                of if of.is_angle(self.mechanism) => {
-                    let middle = 0.5 * way;
-                    (middle + (gone - middle + PI).rem_euclid(TAU) - PI) / way
-                }
-                _ => gone / way,
-            }
-        });
-        self.settings.pace.law.inverse(part.clamp(0.0, 1.0))
-    }
-
-    /// The same with rows between those asked for, so near to one another that a line through them looks smooth.
-    #[must_use]
-    pub fn smooth(mut self, smooth: bool) -> Self {
-        self.settings.between = smooth;
-        self
-    }
-
-    /// Moves from every start and keeps no more than `most` rows of each motion. All rows go to `sink` as they are
-    /// found, with the number of their mode.
-    pub fn report(
-        &self,
-        most: usize,
-        sink: &mut dyn FnMut(Option<usize>, &Row),
-        watch: &Watch,
-    ) -> MotionsReport {
-        let columns = self.columns();
-        let mut motions = Vec::new();
-        for (mode, start) in &self.starts {
-            let mut rows = KeptRows::of(most);
-            let mut take = |row: &Row| {
-                if !row.between {
-                    rows.take(&columns, row);
-                }
-                sink(*mode, row);
-            };
-            let (sweep, extremes) = self.measured(start, &mut take, watch);
-            let interrupted = sweep.interrupted;
-            motions.push(MotionReport {
-                mode: *mode,
-                sentence: String::new(),
-                sweep,
-                pace: (!self.inputs.is_empty()).then_some(self.settings.pace),
-                extremes,
-                columns: columns.variables().to_vec(),
-                values: rows.finished(),
-            });
-            if interrupted {
-                break;
-            }
-        }
-        MotionsReport {
-            mechanism: self.mechanism.name().to_owned(),
-            motions,
-        }
-    }
-
-    /// Moves from one of the starts. Rows go to `sink` as they are found.
-    pub fn run(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
-        self.measured(start, sink, watch).0
-    }
-
-    /// The same with the extremes of the quantities, which are sought between rows too.
-    fn measured(
-        &self,
-        start: &Configuration<f64>,
-        sink: &mut Sink,
-        watch: &Watch,
-    ) -> (SweepReport, Vec<Extremum>) {
-        if self.quantities.is_empty() {
-            return (self.moved(start, sink, watch), Vec::new());
-        }
-        let metered = Metered {
-            quantities: &self.quantities,
-            question: &self.question,
-            inputs: &self.inputs,
-            pace: self.settings.pace,
-            load: &self.load,
-            outputs: &self.outputs,
-        };
-        let mut meter = Meter::new(metered, start);
-        let mut extremes = Extremes::new(self.quantities.len());
-        let timed = !self.inputs.is_empty();
-        let mut values = Vec::new();
-        let steps = self.settings.steps as f64;
-        let mut measured = |row: &Row| {
-            let at = row.configuration;
-            let time = row
-                .step
-                .map_or_else(|| self.time(at), |step| step as f64 / steps);
-            let found = meter.read(at, time);
-            if !row.between {
-                extremes.take(at, found);
-            }
-            values.clear();
-            values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
-            values.extend_from_slice(found);
-            sink(&Row {
-                quantities: &values,
-                ..*row
-            });
-        };
-        let report = self.moved(start, &mut measured, watch);
-        let found = extremes.located(
-            &self.quantities,
-            self.mechanism,
-            (&self.held, &self.inputs),
-            &mut meter,
-            &|at| self.time(at),
-        );
-        (report, found)
-    }
-
-    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
-        let Motions {
-            mechanism,
-            held,
-            settings,
-            inputs,
-            ..
-        } = self;
-        match inputs.is_empty() {
-            true => follow(mechanism, held, start, settings, sink, watch),
-            false => sweep(mechanism, held, inputs, start, settings, sink, watch),
-        }
-    }
-}
 
 impl Question {
     /// The motions of the inputs through their ranges; without inputs those along the whole curve of a mechanism with
@@ -219,7 +41,12 @@ impl Question {
                 most: MOST_STEPS,
             });
         }
-        let inputs = self.driven(|from, to| from == to)?;
+        let table = self.schedule.is_some();
+        let inputs = self.driven(if table {
+            |_, _| false
+        } else {
+            |from, to| from == to
+        })?;
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
         let mut question = self.with_inputs(self.resolved()?, &begin)?;
         for (index, input) in inputs.iter().enumerate() {
@@ -253,15 +80,23 @@ impl Question {
         if !(duration > 0.0 && duration.is_finite()) {
             return Err(AskError::Duration(duration));
         }
+        let mut pace = settings.pace;
+        if let Some(schedule) = &self.schedule {
+            pace.duration = schedule.duration();
+        }
         let settings = SweepSettings {
-            points: [&settings.points[..], &self.asked_points()?].concat(),
+            pace,
+            schedule: self.schedule.clone(),
+            points: [&settings.points[..], &self.named_points()?].concat(),
             ..settings.clone()
         };
-        let quantities = self.quantities(&posed, &settings.points)?;
+        let mut quantities = self.quantities(&posed, &settings.points)?;
+        let dwells = self.tolerances(&posed, &mut quantities)?;
         Ok(Motions {
             mechanism,
             held,
             quantities,
+            dwells,
             load: self.load_of(&posed)?,
             outputs: self.asked_outputs()?,
             question: posed,
@@ -294,7 +129,7 @@ impl Question {
         let question = asked.one_freedom()?.with_spins_still();
         let held = question.with_still(question.held());
         let settings = SweepSettings {
-            points: self.asked_points()?,
+            points: self.named_points()?,
             follow: true,
             ..SweepSettings::default()
         };
@@ -315,12 +150,12 @@ impl Question {
         let seeds = seeds(mechanism, &question, &solver, input, watch);
         let held = question.with_still(released.held());
         let settings = CircuitsSettings {
-            points: self.asked_points()?,
+            points: self.named_points()?,
             ..CircuitsSettings::default()
         };
         let mut report = circuits(mechanism, &held, input, &seeds, &settings, watch);
         for (path, point) in report.paths.iter_mut().zip(&settings.points) {
-            path.order = self.order(point, watch);
+            path.order = self.order(&point.point, watch);
         }
         report.interrupted |= watch.is_stopped();
         Ok(report)
@@ -328,7 +163,7 @@ impl Question {
 
     /// The order of the path of a point: with so many different points, real or complex, a plane meets it. `None` if
     /// the search for them may have missed some.
-    fn order(&self, point: &Point, watch: &Watch) -> Option<usize> {
+    fn order(&self, point: &crate::mechanism::Point, watch: &Watch) -> Option<usize> {
         /// Points this near, over the characteristic length, are one that several configurations share.
         const SAME: f64 = 1e-6;
         let cut = (self.mechanism).with_point_on_a_plane(point.frame, point.offset);

@@ -104,7 +104,7 @@ impl Question {
     fn is_inverse(&self, axes: &[Driven]) -> Result<bool, AskError> {
         let held = self.resolved()?.held_coordinates();
         let mapped = axes.iter().map(|axis| axis.coordinate);
-        Ok(mapped.chain(held).any(|h| of_platform(&h)))
+        Ok(mapped.chain(held).any(|h| of_platform(&self.mechanism, &h)))
     }
 
     /// The mapped coordinates with their ranges.
@@ -210,7 +210,7 @@ fn nodes(given: &[usize], axes: usize, bytes: f64) -> Result<Vec<usize>, AskErro
 fn missing(question: &system::Question) -> Vec<String> {
     let mechanism = question.mechanism();
     let held = question.held_coordinates();
-    let coordinates = Coordinate::all(mechanism).filter(of_platform);
+    let coordinates = Coordinate::all(mechanism).filter(|of| of_platform(mechanism, of));
     let candidates: Vec<Coordinate> = held.iter().copied().chain(coordinates).collect();
     let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
         return Vec::new();

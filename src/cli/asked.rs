@@ -19,7 +19,7 @@ use super::{Answer, Refusal, style};
 
 #[derive(Args)]
 pub struct Split {
-    /// Hold a joint or coordinate at a value, e.g. --hold theta1="60 deg"
+    /// Hold a joint, or a coordinate of a platform or point, at a value, e.g. --hold theta1="60 deg" or --hold left+0.5,0.2.x=3
     #[arg(long, value_name = "NAME=VALUE")]
     hold: Vec<Assignment>,
     /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
@@ -166,7 +166,7 @@ impl<'o> Posed<'o> {
             self.given.push((Role::Input, assignment.given(option)));
             let Some((from, to)) = assignment.value.split_once("..") else {
                 // a wrong name is the first thing to say
-                let known = system::Question::new(&self.loaded.mechanism).value(name, "home");
+                let known = system::Question::new(self.question.mechanism()).value(name, "home");
                 let said = match known {
                     Err(error) => complaint(&error),
                     Ok(_) => words::no_range(ranges, name),
@@ -214,7 +214,7 @@ impl<'o> Posed<'o> {
         let said = match error {
             AskError::Question(error) => self.complaint(error),
             _ => words::complaint(
-                &self.loaded.mechanism,
+                self.question.mechanism(),
                 self.ranges,
                 error,
                 given,

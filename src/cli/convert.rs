@@ -2,15 +2,17 @@
 
 use clap::Args;
 use clap::ValueEnum;
-use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts, to_axes};
+use linkwork::analysis::convert::{ConvertSettings, cognates, convert, possible_cuts, to_axes};
 use linkwork::analysis::frames::AxesReport;
 use linkwork::description::Convention;
-use linkwork::output::complaint::Complaint;
+use linkwork::mechanism::NamedPoint;
+use linkwork::output::complaint::{Complaint, Part};
 use linkwork::output::{Report, conversion};
 
 use super::format::{Format, Tables, with_file};
-use super::source::Source;
-use super::{Answer, Refusal, lines};
+use super::source::{Assignment, Loaded, Source};
+use super::words::question::no_point;
+use super::{Answer, Refusal, lines, style};
 
 /// Write a mechanism in the other convention, broken at another joint, or by joint coordinates, with the same
 /// configurations.
@@ -28,6 +30,10 @@ pub struct Convert {
     /// Break the mechanism at this joint; a closure of its loop becomes rows with variables of its own
     #[arg(long, value_name = "JOINT")]
     cut: Option<String>,
+    /// Write one of the two cognates of a 4-bar, whose couplers trace the same curve as this point of its coupler: 1 has
+    /// the pivot of the first link, 2 that of the other, e.g. --cognate left+0.5,0.2=1
+    #[arg(long, value_name = "POINT=NUMBER", conflicts_with_all = ["convention", "cut", "to"])]
+    cognate: Option<Assignment>,
     /// Write it by joint coordinates, or as tables
     #[arg(long, value_enum, conflicts_with_all = ["convention", "cut"])]
     to: Option<Form>,
@@ -48,7 +54,11 @@ enum Form {
 impl Convert {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        if self.convention.is_none() && self.cut.is_none() && self.to.is_none() {
+        if self.convention.is_none()
+            && self.cut.is_none()
+            && self.to.is_none()
+            && self.cognate.is_none()
+        {
             let said = Complaint::new("nothing to convert: give a convention, a joint to cut or a form")
                 .help("give --convention modified or standard, --cut JOINT, or both, or --to axes or tables");
             return Err(said.into());
@@ -58,6 +68,9 @@ impl Convert {
             cut: self.cut.clone(),
         };
         let (mechanism, description) = (&loaded.mechanism, &loaded.description);
+        if let Some(asked) = &self.cognate {
+            return cognate(&loaded, asked, self.format);
+        }
         if self.to == Some(Form::Axes) {
             let (axes, notes) = to_axes(mechanism, description)
                 .map_err(|error| Refusal::from(conversion::complaint(&error, &[])))?;
@@ -71,4 +84,23 @@ impl Convert {
         let answer = loaded.answer(self.format, &converted)?;
         Ok(answer.after(lines("note", converted.document().notes)))
     }
+}
+
+/// The cognate of that number for a point of the coupler.
+fn cognate(loaded: &Loaded, asked: &Assignment, format: Format) -> Result<Answer, Refusal> {
+    let refused = |said: Complaint| Refusal(said.render_in(&asked.given("--cognate"), style()));
+    let point = NamedPoint::read(&loaded.mechanism, &asked.name)
+        .map_err(|error| refused(no_point(&loaded.mechanism, &error)))?;
+    let number = ["1", "2"].iter().position(|known| *known == asked.value);
+    let number = number.ok_or_else(|| {
+        let said = Complaint::new("a 4-bar has two cognates, 1 and 2");
+        refused(
+            said.at(Part::WholeValue)
+                .help("give --cognate POINT=1 or POINT=2"),
+        )
+    })?;
+    let found = cognates(&loaded.mechanism, &point)
+        .map_err(|error| refused(Complaint::new(error.to_string())))?;
+    let answer = loaded.answer(format, &found[number])?;
+    Ok(answer.after(lines("note", found[number].document().notes)))
 }

@@ -34,6 +34,7 @@ use super::{Answer, Refusal, lines, style};
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --steps 36\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --of left+0.5,0.2 --format csv\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --report transmission,velocity:phi1\n  \
+    linkwork sweep mechanisms/four_bar.ron --motion crank.csv --report velocity:phi1,acceleration:phi1\n  \
     linkwork sweep mechanisms/three_rps.ron --input l1=0.6..0.8 --input l2=0.6..0.7 --mode 3\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=60deg..90deg --guess phi1=\"-130 deg\"\n  \
     linkwork sweep mechanisms/slider_crank.ron --follow --svg slider.svg\n  \
@@ -45,6 +46,11 @@ pub struct Sweep {
     /// Move a joint or coordinate, e.g. --input theta1=0deg..360deg; several move together
     #[arg(long, value_name = "NAME=FROM..TO")]
     input: Vec<Assignment>,
+    /// Move the inputs through the rows of a CSV file by natural cubic splines: its first line names `time (s)` and the
+    /// inputs with their units, e.g. `theta1 (deg)`; --steps are equal parts of its time
+    #[arg(long, value_name = "FILE.csv")]
+    #[arg(conflicts_with_all = ["input", "law", "duration", "follow", "circuits"])]
+    motion: Option<PathBuf>,
     #[command(flatten)]
     asked: Asked,
     /// Number of equal steps into which the ranges of the inputs are divided
@@ -77,6 +83,12 @@ pub struct Sweep {
         allow_hyphen_values = true
     )]
     report: Vec<String>,
+    /// Say how far the paths of --of are from the straight lines they come nearest to
+    #[arg(long, requires = "of", conflicts_with = "circuits")]
+    straight: bool,
+    /// Find where a quantity stays longest within a tolerance of one value, e.g. --dwell left.yaw="0.5 deg"
+    #[arg(long, value_name = "QUANTITY=TOLERANCE", conflicts_with = "circuits")]
+    dwell: Vec<Assignment>,
     /// The law by which the inputs go through their ranges; rows are equal parts of the time
     #[arg(long, value_name = "LAW", default_value = "constant", value_parser = law())]
     law: Law,
@@ -125,8 +137,17 @@ impl Sweep {
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
         posed.ranges(Ranges::Input, &self.input)?;
+        if let Some(path) = &self.motion {
+            let text = std::fs::read_to_string(path)
+                .map_err(|error| Refusal(format!("error: {}: {error}\n", path.display())))?;
+            let moved = posed.question.clone().through_rows(&text);
+            let moved =
+                moved.map_err(|error| Refusal(words::table(path, &error).render(style())))?;
+            posed.ask_with(|_| moved);
+        }
         posed.names(Role::Point, "--of", &self.of, Question::point);
         posed.names(Role::Quantity, "--report", &self.report, Question::report);
+        posed.values(Role::Dwell, "--dwell", &self.dwell, Question::dwell);
         self.forces.pose(&mut posed);
         posed.mode(self.mode);
         if self.all_modes {
@@ -142,7 +163,7 @@ impl Sweep {
         let report = posed.ask(Question::circuits)?;
         self.keep(
             posed,
-            &Picture::of_circuits(&posed.loaded.mechanism, &report),
+            &Picture::of_circuits(posed.question.mechanism(), &report),
         )?;
         posed.loaded.answer(self.format, &report)
     }
@@ -155,7 +176,7 @@ impl Sweep {
 
     /// Keeps the pictures that are asked for.
     fn keep(&self, posed: &Posed, picture: &Picture) -> Result<(), Refusal> {
-        let mechanism = &posed.loaded.mechanism;
+        let mechanism = posed.question.mechanism();
         let drawn = || picture.drawn(mechanism, self.view);
         keep(self.svg.as_deref(), || drawn().svg().into_bytes())?;
         keep(self.png.as_deref(), || drawn().png())?;
@@ -196,11 +217,12 @@ impl Sweep {
                 law: self.law,
                 duration: self.duration,
             },
+            straightness: self.straight,
             ..SweepSettings::default()
         };
         let all = posed.ask(|question, watch| question.motions(&settings, watch))?;
         let all = all.smooth(self.is_drawn());
-        let (mechanism, columns) = (&*posed.loaded.mechanism, all.columns());
+        let (mechanism, columns) = (&**posed.question.mechanism(), all.columns());
         let quantities = all.quantities();
         let mut picture = Picture::new(mechanism, &all.inputs, all.points(), &quantities);
         let out = Lines::new(self.format == Format::Csv);

@@ -3,7 +3,7 @@
 
 pub mod question;
 
-use linkwork::ask::{AskError, Role, Unmeasured};
+use linkwork::ask::{AskError, Role, TableError, TableErrorKind, Unmeasured};
 use linkwork::description::{count, listed};
 use linkwork::mechanism::{self, Mechanism};
 use linkwork::output::complaint::{Complaint, Given, Part};
@@ -99,6 +99,10 @@ pub fn complaint(
             Unmeasured::NoLoad => said
                 .label("no load")
                 .help("give a load with --wrench FRAME=Fx,Fy,Fz or --load JOINT=FORCE"),
+            Unmeasured::NotSquare { .. } => said.label("not square").help(
+                "report `manipulability`, the product of its singular values, which is the size of the \
+                 determinant of a square one",
+            ),
         },
         AskError::Duration(_) => said.help("give the time in s, e.g. --duration 2"),
         AskError::EmptyRange { name, .. } => said.label("empty").at(Part::WholeValue).help(
@@ -298,4 +302,34 @@ fn wrong_count(error: &QuestionError, mapped: &[String], missing: &[String]) -> 
         }
         _ => None,
     }
+}
+
+/// What is wrong with a table of inputs over time.
+pub fn table(path: &std::path::Path, error: &TableError) -> Complaint {
+    let said = Complaint::new(format!("{}:{error}", path.display()));
+    said.help(match &error.kind {
+        TableErrorKind::Csv(_) => {
+            "write comma-separated values, in the first line `time (s)` and the inputs".into()
+        }
+        TableErrorKind::NoTime(_) => "begin with a column `time (s)`".into(),
+        TableErrorKind::Unknown { suggestion, .. } => match suggestion {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => {
+                "name joints or coordinates of platforms, with their units: `theta1 (deg)`".into()
+            }
+        },
+        TableErrorKind::Twice(_) => "give each input one column".into(),
+        TableErrorKind::Gap(_) => {
+            "give every row a value in every column, or leave the row out".into()
+        }
+        TableErrorKind::Extra(_) => "leave it out, or name its column in the first line".into(),
+        TableErrorKind::Time(_) => "times are numbers in s".into(),
+        TableErrorKind::Value(error) => {
+            let said = question::complaint(error);
+            said.help
+                .unwrap_or_else(|| "write a number in the unit of the column".into())
+        }
+        TableErrorKind::Unsorted { .. } => "sort the rows by time, with each time once".into(),
+        TableErrorKind::Still => "give the values at two times at least".into(),
+    })
 }

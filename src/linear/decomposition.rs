@@ -106,6 +106,15 @@ impl Decomposition {
     }
 }
 
+/// The singular values of a column-major matrix, largest first.
+pub fn singular_values(rows: usize, columns: usize, entries: &[f64]) -> Vec<f64> {
+    match rows.min(columns) {
+        // of a single row or column its length
+        1 => vec![norm(entries)],
+        _ => Decomposition::of(rows, columns, entries).values,
+    }
+}
+
 /// a·b.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()

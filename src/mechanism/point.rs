@@ -14,6 +14,27 @@ pub struct Point {
     pub offset: [f64; 3],
 }
 
+/// A point with the name by which it was asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPoint {
+    /// The name.
+    pub name: String,
+    /// The point.
+    pub point: Point,
+}
+
+impl NamedPoint {
+    /// The point that a text [stands for](Point::read), which is its name.
+    ///
+    /// # Errors
+    /// If it is no point.
+    pub fn read(mechanism: &Mechanism, text: &str) -> Result<Self, PointError> {
+        let name = text.trim().to_owned();
+        let point = Point::read(mechanism, text)?;
+        Ok(NamedPoint { name, point })
+    }
+}
+
 /// Why a text is not a point.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PointError {

@@ -29,6 +29,8 @@ pub enum Measured {
     Place(Point, PoseCoordinate, Order),
     /// The size of the velocity or acceleration of a point.
     Size(Point, Order),
+    /// The curvature of the path of a point.
+    Curvature(Point),
     /// The force or moment that holds a joint.
     Force(usize),
     /// The force or moment that holds a coordinate of a platform.
@@ -96,6 +98,14 @@ pub enum QuantityError {
 }
 
 const TRANSMISSION: &str = "transmission";
+const CURVATURE: &str = "curvature";
+
+impl Figure {
+    /// Whether it is the distance from singularities of a kind.
+    pub fn is_distance(self) -> bool {
+        matches!(self, Figure::Direct | Figure::Inverse | Figure::Constraint)
+    }
+}
 
 impl Order {
     /// The kind before the colon: `velocity:l1`.
@@ -121,9 +131,8 @@ impl Quantity {
     pub fn read(mechanism: &Mechanism, name: &str, text: &str) -> Result<Self, QuantityError> {
         let text = text.trim();
         let beside = text.split_once(':').and_then(|(kind, of)| {
-            let order = Order::of_kind(kind)?;
             (of.contains('+') && !of.contains('[')).then_some(())?;
-            moving(mechanism, of, order).ok()
+            moving(mechanism, kind, of)?.ok()
         });
         let expression = match beside {
             Some(measured) => Expression::name(measured),
@@ -178,7 +187,7 @@ impl Quantity {
 impl Measured {
     /// What a name stands for: a joint, a parameter, a coordinate of a point, `left.x`, `top.yaw` or
     /// `[left+0.5,0.2].y`, of the only platform also by its word alone; a rate, `velocity:l1`, `velocity:top.x`,
-    /// `acceleration:left`; a force, `force:l1`; `transmission`, or `transmission:B` of the loop of closure B; a
+    /// `acceleration:left`; the curvature of a path, `curvature:left`; a force, `force:l1`; `transmission`, or `transmission:B` of the loop of closure B; a
     /// [`Figure`].
     ///
     /// # Errors
@@ -218,8 +227,8 @@ impl Measured {
                 _ => Err(unknown()),
             };
         };
-        if let Some(order) = Order::of_kind(kind) {
-            return moving(mechanism, of, order).map_err(|error| QuantityError::Point {
+        if let Some(measured) = moving(mechanism, kind, of) {
+            return measured.map_err(|error| QuantityError::Point {
                 name: name.into(),
                 error,
             });
@@ -256,6 +265,7 @@ impl Measured {
             Measured::Joint(joint, order) => order.of(SiUnit::of_coordinate(turns(joint))),
             Measured::Place(_, c, order) => order.of(SiUnit::of_coordinate(c.is_angle())),
             Measured::Size(_, order) => order.of(SiUnit::METRE),
+            Measured::Curvature(_) => SiUnit::PER_METRE,
             Measured::Force(joint) => SiUnit::of_effort(turns(joint)),
             Measured::PlatformForce(_, c) => SiUnit::of_effort(c.is_angle()),
             Measured::Transmission(_) => SiUnit::RADIAN,
@@ -283,15 +293,19 @@ fn coordinate(
     Some(point(mechanism, of).map(|point| Measured::Place(point, coordinate, order)))
 }
 
-/// What moves at a rate: a joint, a coordinate, or a point.
-fn moving(mechanism: &Mechanism, name: &str, order: Order) -> Result<Measured, PointError> {
-    if let Some(joint) = mechanism.joint(name) {
-        return Ok(Measured::Joint(joint, order));
+/// What of the motion of a joint, a coordinate, or a point a kind is: a rate, or the curvature of a path.
+fn moving(mechanism: &Mechanism, kind: &str, name: &str) -> Option<Result<Measured, PointError>> {
+    if kind == CURVATURE {
+        return Some(point(mechanism, name).map(Measured::Curvature));
     }
-    match coordinate(mechanism, name, order) {
+    let order = Order::of_kind(kind)?;
+    if let Some(joint) = mechanism.joint(name) {
+        return Some(Ok(Measured::Joint(joint, order)));
+    }
+    Some(match coordinate(mechanism, name, order) {
         Some(Ok(coordinate)) => Ok(coordinate),
         _ => point(mechanism, name).map(|point| Measured::Size(point, order)),
-    }
+    })
 }
 
 /// The name that was probably meant.
@@ -313,7 +327,7 @@ fn suggestion(mechanism: &Mechanism, name: &str) -> Option<String> {
     for frame in mechanism.frames() {
         let frame = mechanism.frame_name(frame);
         known.extend(PoseCoordinate::ALL.map(|c| format!("{frame}.{}", c.word())));
-        known.extend(["velocity", "acceleration"].map(|kind| format!("{kind}:{frame}")));
+        known.extend(["velocity", "acceleration", CURVATURE].map(|kind| format!("{kind}:{frame}")));
     }
     nearest(name, known.iter().map(String::as_str)).map(str::to_owned)
 }

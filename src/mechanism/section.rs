@@ -1,9 +1,9 @@
-//! A mechanism with one of its points held on a plane.
+//! Points of a mechanism as its joints: on a plane, or with their coordinates.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Row, Symbol};
-use super::{ClosureKind, Convention, Frame, Mechanism, Role};
+use super::{ClosureKind, Convention, Frame, Mechanism, NamedPoint, Point, Role};
 use crate::algebra::Affine;
 use crate::description::first_free;
 use crate::geometry::Axis;
@@ -17,46 +17,77 @@ impl Mechanism {
         /// The plane, in characteristic lengths and rad: numbers that no drawing has.
         const ORIGIN: [f64; 3] = [0.137_035, -0.291_549, 0.083_144];
         const TURNS: [(Axis, f64); 2] = [(Axis::Z, 0.729_735), (Axis::X, 1.054_571)];
-        let mut cut = self.clone();
-        let length = self.characteristic_length();
-        let slides = ["u", "v"].map(|name| {
-            cut.joints.push(Joint {
-                name: self.free_name(name),
-                role: Role::Passive,
-                kind: JointKind::Prismatic,
-                home: 0.0,
-                limits: None,
-            });
-            cut.joints.len() - 1
-        });
-        let rows = slides.into_iter().zip([0.0, FRAC_PI_2]);
-        let rows = rows.map(|(joint, twist)| Row {
-            alpha: Formula::number(twist),
-            a: Formula::number(0.0),
-            d: Affine {
-                constant: Formula::number(0.0),
-                terms: vec![(Symbol::Joint(joint), Formula::number(1.0))],
-            },
-            theta: Affine {
-                constant: Formula::number(0.0),
-                terms: Vec::new(),
-            },
-            written: Default::default(),
-        });
-        let origin = ORIGIN.map(|part| Formula::number(part * length));
+        let origin = ORIGIN.map(|part| Formula::number(part * self.characteristic_length()));
         let turns = TURNS.map(|(axis, angle)| FixedStep::Rotate(axis, Formula::number(angle)));
         let base = std::iter::once(FixedStep::TranslateBy(origin)).chain(turns);
+        let slides = [("u", [0.0, 0.0]), ("v", [FRAC_PI_2, 0.0])];
+        let slides = slides.map(|(name, turns)| (self.free_name(name), 0.0, turns));
+        self.with_slides(Point { frame, offset }, base.collect(), &slides)
+    }
+
+    /// The mechanism with the coordinates of a point in ground as joints, called after it: they are its last ones, and
+    /// a ball that closes the point to the end of three slides takes no freedom away.
+    pub fn with_coordinates_of(&self, point: &NamedPoint) -> Mechanism {
+        let [x, y, z] = point.point.at(self, &self.home()).0;
+        let turn = FRAC_PI_2;
+        // the slide along x is turned to y, and that to z
+        let slides = [
+            ("x", x, [0.0, 0.0]),
+            ("y", y, [-turn, turn]),
+            ("z", z, [-turn, 0.0]),
+        ];
+        let slides =
+            slides.map(|(axis, home, turns)| (format!("{}.{axis}", point.name), home, turns));
+        let base = FixedStep::Rotate(Axis::Y, Formula::number(turn));
+        self.with_slides(point.point, vec![base], &slides)
+    }
+
+    /// Whether a joint is a coordinate of a point ([`Mechanism::with_coordinates_of`]): no other name has a dot.
+    pub fn is_of_point(&self, joint: usize) -> bool {
+        self.joints[joint].name.contains('.')
+    }
+
+    /// The mechanism with a point closed by a ball to the end of a chain of slides, each with its home value and α and
+    /// θ of its row.
+    fn with_slides(
+        &self,
+        point: Point,
+        base: Vec<FixedStep>,
+        slides: &[(String, f64, [f64; 2])],
+    ) -> Mechanism {
+        let mut cut = self.clone();
+        let rows = slides.iter().map(|(name, home, [alpha, theta])| {
+            cut.joints.push(Joint {
+                name: name.clone(),
+                role: Role::Passive,
+                kind: JointKind::Prismatic,
+                home: *home,
+                limits: None,
+            });
+            let joint = Symbol::Joint(cut.joints.len() - 1);
+            let affine = |constant: f64, terms| Affine {
+                constant: Formula::number(constant),
+                terms,
+            };
+            Row {
+                alpha: Formula::number(*alpha),
+                a: Formula::number(0.0),
+                d: affine(0.0, vec![(joint, Formula::number(1.0))]),
+                theta: affine(*theta, Vec::new()),
+                written: Default::default(),
+            }
+        });
+        let rows: Vec<Row> = rows.collect();
+        let offset = vec![FixedStep::TranslateBy(point.offset.map(Formula::number))];
         let chains = [
-            (Frame::Ground, base.collect(), rows.collect()),
-            (
-                frame,
-                vec![FixedStep::TranslateBy(offset.map(Formula::number))],
-                Vec::new(),
-            ),
+            (Frame::Ground, base, rows),
+            (point.frame, offset, Vec::new()),
         ];
         let tips = chains.map(|(on, base, rows)| {
+            let name = ["slides", "point"][(cut.chains.len() - self.chains.len()).min(1)];
+            let name = cut.free_name(name);
             cut.chains.push(Chain {
-                name: self.free_name(["plane", "point"][cut.chains.len() - self.chains.len()]),
+                name,
                 on,
                 convention: Convention::Modified,
                 base,
@@ -67,8 +98,9 @@ impl Mechanism {
                 chain: cut.chains.len() - 1,
             }
         });
+        let name = cut.free_name("coordinates");
         cut.closures.push(Closure {
-            name: self.free_name("section"),
+            name,
             kind: ClosureKind::Spherical,
             frames: tips,
             length: None,
@@ -76,7 +108,7 @@ impl Mechanism {
         let values: Vec<f64> = self.parameters.iter().map(|of| of.value).collect();
         let dimensions = cut.dimensions_over(&values);
         cut.dimensions = dimensions.expect("expressions had values before, and these are numbers");
-        cut.measured(length)
+        cut.measured(self.characteristic_length())
     }
 
     /// A name that nothing has.

@@ -35,6 +35,9 @@ pub fn note(note: &ConversionNote) -> String {
         ConversionNote::LimitsLost { joint } => {
             format!("`{joint}` had limits but no longer has a variable: its limits are lost")
         }
+        ConversionNote::CouplerPoint { point, now } => {
+            format!("the coupler point `{point}` is now `{now}`")
+        }
         ConversionNote::Variables { closure, joints } if joints.is_empty() => {
             format!("the closure `{closure}` joins its frames rigidly and needs no variables")
         }

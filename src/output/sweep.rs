@@ -29,6 +29,7 @@ impl Report for MotionsReport {
                 let (mode, sentence) = (mode(one), sentence(&one.sweep));
                 let document = Document::new(&self.mechanism, mode + &sentence);
                 let document = document.notes(words::paced(one));
+                let document = document.notes(words::shapes(one));
                 let document = document.section(extremes(one));
                 let document = document.sections(words::met(one));
                 let document = document.sections(paths::sections(&one.sweep.paths, false));
@@ -44,7 +45,10 @@ impl Report for MotionsReport {
                 let sections = several.iter().map(|motion| {
                     let section = Section::new(mode(motion).trim_end_matches(": "));
                     let section = section.text(sentence(&motion.sweep));
-                    let section = section.list(words::paced(motion)).section(extremes(motion));
+                    let section = section
+                        .list(words::paced(motion))
+                        .list(words::shapes(motion));
+                    let section = section.section(extremes(motion));
                     let met = words::met(motion).into_iter();
                     let section = met.fold(section, Section::section);
                     let paths = paths::sections(&motion.sweep.paths, false);

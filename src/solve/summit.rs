@@ -9,28 +9,70 @@ pub fn summit(
     to: f64,
     mut height: impl FnMut(f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
-    const GOLDEN: f64 = 0.381_966_011_250_105_1;
-    let (mut low, mut high) = (from.min(to), from.max(to));
+    let (low, high) = (from.min(to), from.max(to));
     let way = high - low;
-    let (mut a, mut b) = (low + GOLDEN * way, high - GOLDEN * way);
-    let (mut at_a, mut at_b) = (height(a)?, height(b)?);
-    while high - low > 1e-7 * way {
-        match at_a < at_b {
-            true => {
-                low = a;
-                (a, at_a) = (b, at_b);
-                b = high - GOLDEN * (high - low);
-                at_b = height(b)?;
-            }
-            false => {
-                high = b;
-                (b, at_b) = (a, at_a);
-                a = low + GOLDEN * (high - low);
-                at_a = height(a)?;
+    let mut section = Section {
+        low,
+        high,
+        a: low + GOLDEN * way,
+        b: high - GOLDEN * way,
+        heights: [height(low + GOLDEN * way)?, height(high - GOLDEN * way)?],
+    };
+    section.narrow(1e-7 * way, &mut height)?;
+    let rough = section.best();
+    if let Some(smooth) = stationary(rough, way, &mut height) {
+        return Some(smooth);
+    }
+    // an edge, which has no slope, is as sharp as rounding leaves it
+    section.narrow(1e-15 * way, &mut height)?;
+    Some(section.best())
+}
+
+/// A golden section: what is sought lies between the ends, and two heights between them are known.
+struct Section {
+    low: f64,
+    high: f64,
+    a: f64,
+    b: f64,
+    heights: [f64; 2],
+}
+
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
+
+impl Section {
+    /// Goes on until no more than a width is left.
+    fn narrow(&mut self, width: f64, height: &mut impl FnMut(f64) -> Option<f64>) -> Option<()> {
+        while self.high - self.low > width.max(4.0 * f64::EPSILON * self.high.abs()) {
+            let [at_a, at_b] = self.heights;
+            if at_a < at_b {
+                self.low = self.a;
+                self.a = self.b;
+                self.b = self.high - GOLDEN * (self.high - self.low);
+                self.heights = [at_b, height(self.b)?];
+            } else {
+                self.high = self.b;
+                self.b = self.a;
+                self.a = self.low + GOLDEN * (self.high - self.low);
+                self.heights = [height(self.a)?, at_a];
             }
         }
+        Some(())
     }
-    let rough = if at_a < at_b { (b, at_b) } else { (a, at_a) };
+
+    fn best(&self) -> (f64, f64) {
+        match self.heights[0] < self.heights[1] {
+            true => (self.b, self.heights[1]),
+            false => (self.a, self.heights[0]),
+        }
+    }
+}
+
+/// Where the slope vanishes near a place, with the height, if that is not lower.
+fn stationary(
+    rough: (f64, f64),
+    way: f64,
+    height: &mut impl FnMut(f64) -> Option<f64>,
+) -> Option<(f64, f64)> {
     let h = 1e-2 * way;
     let mut slope = |x: f64| {
         let [far, near] = [2.0 * h, h].map(|h| Some(height(x + h)? - height(x - h)?));
@@ -40,7 +82,7 @@ pub fn summit(
     let mut before = slope(x);
     for _ in 0..12 {
         let (Some(last), Some(here)) = (before, slope(next)) else {
-            return Some(rough);
+            return None;
         };
         let step = here * (next - x) / (here - last);
         if !step.is_finite() {
@@ -49,7 +91,7 @@ pub fn summit(
         (x, before) = (next, Some(here));
         next -= step;
         if (next - rough.0).abs() > 1e-2 * way {
-            return Some(rough);
+            return None;
         }
         if step.abs() <= 1e-15 * way {
             break;
@@ -58,7 +100,7 @@ pub fn summit(
     let rounding = 1e-13 * rough.1.abs();
     match height(next) {
         Some(value) if value >= rough.1 - rounding => Some((next, value)),
-        _ => Some(rough),
+        _ => None,
     }
 }
 
@@ -76,7 +118,7 @@ mod tests {
     #[test]
     fn an_edge_and_a_gap_are_told_too() {
         let (x, height) = summit(0.0, 1.0, |x: f64| Some(-(x - 0.3).abs())).unwrap();
-        assert!((x - 0.3).abs() < 1e-6 && height > -1e-6, "{x} {height}");
+        assert!((x - 0.3).abs() < 1e-15 && height > -1e-15, "{x} {height}");
         assert_eq!(summit(0.0, 1.0, |x: f64| (x > 0.5).then_some(x)), None);
     }
 }

@@ -11,7 +11,7 @@ mod spins;
 pub use count::{Count, check_angle, check_angles, check_count};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
-pub use equilibrium::Equilibrium;
+pub use equilibrium::{Equilibrium, Loaded};
 pub use error::QuestionError;
 pub use forces::{ForceError, Load};
 pub use held::with_coordinates;

@@ -6,6 +6,7 @@ mod commands;
 mod comparison;
 mod conversion;
 mod cusps;
+mod cycles;
 mod cylinders;
 mod formulas;
 mod frames;

@@ -187,9 +187,18 @@ fn the_mechanical_advantage_of_a_toggle_press_grows_as_its_links_align() {
     let question = Question::new(written(TOGGLE))
         .input("a", "40 deg", "2 deg")
         .load("s", "-1")
-        .report("advantage");
+        .report("advantage, ratio=-l*cos(a)*velocity:a/velocity:s");
     let motion = moved(&question, 38, Pace::default());
     assert_eq!(motion.extremes[0].unit.to_string(), "1/N");
+    // the same from rates is a plain number: an angle times an arm is a length
+    assert_eq!(motion.extremes[1].unit, SiUnit::ONE);
+    for (a, found) in column(&motion, "a").iter().zip(column(&motion, "ratio")) {
+        let exact = 1.0 / (2.0 * a.tan());
+        assert!(
+            (found - exact).abs() < 1e-10 * exact,
+            "{a}: {found} for {exact}"
+        );
+    }
     for (a, found) in column(&motion, "a")
         .iter()
         .zip(column(&motion, "advantage"))

@@ -12,7 +12,7 @@ use linkwork::analysis::sweep::{
 };
 use linkwork::ask;
 use linkwork::description::Description;
-use linkwork::mechanism::{Configuration, Mechanism, Point};
+use linkwork::mechanism::{Configuration, Mechanism, NamedPoint};
 use linkwork::solve::Watch;
 use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Coordinate, Curve, Driven, Held, Question, Search, System, Walk};
@@ -126,7 +126,7 @@ fn steps(steps: usize) -> SweepSettings {
 
 fn tracing(mechanism: &Mechanism, steps: usize, point: &str) -> SweepSettings {
     SweepSettings {
-        points: vec![Point::read(mechanism, point).unwrap()],
+        points: vec![NamedPoint::read(mechanism, point).unwrap()],
         ..self::steps(steps)
     }
 }
@@ -821,7 +821,7 @@ fn klanns_leg_closes_as_its_table_says() {
     let inputs = [joint(&mechanism, "theta", PI / 2.0, PI / 2.0 + TAU)];
     let settings = SweepSettings {
         points: ["knee", "first.2"]
-            .map(|p| Point::read(&mechanism, p).unwrap())
+            .map(|p| NamedPoint::read(&mechanism, p).unwrap())
             .to_vec(),
         ..steps(360)
     };
@@ -1391,7 +1391,9 @@ fn csv_has_a_whole_line_for_every_row_and_json_and_svg_hold_the_same_motion() {
     assert_eq!((code, err.as_str()), (0, ""));
     let mut reader = csv.lines();
     let header = reader.next().unwrap();
-    assert!(header.starts_with("mode,step,theta1 (rad),phi2 (rad),phi1 (rad),left+2.5.x (m),"));
+    assert!(
+        header.starts_with("mode,step,theta1 (rad),phi2 (rad),phi1 (rad),\"left+2.5,0.x (m)\",")
+    );
     let rows: Vec<Vec<&str>> = reader.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 51);
     assert!(rows.iter().all(|row| row.len() == 9));

@@ -4,8 +4,8 @@ mod resisted;
 
 use serde::{Deserialize, Serialize};
 
-use crate::linear::{Decomposition, orthonormal, remove};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::linear::{Decomposition, orthonormal, remove, singular_values};
+use crate::mechanism::{Configuration, Figure, Mechanism};
 use crate::system::{
     Coordinate, Lock, Locked, Mobility, Neighbourhood, STILL, Screw, TwistSpace, Unknown,
     default_outputs,
@@ -127,10 +127,17 @@ impl<'m> SingularityMeter<'m> {
         SingularityMeter(Classifier::new(mechanism, inputs, &outputs, at))
     }
 
-    /// The distances at another.
-    pub fn at(&mut self, at: &Configuration<f64>) -> Distances {
-        let matrices = self.0.decompositions(at);
-        self.0.distances(&matrices)
+    /// The distance from singularities of the closures, with the inputs at rest, or with the outputs at rest.
+    pub fn at(&mut self, of: Figure, at: &Configuration<f64>) -> Option<f64> {
+        let matrix = match of {
+            Figure::Direct => DIRECT,
+            Figure::Inverse => INVERSE,
+            _ => CLOSURES,
+        };
+        let locked = &mut self.0.matrices[matrix];
+        let entries = locked.jacobian(at);
+        let values = singular_values(locked.rows(), locked.columns(), &entries);
+        self.0.least(matrix, &values)
     }
 }
 
@@ -259,17 +266,18 @@ impl<'m> Classifier<'m> {
 
     /// The smallest singular values that do not vanish everywhere.
     fn distances(&self, matrices: &[Decomposition; 4]) -> Distances {
-        let columns = self.unknowns().len();
-        let least = |k: usize| {
-            let last = (columns - self.generic[k]).checked_sub(1)?;
-            let values = matrices[k].singular_values();
-            Some(values.get(last).copied().unwrap_or(0.0))
-        };
+        let least = |k: usize| self.least(k, matrices[k].singular_values());
         Distances {
             constraint: least(CLOSURES),
             direct: least(DIRECT),
             inverse: least(INVERSE),
         }
+    }
+
+    /// Of the singular values of a matrix the smallest that does not vanish everywhere.
+    fn least(&self, matrix: usize, values: &[f64]) -> Option<f64> {
+        let last = (self.unknowns().len() - self.generic[matrix]).checked_sub(1)?;
+        Some(values.get(last).copied().unwrap_or(0.0))
     }
 
     /// Motions as a report, less those of a subspace of no interest.

@@ -1,5 +1,6 @@
 //! Configurations between rows that follow one another.
 
+use super::Schedule;
 use super::rows::holding;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Newton;
@@ -12,6 +13,8 @@ use crate::system::{Coordinate, Driven, Held, MotionTracker, System};
 pub struct Between {
     tracker: MotionTracker,
     moved: Vec<Driven>,
+    /// What the inputs follow, with the parts of the time at the first and the last row.
+    schedule: Option<(Schedule, [f64; 2])>,
     middle: Configuration<f64>,
     /// How far, in rad and characteristic lengths, a configuration may be from that of the middle row.
     reach: f64,
@@ -25,6 +28,7 @@ impl Between {
         mechanism: &Mechanism,
         held: &Held<f64>,
         inputs: &[Driven],
+        schedule: Option<(Schedule, [f64; 2])>,
         rows: [&Configuration<f64>; 3],
     ) -> Option<Self> {
         let scales = Coordinate::all(mechanism).map(|c| (c, c.scale(mechanism)));
@@ -44,10 +48,11 @@ impl Between {
             }
         };
         let scale = |of: Coordinate| (of, of.scale(mechanism));
-        let prescribed = !inputs.is_empty()
-            && inputs
-                .iter()
-                .all(|input| goes(&scale(input.coordinate)) > 1e-12);
+        let prescribed = schedule.is_some()
+            || !inputs.is_empty()
+                && inputs
+                    .iter()
+                    .all(|input| goes(&scale(input.coordinate)) > 1e-12);
         let moved = match (prescribed, inputs) {
             (true, _) => inputs.iter().map(|input| along(input.coordinate)).collect(),
             (false, [] | [_]) => {
@@ -61,6 +66,7 @@ impl Between {
         let mut between = Between {
             tracker: MotionTracker::new(system, middle.clone()),
             moved,
+            schedule,
             middle: middle.clone(),
             reach: 0.0,
             scales,
@@ -74,6 +80,12 @@ impl Between {
         self.scales.iter().map(far).fold(0.0, f64::max)
     }
 
+    /// The part of the time at a part of the way, where the inputs follow a schedule.
+    pub fn time(&self, part: f64) -> Option<f64> {
+        let (_, [from, to]) = self.schedule.as_ref()?;
+        Some(from + part * (to - from))
+    }
+
     /// The assembled configuration at a part of the way, if the branch of the rows has one there.
     pub fn at(&mut self, part: f64) -> Option<&Configuration<f64>> {
         /// Steps in which it is gone to from the middle row where one is too long.
@@ -82,7 +94,10 @@ impl Between {
         if !self.go(part) {
             self.tracker.restart(&self.middle);
             let first = self.moved.first()?;
-            let from = (first.coordinate.of(&self.middle) - first.from) / (first.to - first.from);
+            let from = match self.schedule {
+                Some(_) => 0.5,
+                None => (first.coordinate.of(&self.middle) - first.from) / (first.to - first.from),
+            };
             for k in 1..=STEPS {
                 if !self.go(from + (part - from) * f64::from(k) / f64::from(STEPS)) {
                     return None;
@@ -99,17 +114,22 @@ impl Between {
 
     /// Goes on to a part of the way, if that leads to a configuration near the rows.
     fn go(&mut self, part: f64) -> bool {
-        for input in &self.moved {
+        let schedule = self.schedule.as_ref();
+        let value = |(i, input): (usize, &Driven)| match schedule {
+            Some((schedule, [from, to])) => schedule.at(i, from + part * (to - from))[0],
+            None => input.at(part),
+        };
+        for (i, input) in self.moved.iter().enumerate() {
             if let Coordinate::Pose(platform, coordinate) = input.coordinate {
                 self.tracker
-                    .set_target(platform, coordinate, input.at(part));
+                    .set_target(platform, coordinate, value((i, input)));
             }
         }
         let moved = &self.moved;
         let report = self.tracker.solve(|at| {
-            for input in moved {
+            for (i, input) in moved.iter().enumerate() {
                 if let Coordinate::Joint(joint) = input.coordinate {
-                    at.joints[joint] = input.at(part);
+                    at.joints[joint] = value((i, input));
                 }
             }
         });

@@ -17,7 +17,7 @@ use super::paths::Tracer;
 use super::{At, PathReport};
 use crate::algebra::SiUnit;
 use crate::linear::{dot, norm};
-use crate::mechanism::{Configuration, Mechanism, Point, Role, turns};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role, turns};
 use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
 use crate::system::{Coordinate, Curve, Event, Held, Walk};
 use course::platform_courses;
@@ -31,7 +31,7 @@ pub struct CircuitsSettings {
     /// Steps after which a curve is given up.
     pub most_steps: usize,
     /// Points whose paths are looked at.
-    pub points: Vec<Point>,
+    pub points: Vec<NamedPoint>,
 }
 
 impl Default for CircuitsSettings {

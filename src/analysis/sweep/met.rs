@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{InputReport, SweepEnd, SweepReport};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism, Point, Role};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role};
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
@@ -85,7 +85,7 @@ pub struct Passing {
 pub(super) struct Record<'m> {
     mechanism: &'m Mechanism,
     inputs: Vec<Driven>,
-    points: &'m [Point],
+    points: &'m [NamedPoint],
     met: Vec<Met>,
     more: usize,
     pub steps: usize,
@@ -95,7 +95,7 @@ pub(super) struct Record<'m> {
 const MOST: usize = 1000;
 
 impl<'m> Record<'m> {
-    pub fn new(mechanism: &'m Mechanism, inputs: &[Driven], points: &'m [Point]) -> Self {
+    pub fn new(mechanism: &'m Mechanism, inputs: &[Driven], points: &'m [NamedPoint]) -> Self {
         Record {
             mechanism,
             inputs: inputs.to_vec(),
@@ -148,7 +148,7 @@ impl<'m> Record<'m> {
             Event::End(_) => (MetKind::End, None),
             Event::Closed => (MetKind::Closed, None),
             Event::Root(number) => {
-                let point = self.points[*number].name(self.mechanism);
+                let point = self.points[*number].name.clone();
                 (MetKind::Cusp { point }, None)
             }
             Event::Branches(point) => {
@@ -240,12 +240,10 @@ impl<'m> Record<'m> {
 
     pub fn report(self, ending: SweepEnd, rows: usize, length: f64) -> SweepReport {
         let mechanism = self.mechanism;
-        let inputs = self.inputs.iter().map(|input| InputReport {
-            name: input.coordinate.name(mechanism),
-            unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
-            from: input.from,
-            to: input.to,
-        });
+        let inputs = self
+            .inputs
+            .iter()
+            .map(|input| InputReport::of(mechanism, input));
         SweepReport {
             inputs: inputs.collect(),
             ending,

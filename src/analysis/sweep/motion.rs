@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Pace, Row, SweepReport};
+use super::{Dwell, Pace, Row, Straightness, SweepReport};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Mechanism, Point, PoseCoordinate, Variable};
+use crate::mechanism::{Mechanism, NamedPoint, PoseCoordinate, Variable};
 
 /// The motions of one question: one, or one in each mode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,9 +28,18 @@ pub struct MotionReport {
     /// How the inputs went through their ranges; none without inputs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pace: Option<Pace>,
+    /// How many rows the table has that the inputs go through, if one gives their motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<usize>,
     /// The least and greatest values of the quantities asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub extremes: Vec<Extremum>,
+    /// How straight the traced paths are, if that is asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub straightness: Vec<Straightness>,
+    /// Where quantities dwell, if that is asked for; none for one without values.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dwells: Vec<Dwell>,
     /// What the columns are: the number of the step, joints, platforms, traced points, the time if quantities were
     /// asked for, and these.
     pub columns: Vec<Variable>,
@@ -70,12 +79,12 @@ pub struct Columns(Vec<Variable>);
 
 impl Columns {
     /// The number of the step, then all joints, platforms and traced points of a mechanism, then quantities.
-    pub fn new(mechanism: &Mechanism, points: &[Point], quantities: Vec<Variable>) -> Self {
+    pub fn new(mechanism: &Mechanism, points: &[NamedPoint], quantities: Vec<Variable>) -> Self {
         let mut variables = vec![Variable::plain("step")];
         variables.extend(Variable::joints(mechanism));
         variables.extend(Variable::poses(mechanism));
         for point in points {
-            let (axes, name) = (["x", "y", "z"], point.name(mechanism));
+            let (axes, name) = (["x", "y", "z"], &point.name);
             let variable = |axis| Variable::new(format!("{name}.{axis}"), SiUnit::METRE);
             variables.extend(axes.map(variable));
         }

@@ -8,7 +8,7 @@ use super::At;
 use super::points::Paths;
 use crate::geometry::Vector3;
 use crate::linear::dot;
-use crate::mechanism::{Configuration, Mechanism, Placement, Point, Variable};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement, Variable};
 use crate::solve::Continuation;
 use crate::system::{Curve, Event, FrameTwists, Segment};
 use crossings::double_points;
@@ -55,11 +55,11 @@ pub(super) struct Tracer {
 }
 
 impl Tracer {
-    pub fn new(mechanism: &Mechanism, curve: &Curve, point: &Point) -> Self {
+    pub fn new(mechanism: &Mechanism, curve: &Curve, point: &NamedPoint) -> Self {
         let (dimensions, unknowns) = (mechanism.dimensions(), curve.system().unknowns());
-        let twists = FrameTwists::new(dimensions, unknowns, &[point.frame]);
+        let twists = FrameTwists::new(dimensions, unknowns, &[point.point.frame]);
         Tracer {
-            name: point.name(mechanism),
+            name: point.name.clone(),
             variables: Variable::joints(mechanism),
             paths: Paths::new(mechanism, std::slice::from_ref(point)),
             placement: twists.placement(),
@@ -139,7 +139,7 @@ impl Trail {
     pub fn new(
         mechanism: &Mechanism,
         curve: &Curve,
-        points: &[Point],
+        points: &[NamedPoint],
         method: &Continuation,
     ) -> Self {
         let tracers = points

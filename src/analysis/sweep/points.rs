@@ -1,6 +1,6 @@
 //! Points of bodies whose paths are traced.
 
-use crate::mechanism::{Configuration, Kinematics, Mechanism, Placement, Point};
+use crate::mechanism::{Configuration, Kinematics, Mechanism, NamedPoint, Placement, Point};
 
 /// Where traced points are, without allocating.
 pub(super) struct Paths {
@@ -11,13 +11,14 @@ pub(super) struct Paths {
 }
 
 impl Paths {
-    pub fn new(mechanism: &Mechanism, points: &[Point]) -> Self {
-        let kinematics = Kinematics::new(mechanism.dimensions(), points.iter().map(|p| p.frame));
+    pub fn new(mechanism: &Mechanism, points: &[NamedPoint]) -> Self {
+        let kinematics =
+            Kinematics::new(mechanism.dimensions(), points.iter().map(|p| p.point.frame));
         Paths {
             placement: kinematics.placement(),
             kinematics,
             at: vec![[0.0; 3]; points.len()],
-            points: points.to_vec(),
+            points: points.iter().map(|p| p.point).collect(),
         }
     }
 

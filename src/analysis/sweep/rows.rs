@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::points::Paths;
 use super::{Flow, Law, MetKind, Row, SweepSettings};
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
 
@@ -17,6 +17,8 @@ pub(super) struct Rows {
     inputs: Vec<Driven>,
     steps: usize,
     law: Law,
+    /// Parts of the segment this near are the same: inputs are known to rounding, however short their ranges are.
+    same: f64,
     /// The next row ahead, as a number of steps from the start of the segment.
     next: i64,
     /// Whether the inputs move towards the end of the segment.
@@ -36,7 +38,11 @@ impl Rows {
         let tracker = holding(held, inputs).map(|held| {
             MotionTracker::new(System::new(mechanism.dimensions(), &held), start.at.clone())
         });
+        let way =
+            |input: &Driven| (input.to - input.from).abs() / input.coordinate.scale(mechanism);
+        let way = inputs.iter().map(way).fold(0.0, f64::max);
         Rows {
+            same: 1e-12f64.max(4e-12 / way.max(1e-12)),
             tracker,
             inputs: inputs.to_vec(),
             steps: settings.steps,
@@ -85,11 +91,9 @@ impl Rows {
         to: &At,
         sink: &mut Flow,
     ) -> ControlFlow<()> {
-        /// Parts of the segment this near are the same.
-        const SAME: f64 = 1e-12;
         let (first, last) = (curve.part(&from.at), curve.part(&to.at));
         let forward = last > first;
-        if forward != self.forward && (last - first).abs() > SAME {
+        if forward != self.forward && (last - first).abs() > self.same {
             // the same inputs come again, on the other side of the fold
             self.next += if forward { 1 } else { -1 };
             self.forward = forward;
@@ -99,8 +103,8 @@ impl Rows {
         loop {
             let part = self.law.at(self.next as f64 / steps)[0];
             let ahead = match self.forward {
-                true => part <= last + SAME,
-                false => part >= last - SAME,
+                true => part <= last + self.same,
+                false => part >= last - self.same,
             };
             if !ahead || self.next < 0 || self.next > self.steps as i64 {
                 return ControlFlow::Continue(());
@@ -174,7 +178,7 @@ pub(super) struct Sent {
 }
 
 impl Sent {
-    pub fn new(mechanism: &Mechanism, points: &[Point]) -> Self {
+    pub fn new(mechanism: &Mechanism, points: &[NamedPoint]) -> Self {
         Sent {
             paths: Paths::new(mechanism, points),
             count: 0,

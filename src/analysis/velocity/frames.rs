@@ -8,7 +8,7 @@ use crate::system::{
 };
 
 /// For each frame of a mechanism the axes about which its link spins in local freedoms.
-pub(super) struct Spins {
+pub(crate) struct Spins {
     lines: Vec<(Frame, Vec<Vector3<f64>>)>,
 }
 
@@ -27,6 +27,11 @@ impl Spins {
         Spins {
             lines: lines.collect(),
         }
+    }
+
+    /// Whether no link spins.
+    pub fn is_empty(&self) -> bool {
+        self.lines.iter().all(|(_, lines)| lines.is_empty())
     }
 
     /// Orthonormal directions of the lines.

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::frames::Spins;
 use crate::algebra::SiUnit;
-use crate::linear::{Decomposition, rank};
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::linear::{rank, singular_values};
+use crate::mechanism::{Configuration, Mechanism, Placement, Point};
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
@@ -110,39 +110,84 @@ fn determinant(size: usize, entries: &[f64]) -> f64 {
     product
 }
 
-pub(super) fn input_output(
-    mechanism: &Mechanism,
-    motion: &mut Motion,
-    at: &Configuration<f64>,
-    outputs: &[Lock],
-    spins: &Spins,
-) -> InputOutput {
-    let points: Vec<Point> = outputs.iter().filter_map(|output| output.point()).collect();
-    let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &points);
-    let placement = twists.placed(at);
-    let length = mechanism.characteristic_length();
-    let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
+/// The map from rates of the inputs to those of the outputs, planned once.
+pub(crate) struct Outputs<'m> {
+    mechanism: &'m Mechanism,
+    outputs: Vec<Lock>,
+    twists: FrameTwists<f64>,
+    placement: Placement<f64>,
+    /// Scales of the rows, then of the columns.
+    scales: [Vec<f64>; 2],
+    /// How many rows at the end belong to points followed.
+    followed: usize,
+}
 
-    let rows = outputs
-        .iter()
-        .flat_map(|&output| rows_of(mechanism, output));
-    let (rows, row_scales): (Vec<Axis>, Vec<f64>) = rows
-        .map(|(name, is_angle)| (Axis::new(name, is_angle), scale(is_angle)))
-        .unzip();
-    let inputs = motion.coordinates().to_vec();
-    let mut columns = Vec::new();
-    let mut entries = vec![Vec::new(); rows.len()];
-    let mut normalised = Vec::new();
-    for (i, input) in inputs.iter().enumerate() {
-        let is_angle = input.is_angle(mechanism);
-        columns.push(Axis::new(input.name(mechanism), is_angle));
-        let mut given = vec![0.0; inputs.len()];
-        given[i] = 1.0;
-        let rates = motion.rates(&given);
-        let mut column = Vec::with_capacity(rows.len());
-        let mut moving = (0..points.len()).map(|i| twists.twist(i, &placement, rates));
-        for output in outputs {
-            let twist = output.point().and_then(|_| moving.next());
+/// The dimensionless Jacobian without the rows of points followed, unless there are no others.
+pub(crate) struct Normalised {
+    rows: usize,
+    columns: usize,
+    /// Column by column.
+    entries: Vec<f64>,
+}
+
+impl Normalised {
+    /// Its determinant if it is square.
+    pub fn determinant(&self) -> Option<f64> {
+        (self.rows == self.columns).then(|| determinant(self.rows, &self.entries))
+    }
+
+    /// Its singular values, largest first.
+    pub fn singular_values(&self) -> Vec<f64> {
+        singular_values(self.rows, self.columns, &self.entries)
+    }
+}
+
+/// Largest over smallest of singular values; `None` (infinite) if some freedom is lost.
+pub(crate) fn condition(values: &[f64]) -> Option<f64> {
+    let smallest = values.last().copied().unwrap_or(1.0);
+    (rank(values) == values.len()).then(|| values.first().map_or(1.0, |most| most / smallest))
+}
+
+impl<'m> Outputs<'m> {
+    pub fn new(mechanism: &'m Mechanism, motion: &Motion, outputs: Vec<Lock>) -> Self {
+        let points: Vec<Point> = outputs.iter().filter_map(|output| output.point()).collect();
+        let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &points);
+        let length = mechanism.characteristic_length();
+        let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
+        let rows = outputs
+            .iter()
+            .flat_map(|&output| rows_of(mechanism, output));
+        let columns = motion.coordinates().iter();
+        Outputs {
+            scales: [
+                rows.map(|(_, is_angle)| scale(is_angle)).collect(),
+                columns.map(|of| scale(of.is_angle(mechanism))).collect(),
+            ],
+            placement: twists.placement(),
+            followed: 3 * outputs
+                .iter()
+                .filter(|output| matches!(output, Lock::Point(_)))
+                .count(),
+            twists,
+            outputs,
+            mechanism,
+        }
+    }
+
+    /// Goes to a configuration.
+    pub fn place(&mut self, at: &Configuration<f64>) {
+        self.twists.place(at, &mut self.placement);
+    }
+
+    /// The rates of the outputs for rates of all unknowns, in m/s and rad/s.
+    fn of(&self, at: &Configuration<f64>, rates: &[f64], spins: &Spins) -> Vec<f64> {
+        let mechanism = self.mechanism;
+        let length = mechanism.characteristic_length();
+        let mut column = Vec::with_capacity(self.scales[0].len());
+        let mut next = 0..;
+        for output in &self.outputs {
+            let twist = output.point().and_then(|_| next.next());
+            let twist = twist.map(|i| self.twists.twist(i, &self.placement, rates));
             match (*output, twist) {
                 (Lock::Frame(of), Some(Twist { omega, velocity })) => {
                     column.extend(without(&omega, spins.lines_of(of)).0);
@@ -156,13 +201,13 @@ pub(super) fn input_output(
                 (Lock::Coordinate(Coordinate::Turn(_, axis)), Some(twist)) => {
                     column.push(twist.omega.0[axis as usize]);
                 }
-                (Lock::Coordinate(of @ Coordinate::Pose(platform, c)), Some(twist)) => {
+                (Lock::Coordinate(of @ Coordinate::Pose(platform, _)), Some(twist)) => {
                     // the slope is that of the dimensionless coordinate
                     let slope = of.slope(&at.platforms[platform].pose(), length);
                     let turn = twist.omega.0.into_iter();
                     let shift = twist.velocity.0.into_iter().map(|v| v / length);
                     let sum: f64 = turn.chain(shift).zip(slope).map(|(t, s)| t * s).sum();
-                    column.push(sum * scale(c.is_angle()));
+                    column.push(sum * of.scale(mechanism));
                 }
                 (Lock::Coordinate(Coordinate::Joint(joint)), _) => {
                     column.push(rates[joint] * mechanism.dimensions().joint_scales[joint]);
@@ -170,35 +215,71 @@ pub(super) fn input_output(
                 (_, None) => unreachable!("only joints have no frame"),
             }
         }
-        for ((row, &entry), row_scale) in entries.iter_mut().zip(&column).zip(&row_scales) {
-            row.push(entry);
-            normalised.push(entry * scale(is_angle) / row_scale);
+        column
+    }
+
+    /// Column by column for unit rates of the inputs, one at a time, which give `rates`.
+    fn columns(&self, at: &Configuration<f64>, rates: &[Vec<f64>], spins: &Spins) -> Vec<Vec<f64>> {
+        let columns = rates.iter().map(|rates| self.of(at, rates, spins));
+        columns.collect()
+    }
+
+    fn normalised_of(&self, columns: &[Vec<f64>]) -> Normalised {
+        let [rows, inputs] = &self.scales;
+        let counted = match rows.len() - self.followed {
+            0 => rows.len(),
+            others => others,
+        };
+        let entries = columns.iter().zip(inputs).flat_map(|(column, input)| {
+            let entries = column[..counted].iter().zip(rows);
+            entries.map(move |(entry, row)| entry * input / row)
+        });
+        Normalised {
+            rows: counted,
+            columns: columns.len(),
+            entries: entries.collect(),
         }
     }
-    let points = outputs.iter();
-    let points = points.filter(|output| matches!(output, Lock::Point(_)));
-    let followed = 3 * points.count();
-    let counted = match rows.len() - followed {
-        0 => rows.len(),
-        others => others,
-    };
-    let columnwise = normalised.chunks_exact(rows.len().max(1));
-    let normalised: Vec<f64> = (columnwise.flat_map(|column| &column[..counted]))
-        .copied()
-        .collect();
-    let smaller = counted.min(columns.len());
-    let decomposition = Decomposition::of(counted, columns.len(), &normalised);
-    let values = decomposition.singular_values();
-    let rank = rank(values);
-    InputOutput {
-        followed,
-        loss: smaller - rank,
-        condition: (rank == smaller).then(|| decomposition.condition()),
-        manipulability: values.iter().product(),
-        determinant: (counted == columns.len()).then(|| determinant(counted, &normalised)),
-        rank,
-        rows,
-        columns,
-        entries,
+
+    /// The dimensionless Jacobian for what unit rates of the inputs give.
+    pub fn normalised(
+        &self,
+        at: &Configuration<f64>,
+        rates: &[Vec<f64>],
+        spins: &Spins,
+    ) -> Normalised {
+        self.normalised_of(&self.columns(at, rates, spins))
+    }
+
+    /// The whole report; `motion` is factorised at the configuration.
+    pub(super) fn report(
+        &mut self,
+        motion: &mut Motion,
+        at: &Configuration<f64>,
+        spins: &Spins,
+    ) -> InputOutput {
+        self.place(at);
+        let columns = self.columns(at, &motion.responses(), spins);
+        let normalised = self.normalised_of(&columns);
+        let values = normalised.singular_values();
+        let mechanism = self.mechanism;
+        let rows = (self.outputs.iter()).flat_map(|&output| rows_of(mechanism, output));
+        let inputs = motion.coordinates().iter();
+        let entries = (0..self.scales[0].len()).map(|row| columns.iter().map(|c| c[row]).collect());
+        InputOutput {
+            followed: self.followed,
+            rank: rank(&values),
+            loss: values.len() - rank(&values),
+            condition: condition(&values),
+            manipulability: values.iter().product(),
+            determinant: normalised.determinant(),
+            rows: rows
+                .map(|(name, is_angle)| Axis::new(name, is_angle))
+                .collect(),
+            columns: inputs
+                .map(|input| Axis::new(input.name(mechanism), input.is_angle(mechanism)))
+                .collect(),
+            entries: entries.collect(),
+        }
     }
 }

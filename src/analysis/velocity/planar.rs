@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::plane::{ZERO, normal, split};
 use super::rods::with_rods;
-use crate::geometry::Vector3;
+use crate::geometry::{Pose, Vector3};
 use crate::linear::{dot, norm};
-use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::mechanism::{Body, Configuration, Frame, Kinematics, Mechanism, Placement, Point};
 use crate::system::{
     Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, loops,
 };
@@ -48,46 +48,140 @@ pub struct InstantCentre {
 /// Beyond so many bodies only centres relative to the ground are listed.
 const MANY_BODIES: usize = 12;
 
-/// Of each loop in which three joints are left when the held ones, and those that other such loops
-/// settle, are given: the dyads of which planar linkages are built up.
-pub(crate) fn transmission(
-    near: &mut Neighbourhood,
-    at: &Configuration<f64>,
-    held: &[Coordinate],
-) -> Vec<Transmission> {
-    let mechanism = near.mechanism();
-    let length = mechanism.characteristic_length();
-    let ends = near
-        .closure_wrenches(at)
-        .into_iter()
-        .map(|wrenches| wrenches.points);
-    let ends: Vec<[Vector3<f64>; 2]> = ends.collect();
-    let found = loops(near, at).into_iter();
-    let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &ends)));
-    let found: Vec<HingedLoop> = found.collect();
-    let joints = 0..mechanism.joints().len();
-    let mut known = Known {
-        joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
-        closures: Vec::new(),
-    };
-    let mut angles: Vec<Option<Vec<Transmission>>> = vec![None; found.len()];
-    let dyad = |one: &HingedLoop, known: &Known| {
-        let given = known.parts(one);
-        let free = (0..given.len()).filter(|&i| !given[i]);
-        free.clone().count() == 3 && free.clone().all(|i| one.hinges[i].is_some())
-    };
-    while let Some(i) = (0..found.len()).find(|&i| angles[i].is_none() && dyad(&found[i], &known)) {
-        angles[i] = Some(of_loop(mechanism, &found[i], &known, length));
-        for part in &found[i].all.parts {
-            part.joints
-                .iter()
-                .for_each(|&joint| known.joints[joint] = true);
-            known
-                .closures
-                .extend(part.closure.then(|| part.names[0].clone()));
+/// The transmission angles of each loop in which three joints are left when the held ones, and those that other such
+/// loops settle, are given: the dyads of which planar linkages are built up. Planned once.
+pub(crate) struct TransmissionAngles {
+    dyads: Vec<Dyad>,
+    kinematics: Kinematics<f64>,
+    placement: Placement<f64>,
+    length: f64,
+}
+
+/// Three joints of a loop in a plane: between driven link and coupler, coupler and output link, and what holds that.
+struct Dyad {
+    closure: String,
+    driven: String,
+    output: String,
+    between: String,
+    first: Point,
+    second: Point,
+    post: Post,
+    /// The normal of the plane in frames of all bodies of the loop.
+    normals: Vec<(Frame, Vector3<f64>)>,
+}
+
+/// What holds an output link.
+enum Post {
+    /// A hinge.
+    Hinge(Point),
+    /// A slide along a direction of a frame.
+    Slide(Frame, Vector3<f64>),
+    /// A slide along the line through two points.
+    Along(Point, Point),
+}
+
+impl TransmissionAngles {
+    /// For what is held; which loops move in a plane is decided at an assembled configuration.
+    pub fn new(near: &mut Neighbourhood, at: &Configuration<f64>, held: &[Coordinate]) -> Self {
+        let mechanism = near.mechanism();
+        let ends = near
+            .closure_wrenches(at)
+            .into_iter()
+            .map(|wrenches| wrenches.points);
+        let ends: Vec<[Vector3<f64>; 2]> = ends.collect();
+        let found = loops(near, at).into_iter();
+        let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &ends)));
+        let found: Vec<HingedLoop> = found.collect();
+        let joints = 0..mechanism.joints().len();
+        let mut known = Known {
+            joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
+            closures: Vec::new(),
+        };
+        let mut dyads: Vec<Option<Vec<Dyad>>> = found.iter().map(|_| None).collect();
+        let dyad = |one: &HingedLoop, known: &Known| {
+            let given = known.parts(one);
+            let free = (0..given.len()).filter(|&i| !given[i]);
+            free.clone().count() == 3 && free.clone().all(|i| one.hinges[i].is_some())
+        };
+        while let Some(i) =
+            (0..found.len()).find(|&i| dyads[i].is_none() && dyad(&found[i], &known))
+        {
+            dyads[i] = Some(dyads_of(mechanism, &found[i], &known, at));
+            for part in &found[i].all.parts {
+                part.joints
+                    .iter()
+                    .for_each(|&joint| known.joints[joint] = true);
+                known
+                    .closures
+                    .extend(part.closure.then(|| part.names[0].clone()));
+            }
+        }
+        let dyads: Vec<Dyad> = dyads.into_iter().flatten().flatten().collect();
+        let frames = dyads.iter().flat_map(|dyad| dyad.normals.iter());
+        let kinematics = Kinematics::new(mechanism.dimensions(), frames.map(|(frame, _)| *frame));
+        TransmissionAngles {
+            placement: kinematics.placement(),
+            length: mechanism.characteristic_length(),
+            dyads,
+            kinematics,
         }
     }
-    angles.into_iter().flatten().flatten().collect()
+
+    /// The closure of each loop with its angle from 0 to π/2; none where it does not move in a plane. Nothing allocates.
+    pub fn angles(&mut self, at: &Configuration<f64>) -> impl Iterator<Item = (&str, Option<f64>)> {
+        self.kinematics.place(at, &mut self.placement);
+        let this = &*self;
+        this.dyads.iter().map(move |dyad| {
+            let pressure = this.pressure(dyad);
+            (&*dyad.closure, pressure.map(|angle| FRAC_PI_2 - angle))
+        })
+    }
+
+    /// All of them with their names.
+    pub fn table(&mut self, at: &Configuration<f64>) -> Vec<Transmission> {
+        self.kinematics.place(at, &mut self.placement);
+        let found = self.dyads.iter().filter_map(|dyad| {
+            let pressure_angle = self.pressure(dyad)?;
+            Some(Transmission {
+                closure: dyad.closure.clone(),
+                driven: dyad.driven.clone(),
+                output: dyad.output.clone(),
+                between: dyad.between.clone(),
+                transmission_angle: FRAC_PI_2 - pressure_angle,
+                pressure_angle,
+            })
+        });
+        found.collect()
+    }
+
+    fn pose(&self, frame: Frame) -> &Pose<f64> {
+        let pose = self.kinematics.pose(frame, &self.placement);
+        pose.expect("the kinematics was planned for all bodies of the loops")
+    }
+
+    fn pressure(&self, dyad: &Dyad) -> Option<f64> {
+        let normals = dyad.normals.iter();
+        let mut ground = normals.map(|(frame, normal)| self.pose(*frame).rotation * *normal);
+        let normal = ground.next()?;
+        if !ground.all(|other| other.cross(&normal).norm() <= ZERO) {
+            return None;
+        }
+        let place = |point: &Point| point.placed(self.pose(point.frame));
+        let in_plane = |v: Vector3<f64>| v - normal.times(normal.dot(&v));
+        let second = place(&dyad.second);
+        let force = in_plane(second - place(&dyad.first));
+        let motion = match &dyad.post {
+            Post::Hinge(post) => normal.cross(&(second - place(post))),
+            Post::Slide(frame, along) => self.pose(*frame).rotation * *along,
+            Post::Along(from, to) => place(to) - place(from),
+        };
+        let sizes = force.norm() * motion.norm();
+        if sizes <= ZERO * self.length * motion.norm().max(ZERO) {
+            return None;
+        }
+        let across = force.cross(&motion).norm();
+        Some(across.atan2(force.dot(&motion).abs()))
+    }
 }
 
 /// A loop and what its joints permit.
@@ -198,12 +292,13 @@ fn drivers(found: &MechanismLoop, known: &[bool]) -> Vec<(usize, bool)> {
     drivers
 }
 
-fn of_loop(
+/// What transmits motion in a loop of which three joints are not known.
+fn dyads_of(
     mechanism: &Mechanism,
     found: &HingedLoop,
     known: &Known,
-    length: f64,
-) -> Vec<Transmission> {
+    at: &Configuration<f64>,
+) -> Vec<Dyad> {
     let given = known.parts(found);
     let HingedLoop {
         all,
@@ -213,40 +308,57 @@ fn of_loop(
     else {
         return vec![];
     };
-    let parts = &all.parts;
+    let (parts, count) = (&all.parts, all.parts.len());
+    let length = mechanism.characteristic_length();
+    // links of rods are no bodies of the mechanism
+    let frame = |body: &Body| match *body {
+        Body::Platform(platform) if platform >= mechanism.platforms().len() => None,
+        body => Some(mechanism.body_frame(body)),
+    };
+    let in_frame = |frame: Frame, v: Vector3<f64>| {
+        let pose = mechanism.poses([frame], at)[0];
+        pose.rotation.inverse_rotate(&v)
+    };
+    let pivot = |k: usize| {
+        let (omega, velocity) = split(&hinges[k % count]?);
+        let speed = omega.dot(&omega);
+        if speed <= ZERO {
+            return None;
+        }
+        let place = omega.cross(&velocity).times(length / speed);
+        let frame = parts[k % count].bodies.iter().find_map(frame)?;
+        let offset = in_frame(frame, place - mechanism.poses([frame], at)[0].position).0;
+        Some(Point { frame, offset })
+    };
+    let post = |k: usize| match (pivot(k), parts[k].bodies.iter().find_map(frame)) {
+        (Some(post), _) => Some(Post::Hinge(post)),
+        (None, Some(frame)) => {
+            let (_, along) = split(&hinges[k]?);
+            Some(Post::Slide(frame, in_frame(frame, along)))
+        }
+        // the length of a rod between its ends
+        (None, None) => Some(Post::Along(pivot(k + count - 1)?, pivot(k + 1)?)),
+    };
+    let bodies = all.bodies.iter().filter_map(frame);
+    let normals = bodies.map(|frame| (frame, in_frame(frame, *normal)));
+    let normals: Vec<(Frame, Vector3<f64>)> = normals.collect();
     let driven = drivers(all, &given)
         .into_iter()
         .filter_map(|(i, forwards)| {
-            let others = (1..parts.len()).map(|k| (i + k) % parts.len());
+            let others = (1..count).map(|k| (i + k) % count);
             let mut others: Vec<usize> = others.filter(|&k| !given[k]).collect();
             if !forwards {
                 others.reverse();
             }
-            let pivot = |k: usize| {
-                let (omega, velocity) = split(&hinges[k]?);
-                let speed = omega.dot(&omega);
-                (speed > ZERO).then(|| omega.cross(&velocity).times(length / speed))
-            };
-            let (first, second) = (pivot(others[0])?, pivot(others[1])?);
-            let force = second - first;
-            let motion = match pivot(others[2]) {
-                Some(post) => normal.cross(&(second - post)),
-                None => split(&hinges[others[2]]?).1,
-            };
-            let sizes = force.norm() * motion.norm();
-            if sizes <= ZERO * length * motion.norm().max(ZERO) {
-                return None;
-            }
-            let along = force.dot(&motion).abs();
-            let across = force.cross(&motion).norm();
-            let pressure_angle = across.atan2(along);
-            Some(Transmission {
+            Some(Dyad {
                 closure: all.closure.clone(),
                 driven: name(mechanism, &parts[i]),
                 output: name(mechanism, &parts[others[2]]),
                 between: name(mechanism, &parts[others[1]]),
-                transmission_angle: FRAC_PI_2 - pressure_angle,
-                pressure_angle,
+                first: pivot(others[0])?,
+                second: pivot(others[1])?,
+                post: post(others[2])?,
+                normals: normals.clone(),
             })
         });
     driven.collect()

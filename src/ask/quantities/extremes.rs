@@ -1,7 +1,7 @@
 //! The least and greatest values of quantities over a motion.
 
 use super::Meter;
-use crate::analysis::sweep::{Between, Extreme, Extremum};
+use crate::analysis::sweep::{Between, Extreme, Extremum, Schedule};
 use crate::mechanism::{Configuration, Mechanism, Quantity};
 use crate::solve::summit;
 use crate::system::{Driven, Held};
@@ -17,14 +17,16 @@ pub(in super::super) struct Extremes {
 #[derive(Clone)]
 struct Seen {
     at: Configuration<f64>,
+    /// The part of the time that is gone.
+    time: f64,
     values: Vec<Option<f64>>,
 }
 
 /// Rows where a quantity is greater than at their neighbours, or less: the best of them.
 #[derive(Clone, Default)]
 struct Side {
-    /// The greatest value at a row at all.
-    row: Option<(f64, Configuration<f64>)>,
+    /// The greatest value at a row at all, where it is, and when.
+    row: Option<(f64, Configuration<f64>, f64)>,
     peaks: Vec<Peak>,
 }
 
@@ -51,15 +53,17 @@ impl Extremes {
     }
 
     /// Takes in the next row.
-    pub fn take(&mut self, at: &Configuration<f64>, values: &[Option<f64>]) {
+    pub fn take(&mut self, at: &Configuration<f64>, time: f64, values: &[Option<f64>]) {
         match self.rows.len() {
             3 => {
                 self.rows.rotate_left(1);
                 self.rows[2].at.clone_from(at);
+                self.rows[2].time = time;
                 self.rows[2].values.copy_from_slice(values);
             }
             _ => self.rows.push(Seen {
                 at: at.clone(),
+                time,
                 values: values.to_vec(),
             }),
         }
@@ -67,7 +71,7 @@ impl Extremes {
         for (i, sides) in self.sides.iter_mut().enumerate() {
             for (side, sense) in sides.iter_mut().zip(SENSES) {
                 if let Some(value) = values[i] {
-                    side.reach(sense * value, at);
+                    side.reach(sense * value, at, time);
                 }
                 if let Some([a, b, c]) = heights(&self.rows, i, sense)
                     && (b >= a && b >= c && b > a.min(c) || self.seen == 3 && a > b)
@@ -83,7 +87,7 @@ impl Extremes {
         mut self,
         quantities: &[Quantity],
         mechanism: &Mechanism,
-        (held, inputs): (&Held<f64>, &[Driven]),
+        (held, inputs, schedule): (&Held<f64>, &[Driven], Option<&Schedule>),
         meter: &mut Meter,
         time: &dyn Fn(&Configuration<f64>) -> f64,
     ) -> Vec<Extremum> {
@@ -97,32 +101,43 @@ impl Extremes {
                 }
             }
         }
+        /// Rows are closed to so much of the characteristic length, and no value is known better beside the greatest.
+        const ROUNDING: f64 = 1e-12;
         let mut all = Vec::new();
         for (i, (sides, quantity)) in self.sides.into_iter().zip(quantities).enumerate() {
+            let rows = sides.iter().filter_map(|side| side.row.as_ref());
+            let largest = rows.fold(0.0f64, |most, (height, ..)| most.max(height.abs()));
             let found = std::array::from_fn::<_, 2, _>(|k| {
                 let (side, sense) = (&sides[k], SENSES[k]);
                 let mut best = side.row.clone()?;
                 for peak in &side.peaks {
                     let [first, middle, last] = &peak.rows;
                     let rows = [&first.at, &middle.at, &last.at];
-                    let Some(mut between) = Between::new(mechanism, held, inputs, rows) else {
+                    let ends = schedule.map(|of| (of.clone(), [first.time, last.time]));
+                    let between = Between::new(mechanism, held, inputs, ends, rows);
+                    let Some(mut between) = between else {
                         continue;
                     };
                     let mut height = |part: f64| {
+                        let when = between.time(part);
                         let at = between.at(part)?;
                         meter.settle(&middle.values);
-                        Some(sense * meter.read(at, time(at))[i]?)
+                        Some(sense * meter.read(at, when.unwrap_or_else(|| time(at)))[i]?)
                     };
                     if let Some((part, height)) = summit(0.0, 1.0, &mut height)
                         && height > best.0
+                        && let when = between.time(part)
                         && let Some(at) = between.at(part)
                     {
-                        best = (height, at.clone());
+                        best = (height, at.clone(), when.unwrap_or_else(|| time(at)));
                     }
                 }
                 Some(Extreme {
-                    value: sense * best.0 + 0.0,
-                    time: (!inputs.is_empty()).then(|| time(&best.1)),
+                    value: match best.0.abs() > ROUNDING * largest {
+                        true => sense * best.0,
+                        false => 0.0,
+                    },
+                    time: (!inputs.is_empty()).then_some(best.2),
                     inputs: inputs
                         .iter()
                         .map(|input| input.coordinate.of(&best.1))
@@ -150,14 +165,14 @@ fn heights(rows: &[Seen], quantity: usize, sense: f64) -> Option<[f64; 3]> {
 }
 
 impl Side {
-    fn reach(&mut self, height: f64, at: &Configuration<f64>) {
+    fn reach(&mut self, height: f64, at: &Configuration<f64>, time: f64) {
         match &mut self.row {
-            Some((most, place)) if height > *most => {
-                *most = height;
+            Some((most, place, when)) if height > *most => {
+                (*most, *when) = (height, time);
                 place.clone_from(at);
             }
             Some(_) => {}
-            none => *none = Some((height, at.clone())),
+            none => *none = Some((height, at.clone(), time)),
         }
     }
 

@@ -2,21 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::places::Places;
 use crate::algebra::{Expression, Function, Node, SiUnit};
-use crate::analysis::singularities::{Distances, SingularityMeter};
-use crate::analysis::sweep::Pace;
-use crate::analysis::velocity::{InputOutput, Transmission, input_output, transmission};
-use crate::linear::norm;
+use crate::analysis::singularities::SingularityMeter;
+use crate::analysis::sweep::{Pace, Schedule};
+use crate::analysis::velocity::{
+    Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
+};
+use crate::geometry::Vector3;
 use crate::mechanism::{
-    Configuration, Figure, Frame, Kinematics, Measured, Mechanism, Order, Placement, Quantity,
+    Configuration, Figure, Frame, Measured, Mechanism, Order, Point, PoseCoordinate, Quantity,
 };
-use crate::number::Dual;
-use crate::system::{
-    self, Coordinate, Driven, Equilibrium, Load, Lock, Motion, Neighbourhood, Tangent,
-};
-
-/// A number with its first and second derivative by time.
-type Second = Dual<Dual<f64>>;
+use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Motion, Neighbourhood};
 
 /// What a meter is for.
 pub(in super::super) struct Metered<'q> {
@@ -25,108 +22,160 @@ pub(in super::super) struct Metered<'q> {
     pub question: &'q system::Question<'q>,
     pub inputs: &'q [Driven],
     pub pace: Pace,
+    pub schedule: Option<&'q Schedule>,
     pub load: &'q Load,
     pub outputs: &'q [Lock],
 }
 
-/// Evaluates quantities at assembled configurations. Only what some quantity needs is worked out.
+/// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
+/// once; rates, forces and Jacobian come from one factorisation of the closures.
 pub(in super::super) struct Meter<'q> {
     of: Metered<'q>,
-    coordinates: Vec<Coordinate>,
-    kinematics: Kinematics<Second>,
-    placement: Placement<Second>,
-    /// What stands still has no rates.
-    at_rest: Configuration<Second>,
+    /// For each held coordinate the number of its input and how far that goes, if it is one.
+    ways: Vec<Option<(usize, f64)>>,
+    turns: Vec<bool>,
+    places: Places,
+    /// Frames of links that spin about a line of their own: rates beside it are not determined.
+    loose: Vec<Frame>,
     motion: Option<Motion>,
-    near: Option<Neighbourhood<'q>>,
-    distances: Option<SingularityMeter<'q>>,
+    loaded: Option<Loaded>,
+    outputs: Option<(Outputs<'q>, Spinning<'q>)>,
+    transmission: Option<TransmissionAngles>,
+    /// With the distances that are asked for.
+    distances: Option<(SingularityMeter<'q>, Vec<Figure>)>,
     wants: Wants,
-    rates: Vec<f64>,
-    changes: Vec<f64>,
+    /// Rates, then accelerations of the held coordinates.
+    driven: [Vec<f64>; 2],
     before: Vec<Option<f64>>,
     values: Vec<Option<f64>>,
 }
 
+/// The lines about which links spin: none, or those of each configuration.
+enum Spinning<'q> {
+    Nothing(Spins),
+    Something(Neighbourhood<'q>),
+}
+
 /// What the quantities need beside positions.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Wants {
-    rates: bool,
+    order: Order,
     forces: bool,
     transmission: bool,
     jacobian: bool,
+    singular_values: bool,
     distances: bool,
 }
 
 impl Wants {
     fn of<'m>(measured: impl Iterator<Item = &'m Measured>) -> Self {
-        let mut wants = Wants::default();
+        let mut wants = Wants {
+            order: Order::Value,
+            forces: false,
+            transmission: false,
+            jacobian: false,
+            singular_values: false,
+            distances: false,
+        };
         for measured in measured {
             match measured {
                 Measured::Parameter(_) => {}
-                Measured::Joint(_, order) | Measured::Place(_, _, order) => {
-                    wants.rates |= *order != Order::Value;
-                }
-                Measured::Size(..) => wants.rates = true,
+                Measured::Joint(_, order)
+                | Measured::Place(_, _, order)
+                | Measured::Size(_, order) => wants.order = wants.order.max(*order),
+                Measured::Curvature(_) => wants.order = Order::Acceleration,
                 Measured::Force(_) | Measured::PlatformForce(..) => wants.forces = true,
                 Measured::Transmission(_) => wants.transmission = true,
-                Measured::Figure(
-                    Figure::Condition | Figure::Determinant | Figure::Manipulability,
-                ) => wants.jacobian = true,
-                Measured::Figure(Figure::Direct | Figure::Inverse | Figure::Constraint) => {
-                    wants.distances = true;
+                Measured::Figure(Figure::Determinant) => wants.jacobian = true,
+                Measured::Figure(Figure::Condition | Figure::Manipulability) => {
+                    (wants.jacobian, wants.singular_values) = (true, true);
                 }
+                Measured::Figure(_) => wants.distances = true,
             }
         }
         wants
+    }
+
+    /// Whether what everything does for a unit rate of each input is needed.
+    fn responses(self) -> bool {
+        self.forces || self.jacobian
     }
 }
 
 /// What the engines tell of one configuration.
 struct Found<'a> {
     mechanism: &'a Mechanism,
-    path: &'a Configuration<Second>,
+    places: &'a Places,
+    loose: &'a [Frame],
     /// Whether rates are determined there.
     moves: bool,
-    kinematics: &'a Kinematics<Second>,
-    placement: &'a Placement<Second>,
-    forces: Vec<(Coordinate, Option<f64>)>,
-    transmission: Vec<Transmission>,
-    jacobian: Option<InputOutput>,
-    distances: Option<Distances>,
+    coordinates: &'a [Coordinate],
+    forces: Vec<f64>,
+    transmission: Vec<(&'a str, Option<f64>)>,
+    jacobian: Option<Normalised>,
+    singular_values: Vec<f64>,
+    distances: Vec<(Figure, Option<f64>)>,
 }
 
 impl<'q> Meter<'q> {
     pub fn new(of: Metered<'q>, start: &Configuration<f64>) -> Self {
-        let mechanism = of.question.mechanism();
+        let question = of.question;
+        let mechanism = question.mechanism();
         let all = || of.quantities.iter().flat_map(Quantity::measured);
         let wants = Wants::of(all());
-        let frames: Vec<Frame> = all()
-            .filter_map(|measured| match measured {
-                Measured::Place(point, ..) | Measured::Size(point, _) => Some(point.frame),
-                _ => None,
-            })
-            .collect();
-        let lift = |x| Dual::constant(Dual::constant(x));
-        let dimensions = mechanism.dimensions().map(&mut { lift });
-        let kinematics = Kinematics::new(&dimensions, frames);
-        let coordinates = of.question.driven_coordinates();
-        let moves = wants.rates || wants.jacobian;
-        let close = wants.forces || wants.transmission;
-        let inputs: Vec<Coordinate> = system::inputs_of(of.question);
+        let frames = all().filter_map(|measured| match measured {
+            Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
+                Some(point.frame)
+            }
+            _ => None,
+        });
+        let frames: Vec<Frame> = frames.collect();
+        let coordinates = question.driven_coordinates();
+        let moves = wants.order > Order::Value || wants.responses();
+        let still = question.clone().with_spins_still();
+        let hold = |held| still.with_still(held);
+        let motion = moves.then(|| Motion::with(mechanism, &coordinates, hold));
+        let mut held = Neighbourhood::holding(mechanism, &question.held());
+        let rest = held.tangent(start.clone());
+        let spins = Spins::of(&held, &rest);
+        let loose = frames
+            .iter()
+            .filter(|frame| !spins.lines_of(**frame).is_empty());
+        let way = |of_it: &Coordinate| {
+            let mut inputs = of.inputs.iter();
+            let place = inputs.position(|input| input.coordinate == *of_it)?;
+            Some((place, of.inputs[place].to - of.inputs[place].from))
+        };
         Meter {
-            placement: kinematics.placement(),
-            at_rest: start.map(lift),
-            motion: moves.then(|| Motion::new(mechanism, &coordinates)),
-            near: close.then(|| Neighbourhood::new(mechanism)),
-            distances: wants
-                .distances
-                .then(|| SingularityMeter::new(mechanism, &inputs, of.outputs, start)),
-            rates: vec![0.0; coordinates.len()],
-            changes: vec![0.0; coordinates.len()],
+            ways: coordinates.iter().map(way).collect(),
+            turns: of.quantities.iter().map(turns).collect(),
+            places: Places::new(mechanism, &frames, wants.order),
+            loaded: (motion.as_ref().filter(|_| wants.forces))
+                .map(|motion| Loaded::new(mechanism, motion.unknowns(), of.load)),
+            loose: loose.copied().collect(),
+            outputs: (motion.as_ref().filter(|_| wants.jacobian)).map(|motion| {
+                let outputs = outputs(mechanism, motion, &held, &rest);
+                match spins.is_empty() {
+                    true => (outputs, Spinning::Nothing(spins)),
+                    false => (outputs, Spinning::Something(held)),
+                }
+            }),
+            transmission: wants.transmission.then(|| {
+                let mut near = Neighbourhood::new(mechanism);
+                TransmissionAngles::new(&mut near, start, &coordinates)
+            }),
+            distances: wants.distances.then(|| {
+                let inputs = system::inputs_of(question);
+                let distances = Figure::ALL.into_iter().filter(|figure| {
+                    figure.is_distance() && all().any(|of| *of == Measured::Figure(*figure))
+                });
+                let meter = SingularityMeter::new(mechanism, &inputs, of.outputs, start);
+                (meter, distances.collect())
+            }),
+            motion,
+            driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
-            kinematics,
-            coordinates,
             wants,
             of,
         }
@@ -134,62 +183,80 @@ impl<'q> Meter<'q> {
 
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
-        let mechanism = self.of.question.mechanism();
         let [_, rate, change] = self.of.pace.at(time);
-        for (i, coordinate) in self.coordinates.iter().enumerate() {
-            let input = self
-                .of
-                .inputs
-                .iter()
-                .find(|input| input.coordinate == *coordinate);
-            let way = input.map_or(0.0, |input| input.to - input.from);
-            (self.rates[i], self.changes[i]) = (way * rate, way * change);
+        let [rates, changes] = &mut self.driven;
+        for (i, way) in self.ways.iter().enumerate() {
+            (rates[i], changes[i]) = match (way, self.of.schedule) {
+                (None, _) => (0.0, 0.0),
+                (Some((_, way)), None) => (way * rate, way * change),
+                (Some((input, _)), Some(schedule)) => {
+                    let [_, rate, change] = schedule.at(*input, time);
+                    (rate, change)
+                }
+            };
         }
-        let transmission = match &mut self.near {
-            Some(near) if self.wants.transmission => transmission(near, at, &self.coordinates),
+        let (mut moves, mut responses) = (false, Vec::new());
+        if let Some(motion) = &mut self.motion {
+            motion.at(at);
+            moves = motion.is_determined();
+            if self.wants.responses() {
+                responses = motion.responses();
+                motion.set_rates(&responses, rates);
+            } else {
+                motion.rates(rates);
+            }
+        }
+        match (&mut self.places, &mut self.motion) {
+            (Places::Values(places), _) => places.place(at),
+            (Places::Velocities(places), Some(motion)) => places.place(motion.first_path(at)),
+            (Places::Accelerations(places), Some(motion)) => {
+                motion.accelerations(at, rates, changes);
+                places.place(motion.path(at));
+            }
+            (_, None) => unreachable!("rates are those of a motion"),
+        }
+        let forces = match &mut self.loaded {
+            // τ δh + g δx = 0: what holds a coordinate does the work of the load
+            Some(loaded) if moves => {
+                loaded.place(at);
+                responses.iter().map(|rates| -loaded.power(rates)).collect()
+            }
             _ => Vec::new(),
         };
-        let tangent = self.near.as_mut().filter(|_| self.wants.forces);
-        let tangent = tangent.map(|near| near.tangent(at.clone()));
-        let forces = tangent.map_or_else(Vec::new, |tangent| self.forces(&tangent));
-        let (mut moves, mut jacobian) = (false, None);
-        let path = match &mut self.motion {
-            Some(motion) => {
-                motion.at(at);
-                moves = motion.is_determined();
-                if self.wants.jacobian && moves {
-                    let inputs = self.of.inputs.iter().map(|input| input.coordinate);
-                    let values = inputs.map(|coordinate| (coordinate, coordinate.of(at)));
-                    let held = self.of.question.clone().at_values(values).held();
-                    let mut held = Neighbourhood::holding(mechanism, &held);
-                    jacobian = input_output(mechanism, motion, &mut held, at);
+        let jacobian = self.outputs.as_mut().filter(|_| moves);
+        let jacobian = jacobian.map(|(outputs, spinning)| {
+            outputs.place(at);
+            match spinning {
+                Spinning::Nothing(spins) => outputs.normalised(at, &responses, spins),
+                Spinning::Something(held) => {
+                    let rest = held.tangent(at.clone());
+                    outputs.normalised(at, &responses, &Spins::of(held, &rest))
                 }
-                motion.rates(&self.rates);
-                motion.accelerations(at, &self.rates, &self.changes);
-                motion.path(at)
             }
-            None => {
-                self.at_rest = at.map(|x| Dual::constant(Dual::constant(x)));
-                &self.at_rest
-            }
-        };
-        self.kinematics.place(path, &mut self.placement);
+        });
+        let transmission = self.transmission.as_mut().map(|angles| angles.angles(at));
+        let distances = self.distances.iter_mut().flat_map(|(meter, figures)| {
+            let figures = figures.iter();
+            figures.map(move |figure| (*figure, meter.at(*figure, at)))
+        });
+        let values = jacobian.as_ref().filter(|_| self.wants.singular_values);
         let found = Found {
-            mechanism,
-            path,
+            mechanism: self.of.question.mechanism(),
+            places: &self.places,
+            loose: &self.loose,
             moves,
-            kinematics: &self.kinematics,
-            placement: &self.placement,
+            coordinates: self.motion.as_ref().map_or(&[], Motion::coordinates),
             forces,
-            transmission,
+            transmission: transmission.into_iter().flatten().collect(),
+            singular_values: values.map_or_else(Vec::new, Normalised::singular_values),
             jacobian,
-            distances: self.distances.as_mut().map(|meter| meter.at(at)),
+            distances: distances.collect(),
         };
         for (i, quantity) in self.of.quantities.iter().enumerate() {
             let value = quantity.expression.evaluate(&|of| found.value(of));
             let value = value
                 .ok()
-                .map(|value| match (turns(quantity), self.before[i]) {
+                .map(|value| match (self.turns[i], self.before[i]) {
                     // an angle is told without jumps
                     (true, Some(before)) if (value - before).abs() > PI => {
                         value - TAU * ((value - before) / TAU).round()
@@ -206,24 +273,6 @@ impl<'q> Meter<'q> {
     pub fn settle(&mut self, values: &[Option<f64>]) {
         self.before.copy_from_slice(values);
     }
-
-    /// The forces that hold coordinates.
-    fn forces(&self, tangent: &Tangent) -> Vec<(Coordinate, Option<f64>)> {
-        let Some(near) = &self.near else {
-            return Vec::new();
-        };
-        let mechanism = near.mechanism();
-        let balance = Equilibrium::of(near, tangent, &self.coordinates, self.of.load);
-        let rows = near.system().rows();
-        let resisted = norm(&balance.left) <= 1e-9 * norm(&balance.generalised);
-        let held = self.coordinates.iter().enumerate();
-        held.map(|(i, coordinate)| {
-            let force = balance.forces[rows + i] / coordinate.scale(mechanism);
-            let known = resisted && balance.determines(rows + i);
-            (*coordinate, known.then_some(force))
-        })
-        .collect()
-    }
 }
 
 impl Found<'_> {
@@ -235,47 +284,62 @@ impl Found<'_> {
     fn known(&self, of: &Measured) -> Option<f64> {
         match *of {
             Measured::Parameter(parameter) => Some(self.mechanism.parameters()[parameter].value),
-            Measured::Joint(joint, order) => self.derivative(self.path.joints[joint], order),
+            Measured::Joint(joint, order) => self.moving(self.places.joint(joint, order), order),
             Measured::Place(point, coordinate, order) => {
-                let mut pose = *self.kinematics.pose(point.frame, self.placement)?;
-                pose.position = point.placed(&pose);
-                self.derivative(coordinate.of(&pose), order)
+                let loose = self.loose.contains(&point.frame)
+                    && order > Order::Value
+                    && (coordinate.is_angle() || !point.is_origin());
+                self.moving(self.places.coordinate(point, coordinate, order), order)
+                    .filter(|_| !loose)
             }
-            Measured::Size(point, order) => {
-                let pose = self.kinematics.pose(point.frame, self.placement)?;
-                let [x, y, z] = point.placed(pose).0.map(|x| self.derivative(x, order));
-                Some(norm(&[x?, y?, z?]))
+            Measured::Size(point, order) => Some(self.vector(point, order)?.norm()),
+            // κ = |v × a| / |v|³
+            Measured::Curvature(point) => {
+                let velocity = self.vector(point, Order::Velocity)?;
+                let across = velocity.cross(&self.vector(point, Order::Acceleration)?);
+                Some(across.norm() / velocity.norm().powi(3))
             }
             Measured::Force(joint) => self.force(Coordinate::Joint(joint)),
             Measured::PlatformForce(platform, c) => self.force(Coordinate::Pose(platform, c)),
             Measured::Transmission(closure) => {
-                let name = closure.map(|closure| &self.mechanism.closures()[closure].name);
+                let name = closure.map(|closure| &*self.mechanism.closures()[closure].name);
                 let angles = self.transmission.iter();
-                let of_it = angles.filter(|angle| name.is_none_or(|name| *name == angle.closure));
-                of_it.map(|angle| angle.transmission_angle).reduce(f64::min)
+                let of_it = angles.filter(|(closure, _)| name.is_none_or(|name| name == *closure));
+                of_it.filter_map(|(_, angle)| *angle).reduce(f64::min)
             }
             Measured::Figure(figure) => match figure {
-                Figure::Condition => self.jacobian.as_ref()?.condition,
-                Figure::Determinant => self.jacobian.as_ref()?.determinant,
-                Figure::Manipulability => Some(self.jacobian.as_ref()?.manipulability),
-                Figure::Direct => self.distances.as_ref()?.direct,
-                Figure::Inverse => self.distances.as_ref()?.inverse,
-                Figure::Constraint => self.distances.as_ref()?.constraint,
+                Figure::Condition => {
+                    self.jacobian.as_ref()?;
+                    condition(&self.singular_values)
+                }
+                Figure::Determinant => self.jacobian.as_ref()?.determinant(),
+                Figure::Manipulability => {
+                    self.jacobian.as_ref()?;
+                    Some(self.singular_values.iter().product())
+                }
+                distance => {
+                    let mut known = self.distances.iter();
+                    known.find(|(of, _)| *of == distance)?.1
+                }
             },
         }
     }
 
-    fn derivative(&self, x: Second, order: Order) -> Option<f64> {
-        match order {
-            Order::Value => Some(x.value.value),
-            Order::Velocity => self.moves.then_some(x.slope.value),
-            Order::Acceleration => self.moves.then_some(x.slope.slope),
-        }
+    /// Place, velocity or acceleration of a point.
+    fn vector(&self, point: Point, order: Order) -> Option<Vector3<f64>> {
+        let [x, y, z] = [PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+            .map(|c| self.known(&Measured::Place(point, c, order)));
+        Some(Vector3([x?, y?, z?]))
+    }
+
+    /// A derivative, if rates are determined.
+    fn moving(&self, value: Option<f64>, order: Order) -> Option<f64> {
+        value.filter(|_| self.moves || order == Order::Value)
     }
 
     fn force(&self, of: Coordinate) -> Option<f64> {
-        let known = self.forces.iter().find(|(coordinate, _)| *coordinate == of);
-        known.and_then(|(_, force)| *force)
+        let place = self.coordinates.iter().position(|known| *known == of)?;
+        self.forces.get(place).copied()
     }
 }
 

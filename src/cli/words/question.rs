@@ -57,7 +57,7 @@ pub fn complaint_of(error: &QuestionError, holding: &dyn Fn(&[String]) -> String
         QuestionError::UnknownName { suggestion, .. } => said.label("not known").help(match suggestion {
             Some(meant) => format!("did you mean `{meant}`?"),
             None => "a coordinate is a joint, `platform.x`, `.y`, `.z`, `.roll`, `.pitch` or \
-                     `.yaw`, or a whole platform"
+                     `.yaw`, a point's `left+0.5,0.2.x`, `.y` or `.z`, or a whole platform"
                 .into(),
         }),
         QuestionError::NotAJoint { .. } => said

@@ -4,7 +4,7 @@ use super::course::Course;
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row};
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Mechanism, Point, Variable};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Variable};
 use crate::output::canvas::Canvas;
 use crate::output::drawing::{Camera, View};
 use crate::output::plot::{self, Chart, Marks, Series, Strobe, stacked};
@@ -53,7 +53,7 @@ impl Picture {
     pub fn new(
         mechanism: &Mechanism,
         inputs: &[Driven],
-        points: &[Point],
+        points: &[NamedPoint],
         quantities: &[Variable],
     ) -> Self {
         let joint = |joint: usize| Driven {
@@ -76,7 +76,7 @@ impl Picture {
         let joints = mechanism.joints().iter().enumerate();
         Picture {
             title: mechanism.name().to_owned(),
-            points: points.iter().map(|point| point.name(mechanism)).collect(),
+            points: points.iter().map(|point| point.name.clone()).collect(),
             input_label: input.map_or(String::new(), |input| label(input.coordinate)),
             input,
             outputs: joints

@@ -140,14 +140,52 @@ pub(super) fn paced(motion: &MotionReport) -> Option<String> {
         Law::Constant => "at constant rates".into(),
         law => format!("by the {} law", law.word()),
     };
+    let law = match motion.table {
+        Some(rows) => format!(
+            "through the {} of a table, by natural cubic splines",
+            count(rows, "row")
+        ),
+        None => law,
+    };
     let time = quantity(pace.duration, SiUnit::SECOND);
     let inputs: Vec<String> = motion.sweep.inputs.iter().map(|i| i.name.clone()).collect();
     let go = form(inputs.len(), "goes", "go");
-    let range = form(inputs.len(), "its range", "their ranges");
-    Some(format!(
-        "{} {go} through {range} in {time} {law}",
-        listed(&inputs)
-    ))
+    let range = match motion.table {
+        Some(_) => String::new(),
+        None => format!(
+            "through {} ",
+            form(inputs.len(), "its range", "their ranges")
+        ),
+    };
+    Some(format!("{} {go} {range}in {time} {law}", listed(&inputs)))
+}
+
+/// How straight paths are, and where quantities dwell.
+pub(super) fn shapes(motion: &MotionReport) -> Vec<String> {
+    let straight = motion.straightness.iter().map(|path| {
+        format!(
+            "{} is at most {} from a straight line, over {} of it",
+            path.point,
+            quantity(path.deviation, SiUnit::METRE),
+            metres(path.length)
+        )
+    });
+    let dwells = motion.dwells.iter().map(|dwell| {
+        let inputs = motion.sweep.inputs.iter().enumerate();
+        let ranges = inputs.map(|(i, input)| {
+            let [from, to] = [0, 1].map(|end| dwell.inputs[end][i]);
+            range(&input.name, from, to, input.unit)
+        });
+        format!(
+            "{} dwells within {} of {} for {} of the time: {}",
+            dwell.name,
+            quantity(dwell.tolerance, dwell.unit),
+            quantity(dwell.value, dwell.unit),
+            number(dwell.times[1] - dwell.times[0]),
+            listed(&ranges.collect::<Vec<_>>())
+        )
+    });
+    straight.chain(dwells).collect()
 }
 
 /// What the motion took.

@@ -2,7 +2,7 @@
 
 use super::Load;
 use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot};
-use crate::mechanism::{Configuration, Point};
+use crate::mechanism::{Configuration, Mechanism, Placement, Point};
 use crate::system::{Coordinate, FrameTwists, Neighbourhood, Tangent, Unknown};
 
 /// Forces that balance a load: g + Jᵀλ + Sᵀτ = 0 with the generalised forces g of the load, the closure Jacobian J
@@ -62,24 +62,63 @@ impl Equilibrium {
 
 /// The work of a load for a unit of each unknown, in N·m.
 fn generalised(near: &Neighbourhood, at: &Configuration<f64>, load: &Load) -> Vec<f64> {
-    let (mechanism, unknowns) = (near.mechanism(), near.system().unknowns());
-    let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
-    let twists = FrameTwists::new(mechanism.dimensions(), unknowns, &points);
-    let placement = twists.placed(at);
+    let unknowns = near.system().unknowns();
+    let mut loaded = Loaded::new(near.mechanism(), unknowns, load);
+    loaded.place(at);
     let mut rates = vec![0.0; unknowns.len()];
-    let mut work = vec![0.0; unknowns.len()];
-    for (k, unknown) in unknowns.iter().enumerate() {
+    let powers = (0..unknowns.len()).map(|k| {
         rates[k] = 1.0;
-        for (i, (_, force, moment)) in load.wrenches.iter().enumerate() {
-            let twist = twists.twist(i, &placement, &rates);
-            work[k] += dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0);
-        }
+        let power = loaded.power(&rates);
         rates[k] = 0.0;
-        if let Unknown::Joint(joint) = *unknown {
-            let loads = load.joints.iter().filter(|(loaded, _)| *loaded == joint);
-            let sum: f64 = loads.map(|(_, force)| force).sum();
-            work[k] += sum * mechanism.dimensions().joint_scales[joint];
+        power
+    });
+    powers.collect()
+}
+
+/// The power of a load in motions of a mechanism. Built once; nothing allocates afterwards.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    twists: FrameTwists<f64>,
+    placement: Placement<f64>,
+    /// Force and moment at each of the points.
+    wrenches: Vec<([f64; 3], [f64; 3])>,
+    /// Unknowns with the loads along them, in N·m.
+    joints: Vec<(usize, f64)>,
+}
+
+impl Loaded {
+    /// For rates of these unknowns.
+    pub fn new(mechanism: &Mechanism, unknowns: &[Unknown], load: &Load) -> Self {
+        let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
+        let twists = FrameTwists::new(mechanism.dimensions(), unknowns, &points);
+        let scales = &mechanism.dimensions().joint_scales;
+        let joints = load.joints.iter().filter_map(|&(joint, force)| {
+            let column = unknowns.iter().position(|u| *u == Unknown::Joint(joint))?;
+            Some((column, force * scales[joint]))
+        });
+        Loaded {
+            placement: twists.placement(),
+            wrenches: (load.wrenches.iter())
+                .map(|&(_, force, moment)| (force, moment))
+                .collect(),
+            joints: joints.collect(),
+            twists,
         }
     }
-    work
+
+    /// Goes to a configuration.
+    pub fn place(&mut self, at: &Configuration<f64>) {
+        self.twists.place(at, &mut self.placement);
+    }
+
+    /// The power for rates of the unknowns, which are dimensionless per s: in W.
+    pub fn power(&self, rates: &[f64]) -> f64 {
+        let wrenches = self.wrenches.iter().enumerate();
+        let wrenches = wrenches.map(|(i, (force, moment))| {
+            let twist = self.twists.twist(i, &self.placement, rates);
+            dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0)
+        });
+        let joints = self.joints.iter().map(|&(k, force)| force * rates[k]);
+        wrenches.sum::<f64>() + joints.sum::<f64>()
+    }
 }

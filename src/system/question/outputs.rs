@@ -54,6 +54,8 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock
     for chain in mechanism.chains() {
         let first = chain.rows.iter().map(|row| row.joints());
         let first = first.into_iter().find(|joints| !joints.is_empty());
+        let own = |joints: &Vec<usize>| !joints.iter().any(|joint| mechanism.is_of_point(*joint));
+        let first = first.filter(own);
         if mechanism.body(chain.on) == Body::Ground {
             grounded.extend(first.into_iter().flatten().map(Coordinate::Joint));
         }
@@ -164,9 +166,14 @@ pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usiz
         }
     }
     let joint_output = |joint: usize| Lock::Coordinate(Coordinate::Joint(joint));
-    let inverse = !held.iter().all(|held| matches!(held, Coordinate::Joint(_)));
-    let free =
-        |joint: &usize| !held.contains(&Coordinate::Joint(*joint)) && !spinning.contains(joint);
+    let inverse = !held
+        .iter()
+        .all(|held| matches!(held, Coordinate::Joint(joint) if !mechanism.is_of_point(*joint)));
+    let free = |joint: &usize| {
+        !held.contains(&Coordinate::Joint(*joint))
+            && !spinning.contains(joint)
+            && !mechanism.is_of_point(*joint)
+    };
     let joints = 0..mechanism.joints().len();
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     if inverse {

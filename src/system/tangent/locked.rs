@@ -32,7 +32,8 @@ pub struct Locked {
 }
 
 impl Lock {
-    fn rows(self) -> usize {
+    /// How many rates it has.
+    pub fn rows(self) -> usize {
         match self {
             Lock::Coordinate(_) => 1,
             Lock::Frame(_) => 6,

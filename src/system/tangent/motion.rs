@@ -4,6 +4,7 @@ mod frames;
 mod held;
 
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::add;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
@@ -49,8 +50,17 @@ pub struct Motion {
 impl Motion {
     /// For a choice of what is held.
     pub fn new(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Self {
+        Motion::with(mechanism, coordinates, |held| held)
+    }
+
+    /// The same where more stands still, such as links that would spin about their own lines.
+    pub fn with(
+        mechanism: &Mechanism,
+        coordinates: &[Coordinate],
+        still: impl FnOnce(Held<f64>) -> Held<f64>,
+    ) -> Self {
+        let held = still(held::of(mechanism, coordinates));
         let dimensions = mechanism.dimensions();
-        let held = held::of(mechanism, coordinates);
         let system = System::new(dimensions, &held);
         let first = System::new(
             &dimensions.map(&mut Dual::constant),
@@ -206,6 +216,26 @@ impl Motion {
         &self.rates
     }
 
+    /// Rates of all unknowns for unit rates of the held coordinates, one at a time.
+    pub fn responses(&mut self) -> Vec<Vec<f64>> {
+        let mut given = vec![0.0; self.coordinates.len()];
+        let responses = (0..given.len()).map(|i| {
+            given[i] = 1.0;
+            let rates = self.rates(&given).to_vec();
+            given[i] = 0.0;
+            rates
+        });
+        responses.collect()
+    }
+
+    /// Goes on with rates that were computed before, as a sum of [responses](Self::responses).
+    pub fn set_rates(&mut self, responses: &[Vec<f64>], given: &[f64]) {
+        self.rates.fill(0.0);
+        for (response, &rate) in responses.iter().zip(given) {
+            add(&mut self.rates, rate, response);
+        }
+    }
+
     /// The place of a held coordinate among the unknowns, with the scale of its rate there; none
     /// for single coordinates of a platform and for its orientation alone, which are equations.
     fn place(&self, coordinate: Coordinate) -> Option<(usize, f64)> {
@@ -243,6 +273,12 @@ impl Motion {
         let rows = self.second.residual_of(&self.second_work);
         rows.iter()
             .fold(0.0, |most: f64, row| most.max(row.slope.slope.abs()))
+    }
+
+    /// The path with the rates last computed, in m, rad and s.
+    pub fn first_path(&mut self, at: &Configuration<f64>) -> &Configuration<Dual<f64>> {
+        self.follow_rates(at);
+        &self.first_path
     }
 
     /// The path with the rates and accelerations last computed, in m, rad and s: what is computed along it has these

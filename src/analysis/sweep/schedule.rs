@@ -1,0 +1,216 @@
+//! Inputs over time, through the rows of a table.
+
+use super::points::Paths;
+use super::{InputReport, MetKind, Row, Sink, SweepEnd, SweepReport, SweepSettings, sweep};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::Watch;
+use crate::system::{Driven, Held};
+
+/// Inputs that go through given values at given times by natural cubic splines: their rates and accelerations are
+/// continuous, and the accelerations vanish at both ends.
+///
+/// Source: de Boor, A Practical Guide to Splines, chapter IV.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Schedule {
+    /// In s, rising.
+    times: Vec<f64>,
+    /// For each input its values at the times, in m or rad, and its accelerations there.
+    inputs: Vec<[Vec<f64>; 2]>,
+}
+
+impl Schedule {
+    /// Through values at times that rise, of which there are at least two; for each input as many values as times.
+    pub fn new(times: Vec<f64>, inputs: Vec<Vec<f64>>) -> Self {
+        let inputs = inputs.into_iter().map(|values| {
+            let accelerations = accelerations(&times, &values);
+            [values, accelerations]
+        });
+        Schedule {
+            inputs: inputs.collect(),
+            times,
+        }
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.times.len()
+    }
+
+    /// The time from the first row to the last, in s.
+    pub fn duration(&self) -> f64 {
+        self.times[self.times.len() - 1] - self.times[0]
+    }
+
+    /// Value, rate and acceleration of an input where a part of the time is gone.
+    pub fn at(&self, input: usize, part: f64) -> [f64; 3] {
+        let time = self.times[0] + part * self.duration();
+        let after = self.times.partition_point(|known| *known <= time);
+        let i = after.clamp(1, self.times.len() - 1);
+        let [values, curved] = &self.inputs[input];
+        let h = self.times[i] - self.times[i - 1];
+        let (u, v) = (self.times[i] - time, time - self.times[i - 1]);
+        let (from, to) = (values[i - 1], values[i]);
+        let (a, b) = (curved[i - 1] / 6.0, curved[i] / 6.0);
+        [
+            // at the rows themselves without rounding
+            match (u == 0.0, v == 0.0) {
+                (true, _) => to,
+                (_, true) => from,
+                _ => {
+                    (a * u.powi(3) + b * v.powi(3)) / h
+                        + (from / h - a * h) * u
+                        + (to / h - b * h) * v
+                }
+            },
+            3.0 * (b * v * v - a * u * u) / h + (to - from) / h - (b - a) * h,
+            6.0 * (a * u + b * v) / h,
+        ]
+    }
+}
+
+impl Schedule {
+    /// The inputs from where one of equal steps in time begins to where it ends.
+    pub fn between(&self, inputs: &[Driven], step: usize, steps: usize) -> Vec<Driven> {
+        let inputs = inputs.iter().enumerate().map(|(i, input)| {
+            let at = |step: usize| self.at(i, step as f64 / steps as f64)[0];
+            Driven {
+                from: at(step),
+                to: at(step + 1),
+                ..*input
+            }
+        });
+        inputs.collect()
+    }
+
+    /// Moves the inputs step by step, each step followed surely, so that no branch is changed between two rows.
+    pub(super) fn followed(
+        &self,
+        (mechanism, held, inputs): (&Mechanism, &Held<f64>, &[Driven]),
+        start: &Configuration<f64>,
+        settings: &SweepSettings,
+        sink: &mut Sink,
+        watch: &Watch,
+    ) -> SweepReport {
+        let alone = SweepSettings {
+            steps: 1,
+            continuation: settings.continuation.clone(),
+            between: settings.between,
+            ..SweepSettings::default()
+        };
+        let mut traced = Paths::new(mechanism, &settings.points);
+        let mut at = start.clone();
+        let reports = inputs.iter().map(|input| InputReport::of(mechanism, input));
+        let mut whole = SweepReport {
+            inputs: reports.collect(),
+            ending: SweepEnd::Complete,
+            rows: 0,
+            met: Vec::new(),
+            more_met: 0,
+            sure_steps: 0,
+            length: 0.0,
+            characteristic_length: mechanism.characteristic_length(),
+            paths: Vec::new(),
+            interrupted: false,
+        };
+        for step in 0..settings.steps {
+            let moved = self.between(inputs, step, settings.steps);
+            let begin = at.clone();
+            let mut take = |row: &Row| {
+                // a step begins where the one before ended
+                if row.step == Some(0) && step > 0 {
+                    return;
+                }
+                traced.place(row.configuration);
+                sink(&Row {
+                    number: whole.rows,
+                    step: row.step.map(|k| step + k),
+                    points: &traced.at,
+                    ..*row
+                });
+                whole.rows += 1;
+                if row.step == Some(1) {
+                    at.clone_from(row.configuration);
+                }
+            };
+            if moved.iter().all(|input| input.from == input.to) {
+                for step in [0, 1] {
+                    take(&Row {
+                        number: 0,
+                        step: Some(step),
+                        configuration: &begin,
+                        points: &[],
+                        quantities: &[],
+                        special: None,
+                        between: false,
+                    });
+                }
+                continue;
+            }
+            let report = sweep(mechanism, held, &moved, &begin, &alone, &mut take, watch);
+            let last = step + 1 == settings.steps || report.ending != SweepEnd::Complete;
+            let met = report.met.into_iter();
+            (whole.met).extend(met.filter(|met| last || met.kind != MetKind::End));
+            whole.more_met += report.more_met;
+            whole.sure_steps += report.sure_steps;
+            whole.length += report.length;
+            whole.interrupted = report.interrupted;
+            whole.ending = report.ending;
+            if last {
+                break;
+            }
+        }
+        whole
+    }
+}
+
+/// The second derivatives of the natural cubic spline at its knots: a tridiagonal system, by elimination.
+fn accelerations(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let count = times.len();
+    let mut found = vec![0.0; count];
+    let (mut above, mut right) = (vec![0.0; count], vec![0.0; count]);
+    for i in 1..count - 1 {
+        let (before, after) = (times[i] - times[i - 1], times[i + 1] - times[i]);
+        let slopes = (values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before;
+        let pivot = 2.0 * (before + after) - before * above[i - 1];
+        above[i] = after / pivot;
+        right[i] = (6.0 * slopes - before * right[i - 1]) / pivot;
+    }
+    for i in (1..count - 1).rev() {
+        found[i] = right[i] - above[i] * found[i + 1];
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Schedule;
+
+    #[test]
+    fn a_spline_goes_through_its_rows_with_continuous_accelerations() {
+        let times = vec![1.0, 1.5, 2.5, 3.0, 4.5];
+        let values = vec![0.3, -0.2, 1.1, 0.4, 0.0];
+        let spline = Schedule::new(times.clone(), vec![values.clone()]);
+        let part = |time: f64| (time - 1.0) / 3.5;
+        for (time, value) in times.iter().zip(&values) {
+            assert!((spline.at(0, part(*time))[0] - value).abs() < 1e-15);
+        }
+        let h = 1e-5;
+        for time in [1.2, 1.5, 2.0, 2.5, 2.8, 3.7] {
+            let [before, here, after] = [time - h, time, time + h].map(|t| spline.at(0, part(t)));
+            assert!(((after[0] - before[0]) / (2.0 * h) - here[1]).abs() < 1e-8);
+            assert!((after[2] - before[2]).abs() < 1e-3);
+            assert!(((after[1] - before[1]) / (2.0 * h) - here[2]).abs() < 2e-4);
+        }
+        assert_eq!([0.0, 1.0].map(|u| spline.at(0, u)[2]), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_straight_line_stays_one() {
+        let line = Schedule::new(vec![0.0, 0.4, 2.0], vec![vec![1.0, 1.8, 5.0]]);
+        for part in [0.0, 0.1, 0.7, 1.0] {
+            let [value, rate, acceleration] = line.at(0, part);
+            assert!((value - (1.0 + 4.0 * part)).abs() < 1e-15);
+            assert!((rate - 2.0).abs() < 1e-14 && acceleration.abs() < 1e-14);
+        }
+    }
+}

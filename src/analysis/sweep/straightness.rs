@@ -1,0 +1,122 @@
+//! How straight a path is.
+
+use serde::{Deserialize, Serialize};
+
+use crate::linear::{Svd, dot};
+
+/// The straight line that a path over a motion comes nearest to, and how near.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Straightness {
+    /// The point whose path it is.
+    pub point: String,
+    /// A point of the line, in ground, in m.
+    pub through: [f64; 3],
+    /// The line's direction: a unit vector.
+    pub direction: [f64; 3],
+    /// How far the path goes along the line, in m.
+    pub length: f64,
+    /// How far it is from the line where it is farthest, in m.
+    pub deviation: f64,
+}
+
+impl Straightness {
+    /// Of places of a path; none if there is no more than one. In its plane the line is the middle of the narrowest
+    /// strip with all places, which has one edge of their convex hull on its border; the plane is that of least squares.
+    ///
+    /// Source: Houle and Toussaint, Computing the width of a set, 1988.
+    pub fn of(point: &str, places: &[[f64; 3]]) -> Option<Self> {
+        let middle: [f64; 3] = std::array::from_fn(|k| {
+            let sum: f64 = places.iter().map(|place| place[k]).sum();
+            sum / places.len() as f64
+        });
+        let apart: Vec<[f64; 3]> = (places.iter())
+            .map(|place| std::array::from_fn(|k| place[k] - middle[k]))
+            .collect();
+        let products = (0..9).map(|i| apart.iter().map(|v| v[i / 3] * v[i % 3]).sum());
+        let axes = Svd::of(3, 3, &products.collect::<Vec<f64>>());
+        if axes.values[0] <= 0.0 || !axes.values[0].is_finite() {
+            return None;
+        }
+        let [u, v] = [0, 1].map(|k| &axes.right[k]);
+        let mut flat: Vec<[f64; 2]> = apart.iter().map(|a| [dot(a, u), dot(a, v)]).collect();
+        flat.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let hull = hull(&flat);
+        // across each edge of the hull: the normal, and how far the places reach
+        let strips = hull
+            .iter()
+            .zip(hull.iter().cycle().skip(1))
+            .filter_map(|(a, b)| {
+                let edge = [b[0] - a[0], b[1] - a[1]];
+                let length = edge[0].hypot(edge[1]);
+                let normal = [-edge[1] / length, edge[0] / length];
+                let across = |p: &[f64; 2]| normal[0] * (p[0] - a[0]) + normal[1] * (p[1] - a[1]);
+                let width = hull.iter().map(across).fold(0.0, f64::max);
+                (length > 0.0).then_some((width, normal, *a))
+            });
+        let (width, [nx, ny], [ax, ay]) = strips.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let inside = [ax + 0.5 * width * nx, ay + 0.5 * width * ny];
+        let lift = |x: f64, y: f64| -> [f64; 3] { std::array::from_fn(|k| x * u[k] + y * v[k]) };
+        let direction = lift(ny, -nx);
+        let through = lift(inside[0], inside[1]);
+        let along: Vec<f64> = apart.iter().map(|place| dot(place, &direction)).collect();
+        let far = apart.iter().zip(&along).map(|(place, along)| {
+            let origin = dot(&through, &direction);
+            let off = |k: usize| place[k] - through[k] - (along - origin) * direction[k];
+            [0, 1, 2].map(off).iter().map(|x| x * x).sum::<f64>().sqrt()
+        });
+        let (low, high) = along
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+                (l.min(*x), h.max(*x))
+            });
+        Some(Straightness {
+            point: point.to_owned(),
+            through: std::array::from_fn(|k| middle[k] + through[k]),
+            direction,
+            length: high - low,
+            deviation: far.fold(0.0, f64::max),
+        })
+    }
+}
+
+/// The convex hull of sorted points, in the sense of the clock's opposite (Andrew 1979).
+fn hull(sorted: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let half = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
+        let mut kept: Vec<[f64; 2]> = Vec::new();
+        for p in points {
+            while let [.., a, b] = kept[..]
+                && (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) <= 0.0
+            {
+                kept.pop();
+            }
+            kept.push(*p);
+        }
+        kept.pop();
+        kept
+    };
+    let mut hull = half(&mut sorted.iter());
+    hull.extend(half(&mut sorted.iter().rev()));
+    hull
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Straightness;
+
+    #[test]
+    fn an_arc_is_off_its_line_by_half_its_rise() {
+        let arc = |k: i32| {
+            let angle = 0.01 * f64::from(k) + 0.3;
+            [1.0 + 2.0 * angle.cos(), 0.5, 2.0 * angle.sin()]
+        };
+        let places: Vec<[f64; 3]> = (-20..=20).map(arc).collect();
+        let found = Straightness::of("p", &places).unwrap();
+        let rise = 2.0 * (1.0 - 0.2f64.cos());
+        assert!((found.deviation - 0.5 * rise).abs() < 1e-14, "{found:?}");
+        assert!((found.length - 4.0 * 0.2f64.sin()).abs() < 1e-14);
+        // across the middle radius
+        let [x, y, z] = found.direction;
+        assert!((x * 0.3f64.cos() + z * 0.3f64.sin()).abs() < 1e-14 && y.abs() < 1e-14);
+        assert_eq!(Straightness::of("p", &places[..1]), None);
+    }
+}

@@ -1,0 +1,238 @@
+//! Motions that can begin, and their reports.
+
+use std::cell::Cell;
+use std::f64::consts::{PI, TAU};
+
+use super::quantities::{Extremes, Meter, Metered};
+use crate::algebra::SiUnit;
+use crate::analysis::sweep::{
+    Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Row, Schedule, Sink,
+    Straightness, SweepReport, SweepSettings, Timed, dwell, follow, sweep,
+};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Quantity, Variable};
+use crate::solve::Watch;
+use crate::system::{self, Coordinate, Driven, Held, Load, Lock};
+
+/// Motions that can begin: of one mode or of several.
+#[derive(Clone, Debug)]
+pub struct Motions<'q> {
+    pub(super) mechanism: &'q Mechanism,
+    pub(super) held: Held<f64>,
+    pub(super) settings: SweepSettings,
+    /// With the inputs held.
+    pub(super) question: system::Question<'q>,
+    pub(super) quantities: Vec<Quantity>,
+    /// Quantities that may dwell, by their numbers, with tolerances.
+    pub(super) dwells: Vec<(usize, f64)>,
+    pub(super) load: Load,
+    pub(super) outputs: Vec<Lock>,
+    /// The inputs; none where the whole curve is followed.
+    pub inputs: Vec<Driven>,
+    /// Where each begins, with the number of its mode if one was asked for.
+    pub starts: super::Modes,
+}
+
+impl Motions<'_> {
+    /// The points that are traced.
+    pub fn points(&self) -> &[NamedPoint] {
+        &self.settings.points
+    }
+
+    /// What the columns of rows are.
+    pub fn columns(&self) -> Columns {
+        Columns::new(self.mechanism, self.points(), self.quantities())
+    }
+
+    /// What the columns of quantities are: the time if any is asked for and inputs move, then these.
+    pub fn quantities(&self) -> Vec<Variable> {
+        let of = |quantity: &Quantity| Variable::new(&quantity.name, quantity.unit);
+        let quantities: Vec<Variable> = self.quantities.iter().map(of).collect();
+        let timed = !quantities.is_empty() && !self.inputs.is_empty();
+        let time = timed.then(|| Variable::new("time", SiUnit::SECOND));
+        time.into_iter().chain(quantities).collect()
+    }
+
+    /// The part of the time that is gone where the inputs are; those that follow a table are past this number of steps.
+    fn time(&self, at: &Configuration<f64>, step: usize) -> f64 {
+        if let Some(schedule) = &self.settings.schedule {
+            let inputs = schedule.between(&self.inputs, step, self.settings.steps);
+            let size = |of: &Driven| (of.to - of.from).abs() / of.coordinate.scale(self.mechanism);
+            let most = (inputs.iter()).max_by(|a, b| size(a).total_cmp(&size(b)));
+            let gone = most.map_or(0.0, |of| {
+                (of.coordinate.of(at) - of.from) / (of.to - of.from)
+            });
+            let gone = if gone.is_finite() { gone } else { 0.0 };
+            return (step as f64 + gone.clamp(0.0, 1.0)) / self.settings.steps as f64;
+        }
+        let joint = |input: &&Driven| matches!(input.coordinate, Coordinate::Joint(_));
+        let measure = self.inputs.iter().find(joint).or(self.inputs.first());
+        let part = measure.map_or(0.0, |input| {
+            let way = input.to - input.from;
+            let gone = input.coordinate.of(at) - input.from;
+            match input.coordinate {
+                Coordinate::Joint(_) => gone / way,
+                // an angle of a platform is told modulo a turn
+                of if of.is_angle(self.mechanism) => {
+                    let middle = 0.5 * way;
+                    (middle + (gone - middle + PI).rem_euclid(TAU) - PI) / way
+                }
+                _ => gone / way,
+            }
+        });
+        self.settings.pace.law.inverse(part.clamp(0.0, 1.0))
+    }
+
+    /// The same with rows between those asked for, so near to one another that a line through them looks smooth.
+    #[must_use]
+    pub fn smooth(mut self, smooth: bool) -> Self {
+        self.settings.between = smooth;
+        self
+    }
+
+    /// Moves from every start and keeps no more than `most` rows of each motion. All rows go to `sink` as they are
+    /// found, with the number of their mode.
+    pub fn report(
+        &self,
+        most: usize,
+        sink: &mut dyn FnMut(Option<usize>, &Row),
+        watch: &Watch,
+    ) -> MotionsReport {
+        let columns = self.columns();
+        let mut motions = Vec::new();
+        for (mode, start) in &self.starts {
+            let mut rows = KeptRows::of(most);
+            let mut places = vec![Vec::new(); self.points().len()];
+            let mut series: Vec<Vec<Timed>> = vec![Vec::new(); self.dwells.len()];
+            let mut take = |row: &Row| {
+                if row.between {
+                    sink(*mode, row);
+                    return;
+                }
+                if self.settings.straightness {
+                    let points = places.iter_mut().zip(row.points);
+                    points.for_each(|(places, place)| places.push(*place));
+                }
+                for ((quantity, _), series) in self.dwells.iter().zip(&mut series) {
+                    let inputs = self.inputs.iter();
+                    let inputs = inputs.map(|input| input.coordinate.of(row.configuration));
+                    // the time comes before the quantities
+                    if let [Some(time), values @ ..] = row.quantities {
+                        let part = time / self.settings.pace.duration;
+                        series.push((part, values[*quantity], inputs.collect()));
+                    }
+                }
+                rows.take(&columns, row);
+                sink(*mode, row);
+            };
+            let (sweep, extremes) = self.measured(start, &mut take, watch);
+            let interrupted = sweep.interrupted;
+            motions.push(MotionReport {
+                mode: *mode,
+                sentence: String::new(),
+                sweep,
+                pace: (!self.inputs.is_empty()).then_some(self.settings.pace),
+                table: self.settings.schedule.as_ref().map(Schedule::rows),
+                extremes,
+                straightness: (self.points().iter().zip(&places))
+                    .filter_map(|(point, places)| Straightness::of(&point.name, places))
+                    .collect(),
+                dwells: (self.dwells.iter().zip(&series))
+                    .filter_map(|((quantity, tolerance), rows)| {
+                        let (value, times, inputs) = dwell(rows, *tolerance)?;
+                        let of = &self.quantities[*quantity];
+                        Some(Dwell {
+                            name: of.name.clone(),
+                            unit: of.unit,
+                            tolerance: *tolerance,
+                            value,
+                            times,
+                            inputs,
+                        })
+                    })
+                    .collect(),
+                columns: columns.variables().to_vec(),
+                values: rows.finished(),
+            });
+            if interrupted {
+                break;
+            }
+        }
+        MotionsReport {
+            mechanism: self.mechanism.name().to_owned(),
+            motions,
+        }
+    }
+
+    /// Moves from one of the starts. Rows go to `sink` as they are found.
+    pub fn run(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
+        self.measured(start, sink, watch).0
+    }
+
+    /// The same with the extremes of the quantities, which are sought between rows too.
+    fn measured(
+        &self,
+        start: &Configuration<f64>,
+        sink: &mut Sink,
+        watch: &Watch,
+    ) -> (SweepReport, Vec<Extremum>) {
+        if self.quantities.is_empty() {
+            return (self.moved(start, sink, watch), Vec::new());
+        }
+        let metered = Metered {
+            quantities: &self.quantities,
+            question: &self.question,
+            inputs: &self.inputs,
+            pace: self.settings.pace,
+            schedule: self.settings.schedule.as_ref(),
+            load: &self.load,
+            outputs: &self.outputs,
+        };
+        let mut meter = Meter::new(metered, start);
+        let mut extremes = Extremes::new(self.quantities.len());
+        let timed = !self.inputs.is_empty();
+        let mut values = Vec::new();
+        let steps = self.settings.steps as f64;
+        let latest = Cell::new(0);
+        let mut measured = |row: &Row| {
+            let at = row.configuration;
+            latest.set(row.step.unwrap_or(latest.get()));
+            let time = row
+                .step
+                .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
+            let found = meter.read(at, time);
+            if !row.between {
+                extremes.take(at, time, found);
+            }
+            values.clear();
+            values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
+            values.extend_from_slice(found);
+            sink(&Row {
+                quantities: &values,
+                ..*row
+            });
+        };
+        let report = self.moved(start, &mut measured, watch);
+        let found = extremes.located(
+            &self.quantities,
+            self.mechanism,
+            (&self.held, &self.inputs, self.settings.schedule.as_ref()),
+            &mut meter,
+            &|at| self.time(at, latest.get()),
+        );
+        (report, found)
+    }
+
+    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
+        let Motions {
+            mechanism,
+            held,
+            settings,
+            inputs,
+            ..
+        } = self;
+        match inputs.is_empty() {
+            true => follow(mechanism, held, start, settings, sink, watch),
+            false => sweep(mechanism, held, inputs, start, settings, sink, watch),
+        }
+    }
+}

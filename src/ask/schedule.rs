@@ -1,0 +1,164 @@
+//! Motions of the inputs that a table gives.
+
+use thiserror::Error;
+
+use super::Question;
+use crate::analysis::sweep::Schedule;
+use crate::description::nearest;
+use crate::system::{self, Coordinate, QuestionError};
+
+/// What is wrong with a table of inputs over time, and where.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{line}:{column}: {kind}")]
+pub struct TableError {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column of the table, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub kind: TableErrorKind,
+}
+
+/// What is wrong with a table of inputs over time.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TableErrorKind {
+    /// It is no table.
+    #[error("{0}")]
+    Csv(String),
+    /// The first column is not the time in s.
+    #[error("the first column is `{0}` and not the time in s")]
+    NoTime(String),
+    /// A column belongs to nothing that can move.
+    #[error("`{name}` is neither a joint nor a coordinate of a platform")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// Two columns have one name.
+    #[error("`{0}` has two columns")]
+    Twice(String),
+    /// A value is missing.
+    #[error("`{0}` has no value here")]
+    Gap(String),
+    /// There are more values than columns.
+    #[error("a value without a column: the header has {0}")]
+    Extra(usize),
+    /// A time that is no number.
+    #[error("`{0}` is no time in s")]
+    Time(String),
+    /// A value, with its unit, is none of its column.
+    #[error("{0}")]
+    Value(Box<QuestionError>),
+    /// Times must rise.
+    #[error("the time {time} s does not come after {before} s")]
+    Unsorted {
+        /// The time before.
+        before: f64,
+        /// The time here.
+        time: f64,
+    },
+    /// A motion has at least two rows, and a column that moves.
+    #[error("nothing moves: a motion takes two rows of values and a column beside the time")]
+    Still,
+}
+
+impl Question {
+    /// Moves the inputs through the rows of a table by natural cubic splines ([`Schedule`]): comma-separated values,
+    /// in the first line `time (s)` and names of inputs with their units, `theta1 (deg)`, m and rad where there are
+    /// none.
+    ///
+    /// # Errors
+    /// If it is no such table: a value is missing, times do not rise, a column is not known, a unit does not fit.
+    pub fn through_rows(mut self, table: &str) -> Result<Self, TableError> {
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .from_reader(table.as_bytes());
+        let error = |line: usize, column: usize, kind| TableError { line, column, kind };
+        let mut header: Vec<(String, String)> = Vec::new();
+        let mut coordinates: Vec<Coordinate> = Vec::new();
+        let (mut times, mut values) = (Vec::new(), Vec::<Vec<f64>>::new());
+        let mut last = 1;
+        for record in reader.records() {
+            let record = record.map_err(|wrong| {
+                let line = wrong.position().map_or(last, |at| at.line() as usize);
+                error(line, 1, TableErrorKind::Csv(wrong.to_string()))
+            })?;
+            let line = record.position().map_or(last, |at| at.line() as usize);
+            last = line;
+            if header.is_empty() {
+                header = record.iter().map(named).collect();
+                let (first, unit) = &header[0];
+                if !["time", "t"].contains(&first.as_str()) || !["", "s"].contains(&unit.as_str()) {
+                    return Err(error(line, 1, TableErrorKind::NoTime(record[0].into())));
+                }
+                for (i, (name, _)) in header.iter().enumerate().skip(1) {
+                    let name = self.placed(name.clone());
+                    let known = system::Question::new(&self.mechanism).value(&name, "home");
+                    let (of, _) = known.map_err(|_| error(line, i + 1, self.unknown(&name)))?;
+                    if coordinates.contains(&of) {
+                        return Err(error(line, i + 1, TableErrorKind::Twice(name)));
+                    }
+                    coordinates.push(of);
+                    values.push(Vec::new());
+                }
+                continue;
+            }
+            if record.len() > header.len() {
+                let kind = TableErrorKind::Extra(header.len());
+                return Err(error(line, header.len() + 1, kind));
+            }
+            let plain = system::Question::new(&self.mechanism);
+            for (i, (name, unit)) in header.iter().enumerate() {
+                let text = record.get(i).unwrap_or_default();
+                if text.is_empty() {
+                    return Err(error(line, i + 1, TableErrorKind::Gap(name.clone())));
+                }
+                let Some(values) = i.checked_sub(1).map(|input| &mut values[input]) else {
+                    let time = text.parse::<f64>().ok().filter(|time| time.is_finite());
+                    let time =
+                        time.ok_or_else(|| error(line, 1, TableErrorKind::Time(text.into())))?;
+                    if let Some(&before) = times.last()
+                        && time <= before
+                    {
+                        return Err(error(line, 1, TableErrorKind::Unsorted { before, time }));
+                    }
+                    times.push(time);
+                    continue;
+                };
+                let value = plain.value(name, format!("{text} {unit}").trim());
+                let wrong = |kind| error(line, i + 1, TableErrorKind::Value(Box::new(kind)));
+                values.push(value.map_err(wrong)?.1);
+            }
+        }
+        if times.len() < 2 || values.is_empty() {
+            return Err(error(last, 1, TableErrorKind::Still));
+        }
+        for ((name, _), values) in header[1..].iter().zip(&values) {
+            self = self.input(name, values[0], values[values.len() - 1]);
+        }
+        self.schedule = Some(Schedule::new(times, values));
+        Ok(self)
+    }
+
+    fn unknown(&self, name: &str) -> TableErrorKind {
+        let known = Coordinate::all(&self.mechanism).map(|of| of.name(&self.mechanism));
+        let known: Vec<String> = known.collect();
+        TableErrorKind::Unknown {
+            name: name.into(),
+            suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
+        }
+    }
+}
+
+/// Name and unit of a column: `theta1 (deg)` or `theta1 [deg]`.
+fn named(column: &str) -> (String, String) {
+    let parts = column
+        .strip_suffix([')', ']'])
+        .and_then(|rest| rest.rsplit_once(['(', '[']));
+    let (name, unit) = parts.unwrap_or((column, ""));
+    (name.trim().into(), unit.trim().into())
+}
