@@ -16,6 +16,7 @@ mod parameters;
 mod plane;
 mod point;
 mod quantity;
+mod rings;
 mod section;
 mod serial_axes;
 mod turns;

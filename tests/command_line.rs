@@ -301,10 +301,10 @@ fn a_frame_that_stands_on_ground_has_no_velocity() {
 #[test]
 fn the_first_sentence_tells_isolated_assemblies_from_samples() {
     let said = stdout(&run(&["assemblies", "mechanisms/peaucellier.ron"]));
-    let sentence = "4 isolated assemblies and 6 samples of the others listed.";
+    let sentence = "4 isolated assemblies and 6 samples of the others are listed.";
     assert!(said.contains(sentence), "{said}");
     let said = stdout(&run(&["assemblies", "mechanisms/two_rhombi.ron"]));
-    let sentence = "a set of dimension 2 in which 4 complex solutions end, with 6 samples";
+    let sentence = "a set of dimension 2 to which 4 complex solutions lead, with 6 samples";
     assert!(said.contains(sentence), "{said}");
 }
 

@@ -15,8 +15,9 @@ use super::{Answer, Refusal, style};
 /// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise, as for
 /// `solve`. The list says how complete it is: how many complex solutions there are, how they were searched for, and
 /// whether a bound is known. Where infinitely many assemblies are connected, their dimension is given and samples stand
-/// for them. Where assemblies share poses of the platforms the list has one row for each pose. Exit code 1 means that
-/// there is no real assembly, or that one that is isolated may be missing.
+/// for them. Where assemblies share poses of the platforms, or differ in nothing but the angles of ball joints written
+/// as three rows, the list has one row for each pose. Exit code 1 means that there is no real assembly, or that one
+/// that is isolated may be missing.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork assemblies mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \

@@ -136,6 +136,17 @@ impl<T> Dimensions<T> {
         }
     }
 
+    /// Makes the travel of a joint, where it turns something as well, that of another one.
+    pub fn detach_travel(&mut self, joint: usize, travel: usize) {
+        let rows = self.chains.iter_mut().flat_map(|chain| &mut chain.rows);
+        let lengths = self.closures.iter_mut().map(|c| &mut c.extension);
+        let terms = (rows.map(|row| &mut row.slide).chain(lengths)).flat_map(|form| &mut form.0);
+        terms
+            .filter(|(j, _)| *j == joint)
+            .for_each(|term| term.0 = travel);
+        self.joint_scales.push(self.joint_scales[joint]);
+    }
+
     /// The same dimensions with a link or tip frame as ground; only the frames that it carries keep their place.
     pub(super) fn standing_on(&self, frame: Frame) -> Dimensions<T>
     where

@@ -10,7 +10,7 @@ use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use crate::linear::RANK_TOLERANCE;
-use tables::{by_pose, complex, joints, met, overview, platforms, poses, reasons};
+use tables::{Pose, are_posed, by_pose, complex, joints, met, overview, platforms, poses, reasons};
 
 impl Report for AssembliesReport {
     fn is_interrupted(&self) -> bool {
@@ -47,11 +47,8 @@ impl Report for AssembliesReport {
 /// One row for each assembly, or for each pose where assemblies share poses.
 fn listing(report: &AssembliesReport) -> Section {
     match poses(report) {
-        Some(poses) => Section::new(format!(
-            "Assemblies by the {} of the platforms",
-            count(poses.len(), "pose")
-        ))
-        .table(by_pose(&poses)),
+        Some(poses) => Section::new(format!("Assemblies by the {}", posed(report, &poses)))
+            .table(by_pose(&poses)),
         None => Section::new("Assemblies").table(overview(report)),
     }
 }
@@ -61,46 +58,92 @@ fn sentence(report: &AssembliesReport) -> String {
     let real = count(report.real, "assembly");
     match (&report.fit, report.real) {
         (_, 0) if report.interrupted => "No assembly was found.".into(),
-        _ if report.interrupted => sampled(report).unwrap_or_else(|| format!("{real} found.")),
+        _ if report.interrupted => sampled(report).unwrap_or_else(|| found(report.real)),
         (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
-            let left = count(*freedom, "freedom");
-            let are = form(*freedom, "is", "are");
+            let left = format!(
+                "{} {} left with what is held",
+                count(*freedom, "freedom"),
+                form(*freedom, "is", "are")
+            );
             let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
             let isolated = isolated.count();
             if isolated == report.real {
+                let each = match isolated {
+                    1 => "It is",
+                    _ => "Each is",
+                };
                 return format!(
-                    "{real} found, isolated at the limit of what is possible, while in general {left} \
-                     left with what is held."
+                    "{} {each} isolated, at the limit of what is possible; in general {left}.",
+                    found(isolated)
                 );
             }
             let listed = match report.real - isolated {
-                _ if isolated == 0 => format!("{real} listed as samples"),
+                _ if isolated == 0 => {
+                    format!(
+                        "{real} {} listed as samples",
+                        form(report.real, "is", "are")
+                    )
+                }
                 samples => format!(
-                    "{} and {} of the others listed",
+                    "{} and {} of the others are listed",
                     count(isolated, "isolated assembly"),
                     count(samples, "sample")
                 ),
             };
-            format!("Infinitely many assemblies: {left} {are} left with what is held. {listed}.")
+            format!("Infinitely many assemblies: {left}. {listed}.")
         }
         (Fit::Endless, n) => {
-            let listed = match n {
-                0 => "no real one was met".to_owned(),
-                _ => format!("{real} listed, to which some starts led"),
+            let winding = report.variables.iter().filter(|joint| joint.winding);
+            let winding: Vec<&str> = winding.map(|joint| joint.name.as_str()).collect();
+            let because = match winding.len() {
+                0 => String::new(),
+                n => format!(
+                    ", because {} {} differently after every turn",
+                    listed(&winding),
+                    form(n, "stands", "stand")
+                ),
             };
-            format!("There is no end of solutions, whatever values are held: {listed}.")
+            let listed = match n {
+                0 => "none was found to be real".to_owned(),
+                _ => format!(
+                    "{real}, found from random starts, {} listed",
+                    form(n, "is", "are")
+                ),
+            };
+            format!(
+                "Solutions are infinite in number, whatever values are held{because}: {listed}."
+            )
         }
         (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => {
-            sampled(report).unwrap_or_else(|| format!("{real} found."))
+            sampled(report).unwrap_or_else(|| found(report.real))
         }
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
         (Fit::Finite, 0) => format!("No assembly: 0 real of {} complex.", report.complex),
-        (Fit::Finite, _) => format!(
-            "{real}: {} real of {} complex.",
-            report.real, report.complex
-        ),
+        (Fit::Finite, _) => {
+            let poses = poses(report).map(|poses| format!(" in {}", posed(report, &poses)));
+            format!(
+                "{real}{}: {} real of {} complex.",
+                poses.unwrap_or_default(),
+                report.real,
+                report.complex
+            )
+        }
     }
+}
+
+/// So many poses, and of what.
+fn posed(report: &AssembliesReport, poses: &[Pose<'_>]) -> String {
+    format!(
+        "{} of the {}",
+        count(poses.len(), "pose"),
+        are_posed(report)
+    )
+}
+
+fn found(assemblies: usize) -> String {
+    let were = form(assemblies, "was", "were");
+    format!("{} {were} found.", count(assemblies, "assembly"))
 }
 
 /// The answer where samples of connected assemblies were met and nothing is known of their sets.
@@ -109,14 +152,11 @@ fn sampled(report: &AssembliesReport) -> Option<String> {
     let samples = samples.count();
     let isolated = match report.real - samples.min(report.real) {
         0 => String::new(),
-        n => format!(" and {} found", count(n, "isolated assembly")),
+        n => format!(" and {}", count(n, "isolated assembly")),
     };
-    (samples > 0).then(|| {
-        format!(
-            "Infinitely many assemblies: {} listed{isolated}.",
-            count(samples, "sample")
-        )
-    })
+    let listed = format!("{}{isolated}", count(samples, "sample"));
+    let are = form(report.real, "is", "are");
+    (samples > 0).then(|| format!("Infinitely many assemblies: {listed} {are} listed."))
 }
 
 /// The answer where assemblies are connected at the inputs asked.
@@ -124,23 +164,34 @@ fn infinitely_many(report: &AssembliesReport) -> String {
     let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
     let sets = report.continua.iter().map(|set: &Continuum| {
         // a path may stand for several solutions, and be followed again for each
-        let solutions = count(set.paths, "complex solution");
-        let ends = format!("{solutions} {}", form(set.paths, "ends", "end"));
+        let dimension = set.dimension;
+        let lead = match set.paths {
+            0 => String::new(),
+            n => format!(
+                " to which {} {}",
+                count(n, "complex solution"),
+                form(n, "leads", "lead")
+            ),
+        };
         match set.samples.len() {
             0 => format!(
-                "a complex set of dimension {} in which {ends}, of which no real assembly was met",
-                set.dimension
+                "a complex set of dimension {dimension}{lead}, in which nothing real was found"
             ),
-            samples => format!(
-                "a set of dimension {} in which {ends}, with {}",
-                set.dimension,
-                count(samples, "sample")
+            n => format!(
+                "a set of dimension {dimension}{lead}, with {}",
+                count(n, "sample")
             ),
         }
     });
+    let isolated = match isolated.count() {
+        0 => "Infinitely many connected assemblies".into(),
+        n => format!(
+            "{} and infinitely many connected ones",
+            count(n, "isolated assembly")
+        ),
+    };
     format!(
-        "{} and infinitely many connected ones at these inputs: {}.",
-        count(isolated.count(), "isolated assembly"),
+        "{isolated} at these inputs: {}.",
         listed(&sets.collect::<Vec<_>>())
     )
 }
@@ -180,32 +231,33 @@ pub fn completeness(report: &AssembliesReport) -> String {
         Fit::FreedomLeft(freedom) => {
             let isolated = match report.generic {
                 0 => "",
-                1 => "; beside them 1 isolated one was found",
-                n => &format!("; beside them {n} isolated ones were found"),
+                1 => "; 1 isolated solution was found beside them",
+                n => &format!("; {n} isolated solutions were found beside them"),
             };
             return format!(
-                "{} left: the assemblies are not finite in number and those listed are \
-                 samples{isolated}; hold {freedom} more for a finite list",
+                "with {} left, assemblies are in general not finite in number, and any list of them \
+                 consists of samples{isolated}; hold {freedom} more {} for a finite list",
                 count(freedom, "freedom"),
+                form(freedom, "coordinate", "coordinates"),
             );
         }
         Fit::Endless => {
-            return "the search met no end of solutions, and none is followed to the values held; those \
-                    listed are what some starts led to"
+            return "no list of infinitely many solutions can be complete; this one comes from random starts at \
+                    the values held, and others may be missing"
                 .into();
         }
         Fit::TooManyHeld => {
             return format!(
-                "no solution could be found for complex inputs nearby: either more is held than can \
-                 be chosen freely, and something must be freed, or the dimensions differ too much in \
-                 size, and those far below or above {} m must be given others: what is below \
-                 {RANK_TOLERANCE:e} of that length moves nothing; the list comes from many starts \
-                 and may be incomplete",
+                "no solution was found for complex inputs nearby: either more is held than can be \
+                 chosen freely, and something must be freed, or the dimensions differ too much in size, \
+                 and those far below or above {0} m must be changed (what is smaller than \
+                 {RANK_TOLERANCE:e} of {0} m has no effect); the list comes from many starts and may be \
+                 incomplete",
                 report.characteristic_length
             );
         }
         Fit::AlwaysMultiple => {
-            return "every solution that was met is multiple for all inputs, as in a shaky \
+            return "every solution that was found is multiple for all inputs, as in a shaky \
                     structure, and cannot be followed from input to input; the list comes from many \
                     starts and may be incomplete"
                 .into();
@@ -232,15 +284,15 @@ pub fn completeness(report: &AssembliesReport) -> String {
     }
     if let Some(largest) = report.continua.first() {
         parts.push(format!(
-            "at these inputs there are infinitely many assemblies, in a set of dimension {}: of \
-             isolated ones the list is complete as said, of the others it has samples",
+            "at these inputs there are infinitely many assemblies, in a set of dimension {}: what is said \
+             of the list holds for isolated ones, and of the others it has samples only",
             largest.dimension
         ));
     }
     if report.multiple > 0 {
         parts.push(
-            "others are multiple for all inputs and were sought from many starts only: of them some \
-             may be missing"
+            "some solutions are multiple for all inputs: these were sought from many starts only, and \
+             some of them may be missing"
                 .into(),
         );
     }
@@ -260,7 +312,8 @@ pub fn completeness(report: &AssembliesReport) -> String {
     }
     if report.lost > 0 {
         parts.push(format!(
-            "{} could not be decided",
+            "the {} of {} could not be decided: the list may be incomplete",
+            form(report.lost, "end", "ends"),
             count(report.lost, "path")
         ));
     }
@@ -290,7 +343,9 @@ fn accounting(report: &AssembliesReport) -> Vec<String> {
     if report.not_isolated > 0 {
         solutions += &format!("; {} not isolated", report.not_isolated);
     }
-    lines.push(solutions);
+    if report.fit != Fit::Endless {
+        lines.push(solutions);
+    }
     if report.paths > 0 {
         let retried = match report.retried {
             0 => String::new(),

@@ -1,9 +1,12 @@
 //! Infinitely many generic solutions are noticed instead of collected.
 
-use linkwork::analysis::assemblies::{AssembliesSettings, AssemblySolver, Fit, Wanted};
+use linkwork::analysis::assemblies::{
+    AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Wanted,
+};
 use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::output::Report;
 use linkwork::solve::Watch;
 
 /// A five-bar whose cranks are geared with a ratio; a point of it is held instead of the crank.
@@ -55,6 +58,77 @@ fn with_the_crank_held_or_a_whole_ratio_their_number_is_finite() {
     assert_eq!((report.fit, report.complex), (Fit::Finite, 2));
     let report = geared("2").assemblies(Wanted::default(), &Watch::none());
     assert_eq!(report.unwrap().fit, Fit::Finite);
+}
+
+/// A screw that travels 0.1 m with every radian, with what is joined to it.
+fn screw(joints: &str, before: &str, after: &str, closure: &str) -> Question {
+    let text = format!(
+        r#"Mechanism(
+            version: 1, name: "screw", convention: Modified,
+            joints: {{ "q": Passive(home: 0.5), {joints} }},
+            chains: {{
+                "nut": Chain(rows: [{before} (d: "0.1*q", theta: "q"), {after}], tip: [Tx(0.5)]),
+                "post": Chain(base: [T(0.3, 0.6, 0.4)]),
+            }},
+            closures: {{ "c": {closure} }},
+        )"#
+    );
+    Question::new(Mechanism::new(&Description::read(&text).unwrap()).unwrap())
+}
+
+fn found(question: &Question) -> AssembliesReport {
+    let [a, b] = [1, 2].map(|seed| {
+        let question = question.clone().seed(seed);
+        question
+            .assemblies(Wanted::default(), &Watch::none())
+            .unwrap()
+    });
+    assert_eq!((&a.fit, a.real, a.complex), (&b.fit, b.real, b.complex));
+    a
+}
+
+#[test]
+fn a_screw_whose_travel_a_slide_makes_up_for_has_an_assembly_with_every_turn() {
+    let joints = r#""s": Passive(home: 0.2), "u": Passive(home: "20 deg")"#;
+    let (slide, hinge) = (r#"(d: "s"),"#, r#"(alpha: "90 deg", a: 0.4, theta: "u")"#);
+    let report = found(&screw(joints, slide, hinge, r#"Spherical("nut", "post")"#));
+    assert_eq!(report.fit, Fit::Endless);
+    assert!(report.real > 0 && !report.is_yes() && report.may_lack_some());
+    for assembly in &report.assemblies {
+        let [q, s, u] = ["q", "s", "u"].map(|name| *assembly.joints.get(name).unwrap());
+        // the arm points to the post after any number of turns, and the slide stands where that puts it
+        assert!((q - f64::atan2(0.6, 0.3)).sin().abs() < 1e-9, "{q}");
+        assert!((s + 0.1 * q + 0.5 * u.sin() - 0.4).abs() < 1e-9);
+    }
+    let answer = report.document().answer;
+    assert!(
+        answer.contains("q stands differently after every turn"),
+        "{answer}"
+    );
+}
+
+#[test]
+fn a_screw_whose_travel_turns_it_has_no_end_of_complex_solutions() {
+    let report = found(&screw("", "", "", r#"Distance("nut", "post", 0.6)"#));
+    assert_eq!(report.fit, Fit::Endless);
+    assert!(report.real > 0 && !report.is_yes());
+    for assembly in &report.assemblies {
+        let q = *assembly.joints.get("q").unwrap();
+        let [x, y, z] = [0.5 * q.cos() - 0.3, 0.5 * q.sin() - 0.6, 0.1 * q - 0.4];
+        assert!((x * x + y * y + z * z - 0.36).abs() < 1e-9, "{q}");
+    }
+}
+
+#[test]
+fn a_screw_whose_nut_is_held_has_one_assembly() {
+    let report = found(&screw("", "", "", r#"Planar("nut", "post")"#));
+    assert_eq!(
+        (report.fit.clone(), report.real, report.complex),
+        (Fit::Finite, 1, 1)
+    );
+    // 0.4 m at 0.1 m a radian, more than half a turn from home
+    let q = *report.assemblies[0].joints.get("q").unwrap();
+    assert!((q - 4.0).abs() < 1e-9 && report.is_yes());
 }
 
 /// A link whose ball lies on the axis of its hinge, to rounding: whatever the hinge does, the rod fits.

@@ -39,7 +39,8 @@ fn rods_stretched_straight_leave_one_assembly() {
     let off = (x - 1.0).abs().max(y.abs()).max(z.abs());
     assert!(off < 1e-6, "{off}");
     let said = text::render(&report.document());
-    let sentence = "1 assembly found, isolated at the limit of what is possible, while in general 3 freedoms left";
+    let sentence = "1 assembly was found. It is isolated, at the limit of what is possible; in general 3 freedoms are \
+                    left with what is held.";
     assert!(said.contains(sentence), "{said}");
     // infinitely many complex solutions pass through it: it has no multiplicity
     assert!(

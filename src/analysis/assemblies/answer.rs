@@ -278,6 +278,7 @@ impl Question<'_> {
                     unit: SiUnit::of_coordinate(joint.kind.is_angle()),
                     held,
                     periodic: self.mechanism.repeats(j) && joint.limits.is_none(),
+                    winding: self.coordinates.winds(j),
                 })
                 .collect(),
             held_platforms: platforms

@@ -51,7 +51,7 @@ pub struct Assembly {
     pub within_limits: bool,
     /// Names of the joints that are not.
     pub outside_limits: Vec<String>,
-    /// Numbers of the other assemblies with the same pose of every platform.
+    /// Numbers of the other assemblies in the same pose, as in the report's list of poses.
     pub shares_platform_pose_with: Vec<usize>,
 }
 
@@ -101,7 +101,7 @@ pub enum Fit {
     /// No generic solution was found, perhaps because more inputs are held than can be chosen
     /// freely; what is listed was found by starting from many guesses and need not be complete.
     TooManyHeld,
-    /// There was no end of generic solutions, as where a screw or a gear whose ratio is no whole number never comes
+    /// There is no end of generic solutions, as where a screw, or a gear whose ratio is no fraction, never comes
     /// back to the same place. What is listed was found by starting from guesses.
     Endless,
     /// All generic solutions that were met are multiple, as in a shaky structure. No path follows
@@ -132,6 +132,10 @@ pub struct ListedJoint {
     pub held: bool,
     /// Whether its values repeat with every turn, without limits that tell turns apart.
     pub periodic: bool,
+    /// Whether its value is to be found and no number of turns leads back to the same place: it travels as it turns, or
+    /// turns something by a ratio that is no fraction.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub winding: bool,
 }
 
 /// All assemblies for the target inputs.
@@ -148,7 +152,8 @@ pub struct AssembliesReport {
     /// The real assemblies in the order of their numbers.
     pub assemblies: Vec<Assembly>,
     /// The numbers of the assemblies in each pose of all platforms together, poses in the order of
-    /// their first assemblies. Empty if no pose of a platform is to be found.
+    /// their first assemblies. Where no pose of a platform is to be found, in each pose of all bodies, which do not tell
+    /// the two sets of angles of a ball written as three rows apart; empty if there are no such sets.
     #[serde(default)]
     pub poses: Vec<Vec<usize>>,
     /// Complex assemblies that are not real, if they were asked for: unknown joints and platforms

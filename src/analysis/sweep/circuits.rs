@@ -157,7 +157,8 @@ struct Found {
 /// Follows a curve from every seed that lies on none so far, and from every crossing.
 ///
 /// `held` must leave one freedom. Circuits on which no seed lies are not found: take all assemblies
-/// at several values of the input.
+/// at several values of the input. Of circuits that differ only in the two sets of angles of balls written as three
+/// rows there is one.
 pub fn circuits(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -179,7 +180,14 @@ pub fn circuits(
             unusable += 1;
             continue;
         };
-        if let Some(known) = holding(&mut curve, method, &traced, &place) {
+        // with another set of the angles of a ball everything moves alike
+        let sets = mechanism.sets_of_angles(&seed).into_iter();
+        let mut sets = sets.filter(|set| input.of(set) == input.of(&seed));
+        let known = sets.find_map(|mut set| {
+            let place = curve.begin(mechanism, &mut set, method).ok()?;
+            holding(&mut curve, method, &traced, &place)
+        });
+        if let Some(known) = known {
             traced[known].seeds += 1;
             continue;
         }

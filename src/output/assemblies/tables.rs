@@ -32,8 +32,17 @@ pub(super) struct Pose<'r> {
     modes: Vec<&'r Assembly>,
 }
 
-/// The poses of the platforms, where there are several and assemblies share them; otherwise a row
-/// for each assembly tells as much.
+/// What assemblies in one pose have in common.
+pub(super) fn are_posed(report: &AssembliesReport) -> &'static str {
+    let found = |(name, _): &(String, _)| !report.held_platforms.contains(name);
+    let mut assemblies = report.assemblies.iter();
+    match assemblies.any(|a| a.platforms.0.iter().any(found)) {
+        true => "platforms",
+        false => "bodies",
+    }
+}
+
+/// The poses, where there are several and assemblies share them; otherwise a row for each assembly tells as much.
 pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<Pose<'_>>> {
     let shared = (2..report.assemblies.len()).contains(&report.poses.len());
     let poses = (1..).zip(&report.poses).map(|(number, modes)| Pose {
@@ -120,7 +129,11 @@ pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
     let shared = |a: &Assembly| {
         let others = a.shares_platform_pose_with.iter();
         let others: Vec<String> = others.map(usize::to_string).collect();
-        (!others.is_empty()).then(|| format!("same platform pose as {}", listed(&others)))
+        let what = match are_posed(report) {
+            "platforms" => "platform pose",
+            _ => "pose of all bodies",
+        };
+        (!others.is_empty()).then(|| format!("same {what} as {}", listed(&others)))
     };
     Table::of(&report.assemblies)
         .numbers("mode", |a| a.mode)

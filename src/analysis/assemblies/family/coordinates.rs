@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate, principal};
+use crate::mechanism::{
+    Configuration, Dimensions, Mechanism, PlatformPose, PoseCoordinate, principal,
+};
 use crate::number::{Complex, Number};
 use crate::system::{Held, HeldPlatform, System};
 
@@ -48,9 +50,10 @@ pub(crate) struct Coordinates {
     /// For each joint after how many turns everything is where it was: more than one where a gear turns something by a
     /// fraction, `None` for slides and screws and for a ratio that is no fraction.
     pub turns: Vec<Option<f64>>,
-    /// Whether a free joint turns something and never comes back to the same place, as a screw or a gear whose ratio is
-    /// no fraction: then solutions need not be finite in number.
-    pub winding: bool,
+    /// Free joints that turn something and never come back to the same place: those that travel as they turn, and those
+    /// whose ratio to what they turn is no fraction.
+    pub screws: Vec<usize>,
+    pub incommensurate: Vec<usize>,
     /// Free joints, as places among the flat unknowns, by the closures that they affect: two legs meet
     /// in the poses of platforms only.
     pub legs: Vec<Vec<usize>>,
@@ -78,8 +81,12 @@ impl Coordinates {
         let poses = held_poses.into_iter().map(Input::Pose);
         let dimensions = mechanism.dimensions();
         let turns: Vec<Option<f64>> = (0..mechanism.joints().len())
-            .map(|j| turns_to_repeat(mechanism, j))
+            .map(|j| turns_to_repeat(mechanism, j).filter(|_| !slides(dimensions, j)))
             .collect();
+        let winding = free_joints.iter().copied();
+        let (screws, incommensurate) = winding
+            .filter(|&j| mechanism.joints()[j].kind.is_angle() && turns[j].is_none())
+            .partition(|&j| turns_to_repeat(mechanism, j).is_some());
         Coordinates {
             legs: legs(&free_joints, &System::new(dimensions, held)),
             free_joints,
@@ -87,10 +94,15 @@ impl Coordinates {
             inputs: (joints.chain(poses).chain(targets).chain(orientations)).collect(),
             joint_scales: dimensions.joint_scales.clone(),
             length: dimensions.characteristic_length,
-            winding: (mechanism.joints().iter().enumerate())
-                .any(|(j, joint)| !held.joints[j] && joint.kind.is_angle() && turns[j].is_none()),
+            screws,
+            incommensurate,
             turns,
         }
+    }
+
+    /// Whether a joint is free, turns something and never comes back to the same place.
+    pub fn winds(&self, joint: usize) -> bool {
+        self.screws.contains(&joint) || self.incommensurate.contains(&joint)
     }
 
     /// Number of flat unknowns.
@@ -311,23 +323,22 @@ pub(crate) fn size(x: &[C]) -> f64 {
     x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
 }
 
-/// After how many turns of a joint everything is where it was, if it only turns, and by fractions.
+/// Whether a joint makes something slide.
+fn slides(dimensions: &Dimensions<f64>, joint: usize) -> bool {
+    let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
+    let lengths = dimensions.closures.iter().map(|c| &c.extension);
+    let mut forms = rows.map(|row| &row.slide).chain(lengths);
+    forms.any(|form| form.coefficient(joint) != 0.0)
+}
+
+/// After how many turns of a joint everything stands as it did, if it turns what it turns by fractions.
 fn turns_to_repeat(mechanism: &Mechanism, joint: usize) -> Option<f64> {
     /// Gears have some dozen teeth.
     const MOST: u32 = 120;
     const ROUNDING: f64 = 1e-12;
-    let dimensions = mechanism.dimensions();
-    let slides = dimensions
-        .closures
-        .iter()
-        .any(|c| c.extension.coefficient(joint) != 0.0);
-    let mut ratios = Vec::new();
-    for row in dimensions.chains.iter().flat_map(|chain| &chain.rows) {
-        if slides || row.slide.coefficient(joint) != 0.0 {
-            return None;
-        }
-        ratios.push(row.turn.coefficient(joint));
-    }
+    let rows = mechanism.dimensions().chains.iter();
+    let rows = rows.flat_map(|chain| &chain.rows);
+    let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
     let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();
     let turns = (1..=MOST).map(f64::from);
     turns

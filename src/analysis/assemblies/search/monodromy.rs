@@ -16,7 +16,7 @@ use rand_pcg::Pcg64;
 use super::super::AssembliesSettings;
 use super::newton_starts::{Seed, newton, newton_seeds, solution};
 use super::solutions::GenericSolutions;
-use crate::analysis::assemblies::family::{C, Family, Member, learn, size};
+use crate::analysis::assemblies::family::{C, Coordinates, Family, Member, learn, size};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
@@ -98,10 +98,7 @@ fn search_one(
         settings,
         base,
         found,
-        doubtful: match family.coordinates.winding {
-            true => DOUBTFUL_IF_WINDING,
-            false => DOUBTFUL,
-        },
+        doubtful: DOUBTFUL,
     };
     search.found.exhausted = search.run()?;
     if bound == Some(search.found.count()) {
@@ -120,8 +117,6 @@ const BATCH: usize = 32;
 /// From so many known solutions on it is asked whether their number is finite: more than the platforms and single
 /// loops that are studied have.
 const DOUBTFUL: usize = 200;
-/// The same where a joint never comes back to the same place.
-const DOUBTFUL_IF_WINDING: usize = 64;
 
 impl Search<'_> {
     /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
@@ -163,17 +158,24 @@ impl Search<'_> {
         }
     }
 
-    /// Whether there is no end of solutions: with a joint that never comes back, if so many loops still find new ones;
-    /// otherwise if seeds end at none that is known already. Were there N in all and known a part m/N of them, n seeds
-    /// that end at a solution would miss all known ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.
+    /// Whether there is no end of solutions: with joints that never come back, or if seeds end at none that is known
+    /// already. Were there N in all and known a part m/N of them, n seeds that end at a solution would miss all known
+    /// ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.
     fn is_endless(&mut self, still: &ParameterHomotopy<'_>) -> bool {
         const BATCHES: usize = 4;
         const ENDS: usize = 64;
-        if self.found.legwise.len() < self.doubtful {
-            return false;
+        let zero = C::from_f64(0.0);
+        let Coordinates {
+            screws,
+            incommensurate,
+            ..
+        } = &self.family.coordinates;
+        if !(screws.is_empty() && incommensurate.is_empty()) {
+            let mut still = still.clone();
+            let mut known = self.spanning().into_iter();
+            self.found.endless = known.any(|x| still.is_endless(zero, &x));
         }
-        if self.family.coordinates.winding {
-            self.found.endless = self.found.quiet_loops == 0;
+        if self.found.endless || self.found.legwise.len() < self.doubtful {
             return self.found.endless;
         }
         self.doubtful = 2 * self.found.legwise.len();

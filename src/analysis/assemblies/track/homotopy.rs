@@ -170,6 +170,12 @@ impl ParameterHomotopy<'_> {
         longest.is_finite().then(|| self.moved(s, x, &step))
     }
 
+    /// Whether a solution is one of infinitely many, because a joint never comes back to the same place.
+    pub fn is_endless(&mut self, s: C, x: &[C]) -> bool {
+        self.load(s, x);
+        self.here.is_endless(self.family, &self.course)
+    }
+
     /// How many directions are free at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);

@@ -1,6 +1,6 @@
 //! The equations at one parameter value of a homotopy.
 
-use crate::analysis::assemblies::family::{C, Family, Input, Member};
+use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::solve::Equations;
@@ -98,6 +98,43 @@ impl MemberEquations {
                 }
             }
         }
+    }
+
+    /// Whether the place last evaluated is one of infinitely many solutions, because a joint never comes back to the
+    /// same place.
+    ///
+    /// A screw's angle φ enters by cos φ and sin φ, its travel t = hφ linearly. Where both may vary apart from each other a
+    /// surface of solutions, algebraic in t and e^{iφ}, passes through this one, and the screw's own are where
+    /// it meets t = hφ: no end of them, unless t is the same all over the surface, as where a nut is held.
+    pub fn is_endless(&self, family: &Family, course: &Segment) -> bool {
+        const LOST: f64 = 1e-9;
+        let Coordinates {
+            screws,
+            incommensurate,
+            ..
+        } = &family.coordinates;
+        let freedom = |travel_is_held: bool| {
+            let s = self.s.unwrap_or(C::new(0.0, 0.0));
+            let mut dimensions = family.dimensions(&course.parameters(s))?;
+            let (mut held, mut at) = (family.held.clone(), self.at.clone());
+            for &screw in screws {
+                dimensions.detach_travel(screw, at.joints.len());
+                held.joints.push(travel_is_held);
+                at.joints.push(at.joints[screw]);
+            }
+            let system = System::new(&dimensions, &held);
+            let mut apart = MemberEquations {
+                work: system.work(),
+                system,
+                at,
+                s: None,
+                ..self.clone()
+            };
+            apart.go(family, course, s);
+            apart.linearise();
+            Some(apart.system.nullity(LOST, &mut apart.work))
+        };
+        !incommensurate.is_empty() || !screws.is_empty() && freedom(false) > freedom(true)
     }
 
     /// Residual and Jacobian at `at`; returns the largest residual.
