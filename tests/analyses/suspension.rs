@@ -2,13 +2,18 @@
 //! balls on the chassis and on the upright. However the rod is written, every command gives the
 //! answers of the same suspension whose rod is a distance, which has no spin.
 
-use linkwork::analysis::assemblies::{AssembliesReport, Fit, Wanted};
+use std::f64::consts::FRAC_PI_2;
+
+use linkwork::analysis::assemblies::{AssembliesReport, Assembly, Fit, Wanted};
+use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::analysis::sweep::{Row, SweepEnd, SweepSettings};
 use linkwork::analysis::workspace::WorkspaceSettings;
-use linkwork::ask::Question;
+use linkwork::ask::{Question, Solved};
 use linkwork::description::Description;
+use linkwork::geometry::{Pose, Vector3};
 use linkwork::mechanism::Mechanism;
+use linkwork::output::Report;
 use linkwork::solve::Watch;
 
 /// How the rod may be written, and how many sets of angles its balls have for each of its places: a
@@ -208,11 +213,100 @@ fn the_assemblies_are_two_of_the_upper_arm_with_two_turns_of_the_upright_each() 
     assert_eq!(plain.real, 4);
     compared(of, |found, plain, model, sets| {
         assert_eq!(found.real, plain.real * sets, "{model}");
+        assert_eq!(found.poses.len(), plain.real, "{model}");
         let (found, plain) = (places(found), places(plain));
         for (k, place) in found.iter().enumerate() {
             near(place, &plain[k / sets], model);
         }
     });
+}
+
+/// Without a platform: the upright is the end of a chain with a ball of three rows.
+#[test]
+fn modes_that_differ_in_the_angles_of_a_ball_only_share_a_pose() {
+    let whole = written("distance");
+    let (rows, tip) = (r#"rows: [(theta: "lower")],"#, "tip: [Tx(0.4)],");
+    let ball = r#"rows: [(theta: "lower"), (a: 0.4, theta: "u"), (alpha: "90 deg", theta: "v + 90 deg"),
+        (alpha: "90 deg", theta: "w")],"#;
+    let joints =
+        r#""u": Passive(home: 0.3), "v": Passive(home: 0.2), "w": Passive(home: 0.1), "upper":"#;
+    let points = r#""U": Chain(on: "lower.4", base: [T(0.02, -0.02, 0.28)]),
+        "S": Chain(on: "lower.4", base: [T(-0.12, -0.05, 0.08)]), "upper": Chain("#;
+    let platforms = whole.find("platforms: {").unwrap()..whole.find("closures: {").unwrap();
+    let text = whole
+        .replace(&whole[platforms], "")
+        .replace(r#""lowerball": Spherical("lower", "upright.L"),"#, "")
+        .replace("upright.", "")
+        .replace(tip, "")
+        .replace(rows, ball)
+        .replace(r#""upper": Chain("#, points)
+        .replace(r#""upper": Passive"#, &format!("{joints} Passive"));
+    assert!(
+        [ball, points, "on: \"lower.4\""]
+            .iter()
+            .all(|part| text.contains(part))
+    );
+    let all = |mechanism: Mechanism| {
+        let question = Question::new(mechanism).hold("lower", 0.1);
+        question
+            .assemblies(Wanted::default(), &Watch::none())
+            .unwrap()
+    };
+    let value = |a: &Assembly, name: &str| *a.joints.get(name).unwrap();
+    let (report, plain) = (all(read(&text)), all(suspension("distance")));
+    assert_eq!((report.real, plain.real), (8, 4));
+    assert_eq!(report.poses.len(), 4);
+    let mut uppers = Vec::new();
+    for modes in &report.poses {
+        let [a, b] = modes[..] else {
+            panic!("{modes:?}");
+        };
+        let [a, b] = [a, b].map(|mode| &report.assemblies[mode - 1]);
+        near(&[value(a, "upper")], &[value(b, "upper")], "chains");
+        // (φ, θ, ψ) and (φ + π, −θ, ψ + π)
+        for name in ["u", "w"] {
+            assert!((value(a, name) - value(b, name)).sin().abs() < 1e-9);
+        }
+        let v = value(a, "v") + value(b, "v");
+        assert!(v.sin().abs() < 1e-9, "{v}");
+        uppers.push(value(a, "upper"));
+    }
+    let mut expected: Vec<f64> = plain.assemblies.iter().map(|a| value(a, "upper")).collect();
+    uppers.sort_by(f64::total_cmp);
+    expected.sort_by(f64::total_cmp);
+    near(&uppers, &expected, "chains");
+    let answer = report.document().answer;
+    assert!(
+        answer.starts_with("8 assemblies in 4 poses of the bodies: 8 real of "),
+        "{answer}"
+    );
+}
+
+#[test]
+fn one_assembly_is_nearest_home_and_none_where_the_upper_arm_does_not_reach() {
+    let of = |mechanism: &Mechanism, model: &str| {
+        let solved = |lower: f64| {
+            let question = Question::new(mechanism.clone()).hold("lower", lower);
+            match question.solve(&AssemblySettings::default(), &Watch::none()) {
+                Ok(Solved::Ended(report)) => report,
+                other => panic!("{model}: {other:?}"),
+            }
+        };
+        // with the lower ball 0.4 m below its hinge, the upper ball is to be 0.28 m from it and from the upper hinge,
+        // which are 0.71 m apart
+        assert!(!solved(-FRAC_PI_2).is_assembled(), "{model}");
+        let report = solved(0.1);
+        assert!(report.is_assembled(), "{model}");
+        let at = report.configuration();
+        let Pose { rotation, position } = at.platforms[0].pose();
+        // the tie rod keeps its length
+        let outer = position + rotation * Vector3([-0.12, -0.05, 0.08]);
+        let rod = (outer - Vector3([-0.12, 0.05, 0.1])).norm();
+        assert!((rod - 0.3f64.hypot(0.02)).abs() < 1e-9, "{model}: {rod}");
+        let turned = rotation.0.map(|axis| axis.0).concat();
+        [&at.joints[..2], &position.0, &turned[..]].concat()
+    };
+    compared(of, |found, plain, model, _| near(found, plain, model));
 }
 
 #[test]
