@@ -251,11 +251,9 @@ fn an_agile_eye_has_four_assemblies_for_any_inputs_and_four_by_its_inverse() {
     assert_eq!((report.real, report.complex), (8, 8));
     let (mut folded, mut own) = (0, 0);
     for assembly in &report.assemblies {
-        let mut there = eye.home();
-        for (value, (_, found)) in there.joints.iter_mut().zip(&assembly.joints.0) {
-            *value = *found;
-        }
-        let [v1, v2, v3] = ["V1", "V2", "V3"].map(|v| at(&eye, v, &there).times(10.0).0);
+        let [roll, pitch, yaw] = assembly.platforms.0[0].1.roll_pitch_yaw;
+        let [x, y, z] = rotation(roll, pitch, yaw);
+        let [v1, v2, v3] = [y.0, z.0, x.0];
         let along = [v1[0], v2[1], v3[2]].map(f64::abs);
         match along.iter().all(|cos| (cos - 1.0).abs() < 1e-9) {
             true => folded += 1,
@@ -271,6 +269,21 @@ fn an_agile_eye_has_four_assemblies_for_any_inputs_and_four_by_its_inverse() {
         }
     }
     assert_eq!((folded, own), (4, 4));
+}
+
+/// Both robots are known for it: P. Wenger and D. Chablat 2000; C. M. Gosselin and J.-F. Hamel 1994.
+#[test]
+fn orthoglide_and_agile_eye_are_isotropic_as_drawn() {
+    for (name, away) in [("orthoglide", "rho1"), ("agile_eye", "theta1")] {
+        let question = Question::new(axes(name));
+        let condition = |question: &Question| {
+            let report = question.velocity(&Watch::none()).unwrap();
+            let jacobian = report.report().unwrap().jacobian.clone().unwrap();
+            jacobian.condition.unwrap()
+        };
+        assert!((condition(&question) - 1.0).abs() < 1e-9, "{name}");
+        assert!(condition(&question.hold(away, 0.25)) > 1.01, "{name}");
+    }
 }
 
 #[test]
