@@ -20,6 +20,7 @@ use crate::ask::{AskError, Question, Solved, Steering};
 use crate::description::{Description, Problem};
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
+use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
 use crate::output::json::render;
 use crate::output::sweep::{sentence, worded};
 use crate::output::{JsonReport, text};
@@ -100,6 +101,20 @@ impl Page {
             }
             Request::Show { at } => {
                 Ok(json!({ "scene": Scene::of(&mechanism, &configuration(&at, &mechanism)?) }))
+            }
+            Request::Picture { from, labels } => {
+                let view = from.map_or(View::Natural, |(azimuth, elevation)| {
+                    View::From(azimuth, elevation)
+                });
+                let at =
+                    (self.steering.as_ref()).map_or_else(|| mechanism.home(), |s| s.at().clone());
+                let panel = Panel {
+                    title: mechanism.name().to_owned(),
+                    scene: Scene::of(&mechanism, &at),
+                    ghosts: Vec::new(),
+                };
+                let picture = sheet(&[panel], &DrawingSettings { view, labels });
+                Ok(json!({ "svg": picture.svg() }))
             }
             Request::Ask { what, as_filed } => {
                 let asked = match as_filed {

@@ -27,6 +27,13 @@ pub enum Request {
     Go { at: State },
     /// Only shows a configuration.
     Show { at: State },
+    /// A picture as SVG: seen as the mechanism is seen best, or from azimuth and elevation in rad.
+    Picture {
+        #[serde(default)]
+        from: Option<(f64, f64)>,
+        #[serde(default)]
+        labels: bool,
+    },
     /// What the command line answers too, with what is held where it is, or as the file has it.
     Ask {
         what: Analysis,

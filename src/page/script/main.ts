@@ -98,6 +98,13 @@ class Picture {
     this.shown = mechanism.name;
   }
 
+  /** Whether a planar mechanism is seen along its normal. */
+  get inPlane(): boolean {
+    const { plane } = this.drawing;
+    const sight = this.stage.camera.getWorldDirection(new Vector3());
+    return plane !== null && Math.abs(sight.dot(plane.towards)) > 0.9999;
+  }
+
   /** Where a body is on the canvas. */
   pixelOf(name: string): [number, number] | null {
     const body = this.scene?.bodies.find((body) => body.name === name);
@@ -153,7 +160,7 @@ async function begin() {
   );
   new Parameters(model);
   new Editor(model);
-  exporting(model, picture.stage, () => picture.drawing.shapes.group);
+  exporting(model, picture.stage, () => picture.drawing.shapes.group, () => picture.inPlane, () => picture.labels.shown);
   dragging(picture.stage, model, (point) => motion.take(point));
   const share = button("Copy link", async () => {
     location.hash = await link.written(model.file, model.place());

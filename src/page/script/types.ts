@@ -149,6 +149,7 @@ export type Request =
   | { do: "hold"; names: string[] }
   | { do: "go"; at: State }
   | { do: "show"; at: State }
+  | { do: "picture"; from?: [number, number] | null; labels?: boolean }
   | { do: "ask"; what: "solve" | "assemblies" | "mobility"; as_filed?: boolean }
   | { do: "sweep"; input?: [string, number, number]; steps: number; follow?: boolean; points?: string[]; report?: string[] };
 
