@@ -38,11 +38,11 @@ const PATIENCE = 20_000;
 
 /** What the program answers; null if it has no answer, nothing if it needs too long. */
 function native(what, file) {
-  const how = { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28, timeout: PATIENCE };
+  const how = { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28, timeout: PATIENCE, killSignal: "SIGKILL" };
   try {
     return JSON.parse(execFileSync(program, [what, file, "--format", "json"], how));
   } catch (error) {
-    if (error.signal) return undefined;
+    if (error.signal || error.code === "ETIMEDOUT") return undefined;
     // exit 1 is an answer, 2 is none
     return error.status === 1 ? JSON.parse(error.stdout) : null;
   }
