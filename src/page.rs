@@ -34,7 +34,7 @@ use state::State;
 #[derive(Debug, Default)]
 pub struct Page {
     mechanism: Option<Arc<Mechanism>>,
-    /// Where it is, or why it is nowhere.
+    /// Where it is; nowhere if it does not assemble.
     steering: Option<Steering>,
 }
 
@@ -260,7 +260,7 @@ impl Page {
             "scene": Scene::of(mechanism, at),
             "at": State::of(at),
             "values": shown::values(mechanism, at),
-            "held": self.steering.as_ref().map(|s| shown::held(s)),
+            "held": self.steering.as_ref().map(shown::held),
             "figures": self.steering.as_ref().map(shown::figures),
         })
     }
