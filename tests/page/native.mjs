@@ -13,21 +13,25 @@ const TOLERANCE = 1e-12;
 const WORK = new Set(["steps", "evaluations", "retried", "paths", "seeds", "quiet_seeds", "loops", "quiet_loops", "complete"]);
 const asked = process.argv.slice(2).length ? process.argv.slice(2) : files;
 
+/** Rounding that a condition number magnifies: where it is some thousands, the last of twelve digits are lost. */
+const ROUNDING = 16 * Number.EPSILON;
+
 /** Where two answers differ first; nothing if they are the same. */
-function difference(a, b, at) {
+function difference(a, b, at, condition = 1) {
   if (typeof a === "number" && typeof b === "number") {
     let size = Math.max(1, Math.abs(a), Math.abs(b));
     // the rounding of a condition number grows with itself
     if (at.endsWith("/condition")) size *= size;
-    const same = Math.abs(a - b) <= TOLERANCE * size;
+    const same = Math.abs(a - b) <= Math.max(TOLERANCE, ROUNDING * condition) * size;
     return same ? null : `${at}: ${a} and ${b}`;
   }
   if (a === null || b === null || typeof a !== "object" || typeof b !== "object") {
     return a === b ? null : `${at}: ${JSON.stringify(a)} and ${JSON.stringify(b)}`;
   }
+  const own = typeof b.condition === "number" ? b.condition : condition;
   for (const key of new Set([...Object.keys(a), ...Object.keys(b)])) {
     if (WORK.has(key)) continue;
-    const found = difference(a[key], b[key], `${at}/${key}`);
+    const found = difference(a[key], b[key], `${at}/${key}`, own);
     if (found) return found;
   }
   return null;
