@@ -782,3 +782,48 @@ fn a_drawing_goes_to_stdout_and_shows_every_mode() {
     assert!(refused.contains("modes 1 to 2"), "{refused}");
     assert!(refusal(&["draw", FOUR_BAR, "--view", "left"]).contains("a view is `iso`"));
 }
+
+#[test]
+fn pictures_are_written_whole_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [svg, png, glb, animated] = ["a.svg", "a.png", "a.glb", "a.gif"].map(file);
+    let drawn = [
+        "draw",
+        FOUR_BAR,
+        "--trace",
+        "left+-1.5,1",
+        "--svg",
+        &svg,
+        "--png",
+        &png,
+        "--glb",
+        &glb,
+    ];
+    assert_eq!(answer(&drawn), "");
+    let moved = [
+        "sweep",
+        FOUR_BAR,
+        "--input",
+        "theta1=0deg..90deg",
+        "--steps",
+        "5",
+        "--animate",
+        &animated,
+    ];
+    assert!(answer(&moved).contains("complete"));
+    let begins = |path: &str, with: &[u8]| std::fs::read(path).unwrap().starts_with(with);
+    assert!(begins(&svg, b"<svg") && begins(&png, b"\x89PNG\r\n\x1a\n"));
+    assert!(begins(&glb, b"glTF") && begins(&animated, b"GIF89a"));
+    // nothing is left beside them
+    assert_eq!(folder.path().read_dir().unwrap().count(), 4);
+    let refused = refusal(&["draw", FOUR_BAR, "--png", &file("nowhere/a.png")]);
+    assert!(refused.contains("cannot be written"), "{refused}");
+    let refused = refusal(&["draw", FOUR_BAR, "--trace", "nobody"]);
+    assert!(
+        refused.contains("--trace nobody") && refused.contains("the frames are"),
+        "{refused}"
+    );
+    let refused = refusal(&["draw", "mechanisms/five_bar.ron", "--trace", "left"]);
+    assert!(refused.contains("hold 1 coordinate more"), "{refused}");
+}

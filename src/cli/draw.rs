@@ -7,11 +7,11 @@ use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::analysis::sweep::Row;
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::description::listed;
-use linkwork::mechanism::Configuration;
+use linkwork::mechanism::{Configuration, Point};
 use linkwork::output::drawing::{DrawingSettings, Panel, View, sheet};
 use linkwork::output::glb::glb;
 use linkwork::output::sweep::sentence;
-use linkwork::scene::{Scene, Trace};
+use linkwork::scene::{Scene, Triple};
 
 use super::asked::{Asked, Forces, Posed};
 use super::pictures::{keep, view};
@@ -165,16 +165,11 @@ impl Draw {
             scene = scene.with_frames(mechanism, at);
         }
         if !self.trace.is_empty() {
-            let mut paths: Vec<Trace> = (self.trace.iter())
-                .map(|name| Trace {
-                    name: name.clone(),
-                    points: Vec::new(),
-                })
-                .collect();
+            let mut paths: Vec<Vec<Triple>> = vec![Vec::new(); self.trace.len()];
             let report = posed.ask(|question, watch| {
                 let mut sink = |row: &Row| {
                     for (path, point) in paths.iter_mut().zip(row.points) {
-                        path.points.push(*point);
+                        path.push(*point);
                     }
                 };
                 question.through(at, &mut sink, watch)
@@ -182,7 +177,12 @@ impl Draw {
             if !report.ending.is_whole() {
                 notes.push(sentence(&report));
             }
-            scene.paths = paths;
+            for (name, path) in self.trace.iter().zip(paths) {
+                // the question has read it
+                if let Ok(point) = Point::read(mechanism, name) {
+                    scene = scene.with_path(mechanism, at, &point, path);
+                }
+            }
         }
         let here = posed.question.clone().near(at.clone()).mode(Mode::Nearest);
         if self.centres {

@@ -242,7 +242,7 @@ impl<'s> Stage<'s> {
         for joint in &self.scene.joints {
             pieces.extend(symbols::joint(self, joint));
         }
-        for path in &self.scene.paths {
+        for path in self.scene.paths.iter().filter(|path| path.points.len() > 1) {
             pieces.extend(match self.flat {
                 true => vec![Piece {
                     layer: Layer::Path,
@@ -288,7 +288,7 @@ fn draw(
     fit: Fit,
     size: Option<f64>,
 ) -> Vec<Shape> {
-    let centre = (corner.0 + WIDTH / 2.0, corner.1 + HEIGHT / 2.0 + 10.0);
+    let centre = (corner.0 + WIDTH / 2.0, corner.1 + HEIGHT / 2.0);
     let mut stage = Stage::new(&panel.scene, settings.view, fit, centre);
     stage.size = size.unwrap_or(stage.size);
     let mut shapes = Vec::new();
@@ -302,11 +302,12 @@ fn draw(
     shapes.extend(stage.shapes());
     let title = (corner.0 + WIDTH / 2.0, corner.1 + 28.0);
     shapes.push(Shape::words(&panel.title, title, 15.0, Anchor::Middle));
-    let from = (corner.0 + 36.0, corner.1 + HEIGHT - 36.0);
+    // below and beside what the margin leaves to the mechanism
+    let from = (corner.0 + 20.0, corner.1 + HEIGHT - 18.0);
     for (name, end) in stage.camera.triad() {
         let to = |part: f64| (from.0 + part * end.0, from.1 - part * end.1);
-        let letter = to(36.0);
-        shapes.push(Shape::line([from, to(26.0)], Style::line(GROUND, 1.5)));
+        let letter = to(27.0);
+        shapes.push(Shape::line([from, to(19.0)], Style::line(GROUND, 1.5)));
         let at = (letter.0, letter.1 + 4.0);
         shapes.push(Shape::words(name, at, 11.0, Anchor::Middle));
     }

@@ -81,7 +81,7 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
             file.node(&name, &solid, (colour, 1.0), places.collect());
         }
     }
-    for path in &first.paths {
+    for path in first.paths.iter().filter(|path| path.points.len() > 1) {
         file.node(
             &path.name,
             &solids::line(&path.points),

@@ -167,6 +167,8 @@ fn ranges(chart: &Chart) -> [(f64, f64); 2] {
     if let Some(Strobe { bounds: [x, y], .. }) = &chart.strobe {
         points.extend([[x.0, y.0], [x.1, y.1]]);
     }
+    // joints are larger than their points
+    let margin = if chart.strobe.is_some() { 0.07 } else { 0.03 };
     let mut ranges = [0, 1].map(|axis| {
         let values = points.iter().map(|p| p[axis]).filter(|x| x.is_finite());
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
@@ -183,7 +185,7 @@ fn ranges(chart: &Chart) -> [(f64, f64); 2] {
                 (low, high)
             }
             width if width > 1e-9 * low.abs().max(high.abs()) => {
-                (low - 0.03 * width, high + 0.03 * width)
+                (low - margin * width, high + margin * width)
             }
             _ if low.is_finite() => {
                 let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };

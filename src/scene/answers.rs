@@ -1,6 +1,6 @@
 //! What analyses find, in the scene.
 
-use super::{Arrow, Axis, Mark, Scene, Triple};
+use super::{Arrow, Axis, Mark, Scene, Trace, Triple};
 use crate::analysis::singularities::SingularitiesReport;
 use crate::analysis::statics::StaticsReport;
 use crate::analysis::velocity::VelocityReport;
@@ -8,7 +8,7 @@ use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 
 impl Scene {
-    /// Adds the instant centres that are no farther from the mechanism than it is large.
+    /// Adds the instant centres beside the joints that are no farther from the mechanism than it is large.
     #[must_use]
     pub fn with_centres(mut self, report: &VelocityReport) -> Self {
         let (middle, size) = self.extent();
@@ -22,13 +22,44 @@ impl Scene {
                 }
                 None => at,
             };
-            if (Vector3(at) - Vector3(middle)).norm() <= 1.5 * size {
+            let apart = |other: Triple| (Vector3(at) - Vector3(other)).norm();
+            // where there is a joint nobody doubts it
+            let joint = self
+                .joints
+                .iter()
+                .any(|joint| apart(joint.at) < 1e-6 * size);
+            if !joint && apart(middle) <= 1.5 * size {
                 self.centres.push(Mark {
                     name: centre.bodies.join(" / "),
                     at,
                 });
             }
         }
+        self
+    }
+
+    /// Adds a point with its path, joined to the frame that carries it.
+    #[must_use]
+    pub fn with_path(
+        mut self,
+        mechanism: &Mechanism,
+        at: &Configuration<f64>,
+        point: &Point,
+        points: Vec<Triple>,
+    ) -> Self {
+        let pose = mechanism.transform(Frame::Ground, point.frame, at);
+        let body = mechanism.body(point.frame);
+        let number = mechanism.bodies().iter().position(|known| *known == body);
+        let ends = [pose.position.0, point.placed(&pose).0];
+        if let Some(body) = number
+            && ends[0] != ends[1]
+        {
+            self.bodies[body].lines.push(ends.to_vec());
+        }
+        self.paths.push(Trace {
+            name: point.name(mechanism),
+            points,
+        });
         self
     }
 

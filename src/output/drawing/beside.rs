@@ -89,6 +89,9 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
         let dashed = Style::line(GAINED, 2.0).dashed(9.0, 4.0);
         shapes.push(stage.open(&[at - half, at + half], dashed));
         shapes.extend(head(stage.pixel(&at), stage.pixel(&(at + half)), GAINED));
+        if screw.pitch.is_some() {
+            shapes.extend(turning(stage, at, along, 2.2 * metres, GAINED).0);
+        }
         let said = match screw.pitch {
             None => format!("{} slides", screw.name),
             Some(0.0) => format!("{} turns", screw.name),
@@ -145,17 +148,30 @@ fn force(
     let moment = Vector3(arrow.moment);
     let size = moment.norm();
     if size > SMALL * largest[1] {
-        let [right, up] = across(&moment.times(1.0 / size));
         let radius = (1.6 + 1.2 * size / largest[1]) * stage.metres();
-        let place = |k: u32| {
-            let (sin, cos) = (0.75 * TAU * f64::from(k) / 24.0).sin_cos();
-            at + (right.times(cos) + up.times(sin)).times(radius)
-        };
-        let arc: Vec<Point> = (0..=24).map(place).collect();
-        shapes.push(stage.open(&arc, Style::line(colour, 2.0)));
-        shapes.extend(head(stage.pixel(&arc[22]), stage.pixel(&arc[24]), colour));
-        named.push((three_digits(size, SiUnit::NEWTON_METRE), arc[8]));
+        let (arc, place) = turning(stage, at, moment.times(1.0 / size), radius, colour);
+        shapes.extend(arc);
+        named.push((three_digits(size, SiUnit::NEWTON_METRE), place));
     }
+}
+
+/// An arc about an axis as an arrow, and a place beside it.
+fn turning(
+    stage: &Stage,
+    at: Point,
+    axis: Point,
+    radius: f64,
+    colour: Colour,
+) -> (Vec<Shape>, Point) {
+    let [right, up] = across(&axis);
+    let place = |k: u32| {
+        let (sin, cos) = (0.75 * TAU * f64::from(k) / 24.0).sin_cos();
+        at + (right.times(cos) + up.times(sin)).times(radius)
+    };
+    let arc: Vec<Point> = (0..=24).map(place).collect();
+    let line = stage.open(&arc, Style::line(colour, 2.0));
+    let head = head(stage.pixel(&arc[22]), stage.pixel(&arc[24]), colour);
+    (std::iter::once(line).chain(head).collect(), arc[8])
 }
 
 /// A quantity with three digits.

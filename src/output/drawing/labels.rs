@@ -48,7 +48,10 @@ impl Labels {
         let reach = 1.4 * stage.size;
         let joints_taken = scene.joints.iter().map(|joint| {
             let (x, y) = stage.pixel(&Vector3(joint.at));
-            [x - reach, y - reach, x + reach, y + reach]
+            // what a joint on ground stands on
+            let grounded = joint.bodies.iter().any(|&body| scene.bodies[body].ground);
+            let foot = if grounded { 2.7 * stage.size } else { reach };
+            [x - reach, y - reach, x + reach, y + foot]
         });
         let lines = scene.bodies.iter().flat_map(|body| &body.lines);
         let lines = lines.flat_map(|line| line.windows(2).map(|pair| [pair[0], pair[1]]));

@@ -1,12 +1,14 @@
 //! The places of a mechanism along a motion, to be drawn over one another or one after the other.
 
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::scene::Scene;
 
 /// Places along motions, of each no more than can be told apart, evenly spread.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
     motions: Vec<Places>,
+    /// Points that are traced.
+    points: Vec<Point>,
 }
 
 #[derive(Clone, Debug)]
@@ -20,6 +22,14 @@ struct Places {
 impl Course {
     /// Places of one motion at most.
     const MOST: usize = 120;
+
+    /// With points that are traced.
+    pub fn of(points: &[Point]) -> Self {
+        Course {
+            points: points.to_vec(),
+            ..Course::default()
+        }
+    }
 
     /// Takes in a place of the motion in a mode; another mode begins another motion.
     pub fn take(&mut self, mode: Option<usize>, at: &Configuration<f64>) {
@@ -48,6 +58,16 @@ impl Course {
         places.seen += 1;
     }
 
+    /// The mechanism with its points, their paths left to others.
+    fn scene(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> Scene {
+        let mut scene = Scene::of(mechanism, at);
+        scene.travels.clear();
+        let points = self.points.iter();
+        points.fold(scene, |scene, point| {
+            scene.with_path(mechanism, at, point, Vec::new())
+        })
+    }
+
     /// The mechanism in a few places of each motion, where the first begins last.
     pub fn strobe(&self, mechanism: &Mechanism) -> Vec<Scene> {
         /// Places shown of all motions together.
@@ -57,13 +77,13 @@ impl Course {
             let every = places.taken.len().div_ceil(each).max(1);
             places.taken.iter().step_by(every).rev()
         });
-        shown.map(|at| Scene::of(mechanism, at)).collect()
+        shown.map(|at| self.scene(mechanism, at)).collect()
     }
 
     /// The mechanism from place to place.
     pub fn scenes(&self, mechanism: &Mechanism) -> Vec<(Option<usize>, Scene)> {
         let motions = self.motions.iter().flat_map(|places| {
-            let scene = |at: &Configuration<f64>| (places.mode, Scene::of(mechanism, at));
+            let scene = |at: &Configuration<f64>| (places.mode, self.scene(mechanism, at));
             let mut scenes: Vec<(Option<usize>, Scene)> = places.taken.iter().map(scene).collect();
             let far = |a: [f64; 3], b: [f64; 3]| {
                 let apart = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));

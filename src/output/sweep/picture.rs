@@ -9,7 +9,7 @@ use crate::output::canvas::Canvas;
 use crate::output::drawing::{Camera, View};
 use crate::output::plot::{self, Chart, Marks, Series, Strobe, stacked};
 use crate::output::quantity;
-use crate::scene::{Scene, Trace, Triple};
+use crate::scene::{Scene, Triple};
 use crate::system::{Coordinate, Driven};
 
 /// Collects what is to be drawn; of a long motion only as many points as can be told apart.
@@ -88,7 +88,7 @@ impl Picture {
             driven: !inputs.is_empty(),
             what: "mode",
             double_points: Vec::new(),
-            course: Course::default(),
+            course: Course::of(points),
         }
     }
 
@@ -134,15 +134,11 @@ impl Picture {
             let Some(drawn) = self.motions.iter().find(|drawn| drawn.mode == *mode) else {
                 continue;
             };
-            let traced = self.points.iter().enumerate().map(|(i, name)| {
+            for (i, path) in scene.paths.iter_mut().enumerate() {
                 let from = first + 3 * i;
                 let place = |row: &Vec<f64>| [row[from], row[from + 1], row[from + 2]];
-                Trace {
-                    name: name.clone(),
-                    points: drawn.rows.iter().map(place).collect(),
-                }
-            });
-            scene.paths.extend(traced);
+                path.points = drawn.rows.iter().map(place).collect();
+            }
         }
         scenes
     }
