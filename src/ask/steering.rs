@@ -343,7 +343,7 @@ mod tests {
         // the pin of the crank, pulled to 80°; it can go nowhere else
         let angle = 80_f64.to_radians();
         let to = [2.0 * angle.cos(), 2.0 * angle.sin(), 0.0];
-        for _ in 0..30 {
+        for _ in 0..60 {
             steering.pull(&point, to, None, watch);
         }
         let reached = steering.at().joints[0];
