@@ -24,9 +24,9 @@ impl Course {
     const MOST: usize = 120;
 
     /// With points that are traced.
-    pub fn of(points: &[Point]) -> Self {
+    pub fn of(points: impl Iterator<Item = Point>) -> Self {
         Course {
-            points: points.to_vec(),
+            points: points.collect(),
             ..Course::default()
         }
     }

@@ -88,7 +88,7 @@ impl Picture {
             driven: !inputs.is_empty(),
             what: "mode",
             double_points: Vec::new(),
-            course: Course::of(points),
+            course: Course::of(points.iter().map(|named| named.point)),
         }
     }
 
