@@ -5,6 +5,7 @@ mod equilibrium;
 mod error;
 mod forces;
 mod held;
+mod names;
 mod outputs;
 mod spins;
 

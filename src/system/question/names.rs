@@ -1,0 +1,104 @@
+//! What the names and values given to a question mean.
+
+use super::demand::{Demand, Target, Verb};
+use super::{Question, QuestionError, actuated};
+use crate::description::nearest;
+use crate::mechanism::{PoseCoordinate, Value};
+use crate::system::Coordinate;
+
+impl Question<'_> {
+    /// The coordinates that a name stands for: one, the six of a platform, or all actuated joints for
+    /// `actuated`.
+    ///
+    /// # Errors
+    /// If there is no such joint or coordinate.
+    pub fn coordinates(&self, name: &str) -> Result<Vec<Coordinate>, QuestionError> {
+        if name == "actuated" && self.mechanism.joint(name).is_none() {
+            return Ok(actuated(self.mechanism));
+        }
+        Ok(match self.target(name)? {
+            Target::Coordinate(coordinate) => vec![coordinate],
+            Target::Pose(platform) => PoseCoordinate::ALL
+                .map(|c| Coordinate::Pose(platform, c))
+                .to_vec(),
+        })
+    }
+
+    /// The joint or platform coordinate of that name, and the value of an expression for it, in m
+    /// or rad.
+    ///
+    /// # Errors
+    /// If there is no such joint or coordinate, or the expression has no value.
+    pub fn value(
+        &self,
+        name: &str,
+        value: impl Into<Value>,
+    ) -> Result<(Coordinate, f64), QuestionError> {
+        let Target::Coordinate(coordinate) = self.target(name)? else {
+            return Err(QuestionError::NotAJoint { name: name.into() });
+        };
+        Ok((coordinate, self.number(name, &value.into(), coordinate)?))
+    }
+
+    /// What a name stands for, unless something else was demanded of it before.
+    pub(super) fn demand(
+        &mut self,
+        verb: Verb,
+        name: &str,
+        value: Option<&Value>,
+    ) -> Result<Target, QuestionError> {
+        let target = self.target(name)?;
+        let second = Demand {
+            verb,
+            name: name.into(),
+            value: value.map(Value::to_string),
+        };
+        let mut demands = self.demands.iter();
+        let clash = demands.find(|(of, first)| of.meets(target) && first.verb.clashes(verb));
+        if let Some((_, first)) = clash {
+            let first = first.clone();
+            return Err(QuestionError::Contradiction { first, second });
+        }
+        self.demands.push((target, second));
+        Ok(target)
+    }
+
+    pub(super) fn number(
+        &self,
+        name: &str,
+        value: &Value,
+        of: Coordinate,
+    ) -> Result<f64, QuestionError> {
+        if value.is_home() {
+            return Ok(of.home(self.mechanism));
+        }
+        let number = value.coordinate(self.mechanism, of.measure(self.mechanism));
+        number.map_err(|error| QuestionError::value(name, value, error))
+    }
+
+    fn target(&self, name: &str) -> Result<Target, QuestionError> {
+        if let Some(joint) = self.mechanism.joint(name) {
+            return Ok(Target::Coordinate(Coordinate::Joint(joint)));
+        }
+        if let Some(platform) = self.mechanism.platform(name) {
+            return Ok(Target::Pose(platform));
+        }
+        if let Some((platform, coordinate)) = name.rsplit_once('.')
+            && let (Some(platform), Some(coordinate)) = (
+                self.mechanism.platform(platform),
+                PoseCoordinate::from_word(coordinate),
+            )
+        {
+            return Ok(Target::Coordinate(Coordinate::Pose(platform, coordinate)));
+        }
+        let platforms = self.mechanism.platforms().iter();
+        let coordinates = Coordinate::all(self.mechanism).map(|of| of.name(self.mechanism));
+        let known: Vec<String> = coordinates
+            .chain(platforms.map(|platform| platform.name.clone()))
+            .collect();
+        Err(QuestionError::UnknownName {
+            name: name.into(),
+            suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
+        })
+    }
+}
