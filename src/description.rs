@@ -9,6 +9,7 @@ use std::collections::HashSet;
 mod axes;
 mod brackets;
 mod checks;
+mod closure_kind;
 mod embedded;
 mod expectation;
 mod lines;
@@ -27,6 +28,7 @@ mod write;
 
 pub(crate) use axes::Graph;
 pub use axes::*;
+pub use closure_kind::*;
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;

@@ -1,7 +1,8 @@
 //! The values expected at each place of a mechanism file.
 
 use super::AxisKind;
-use super::parts::{ClosureKind, Role};
+use super::closure_kind::ClosureKind;
+use super::parts::Role;
 use crate::algebra::words;
 
 words! {

@@ -1,0 +1,107 @@
+//! The joints that closures restore, and what each requires of the two frames it joins.
+
+use std::ops::Range;
+
+use crate::algebra::words;
+
+words! {
+    /// The kind of joint that a closure restores. Its axes are the z axes of the frames.
+    ClosureKind {
+        /// The origins coincide.
+        Spherical = "Spherical",
+        /// Origins and axes coincide.
+        Revolute = "Revolute",
+        /// Axes and orientations coincide, one frame slides along the axis.
+        Prismatic = "Prismatic",
+        /// Origins coincide and the axes are perpendicular.
+        Universal = "Universal",
+        /// The axes coincide.
+        Cylindrical = "Cylindrical",
+        /// The xy planes coincide.
+        Planar = "Planar",
+        /// The frames coincide.
+        Rigid = "Rigid",
+        /// The origins have a given distance.
+        Distance = "Distance",
+    }
+}
+
+/// What a closure requires of the z axes of its two frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AxisCondition {
+    /// Nothing.
+    Free,
+    /// They are perpendicular.
+    Perpendicular,
+    /// They are parallel and point the same way.
+    Aligned,
+    /// The orientations of the frames are equal.
+    Oriented,
+}
+
+/// The conditions that a closure consists of. [`ClosureKind::Distance`] has one of its own and none of these.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClosureConditions {
+    /// Whether the origins coincide.
+    pub origins: bool,
+    /// The condition on the axes.
+    pub axes: AxisCondition,
+    /// The axes of the first frame along which the origins do not differ.
+    pub offsets: Range<usize>,
+}
+
+impl ClosureKind {
+    /// The conditions that it consists of.
+    pub fn conditions(self) -> ClosureConditions {
+        use AxisCondition::{Aligned, Free, Oriented, Perpendicular};
+        let (origins, axes, offsets) = match self {
+            Self::Spherical => (true, Free, 0..0),
+            Self::Revolute => (true, Aligned, 0..0),
+            Self::Prismatic => (false, Oriented, 0..2),
+            Self::Universal => (true, Perpendicular, 0..0),
+            Self::Cylindrical => (false, Aligned, 0..2),
+            Self::Planar => (false, Aligned, 2..3),
+            Self::Rigid => (true, Oriented, 0..0),
+            Self::Distance => (false, Free, 0..0),
+        };
+        ClosureConditions {
+            origins,
+            axes,
+            offsets,
+        }
+    }
+
+    /// Whether it brings the z axes together.
+    pub fn joins_axes(self) -> bool {
+        let conditions = self.conditions();
+        self.aligns_axes() && (conditions.origins || conditions.offsets == (0..2))
+    }
+
+    /// Whether it makes the z axes parallel.
+    pub fn aligns_axes(self) -> bool {
+        self.conditions().axes >= AxisCondition::Aligned
+    }
+
+    /// Whether nothing but the origins of its frames matters.
+    pub fn leaves_orientation(self) -> bool {
+        self.conditions().axes == AxisCondition::Free
+    }
+
+    /// Whether it has a given length, as a rod with a ball at each end.
+    pub fn has_length(self) -> bool {
+        self == Self::Distance
+    }
+
+    /// The number of independent equations it imposes on two free bodies.
+    pub fn equations(self) -> usize {
+        let conditions = self.conditions();
+        let turns = match conditions.axes {
+            AxisCondition::Free => 0,
+            AxisCondition::Perpendicular => 1,
+            AxisCondition::Aligned => 2,
+            AxisCondition::Oriented => 3,
+        };
+        let points = if conditions.origins { 3 } else { 0 };
+        points + turns + conditions.offsets.len() + usize::from(self.has_length())
+    }
+}
