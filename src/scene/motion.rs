@@ -69,8 +69,8 @@ impl Scene {
         }
     }
 
-    /// Bodies that turn about parallel axes on one body by angles of one variable are geared: ω₂ = k ω₁ makes the pitch
-    /// radii r₁ = |k| r₂, with r₁ + r₂ the distance of the axes if they turn opposite ways and |r₁ − r₂| otherwise.
+    /// Bodies that turn opposite ways about parallel axes on one body, by angles of one variable, are geared: ω₂ = −k ω₁
+    /// makes the pitch radii r₁ = k r₂, with r₁ + r₂ the distance of the axes.
     pub(super) fn gears(
         &mut self,
         mechanism: &Mechanism,
@@ -110,11 +110,12 @@ impl Scene {
                     continue;
                 }
                 let ratio = q / p * along.signum();
-                let second = distance / (ratio - 1.0).abs();
-                if (ratio - 1.0).abs() < 1e-9 || ratio == 0.0 {
+                // the same sense of turning is that of a belt as often as of a ring gear
+                if ratio >= 0.0 {
                     continue;
                 }
-                for (of, radius) in [(a, ratio.abs() * second), (b, second)] {
+                let second = distance / (1.0 - ratio);
+                for (of, radius) in [(a, -ratio * second), (b, second)] {
                     self.wheels.push(Wheel {
                         body: of.body,
                         at: of.at.0,

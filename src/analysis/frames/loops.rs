@@ -87,6 +87,12 @@ fn given(
     balls: &BTreeSet<usize>,
 ) -> Result<BTreeSet<usize>, Vec<Problem>> {
     let cuts = axes.named_cuts(graph)?;
+    let parts = graph.parts(|j| !cuts.contains(&j));
+    // what is cut off is a platform if three legs or more hold it
+    let holding = |part| {
+        let of = |joint: &&usize| graph.ends[**joint].iter().any(|&body| parts[body] == part);
+        cuts.iter().filter(of).count()
+    };
     let mut named = BTreeSet::new();
     let mut problems = Vec::new();
     for cut in &axes.cut {
@@ -96,9 +102,11 @@ fn given(
         let [a, b] = graph.ends[joint];
         // balls, cut in any case, hold bodies too
         named.insert(joint);
-        let parts = graph.parts(|j| !named.contains(&j));
+        let apart = graph.parts(|j| !named.contains(&j));
         let before = graph.parts(|j| !named.contains(&j) || j == joint);
-        if !balls.contains(&joint) && parts[a] != parts[b] && before[a] == before[b] {
+        let off = !balls.contains(&joint) && apart[a] != apart[b] && before[a] == before[b];
+        let mut sides = [a, b].map(|body| parts[body]).into_iter();
+        if off && !sides.any(|part| part != parts[0] && holding(part) >= 3) {
             let joint = cut.value.clone();
             problems.push(AxesProblem::CutsOff { joint }.at(&cut.span));
         }
