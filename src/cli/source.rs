@@ -83,6 +83,11 @@ pub struct Loaded {
 }
 
 impl Source {
+    /// A file with other values of parameters.
+    pub fn new(file: PathBuf, set: Vec<Assignment>) -> Self {
+        Source { file, set }
+    }
+
     /// Reads the file, or says everything that is wrong with it or with `--set`.
     pub fn load(&self) -> Result<Loaded, Refusal> {
         let (text, mut description) = Mechanism::read(&self.file)?;

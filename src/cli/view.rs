@@ -6,7 +6,7 @@ use clap::Args;
 use linkwork::output::view::{Viewed, page};
 
 use super::served::serve;
-use super::source::Source;
+use super::source::{Assignment, Source};
 use super::written::save;
 use super::{Answer, Refusal};
 
@@ -20,8 +20,11 @@ use super::{Answer, Refusal};
     linkwork view mechanisms/three_rps.ron --set b=1.2 -o three_rps.html\n  \
     linkwork view mechanisms/four_bar.ron --watch")]
 pub struct View {
-    #[command(flatten)]
-    source: Option<Source>,
+    /// The mechanism file: tables, or joint coordinates; without one the page is a gallery
+    file: Option<PathBuf>,
+    /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
+    #[arg(long, value_name = "NAME=VALUE", requires = "file")]
+    set: Vec<Assignment>,
     /// Where to write the page; beside the mechanism file if it is not given, or to linkwork.html without one
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -32,7 +35,8 @@ pub struct View {
 
 impl View {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let (viewed, beside, warnings) = match &self.source {
+        let source = (self.file.clone()).map(|file| Source::new(file, self.set.clone()));
+        let (viewed, beside, warnings) = match &source {
             Some(source) if self.watch => return serve(source),
             Some(source) => {
                 let loaded = source.load()?;

@@ -33,7 +33,8 @@ pub struct Assembly {
     /// Jacobian; `null` where the smallest is zero.
     pub condition: Option<f64>,
     /// Sign of the determinant of the closure Jacobian on its independent rows: assemblies of
-    /// opposite signs lie on different sides of a singularity. 0 where solutions meet.
+    /// opposite signs lie on different sides of a singularity. 0 where solutions meet, and where the rows that are
+    /// independent at most assemblies depend on one another.
     pub determinant_sign: i8,
     /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many. Where no paths are
     /// counted ([`Fit`]) it is the least number that the equations allow, and where freedoms are left anything above

@@ -7,7 +7,7 @@ use super::real::{named_joints, named_poses};
 use super::{Found, Question};
 use crate::analysis::assemblies::family::C;
 use crate::analysis::assemblies::report::{AssembliesReport, Assembly};
-use crate::linear::ILL_CONDITIONED;
+use crate::linear::{ILL_CONDITIONED, rank_of};
 use crate::solve::{Equations, Stage};
 use crate::system::Work;
 
@@ -157,8 +157,12 @@ where
     (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
 }
 
+/// Of the equations chosen for all assemblies; 0 where they depend on one another.
 fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
     let square = DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
+    if rank_of(columns, columns, square.as_slice()) < columns {
+        return 0;
+    }
     let determinant = square.determinant();
     i8::from(determinant > 0.0) - i8::from(determinant < 0.0)
 }
