@@ -1,6 +1,9 @@
 //! The page of `linkwork view`: its solver by node, and all of it in a browser. What is not here is said and left out:
 //! node; puppeteer-core, by `npm ci --prefix tests/page`; Chromium, at `CHROMIUM` or where Debian has it.
 
+// a test that is left out says so
+#![allow(clippy::print_stdout)]
+
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};

@@ -172,7 +172,9 @@ fn solids_of_a_motion_are_where_the_mechanism_is_at_each_time() {
         let normals = file.numbers(&primitive["attributes"]["NORMAL"]);
         assert_eq!(points.len(), normals.len());
         let corners = file.numbers(&primitive["indices"]);
-        assert!(corners.len() % 3 == 0 && corners.iter().all(|k| k[0] < points.len() as f64));
+        assert!(
+            corners.len().is_multiple_of(3) && corners.iter().all(|k| k[0] < points.len() as f64)
+        );
         // seen from outside the corners of a triangle go round to the left: with the normals
         for triangle in corners.chunks(3) {
             let at = |k: usize| points[triangle[k][0] as usize].clone();

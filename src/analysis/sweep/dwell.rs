@@ -37,7 +37,8 @@ pub(crate) fn dwell(rows: &[Timed], tolerance: f64) -> Option<(f64, [f64; 2], [V
     let mut best: Option<(f64, [usize; 2], [f64; 2])> = None;
     for last in 0..rows.len() {
         if rows[last].1.is_none() {
-            (least.clear(), most.clear());
+            least.clear();
+            most.clear();
             first = last + 1;
             continue;
         }

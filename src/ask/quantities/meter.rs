@@ -53,7 +53,7 @@ pub(in super::super) struct Meter<'q> {
 /// The lines about which links spin: none, or those of each configuration.
 enum Spinning<'q> {
     Nothing(Spins),
-    Something(Neighbourhood<'q>),
+    Something(Box<Neighbourhood<'q>>),
 }
 
 /// What the quantities need beside positions.
@@ -157,7 +157,7 @@ impl<'q> Meter<'q> {
                 let outputs = outputs(mechanism, motion, &held, &rest);
                 match spins.is_empty() {
                     true => (outputs, Spinning::Nothing(spins)),
-                    false => (outputs, Spinning::Something(held)),
+                    false => (outputs, Spinning::Something(Box::new(held))),
                 }
             }),
             transmission: wants.transmission.then(|| {

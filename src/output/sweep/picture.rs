@@ -33,7 +33,7 @@ pub struct Picture {
 }
 
 /// A curve with its name: where it is for the values of a row.
-type Curve<'c> = (String, Box<dyn Fn(&[f64]) -> (f64, f64) + 'c>);
+type Curve<'c> = (String, Plotted<'c>);
 
 #[derive(Clone, Debug, Default)]
 struct Drawn {
@@ -382,8 +382,11 @@ impl Picture {
     }
 }
 
+/// The point of a row in a chart.
+type Plotted<'c> = Box<dyn Fn(&[f64]) -> (f64, f64) + 'c>;
+
 /// A column over the input.
-fn column<'c>(y: usize) -> Box<dyn Fn(&[f64]) -> (f64, f64) + 'c> {
+fn column<'c>(y: usize) -> Plotted<'c> {
     Box::new(move |row| (row[0], row[y]))
 }
 
