@@ -97,6 +97,7 @@ impl Scene {
                 });
             }
         }
+        let mut meshes: Vec<(f64, [Wheel; 2])> = Vec::new();
         for (i, a) in turned.iter().enumerate() {
             for b in &turned[i + 1..] {
                 let ((first, p), (second, q)) = (a.angle.0[0], b.angle.0[0]);
@@ -115,21 +116,30 @@ impl Scene {
                     continue;
                 }
                 let second = distance / (1.0 - ratio);
-                for (of, radius) in [(a, -ratio * second), (b, second)] {
-                    self.wheels.push(Wheel {
-                        body: of.body,
-                        at: of.at.0,
-                        axis: of.axis.0,
-                        radius,
-                    });
-                }
+                let wheel = |(of, radius): (&Turned, f64)| Wheel {
+                    body: of.body,
+                    at: of.at.0,
+                    axis: of.axis.0,
+                    radius,
+                };
+                let pair = [(a, -ratio * second), (b, second)].map(wheel);
+                meshes.push((distance, pair));
             }
         }
-        // a wheel that meshes with two others is one
-        let wheels = std::mem::take(&mut self.wheels);
-        for wheel in wheels {
-            if !self.wheels.contains(&wheel) {
-                self.wheels.push(wheel);
+        // neighbours mesh: a wheel has one radius, that of its nearest mesh
+        meshes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, pair) in meshes {
+            let other_size = |wheel: &Wheel| {
+                let same = self.wheels.iter().find(|known| known.body == wheel.body);
+                same.is_some_and(|known| (known.radius - wheel.radius).abs() > 1e-9 * wheel.radius)
+            };
+            if pair.iter().any(other_size) {
+                continue;
+            }
+            for wheel in pair {
+                if self.wheels.iter().all(|known| known.body != wheel.body) {
+                    self.wheels.push(wheel);
+                }
             }
         }
     }
