@@ -110,7 +110,7 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
 /// `question` holds the mapped coordinates and all others that must be, at any values of the mapped
 /// ones; it must leave no freedom. `known` are assembled configurations to begin with besides those
 /// that random starts lead to; `home`, if it is assembled with what is held, is the configuration
-/// whose mode and aspect are told.
+/// whose mode and aspect are reported.
 ///
 /// # Errors
 /// If more is reached than may be kept.

@@ -71,7 +71,7 @@ impl Motions<'_> {
             let gone = input.coordinate.of(at) - input.from;
             match input.coordinate {
                 Coordinate::Joint(_) => gone / way,
-                // an angle of a platform is told modulo a turn
+                // an angle of a platform is known modulo a turn
                 of if of.is_angle(self.mechanism) => {
                     let middle = 0.5 * way;
                     (middle + (gone - middle + PI).rem_euclid(TAU) - PI) / way

@@ -418,8 +418,8 @@ fn described(
     }
 }
 
-/// By how much a range of a joint is told further on, rad or m: whole turns after which its middle is
-/// told as a value is.
+/// Shift of a reported range, rad or m: the whole turns that bring its middle to where single values
+/// of this joint are reported.
 fn turned(mechanism: &Mechanism, joint: usize, low: f64, high: f64) -> f64 {
     let middle = 0.5 * (low + high);
     mechanism.as_given(joint, middle) - middle

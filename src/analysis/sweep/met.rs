@@ -114,7 +114,7 @@ impl<'m> Record<'m> {
             inputs.any(|input| input.coordinate == Coordinate::Joint(joint))
         };
         let (kind, singularity) = match event {
-            // told as a fold
+            // reported by the fold of the curve
             Event::Turning(joint) if driven(*joint) => return,
             Event::Turning(joint) => {
                 let actuated = mechanism.joints()[*joint].role == Role::Actuated;

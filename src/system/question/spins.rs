@@ -144,12 +144,11 @@ fn platforms(
     spins.collect()
 }
 
-/// What changes less in a motion of unit norm does not tell it.
+/// A coordinate that changes less in a motion of unit norm cannot stand for that motion.
 const LEAST: f64 = 0.1;
 
-/// Of what can stand still, given by its derivatives, so much that tells motions apart, each with the
-/// motion that it tells best. The others of the motions are left, without parts that are told:
-/// elimination with the largest pivot first.
+/// Coordinates to hold, given by their derivatives, one for each motion that they distinguish, found
+/// by elimination with the largest pivot first. What remains in `motions` moves none of them.
 fn pivots(motions: &mut Vec<Vec<f64>>, rows: &[(Still, Vec<(usize, f64)>)]) -> Vec<Still> {
     let rate = |motion: &Vec<f64>, row: &Vec<(usize, f64)>| -> f64 {
         row.iter()
