@@ -10,6 +10,7 @@
 #![allow(unsafe_code)]
 
 mod engine;
+mod generated;
 mod limits;
 
 use std::f64::consts::TAU;
@@ -99,6 +100,14 @@ fn a_four_bar(criterion: &mut Criterion) {
     let angles = |f: &engine::Follower<1>, t1: f64| {
         four_bar_residual(t1, engine::four_bar_angles(&mechanism, f))
     };
+    track(
+        &mut group,
+        "generated, predictor",
+        &inputs,
+        generated::four_bar::Follower::new(start.state()),
+        |f, t1| verdict(f.solve(&[t1]) == generated::four_bar::Verdict::Solved),
+        |f, t1| four_bar_residual(t1, [t1 + f.state[0], f.state[1]]),
+    );
     for (name, start) in [
         ("engine", start.clone().without_predictor()),
         ("engine, predictor", start),
@@ -185,6 +194,17 @@ fn b_three_rps(criterion: &mut Criterion) {
     let angles = |f: &engine::Follower<3>, legs| {
         three_rps_residual(legs, engine::three_rps_angles(&mechanism, f))
     };
+    track(
+        &mut group,
+        "generated, predictor",
+        &inputs,
+        generated::three_rps::Follower::new(start.state()),
+        |f, legs| verdict(f.solve(&legs) == generated::three_rps::Verdict::Solved),
+        |f, legs| {
+            let angles = [0, 1, 2].map(|leg| TAU / 4.0 - f.state[leg]);
+            three_rps_residual(legs, angles)
+        },
+    );
     for (name, start) in [
         ("engine", start.clone().without_predictor()),
         ("engine, predictor", start),
@@ -301,6 +321,14 @@ fn c_stewart_gough(criterion: &mut Criterion) {
 
     let mechanism = engine::stewart_gough();
     let start = engine::follow_stewart_gough(&mechanism, poses[poses.len() - 1]);
+    track(
+        &mut group,
+        "generated, predictor",
+        &inputs,
+        generated::stewart_gough_6sps::Follower::new(start.state()),
+        |f, (legs, _)| verdict(f.solve(&legs) == generated::stewart_gough_6sps::Verdict::Solved),
+        |f, input| residual(&stewart_gough::State::at(engine::pose_of(&f.state)), input),
+    );
     let engine_residual = |f: &engine::Follower<6>, input| {
         residual(
             &stewart_gough::State::at(engine::stewart_gough_pose(f)),
@@ -333,6 +361,15 @@ fn c_stewart_gough(criterion: &mut Criterion) {
         });
     }
     group.finish();
+}
+
+/// Solvers written by `generate` count no steps.
+fn verdict(converged: bool) -> Report {
+    Report {
+        steps: 0,
+        residual: 0.0,
+        converged,
+    }
 }
 
 fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {

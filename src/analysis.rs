@@ -10,6 +10,7 @@ pub mod frames;
 pub mod mobility;
 pub mod overview;
 pub mod singularities;
+pub mod solver;
 pub mod statics;
 pub mod sweep;
 pub mod velocity;

@@ -27,6 +27,7 @@ mod ranges;
 mod remedy;
 mod schedule;
 mod singularities;
+mod solver;
 mod steering;
 mod sweep;
 mod workspace;
@@ -39,6 +40,7 @@ pub use modes::{Mode, Modes, Solved, Store};
 pub use motions::Motions;
 pub use remedy::Holdable;
 pub use schedule::{TableError, TableErrorKind};
+pub use solver::Example;
 pub use steering::Steering;
 pub use workspace::MOST_BYTES;
 

@@ -10,6 +10,7 @@ mod export;
 mod format;
 mod formulas;
 mod frames;
+mod generate;
 mod import;
 mod mobility;
 mod pictures;
@@ -58,6 +59,7 @@ enum Command {
     Export(export::Export),
     Import(import::Import),
     Formulas(formulas::Formulas),
+    Generate(generate::Generate),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     View(view::View),
@@ -116,6 +118,7 @@ pub fn run() -> ExitCode {
         Command::Export(export) => export.run(),
         Command::Import(import) => import.run(),
         Command::Formulas(formulas) => formulas.run(),
+        Command::Generate(generate) => generate.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::View(view) => view.run(),

@@ -13,6 +13,7 @@
 //! | [`singularities`] | singular configurations and loci |
 //! | [`workspace`] | workspace maps, modes and aspects |
 //! | [`formulas`] | closed forms derived and checked |
+//! | [`generate`] | a solver for one question as C or Rust |
 //! | [`drawing`] | pictures of the mechanism |
 //! | [`view`] | a page with the solver in it |
 //! | [`frames`] | tables from joint axes and back, conventions and cuts |
@@ -55,6 +56,10 @@ pub mod formulas {}
 /// From joint axes to tables and back; other conventions, other cuts.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/frames.md"))]
 pub mod frames {}
+
+/// A solver for one question as source code, for controllers.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/generate.md"))]
+pub mod generate {}
 
 /// The Rust library: load, ask, answer.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/library.md"))]

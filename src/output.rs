@@ -36,6 +36,7 @@ pub mod quantity;
 mod screws;
 pub mod singularities;
 pub mod solution;
+pub mod solver;
 pub mod statics;
 pub mod sweep;
 pub mod velocity;

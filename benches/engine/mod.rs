@@ -63,6 +63,17 @@ impl<const N: usize> Follower<N> {
         }
     }
 
+    /// The numbers by which solvers written by `generate` keep a configuration.
+    pub fn state<const M: usize>(&self) -> [f64; M] {
+        let at = self.tracker.configuration();
+        let joints = at.joints.iter().enumerate();
+        let free = joints.filter(|(joint, _)| !self.held.contains(joint));
+        let platforms = at.platforms.iter();
+        let poses = platforms.flat_map(|p| p.orientation.0.into_iter().chain(p.position.0));
+        let state: Vec<f64> = free.map(|(_, value)| *value).chain(poses).collect();
+        state.try_into().expect("as many as the solver keeps")
+    }
+
     fn joints(&self) -> &[f64] {
         &self.tracker.configuration().joints
     }
@@ -144,6 +155,14 @@ pub fn stewart_gough_pose(follower: &Follower<6>) -> stewart_gough::Pose {
     stewart_gough::Pose {
         p: top.position.0,
         q: top.orientation.0,
+    }
+}
+
+/// The pose that a state of a solver written by `generate` is.
+pub fn pose_of(&[w, x, y, z, px, py, pz]: &[f64; 7]) -> stewart_gough::Pose {
+    stewart_gough::Pose {
+        p: [px, py, pz],
+        q: [w, x, y, z],
     }
 }
 

@@ -156,6 +156,17 @@ impl<T: Number> RollPitchYaw<T> {
         [sum(rates), sum(changes) + carried]
     }
 
+    /// The unit quaternion of Rz(yaw)·Ry(pitch)·Rx(roll), by half angles.
+    pub fn quaternion(&self) -> Quaternion<T> {
+        let half = |angle: T, i: usize| {
+            let (sin, cos) = angle.scale(0.5).sin_cos();
+            let [x, y, z] = Vector3::unit(i).times(sin).0;
+            Quaternion([cos, x, y, z])
+        };
+        let (roll, pitch, yaw) = (half(self.roll, 0), half(self.pitch, 1), half(self.yaw, 2));
+        yaw.then_left(&pitch.then_left(&roll))
+    }
+
     /// Rz(yaw)·Ry(pitch)·Rx(roll).
     pub fn rotation(&self) -> Rotation<T> {
         Rotation::about(Axis::Z, self.yaw.sin_cos())

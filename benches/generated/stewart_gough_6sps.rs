@@ -1,0 +1,1392 @@
+//! Stewart-Gough platform, 6-SPS
+//!
+//! Solver written by linkwork 0.1.0.
+//!
+//! Inputs, what is held:
+//!      0  l1, m
+//!      1  l2, m
+//!      2  l3, m
+//!      3  l4, m
+//!      4  l5, m
+//!      5  l6, m
+//!
+//! State, what is found:
+//!      0  top.qw
+//!      1  top.qx
+//!      2  top.qy
+//!      3  top.qz
+//!      4  top.x, m
+//!      5  top.y, m
+//!      6  top.z, m
+//! qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.
+//!
+//! [`solve`] finds the state for inputs, from a state near it; [`Follower::solve`] does the same with a
+//! start extrapolated from the last move. Nothing is allocated, and no library is needed.
+
+#![allow(clippy::all, unused, non_snake_case)]
+
+/// What a search came to. But for the first two the state is left as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every closure equation holds to [`TOLERANCE`], or to [`ROUNDING`] where rounding allows no more.
+    Solved,
+    /// The same, but the configuration is singular or next to one: the state is known to about half the
+    /// digits, and something moves although the inputs are held.
+    Singular,
+    /// The closures cannot be closed near the start.
+    NotAssembled,
+    /// Neither was reached in the steps that are allowed.
+    StepLimit,
+    /// A number is not finite, or beyond 1e5.
+    BadInput,
+}
+
+pub const INPUTS: usize = 6;
+pub const STATE: usize = 7;
+pub const UNKNOWNS: usize = 6;
+pub const ROWS: usize = 6;
+pub const FRAMES: usize = 0;
+
+/// The largest closure row that is accepted, in characteristic lengths and rad.
+pub const TOLERANCE: f64 = 1e-14;
+/// The same where a step makes it no smaller.
+pub const ROUNDING: f64 = 1e-12;
+
+/// Inputs of the assembled configuration at which the order of elimination was chosen.
+pub const START_INPUTS: [f64; INPUTS] = [
+    0.953617769339477, 1.1009888509880563, 0.8880096958930123, 1.1283650162957022,
+    0.9437028610743955, 1.159383754414387,
+];
+/// Its state.
+pub const START_STATE: [f64; STATE] = [
+    1.0, 0.0, 0.0, 0.0,
+    0.0, 0.0, 0.9,
+];
+
+#[inline(always)]
+fn absolute(x: f64) -> f64 {
+    if x < 0.0 { -x } else { x }
+}
+
+/// The larger of a size and |x|; NaN if x is.
+#[inline(always)]
+fn larger(size: f64, x: f64) -> f64 {
+    let x = absolute(x);
+    if size > x { size } else { x }
+}
+
+/// √x for x ≥ 0, by Newton's method for 1/√x.
+#[inline]
+fn root(x: f64) -> f64 {
+    if !(x > 0.0) {
+        return 0.0;
+    }
+    let mut y: f64 = f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (x.to_bits() >> 1));
+    let mut k = 0;
+    while k < 4 {
+        y = y * (1.5 - 0.5 * x * y * y);
+        k += 1;
+    }
+    let s = x * y;
+    s + 0.5 * y * (x - s * s)
+}
+
+/// Sine and cosine, |x| < 1e5: reduction by quarter turns (Cody and Waite 1980), then polynomials
+/// (fdlibm, Sun 1993).
+#[inline(always)]
+fn sine_cosine(x: f64) -> (f64, f64) {
+    let turns: f64 = x * 0.6366197723675814 + if x < 0.0 { -0.5 } else { 0.5 };
+    let quarter = turns as i32;
+    let k = quarter as f64;
+    let r: f64 = ((x - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
+    let z: f64 = r * r;
+    let s: f64 = r + r * z * ((-0.16666666666666632) + z * (0.00833333333332249 + z * ((-0.0001984126982985795) + z * (2.7557313707070068e-6 + z * ((-2.5050760253406863e-8) + z * 1.58969099521155e-10)))));
+    let c: f64 = (1.0 - 0.5 * z) + z * z * (0.0416666666666666 + z * ((-0.001388888888887411) + z * (2.480158728947673e-5 + z * ((-2.7557314351390663e-7) + z * (2.087572321298175e-9 + z * (-1.1359647557788195e-11))))));
+    let (first, second) = if quarter & 1 == 1 { (c, s) } else { (s, c) };
+    (
+        if quarter & 2 == 2 { -first } else { first },
+        if (quarter + 1) & 2 == 2 { -second } else { second },
+    )
+}
+
+/// Sine and cosine after a further turn.
+#[inline(always)]
+fn turn(by: f64, sine: &mut f64, cosine: &mut f64) {
+    let (s, c) = (*sine, *cosine);
+    let (sin_by, versine) = if absolute(by) < 0.015625 {
+        let z = by * by;
+        (
+            by - by * z * (1.0 / 6.0 - z * (1.0 / 120.0)),
+            z * (0.5 - z * (1.0 / 24.0 - z * (1.0 / 720.0))),
+        )
+    } else {
+        let (sin_by, cos_by) = sine_cosine(by);
+        (sin_by, 1.0 - cos_by)
+    };
+    *sine = s - (s * versine - c * sin_by);
+    *cosine = c - (c * versine + s * sin_by);
+}
+
+/// The closure rows r, dimensionless, and their Jacobian by a dimensionless step of the unknowns.
+fn linearise(
+    u: &[f64; INPUTS],
+    x: &[f64; STATE],
+    r: &mut [f64; ROWS],
+    j: &mut [[f64; UNKNOWNS]; ROWS],
+) {
+    let u0: f64 = u[0];
+    let u1: f64 = u[1];
+    let u2: f64 = u[2];
+    let u3: f64 = u[3];
+    let u4: f64 = u[4];
+    let u5: f64 = u[5];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let x2: f64 = x[2];
+    let x3: f64 = x[3];
+    let x4: f64 = x[4];
+    let x5: f64 = x[5];
+    let x6: f64 = x[6];
+    let t50: f64 = x1 + x1;
+    let t51: f64 = x2 + x2;
+    let t52: f64 = x3 + x3;
+    let t53: f64 = x0 * t50;
+    let t54: f64 = x0 * t51;
+    let t55: f64 = x0 * t52;
+    let t56: f64 = x1 * t50;
+    let t57: f64 = x1 * t51;
+    let t58: f64 = x1 * t52;
+    let t59: f64 = x2 * t51;
+    let t60: f64 = x2 * t52;
+    let t61: f64 = x3 * t52;
+    let t62: f64 = 1.0 - t59;
+    let t63: f64 = t62 - t61;
+    let t64: f64 = t55 + t57;
+    let t65: f64 = t58 - t54;
+    let t66: f64 = t57 - t55;
+    let t67: f64 = 1.0 - t56;
+    let t68: f64 = t67 - t61;
+    let t69: f64 = t53 + t60;
+    let t70: f64 = t54 + t58;
+    let t71: f64 = t60 - t53;
+    let t72: f64 = t67 - t59;
+    let t73: f64 = 0.4413 * t63;
+    let t74: f64 = 0.4413 * t64;
+    let t75: f64 = 0.4413 * t65;
+    let t76: f64 = (-0.3448) * t66;
+    let t77: f64 = (-0.3448) * t68;
+    let t78: f64 = (-0.3448) * t69;
+    let t79: f64 = t73 + t76;
+    let t80: f64 = t74 + t77;
+    let t81: f64 = t75 + t78;
+    let t82: f64 = (-0.03) * t70;
+    let t83: f64 = (-0.03) * t71;
+    let t84: f64 = (-0.03) * t72;
+    let t85: f64 = t79 + t82;
+    let t86: f64 = t80 + t83;
+    let t87: f64 = t81 + t84;
+    let t88: f64 = x4 + t85;
+    let t89: f64 = x5 + t86;
+    let t90: f64 = x6 + t87;
+    let t91: f64 = 0.4334 * t63;
+    let t92: f64 = 0.4334 * t64;
+    let t93: f64 = 0.4334 * t65;
+    let t94: f64 = 0.3386 * t66;
+    let t95: f64 = 0.3386 * t68;
+    let t96: f64 = 0.3386 * t69;
+    let t97: f64 = t91 + t94;
+    let t98: f64 = t92 + t95;
+    let t99: f64 = t93 + t96;
+    let t100: f64 = 0.03 * t70;
+    let t101: f64 = 0.03 * t71;
+    let t102: f64 = 0.03 * t72;
+    let t103: f64 = t97 + t100;
+    let t104: f64 = t98 + t101;
+    let t105: f64 = t99 + t102;
+    let t106: f64 = x4 + t103;
+    let t107: f64 = x5 + t104;
+    let t108: f64 = x6 + t105;
+    let t109: f64 = 0.0907 * t63;
+    let t110: f64 = 0.0907 * t64;
+    let t111: f64 = 0.0907 * t65;
+    let t112: f64 = 0.5729 * t66;
+    let t113: f64 = 0.5729 * t68;
+    let t114: f64 = 0.5729 * t69;
+    let t115: f64 = t109 + t112;
+    let t116: f64 = t110 + t113;
+    let t117: f64 = t111 + t114;
+    let t118: f64 = (-0.05) * t70;
+    let t119: f64 = (-0.05) * t71;
+    let t120: f64 = (-0.05) * t72;
+    let t121: f64 = t115 + t118;
+    let t122: f64 = t116 + t119;
+    let t123: f64 = t117 + t120;
+    let t124: f64 = x4 + t121;
+    let t125: f64 = x5 + t122;
+    let t126: f64 = x6 + t123;
+    let t127: f64 = (-0.4821) * t63;
+    let t128: f64 = (-0.4821) * t64;
+    let t129: f64 = (-0.4821) * t65;
+    let t130: f64 = 0.1948 * t66;
+    let t131: f64 = 0.1948 * t68;
+    let t132: f64 = 0.1948 * t69;
+    let t133: f64 = t127 + t130;
+    let t134: f64 = t128 + t131;
+    let t135: f64 = t129 + t132;
+    let t136: f64 = 0.04 * t70;
+    let t137: f64 = 0.04 * t71;
+    let t138: f64 = 0.04 * t72;
+    let t139: f64 = t133 + t136;
+    let t140: f64 = t134 + t137;
+    let t141: f64 = t135 + t138;
+    let t142: f64 = x4 + t139;
+    let t143: f64 = x5 + t140;
+    let t144: f64 = x6 + t141;
+    let t145: f64 = (-0.5247) * t63;
+    let t146: f64 = (-0.5247) * t64;
+    let t147: f64 = (-0.5247) * t65;
+    let t148: f64 = (-0.2227) * t66;
+    let t149: f64 = (-0.2227) * t68;
+    let t150: f64 = (-0.2227) * t69;
+    let t151: f64 = t145 + t148;
+    let t152: f64 = t146 + t149;
+    let t153: f64 = t147 + t150;
+    let t154: f64 = (-0.02) * t70;
+    let t155: f64 = (-0.02) * t71;
+    let t156: f64 = (-0.02) * t72;
+    let t157: f64 = t151 + t154;
+    let t158: f64 = t152 + t155;
+    let t159: f64 = t153 + t156;
+    let t160: f64 = x4 + t157;
+    let t161: f64 = x5 + t158;
+    let t162: f64 = x6 + t159;
+    let t163: f64 = 0.0658 * t63;
+    let t164: f64 = 0.0658 * t64;
+    let t165: f64 = 0.0658 * t65;
+    let t166: f64 = (-0.536) * t66;
+    let t167: f64 = (-0.536) * t68;
+    let t168: f64 = (-0.536) * t69;
+    let t169: f64 = t163 + t166;
+    let t170: f64 = t164 + t167;
+    let t171: f64 = t165 + t168;
+    let t172: f64 = 0.06 * t70;
+    let t173: f64 = 0.06 * t71;
+    let t174: f64 = 0.06 * t72;
+    let t175: f64 = t169 + t172;
+    let t176: f64 = t170 + t173;
+    let t177: f64 = t171 + t174;
+    let t178: f64 = x4 + t175;
+    let t179: f64 = x5 + t176;
+    let t180: f64 = x6 + t177;
+    let t181: f64 = t88 - 0.9272;
+    let t182: f64 = t89 - (-0.3746);
+    let t183: f64 = t90 - 0.05;
+    let t184: f64 = t181 * t181;
+    let t185: f64 = t182 * t182;
+    let t186: f64 = t184 + t185;
+    let t187: f64 = t183 * t183;
+    let t188: f64 = t186 + t187;
+    let t189: f64 = u0 * u0;
+    let t190: f64 = t188 - t189;
+    let t192: f64 = 0.37197656794614387 * t190;
+    let t194: f64 = 0.7439531358922877 * t181;
+    let t195: f64 = 0.7439531358922877 * t182;
+    let t196: f64 = 0.7439531358922877 * t183;
+    let t197: f64 = t86 * t196;
+    let t198: f64 = t87 * t195;
+    let t199: f64 = t197 - t198;
+    let t200: f64 = t87 * t194;
+    let t201: f64 = t85 * t196;
+    let t202: f64 = t200 - t201;
+    let t203: f64 = t85 * t195;
+    let t204: f64 = t86 * t194;
+    let t205: f64 = t203 - t204;
+    let t208: f64 = 0.8625271797991572 * t181;
+    let t209: f64 = 0.8625271797991572 * t182;
+    let t210: f64 = 0.8625271797991572 * t183;
+    let t211: f64 = t106 - 0.9356;
+    let t212: f64 = t107 - 0.4767;
+    let t213: f64 = t108 - (-0.04);
+    let t214: f64 = t211 * t211;
+    let t215: f64 = t212 * t212;
+    let t216: f64 = t214 + t215;
+    let t217: f64 = t213 * t213;
+    let t218: f64 = t216 + t217;
+    let t219: f64 = u1 * u1;
+    let t220: f64 = t218 - t219;
+    let t221: f64 = 0.37197656794614387 * t220;
+    let t222: f64 = 0.7439531358922877 * t211;
+    let t223: f64 = 0.7439531358922877 * t212;
+    let t224: f64 = 0.7439531358922877 * t213;
+    let t225: f64 = t104 * t224;
+    let t226: f64 = t105 * t223;
+    let t227: f64 = t225 - t226;
+    let t228: f64 = t105 * t222;
+    let t229: f64 = t103 * t224;
+    let t230: f64 = t228 - t229;
+    let t231: f64 = t103 * t223;
+    let t232: f64 = t104 * t222;
+    let t233: f64 = t231 - t232;
+    let t234: f64 = 0.8625271797991572 * t211;
+    let t235: f64 = 0.8625271797991572 * t212;
+    let t236: f64 = 0.8625271797991572 * t213;
+    let t237: f64 = t124 - (-0.1182);
+    let t238: f64 = t125 - 0.9628;
+    let t239: f64 = t126 - 0.08;
+    let t240: f64 = t237 * t237;
+    let t241: f64 = t238 * t238;
+    let t242: f64 = t240 + t241;
+    let t243: f64 = t239 * t239;
+    let t244: f64 = t242 + t243;
+    let t245: f64 = u2 * u2;
+    let t246: f64 = t244 - t245;
+    let t247: f64 = 0.37197656794614387 * t246;
+    let t248: f64 = 0.7439531358922877 * t237;
+    let t249: f64 = 0.7439531358922877 * t238;
+    let t250: f64 = 0.7439531358922877 * t239;
+    let t251: f64 = t122 * t250;
+    let t252: f64 = t123 * t249;
+    let t253: f64 = t251 - t252;
+    let t254: f64 = t123 * t248;
+    let t255: f64 = t121 * t250;
+    let t256: f64 = t254 - t255;
+    let t257: f64 = t121 * t249;
+    let t258: f64 = t122 * t248;
+    let t259: f64 = t257 - t258;
+    let t260: f64 = 0.8625271797991572 * t237;
+    let t261: f64 = 0.8625271797991572 * t238;
+    let t262: f64 = 0.8625271797991572 * t239;
+    let t263: f64 = t142 - (-0.8456);
+    let t264: f64 = t143 - 0.5704;
+    let t265: f64 = t144 - (-0.06);
+    let t266: f64 = t263 * t263;
+    let t267: f64 = t264 * t264;
+    let t268: f64 = t266 + t267;
+    let t269: f64 = t265 * t265;
+    let t270: f64 = t268 + t269;
+    let t271: f64 = u3 * u3;
+    let t272: f64 = t270 - t271;
+    let t273: f64 = 0.37197656794614387 * t272;
+    let t274: f64 = 0.7439531358922877 * t263;
+    let t275: f64 = 0.7439531358922877 * t264;
+    let t276: f64 = 0.7439531358922877 * t265;
+    let t277: f64 = t140 * t276;
+    let t278: f64 = t141 * t275;
+    let t279: f64 = t277 - t278;
+    let t280: f64 = t141 * t274;
+    let t281: f64 = t139 * t276;
+    let t282: f64 = t280 - t281;
+    let t283: f64 = t139 * t275;
+    let t284: f64 = t140 * t274;
+    let t285: f64 = t283 - t284;
+    let t286: f64 = 0.8625271797991572 * t263;
+    let t287: f64 = 0.8625271797991572 * t264;
+    let t288: f64 = 0.8625271797991572 * t265;
+    let t289: f64 = t160 - (-0.7782);
+    let t290: f64 = t161 - (-0.5449);
+    let t291: f64 = t162 - 0.03;
+    let t292: f64 = t289 * t289;
+    let t293: f64 = t290 * t290;
+    let t294: f64 = t292 + t293;
+    let t295: f64 = t291 * t291;
+    let t296: f64 = t294 + t295;
+    let t297: f64 = u4 * u4;
+    let t298: f64 = t296 - t297;
+    let t299: f64 = 0.37197656794614387 * t298;
+    let t300: f64 = 0.7439531358922877 * t289;
+    let t301: f64 = 0.7439531358922877 * t290;
+    let t302: f64 = 0.7439531358922877 * t291;
+    let t303: f64 = t158 * t302;
+    let t304: f64 = t159 * t301;
+    let t305: f64 = t303 - t304;
+    let t306: f64 = t159 * t300;
+    let t307: f64 = t157 * t302;
+    let t308: f64 = t306 - t307;
+    let t309: f64 = t157 * t301;
+    let t310: f64 = t158 * t300;
+    let t311: f64 = t309 - t310;
+    let t312: f64 = 0.8625271797991572 * t289;
+    let t313: f64 = 0.8625271797991572 * t290;
+    let t314: f64 = 0.8625271797991572 * t291;
+    let t315: f64 = t178 - (-0.1267);
+    let t316: f64 = t179 - (-1.0322);
+    let t317: f64 = t180 - (-0.07);
+    let t318: f64 = t315 * t315;
+    let t319: f64 = t316 * t316;
+    let t320: f64 = t318 + t319;
+    let t321: f64 = t317 * t317;
+    let t322: f64 = t320 + t321;
+    let t323: f64 = u5 * u5;
+    let t324: f64 = t322 - t323;
+    let t325: f64 = 0.37197656794614387 * t324;
+    let t326: f64 = 0.7439531358922877 * t315;
+    let t327: f64 = 0.7439531358922877 * t316;
+    let t328: f64 = 0.7439531358922877 * t317;
+    let t329: f64 = t176 * t328;
+    let t330: f64 = t177 * t327;
+    let t331: f64 = t329 - t330;
+    let t332: f64 = t177 * t326;
+    let t333: f64 = t175 * t328;
+    let t334: f64 = t332 - t333;
+    let t335: f64 = t175 * t327;
+    let t336: f64 = t176 * t326;
+    let t337: f64 = t335 - t336;
+    let t338: f64 = 0.8625271797991572 * t315;
+    let t339: f64 = 0.8625271797991572 * t316;
+    let t340: f64 = 0.8625271797991572 * t317;
+    r[0] = t192;
+    r[1] = t221;
+    r[2] = t247;
+    r[3] = t273;
+    r[4] = t299;
+    r[5] = t325;
+    j[0][0] = t199;
+    j[0][1] = t202;
+    j[0][2] = t205;
+    j[0][3] = t208;
+    j[0][4] = t209;
+    j[0][5] = t210;
+    j[1][0] = t227;
+    j[1][1] = t230;
+    j[1][2] = t233;
+    j[1][3] = t234;
+    j[1][4] = t235;
+    j[1][5] = t236;
+    j[2][0] = t253;
+    j[2][1] = t256;
+    j[2][2] = t259;
+    j[2][3] = t260;
+    j[2][4] = t261;
+    j[2][5] = t262;
+    j[3][0] = t279;
+    j[3][1] = t282;
+    j[3][2] = t285;
+    j[3][3] = t286;
+    j[3][4] = t287;
+    j[3][5] = t288;
+    j[4][0] = t305;
+    j[4][1] = t308;
+    j[4][2] = t311;
+    j[4][3] = t312;
+    j[4][4] = t313;
+    j[4][5] = t314;
+    j[5][0] = t331;
+    j[5][1] = t334;
+    j[5][2] = t337;
+    j[5][3] = t338;
+    j[5][4] = t339;
+    j[5][5] = t340;
+}
+
+/// The state x moved by a step d.
+fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let x2: f64 = x[2];
+    let x3: f64 = x[3];
+    let x4: f64 = x[4];
+    let x5: f64 = x[5];
+    let x6: f64 = x[6];
+    let d0: f64 = d[0];
+    let d1: f64 = d[1];
+    let d2: f64 = d[2];
+    let d3: f64 = d[3];
+    let d4: f64 = d[4];
+    let d5: f64 = d[5];
+    let t931: f64 = 1.159383754414387 * d3;
+    let t932: f64 = 1.159383754414387 * d4;
+    let t933: f64 = 1.159383754414387 * d5;
+    let t935: f64 = 0.5 * d0;
+    let t936: f64 = 0.5 * d1;
+    let t937: f64 = 0.5 * d2;
+    let t938: f64 = x1 * t935;
+    let t939: f64 = x0 - t938;
+    let t940: f64 = x2 * t936;
+    let t941: f64 = t939 - t940;
+    let t942: f64 = x3 * t937;
+    let t943: f64 = t941 - t942;
+    let t944: f64 = x0 * t935;
+    let t945: f64 = x1 + t944;
+    let t946: f64 = x3 * t936;
+    let t947: f64 = t945 + t946;
+    let t948: f64 = x2 * t937;
+    let t949: f64 = t947 - t948;
+    let t950: f64 = x3 * t935;
+    let t951: f64 = x2 - t950;
+    let t952: f64 = x0 * t936;
+    let t953: f64 = t951 + t952;
+    let t954: f64 = x1 * t937;
+    let t955: f64 = t953 + t954;
+    let t956: f64 = x2 * t935;
+    let t957: f64 = x3 + t956;
+    let t958: f64 = x1 * t936;
+    let t959: f64 = t957 - t958;
+    let t960: f64 = x0 * t937;
+    let t961: f64 = t959 + t960;
+    let t962: f64 = t943 * t943;
+    let t963: f64 = t949 * t949;
+    let t964: f64 = t962 + t963;
+    let t965: f64 = t955 * t955;
+    let t966: f64 = t964 + t965;
+    let t967: f64 = t961 * t961;
+    let t968: f64 = t966 + t967;
+    let t969: f64 = root(t968);
+    let t970: f64 = 1.0 / t969;
+    let t971: f64 = t943 * t970;
+    let t972: f64 = t949 * t970;
+    let t973: f64 = t955 * t970;
+    let t974: f64 = t961 * t970;
+    let t975: f64 = x4 + t931;
+    let t976: f64 = x5 + t932;
+    let t977: f64 = x6 + t933;
+    y[0] = t971;
+    y[1] = t972;
+    y[2] = t973;
+    y[3] = t974;
+    y[4] = t975;
+    y[5] = t976;
+    y[6] = t977;
+}
+
+/// Unit quaternions again after a small change.
+#[inline(always)]
+fn normalise(x: &mut [f64; STATE]) {
+    let f0: f64 = 1.5 - 0.5 * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]);
+    x[0] *= f0;
+    x[1] *= f0;
+    x[2] *= f0;
+    x[3] *= f0;
+}
+
+/// Newton's method with the order of elimination chosen beforehand; false, and x as it was, where a
+/// pivot is small or a step does not halve the rows.
+#[inline]
+fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
+    const LEAST_PIVOT: f64 = 1e-4;
+    const LONGEST_STEP: f64 = 0.5;
+    const LARGE: f64 = 1e30;
+    const HALF: f64 = 0.5;
+    const MOST_STEPS: usize = 12;
+    let u0: f64 = u[0];
+    let u1: f64 = u[1];
+    let u2: f64 = u[2];
+    let u3: f64 = u[3];
+    let u4: f64 = u[4];
+    let u5: f64 = u[5];
+    let t189: f64 = u0 * u0;
+    let t219: f64 = u1 * u1;
+    let t245: f64 = u2 * u2;
+    let t271: f64 = u3 * u3;
+    let t297: f64 = u4 * u4;
+    let t323: f64 = u5 * u5;
+    let mut x0: f64 = x[0];
+    let mut x1: f64 = x[1];
+    let mut x2: f64 = x[2];
+    let mut x3: f64 = x[3];
+    let mut x4: f64 = x[4];
+    let mut x5: f64 = x[5];
+    let mut x6: f64 = x[6];
+    let mut last: f64 = LARGE;
+    for _ in 0..MOST_STEPS {
+        let t50: f64 = x1 + x1;
+        let t51: f64 = x2 + x2;
+        let t52: f64 = x3 + x3;
+        let t53: f64 = x0 * t50;
+        let t54: f64 = x0 * t51;
+        let t55: f64 = x0 * t52;
+        let t56: f64 = x1 * t50;
+        let t57: f64 = x1 * t51;
+        let t58: f64 = x1 * t52;
+        let t59: f64 = x2 * t51;
+        let t60: f64 = x2 * t52;
+        let t61: f64 = x3 * t52;
+        let t62: f64 = 1.0 - t59;
+        let t63: f64 = t62 - t61;
+        let t64: f64 = t55 + t57;
+        let t65: f64 = t58 - t54;
+        let t66: f64 = t57 - t55;
+        let t67: f64 = 1.0 - t56;
+        let t68: f64 = t67 - t61;
+        let t69: f64 = t53 + t60;
+        let t70: f64 = t54 + t58;
+        let t71: f64 = t60 - t53;
+        let t72: f64 = t67 - t59;
+        let t73: f64 = 0.4413 * t63;
+        let t74: f64 = 0.4413 * t64;
+        let t75: f64 = 0.4413 * t65;
+        let t76: f64 = (-0.3448) * t66;
+        let t77: f64 = (-0.3448) * t68;
+        let t78: f64 = (-0.3448) * t69;
+        let t79: f64 = t73 + t76;
+        let t80: f64 = t74 + t77;
+        let t81: f64 = t75 + t78;
+        let t82: f64 = (-0.03) * t70;
+        let t83: f64 = (-0.03) * t71;
+        let t84: f64 = (-0.03) * t72;
+        let t85: f64 = t79 + t82;
+        let t86: f64 = t80 + t83;
+        let t87: f64 = t81 + t84;
+        let t88: f64 = x4 + t85;
+        let t89: f64 = x5 + t86;
+        let t90: f64 = x6 + t87;
+        let t91: f64 = 0.4334 * t63;
+        let t92: f64 = 0.4334 * t64;
+        let t93: f64 = 0.4334 * t65;
+        let t94: f64 = 0.3386 * t66;
+        let t95: f64 = 0.3386 * t68;
+        let t96: f64 = 0.3386 * t69;
+        let t97: f64 = t91 + t94;
+        let t98: f64 = t92 + t95;
+        let t99: f64 = t93 + t96;
+        let t100: f64 = 0.03 * t70;
+        let t101: f64 = 0.03 * t71;
+        let t102: f64 = 0.03 * t72;
+        let t103: f64 = t97 + t100;
+        let t104: f64 = t98 + t101;
+        let t105: f64 = t99 + t102;
+        let t106: f64 = x4 + t103;
+        let t107: f64 = x5 + t104;
+        let t108: f64 = x6 + t105;
+        let t109: f64 = 0.0907 * t63;
+        let t110: f64 = 0.0907 * t64;
+        let t111: f64 = 0.0907 * t65;
+        let t112: f64 = 0.5729 * t66;
+        let t113: f64 = 0.5729 * t68;
+        let t114: f64 = 0.5729 * t69;
+        let t115: f64 = t109 + t112;
+        let t116: f64 = t110 + t113;
+        let t117: f64 = t111 + t114;
+        let t118: f64 = (-0.05) * t70;
+        let t119: f64 = (-0.05) * t71;
+        let t120: f64 = (-0.05) * t72;
+        let t121: f64 = t115 + t118;
+        let t122: f64 = t116 + t119;
+        let t123: f64 = t117 + t120;
+        let t124: f64 = x4 + t121;
+        let t125: f64 = x5 + t122;
+        let t126: f64 = x6 + t123;
+        let t127: f64 = (-0.4821) * t63;
+        let t128: f64 = (-0.4821) * t64;
+        let t129: f64 = (-0.4821) * t65;
+        let t130: f64 = 0.1948 * t66;
+        let t131: f64 = 0.1948 * t68;
+        let t132: f64 = 0.1948 * t69;
+        let t133: f64 = t127 + t130;
+        let t134: f64 = t128 + t131;
+        let t135: f64 = t129 + t132;
+        let t136: f64 = 0.04 * t70;
+        let t137: f64 = 0.04 * t71;
+        let t138: f64 = 0.04 * t72;
+        let t139: f64 = t133 + t136;
+        let t140: f64 = t134 + t137;
+        let t141: f64 = t135 + t138;
+        let t142: f64 = x4 + t139;
+        let t143: f64 = x5 + t140;
+        let t144: f64 = x6 + t141;
+        let t145: f64 = (-0.5247) * t63;
+        let t146: f64 = (-0.5247) * t64;
+        let t147: f64 = (-0.5247) * t65;
+        let t148: f64 = (-0.2227) * t66;
+        let t149: f64 = (-0.2227) * t68;
+        let t150: f64 = (-0.2227) * t69;
+        let t151: f64 = t145 + t148;
+        let t152: f64 = t146 + t149;
+        let t153: f64 = t147 + t150;
+        let t154: f64 = (-0.02) * t70;
+        let t155: f64 = (-0.02) * t71;
+        let t156: f64 = (-0.02) * t72;
+        let t157: f64 = t151 + t154;
+        let t158: f64 = t152 + t155;
+        let t159: f64 = t153 + t156;
+        let t160: f64 = x4 + t157;
+        let t161: f64 = x5 + t158;
+        let t162: f64 = x6 + t159;
+        let t163: f64 = 0.0658 * t63;
+        let t164: f64 = 0.0658 * t64;
+        let t165: f64 = 0.0658 * t65;
+        let t166: f64 = (-0.536) * t66;
+        let t167: f64 = (-0.536) * t68;
+        let t168: f64 = (-0.536) * t69;
+        let t169: f64 = t163 + t166;
+        let t170: f64 = t164 + t167;
+        let t171: f64 = t165 + t168;
+        let t172: f64 = 0.06 * t70;
+        let t173: f64 = 0.06 * t71;
+        let t174: f64 = 0.06 * t72;
+        let t175: f64 = t169 + t172;
+        let t176: f64 = t170 + t173;
+        let t177: f64 = t171 + t174;
+        let t178: f64 = x4 + t175;
+        let t179: f64 = x5 + t176;
+        let t180: f64 = x6 + t177;
+        let t181: f64 = t88 - 0.9272;
+        let t182: f64 = t89 - (-0.3746);
+        let t183: f64 = t90 - 0.05;
+        let t184: f64 = t181 * t181;
+        let t185: f64 = t182 * t182;
+        let t186: f64 = t184 + t185;
+        let t187: f64 = t183 * t183;
+        let t188: f64 = t186 + t187;
+        let t190: f64 = t188 - t189;
+        let t192: f64 = 0.37197656794614387 * t190;
+        let t211: f64 = t106 - 0.9356;
+        let t212: f64 = t107 - 0.4767;
+        let t213: f64 = t108 - (-0.04);
+        let t214: f64 = t211 * t211;
+        let t215: f64 = t212 * t212;
+        let t216: f64 = t214 + t215;
+        let t217: f64 = t213 * t213;
+        let t218: f64 = t216 + t217;
+        let t220: f64 = t218 - t219;
+        let t221: f64 = 0.37197656794614387 * t220;
+        let t237: f64 = t124 - (-0.1182);
+        let t238: f64 = t125 - 0.9628;
+        let t239: f64 = t126 - 0.08;
+        let t240: f64 = t237 * t237;
+        let t241: f64 = t238 * t238;
+        let t242: f64 = t240 + t241;
+        let t243: f64 = t239 * t239;
+        let t244: f64 = t242 + t243;
+        let t246: f64 = t244 - t245;
+        let t247: f64 = 0.37197656794614387 * t246;
+        let t263: f64 = t142 - (-0.8456);
+        let t264: f64 = t143 - 0.5704;
+        let t265: f64 = t144 - (-0.06);
+        let t266: f64 = t263 * t263;
+        let t267: f64 = t264 * t264;
+        let t268: f64 = t266 + t267;
+        let t269: f64 = t265 * t265;
+        let t270: f64 = t268 + t269;
+        let t272: f64 = t270 - t271;
+        let t273: f64 = 0.37197656794614387 * t272;
+        let t289: f64 = t160 - (-0.7782);
+        let t290: f64 = t161 - (-0.5449);
+        let t291: f64 = t162 - 0.03;
+        let t292: f64 = t289 * t289;
+        let t293: f64 = t290 * t290;
+        let t294: f64 = t292 + t293;
+        let t295: f64 = t291 * t291;
+        let t296: f64 = t294 + t295;
+        let t298: f64 = t296 - t297;
+        let t299: f64 = 0.37197656794614387 * t298;
+        let t315: f64 = t178 - (-0.1267);
+        let t316: f64 = t179 - (-1.0322);
+        let t317: f64 = t180 - (-0.07);
+        let t318: f64 = t315 * t315;
+        let t319: f64 = t316 * t316;
+        let t320: f64 = t318 + t319;
+        let t321: f64 = t317 * t317;
+        let t322: f64 = t320 + t321;
+        let t324: f64 = t322 - t323;
+        let t325: f64 = 0.37197656794614387 * t324;
+        let mut size: f64 = 0.0;
+        size = larger(size, t192);
+        size = larger(size, t221);
+        size = larger(size, t247);
+        size = larger(size, t273);
+        size = larger(size, t299);
+        size = larger(size, t325);
+        if size <= TOLERANCE || size <= ROUNDING && !(size < HALF * last) {
+            x[0] = x0;
+            x[1] = x1;
+            x[2] = x2;
+            x[3] = x3;
+            x[4] = x4;
+            x[5] = x5;
+            x[6] = x6;
+            return true;
+        }
+        /* a step that does not halve the rows is not to be trusted */
+        if !(size < HALF * last) { return false; }
+        last = size;
+        let t194: f64 = 0.7439531358922877 * t181;
+        let t195: f64 = 0.7439531358922877 * t182;
+        let t196: f64 = 0.7439531358922877 * t183;
+        let t197: f64 = t86 * t196;
+        let t198: f64 = t87 * t195;
+        let t199: f64 = t197 - t198;
+        let t200: f64 = t87 * t194;
+        let t201: f64 = t85 * t196;
+        let t202: f64 = t200 - t201;
+        let t203: f64 = t85 * t195;
+        let t204: f64 = t86 * t194;
+        let t205: f64 = t203 - t204;
+        let t208: f64 = 0.8625271797991572 * t181;
+        let t209: f64 = 0.8625271797991572 * t182;
+        let t210: f64 = 0.8625271797991572 * t183;
+        let t222: f64 = 0.7439531358922877 * t211;
+        let t223: f64 = 0.7439531358922877 * t212;
+        let t224: f64 = 0.7439531358922877 * t213;
+        let t225: f64 = t104 * t224;
+        let t226: f64 = t105 * t223;
+        let t227: f64 = t225 - t226;
+        let t228: f64 = t105 * t222;
+        let t229: f64 = t103 * t224;
+        let t230: f64 = t228 - t229;
+        let t231: f64 = t103 * t223;
+        let t232: f64 = t104 * t222;
+        let t233: f64 = t231 - t232;
+        let t234: f64 = 0.8625271797991572 * t211;
+        let t235: f64 = 0.8625271797991572 * t212;
+        let t236: f64 = 0.8625271797991572 * t213;
+        let t248: f64 = 0.7439531358922877 * t237;
+        let t249: f64 = 0.7439531358922877 * t238;
+        let t250: f64 = 0.7439531358922877 * t239;
+        let t251: f64 = t122 * t250;
+        let t252: f64 = t123 * t249;
+        let t253: f64 = t251 - t252;
+        let t254: f64 = t123 * t248;
+        let t255: f64 = t121 * t250;
+        let t256: f64 = t254 - t255;
+        let t257: f64 = t121 * t249;
+        let t258: f64 = t122 * t248;
+        let t259: f64 = t257 - t258;
+        let t260: f64 = 0.8625271797991572 * t237;
+        let t261: f64 = 0.8625271797991572 * t238;
+        let t262: f64 = 0.8625271797991572 * t239;
+        let t274: f64 = 0.7439531358922877 * t263;
+        let t275: f64 = 0.7439531358922877 * t264;
+        let t276: f64 = 0.7439531358922877 * t265;
+        let t277: f64 = t140 * t276;
+        let t278: f64 = t141 * t275;
+        let t279: f64 = t277 - t278;
+        let t280: f64 = t141 * t274;
+        let t281: f64 = t139 * t276;
+        let t282: f64 = t280 - t281;
+        let t283: f64 = t139 * t275;
+        let t284: f64 = t140 * t274;
+        let t285: f64 = t283 - t284;
+        let t286: f64 = 0.8625271797991572 * t263;
+        let t287: f64 = 0.8625271797991572 * t264;
+        let t288: f64 = 0.8625271797991572 * t265;
+        let t300: f64 = 0.7439531358922877 * t289;
+        let t301: f64 = 0.7439531358922877 * t290;
+        let t302: f64 = 0.7439531358922877 * t291;
+        let t303: f64 = t158 * t302;
+        let t304: f64 = t159 * t301;
+        let t305: f64 = t303 - t304;
+        let t306: f64 = t159 * t300;
+        let t307: f64 = t157 * t302;
+        let t308: f64 = t306 - t307;
+        let t309: f64 = t157 * t301;
+        let t310: f64 = t158 * t300;
+        let t311: f64 = t309 - t310;
+        let t312: f64 = 0.8625271797991572 * t289;
+        let t313: f64 = 0.8625271797991572 * t290;
+        let t314: f64 = 0.8625271797991572 * t291;
+        let t326: f64 = 0.7439531358922877 * t315;
+        let t327: f64 = 0.7439531358922877 * t316;
+        let t328: f64 = 0.7439531358922877 * t317;
+        let t329: f64 = t176 * t328;
+        let t330: f64 = t177 * t327;
+        let t331: f64 = t329 - t330;
+        let t332: f64 = t177 * t326;
+        let t333: f64 = t175 * t328;
+        let t334: f64 = t332 - t333;
+        let t335: f64 = t175 * t327;
+        let t336: f64 = t176 * t326;
+        let t337: f64 = t335 - t336;
+        let t338: f64 = 0.8625271797991572 * t315;
+        let t339: f64 = 0.8625271797991572 * t316;
+        let t340: f64 = 0.8625271797991572 * t317;
+        let t365: f64 = 1.0 / t340;
+        let t366: f64 = t210 * t365;
+        let t367: f64 = t331 * t366;
+        let t368: f64 = t199 - t367;
+        let t369: f64 = t334 * t366;
+        let t370: f64 = t202 - t369;
+        let t371: f64 = t337 * t366;
+        let t372: f64 = t205 - t371;
+        let t373: f64 = t338 * t366;
+        let t374: f64 = t208 - t373;
+        let t375: f64 = t339 * t366;
+        let t376: f64 = t209 - t375;
+        let t377: f64 = t325 * t366;
+        let t378: f64 = t192 - t377;
+        let t381: f64 = t236 * t365;
+        let t382: f64 = t331 * t381;
+        let t383: f64 = t227 - t382;
+        let t384: f64 = t334 * t381;
+        let t385: f64 = t230 - t384;
+        let t386: f64 = t337 * t381;
+        let t387: f64 = t233 - t386;
+        let t388: f64 = t338 * t381;
+        let t389: f64 = t234 - t388;
+        let t390: f64 = t339 * t381;
+        let t391: f64 = t235 - t390;
+        let t392: f64 = t325 * t381;
+        let t393: f64 = t221 - t392;
+        let t396: f64 = t262 * t365;
+        let t397: f64 = t331 * t396;
+        let t398: f64 = t253 - t397;
+        let t399: f64 = t334 * t396;
+        let t400: f64 = t256 - t399;
+        let t401: f64 = t337 * t396;
+        let t402: f64 = t259 - t401;
+        let t403: f64 = t338 * t396;
+        let t404: f64 = t260 - t403;
+        let t405: f64 = t339 * t396;
+        let t406: f64 = t261 - t405;
+        let t407: f64 = t325 * t396;
+        let t408: f64 = t247 - t407;
+        let t411: f64 = t288 * t365;
+        let t412: f64 = t331 * t411;
+        let t413: f64 = t279 - t412;
+        let t414: f64 = t334 * t411;
+        let t415: f64 = t282 - t414;
+        let t416: f64 = t337 * t411;
+        let t417: f64 = t285 - t416;
+        let t418: f64 = t338 * t411;
+        let t419: f64 = t286 - t418;
+        let t420: f64 = t339 * t411;
+        let t421: f64 = t287 - t420;
+        let t422: f64 = t325 * t411;
+        let t423: f64 = t273 - t422;
+        let t426: f64 = t314 * t365;
+        let t427: f64 = t331 * t426;
+        let t428: f64 = t305 - t427;
+        let t429: f64 = t334 * t426;
+        let t430: f64 = t308 - t429;
+        let t431: f64 = t337 * t426;
+        let t432: f64 = t311 - t431;
+        let t433: f64 = t338 * t426;
+        let t434: f64 = t312 - t433;
+        let t435: f64 = t339 * t426;
+        let t436: f64 = t313 - t435;
+        let t437: f64 = t325 * t426;
+        let t438: f64 = t299 - t437;
+        let t441: f64 = 1.0 / t421;
+        let t442: f64 = t376 * t441;
+        let t443: f64 = t413 * t442;
+        let t444: f64 = t368 - t443;
+        let t445: f64 = t415 * t442;
+        let t446: f64 = t370 - t445;
+        let t447: f64 = t417 * t442;
+        let t448: f64 = t372 - t447;
+        let t449: f64 = t419 * t442;
+        let t450: f64 = t374 - t449;
+        let t451: f64 = t423 * t442;
+        let t452: f64 = t378 - t451;
+        let t457: f64 = t391 * t441;
+        let t458: f64 = t413 * t457;
+        let t459: f64 = t383 - t458;
+        let t460: f64 = t415 * t457;
+        let t461: f64 = t385 - t460;
+        let t462: f64 = t417 * t457;
+        let t463: f64 = t387 - t462;
+        let t464: f64 = t419 * t457;
+        let t465: f64 = t389 - t464;
+        let t466: f64 = t423 * t457;
+        let t467: f64 = t393 - t466;
+        let t472: f64 = t406 * t441;
+        let t473: f64 = t413 * t472;
+        let t474: f64 = t398 - t473;
+        let t475: f64 = t415 * t472;
+        let t476: f64 = t400 - t475;
+        let t477: f64 = t417 * t472;
+        let t478: f64 = t402 - t477;
+        let t479: f64 = t419 * t472;
+        let t480: f64 = t404 - t479;
+        let t481: f64 = t423 * t472;
+        let t482: f64 = t408 - t481;
+        let t487: f64 = t436 * t441;
+        let t488: f64 = t413 * t487;
+        let t489: f64 = t428 - t488;
+        let t490: f64 = t415 * t487;
+        let t491: f64 = t430 - t490;
+        let t492: f64 = t417 * t487;
+        let t493: f64 = t432 - t492;
+        let t494: f64 = t419 * t487;
+        let t495: f64 = t434 - t494;
+        let t496: f64 = t423 * t487;
+        let t497: f64 = t438 - t496;
+        let t502: f64 = 1.0 / t465;
+        let t503: f64 = t450 * t502;
+        let t504: f64 = t459 * t503;
+        let t505: f64 = t444 - t504;
+        let t506: f64 = t461 * t503;
+        let t507: f64 = t446 - t506;
+        let t508: f64 = t463 * t503;
+        let t509: f64 = t448 - t508;
+        let t510: f64 = t467 * t503;
+        let t511: f64 = t452 - t510;
+        let t518: f64 = t480 * t502;
+        let t519: f64 = t459 * t518;
+        let t520: f64 = t474 - t519;
+        let t521: f64 = t461 * t518;
+        let t522: f64 = t476 - t521;
+        let t523: f64 = t463 * t518;
+        let t524: f64 = t478 - t523;
+        let t525: f64 = t467 * t518;
+        let t526: f64 = t482 - t525;
+        let t533: f64 = t495 * t502;
+        let t534: f64 = t459 * t533;
+        let t535: f64 = t489 - t534;
+        let t536: f64 = t461 * t533;
+        let t537: f64 = t491 - t536;
+        let t538: f64 = t463 * t533;
+        let t539: f64 = t493 - t538;
+        let t540: f64 = t467 * t533;
+        let t541: f64 = t497 - t540;
+        let t548: f64 = 1.0 / t505;
+        let t549: f64 = t520 * t548;
+        let t550: f64 = t507 * t549;
+        let t551: f64 = t522 - t550;
+        let t552: f64 = t509 * t549;
+        let t553: f64 = t524 - t552;
+        let t554: f64 = t511 * t549;
+        let t555: f64 = t526 - t554;
+        let t564: f64 = t535 * t548;
+        let t565: f64 = t507 * t564;
+        let t566: f64 = t537 - t565;
+        let t567: f64 = t509 * t564;
+        let t568: f64 = t539 - t567;
+        let t569: f64 = t511 * t564;
+        let t570: f64 = t541 - t569;
+        let t579: f64 = 1.0 / t566;
+        let t580: f64 = t551 * t579;
+        let t581: f64 = t568 * t580;
+        let t582: f64 = t553 - t581;
+        let t583: f64 = t570 * t580;
+        let t584: f64 = t555 - t583;
+        let t595: f64 = 1.0 / t582;
+        let t596: f64 = t584 * t595;
+        let t597: f64 = t568 * t596;
+        let t598: f64 = t570 - t597;
+        let t599: f64 = t579 * t598;
+        let t600: f64 = t507 * t599;
+        let t601: f64 = t511 - t600;
+        let t602: f64 = t509 * t596;
+        let t603: f64 = t601 - t602;
+        let t604: f64 = t548 * t603;
+        let t605: f64 = t459 * t604;
+        let t606: f64 = t467 - t605;
+        let t607: f64 = t461 * t599;
+        let t608: f64 = t606 - t607;
+        let t609: f64 = t463 * t596;
+        let t610: f64 = t608 - t609;
+        let t611: f64 = t502 * t610;
+        let t612: f64 = t419 * t611;
+        let t613: f64 = t423 - t612;
+        let t614: f64 = t413 * t604;
+        let t615: f64 = t613 - t614;
+        let t616: f64 = t415 * t599;
+        let t617: f64 = t615 - t616;
+        let t618: f64 = t417 * t596;
+        let t619: f64 = t617 - t618;
+        let t620: f64 = t441 * t619;
+        let t621: f64 = t339 * t620;
+        let t622: f64 = t325 - t621;
+        let t623: f64 = t338 * t611;
+        let t624: f64 = t622 - t623;
+        let t625: f64 = t331 * t604;
+        let t626: f64 = t624 - t625;
+        let t627: f64 = t334 * t599;
+        let t628: f64 = t626 - t627;
+        let t629: f64 = t337 * t596;
+        let t630: f64 = t628 - t629;
+        let t631: f64 = t365 * t630;
+        let t889: f64 = -t604;
+        let t890: f64 = -t599;
+        let t891: f64 = -t596;
+        let t892: f64 = -t611;
+        let t893: f64 = -t620;
+        let t894: f64 = -t631;
+        if !(absolute(t340) > LEAST_PIVOT) { return false; }
+        if !(absolute(t421) > LEAST_PIVOT) { return false; }
+        if !(absolute(t465) > LEAST_PIVOT) { return false; }
+        if !(absolute(t505) > LEAST_PIVOT) { return false; }
+        if !(absolute(t566) > LEAST_PIVOT) { return false; }
+        if !(absolute(t582) > LEAST_PIVOT) { return false; }
+        let d0: f64 = t889;
+        let d1: f64 = t890;
+        let d2: f64 = t891;
+        let d3: f64 = t892;
+        let d4: f64 = t893;
+        let d5: f64 = t894;
+        let mut longest: f64 = 0.0;
+        longest = larger(longest, d0);
+        longest = larger(longest, d1);
+        longest = larger(longest, d2);
+        longest = larger(longest, d3);
+        longest = larger(longest, d4);
+        longest = larger(longest, d5);
+        if !(longest <= LONGEST_STEP) { return false; }
+        let t931: f64 = 1.159383754414387 * d3;
+        let t932: f64 = 1.159383754414387 * d4;
+        let t933: f64 = 1.159383754414387 * d5;
+        let t935: f64 = 0.5 * d0;
+        let t936: f64 = 0.5 * d1;
+        let t937: f64 = 0.5 * d2;
+        let t938: f64 = x1 * t935;
+        let t939: f64 = x0 - t938;
+        let t940: f64 = x2 * t936;
+        let t941: f64 = t939 - t940;
+        let t942: f64 = x3 * t937;
+        let t943: f64 = t941 - t942;
+        let t944: f64 = x0 * t935;
+        let t945: f64 = x1 + t944;
+        let t946: f64 = x3 * t936;
+        let t947: f64 = t945 + t946;
+        let t948: f64 = x2 * t937;
+        let t949: f64 = t947 - t948;
+        let t950: f64 = x3 * t935;
+        let t951: f64 = x2 - t950;
+        let t952: f64 = x0 * t936;
+        let t953: f64 = t951 + t952;
+        let t954: f64 = x1 * t937;
+        let t955: f64 = t953 + t954;
+        let t956: f64 = x2 * t935;
+        let t957: f64 = x3 + t956;
+        let t958: f64 = x1 * t936;
+        let t959: f64 = t957 - t958;
+        let t960: f64 = x0 * t937;
+        let t961: f64 = t959 + t960;
+        let t962: f64 = t943 * t943;
+        let t963: f64 = t949 * t949;
+        let t964: f64 = t962 + t963;
+        let t965: f64 = t955 * t955;
+        let t966: f64 = t964 + t965;
+        let t967: f64 = t961 * t961;
+        let t968: f64 = t966 + t967;
+        let t969: f64 = root(t968);
+        let t970: f64 = 1.0 / t969;
+        let t971: f64 = t943 * t970;
+        let t972: f64 = t949 * t970;
+        let t973: f64 = t955 * t970;
+        let t974: f64 = t961 * t970;
+        let t975: f64 = x4 + t931;
+        let t976: f64 = x5 + t932;
+        let t977: f64 = x6 + t933;
+        let y0: f64 = t971;
+        let y1: f64 = t972;
+        let y2: f64 = t973;
+        let y3: f64 = t974;
+        let y4: f64 = t975;
+        let y5: f64 = t976;
+        let y6: f64 = t977;
+        x0 = y0;
+        x1 = y1;
+        x2 = y2;
+        x3 = y3;
+        x4 = y4;
+        x5 = y5;
+        x6 = y6;
+    }
+    false
+}
+
+const M: usize = ROWS + UNKNOWNS;
+
+/// The least-squares step for rows r and Jacobian j with rows damping·1 below: Householder reflections
+/// with column pivoting (Businger and Golub 1965). Unknowns that the rows do not determine stay. Returns
+/// the ratio of the smallest pivot to the largest.
+fn least_squares(
+    r: &[f64; ROWS],
+    j: &[[f64; UNKNOWNS]; ROWS],
+    damping: f64,
+    d: &mut [f64; UNKNOWNS],
+) -> f64 {
+    let mut a = [[0.0; UNKNOWNS]; M];
+    let mut b = [0.0; M];
+    let mut order = [0; UNKNOWNS];
+    let (mut first, mut least, mut rank) = (0.0, 0.0, 0);
+    for i in 0..ROWS {
+        a[i] = j[i];
+        b[i] = -r[i];
+    }
+    for k in 0..UNKNOWNS {
+        a[ROWS + k][k] = damping;
+        order[k] = k;
+    }
+    for k in 0..UNKNOWNS {
+        let (mut best, mut column) = (-1.0, k);
+        for c in k..UNKNOWNS {
+            let mut sum = 0.0;
+            for row in &a[k..] {
+                sum += row[c] * row[c];
+            }
+            if sum > best {
+                (best, column) = (sum, c);
+            }
+        }
+        let norm = root(best);
+        if k == 0 {
+            first = norm;
+        }
+        least = norm;
+        if !(norm > 1e-10 * first) {
+            break;
+        }
+        for row in &mut a {
+            row.swap(k, column);
+        }
+        order.swap(k, column);
+        let head = if a[k][k] > 0.0 { -norm } else { norm };
+        // v = column − head e_k stays in the column; v·v = 2 head (head − a_kk)
+        a[k][k] -= head;
+        let scale = -head * a[k][k];
+        for c in k + 1..UNKNOWNS {
+            let mut dot = 0.0;
+            for row in &a[k..] {
+                dot += row[k] * row[c];
+            }
+            for row in &mut a[k..] {
+                row[c] -= dot / scale * row[k];
+            }
+        }
+        let mut dot = 0.0;
+        for (row, b) in a[k..].iter().zip(&b[k..]) {
+            dot += row[k] * b;
+        }
+        for (row, b) in a[k..].iter().zip(&mut b[k..]) {
+            *b -= dot / scale * row[k];
+        }
+        a[k][k] = head;
+        rank += 1;
+    }
+    *d = [0.0; UNKNOWNS];
+    for k in (0..rank).rev() {
+        let mut sum = b[k];
+        for i in k + 1..rank {
+            sum -= a[k][i] * d[order[i]];
+        }
+        d[order[k]] = sum / a[k][k];
+    }
+    if first > 0.0 { least / first } else { 0.0 }
+}
+
+/// Newton's method from a guess that may be far off or singular: Gauss–Newton steps, damped when they
+/// fail (Levenberg 1944, Marquardt 1963).
+fn careful(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
+    const MOST_STEPS: usize = 100;
+    const MOST_TRIALS: usize = 40;
+    let squares_of = |r: &[f64; ROWS]| {
+        let mut squares = 0.0;
+        for row in r {
+            squares += row * row;
+        }
+        squares
+    };
+    let (mut at, mut next) = (*x, *x);
+    let mut d = [0.0; UNKNOWNS];
+    let (mut r, mut j) = ([0.0; ROWS], [[0.0; UNKNOWNS]; ROWS]);
+    let (mut damping, mut slow, mut stuck): (f64, _, _) = (0.0, 0, false);
+    linearise(u, &at, &mut r, &mut j);
+    for _ in 0..MOST_STEPS {
+        let squares = squares_of(&r);
+        let mut largest = 0.0;
+        for &row in &r {
+            largest = larger(largest, row);
+        }
+        if largest <= TOLERANCE || largest <= ROUNDING && stuck {
+            // a double solution is met only to the root of the tolerance
+            let ratio = least_squares(&r, &j, 0.0, &mut d);
+            *x = at;
+            return if ratio < 1e-5 { Verdict::Singular } else { Verdict::Solved };
+        }
+        if stuck {
+            return Verdict::NotAssembled;
+        }
+        let mut lower = squares;
+        for _ in 0..MOST_TRIALS {
+            least_squares(&r, &j, damping, &mut d);
+            let mut longest = 0.0;
+            for &part in &d {
+                longest = larger(longest, part);
+            }
+            if longest > 1.0 {
+                for part in &mut d {
+                    *part /= longest;
+                }
+            }
+            displace(&at, &d, &mut next);
+            let (mut tried, mut slopes) = ([0.0; ROWS], [[0.0; UNKNOWNS]; ROWS]);
+            linearise(u, &next, &mut tried, &mut slopes);
+            lower = squares_of(&tried);
+            if lower < squares {
+                (r, j, at) = (tried, slopes, next);
+                break;
+            }
+            damping = if damping > 0.0 { damping * 3.0 } else { 0.03 };
+        }
+        if !(lower < squares) {
+            stuck = true;
+            continue;
+        }
+        damping = if damping < 1e-4 { 0.0 } else { damping * 0.2 };
+        slow = if 1.0 - lower / squares < 1e-6 { slow + 1 } else { 0 };
+        stuck = slow == 3;
+    }
+    Verdict::StepLimit
+}
+
+/// Whether all numbers are finite and of a size that sines take.
+fn near(numbers: &[f64]) -> bool {
+    numbers.iter().all(|&x| absolute(x) < 1e5)
+}
+
+/// Finds the state for inputs u, starting from x.
+pub fn solve(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
+    if !near(u) || !near(x) {
+        return Verdict::BadInput;
+    }
+    match fast(u, x) {
+        true => Verdict::Solved,
+        false => careful(u, x),
+    }
+}
+
+/// A state with the last move.
+#[derive(Clone, Debug)]
+pub struct Follower {
+    /// The state.
+    pub state: [f64; STATE],
+    /// How far it moved.
+    pub moved: [f64; STATE],
+}
+
+impl Follower {
+    /// At a state, at rest.
+    pub fn new(state: [f64; STATE]) -> Self {
+        Follower {
+            state,
+            moved: [0.0; STATE],
+        }
+    }
+
+    /// Finds the state for inputs u near where the last move, made once more, leads.
+    #[inline]
+    pub fn solve(&mut self, u: &[f64; INPUTS]) -> Verdict {
+        let mut x = self.state;
+        for (x, moved) in x.iter_mut().zip(&self.moved) {
+            *x += moved;
+        }
+        normalise(&mut x);
+        if !(near(u) && near(&x) && fast(u, &mut x)) {
+            x = self.state;
+            let verdict = solve(u, &mut x);
+            if verdict != Verdict::Solved {
+                *self = Follower::new(x);
+                return verdict;
+            }
+        }
+        for i in 0..STATE {
+            self.moved[i] = x[i] - self.state[i];
+        }
+        self.state = x;
+        Verdict::Solved
+    }
+}
+
+/// For each frame its axes x, y, z and its origin in ground, and for each input the twist (v, ω) for a
+/// unit rate of it, v at the frame's origin. False at a singular configuration, where there are none.
+pub fn frames(
+    u: &[f64; INPUTS],
+    x: &[f64; STATE],
+    pose: &mut [[f64; 12]; FRAMES],
+    twist: &mut [[[f64; 6]; INPUTS]; FRAMES],
+) -> bool {
+    const LEAST_PIVOT: f64 = 1e-6;
+    true
+}

@@ -1,0 +1,469 @@
+//! Straight-line programs: the kinematics evaluated over operations that are written down.
+//!
+//! [`Number`] is `Copy`, so a [`Recorded`] is a place in a list of operations that belongs to its thread.
+//! [`record`] opens the list, runs the work and hands the list over. Equal operations have one place (common
+//! subexpressions are shared), operations on constants are carried out, and sums with 0 and products with 0, 1 and −1
+//! are left out, so that structural zeros are recognised.
+
+use std::cell::RefCell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use rustc_hash::FxHashMap;
+use serde::{Deserialize, Serialize};
+
+use crate::linear::{DenseOnly, Factorable};
+use crate::number::{Field, Number, operators};
+
+/// A place in a list of operations.
+pub type Place = u32;
+
+/// One operation of a straight-line program; operands stand at lower places.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Operation {
+    /// A constant.
+    Constant(f64),
+    /// The input of that number.
+    Input(u32),
+    /// x + y
+    Add(Place, Place),
+    /// x − y
+    Subtract(Place, Place),
+    /// x y
+    Multiply(Place, Place),
+    /// x/y
+    Divide(Place, Place),
+    /// −x
+    Negate(Place),
+    /// √x
+    Root(Place),
+    /// sin x
+    Sin(Place),
+    /// cos x
+    Cos(Place),
+}
+
+impl Operation {
+    /// The places of its operands.
+    pub fn operands(self) -> impl Iterator<Item = Place> {
+        use Operation::{Add, Constant, Cos, Divide, Input, Multiply, Negate, Root, Sin, Subtract};
+        let both = match self {
+            Constant(_) | Input(_) => [None, None],
+            Add(x, y) | Subtract(x, y) | Multiply(x, y) | Divide(x, y) => [Some(x), Some(y)],
+            Negate(x) | Root(x) | Sin(x) | Cos(x) => [Some(x), None],
+        };
+        both.into_iter().flatten()
+    }
+
+    /// What makes two operations the same: constants by their bits.
+    fn key(self) -> (u8, u64, u64) {
+        let at = |place: Place| u64::from(place);
+        match self {
+            Operation::Constant(x) => (0, x.to_bits(), 0),
+            Operation::Input(i) => (1, at(i), 0),
+            Operation::Add(x, y) => (2, at(x), at(y)),
+            Operation::Subtract(x, y) => (3, at(x), at(y)),
+            Operation::Multiply(x, y) => (4, at(x), at(y)),
+            Operation::Divide(x, y) => (5, at(x), at(y)),
+            Operation::Negate(x) => (6, at(x), 0),
+            Operation::Root(x) => (7, at(x), 0),
+            Operation::Sin(x) => (8, at(x), 0),
+            Operation::Cos(x) => (9, at(x), 0),
+        }
+    }
+}
+
+/// The value of an operation, as long as the list it was written into is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Recorded(Place);
+
+/// The list, with the value of every operation at the sample.
+#[derive(Default)]
+struct List {
+    operations: Vec<Operation>,
+    values: Vec<f64>,
+    places: FxHashMap<(u8, u64, u64), Place>,
+    sample: Vec<f64>,
+}
+
+thread_local! {
+    static OPEN: RefCell<List> = RefCell::default();
+}
+
+/// Runs `work` with an empty list and returns what it makes, with all operations written. `sample` holds values of the
+/// inputs, from which [`Number::real`] follows.
+pub fn record<R>(sample: Vec<f64>, work: impl FnOnce() -> R) -> (R, Vec<Operation>) {
+    let list = List {
+        sample,
+        ..List::default()
+    };
+    let around = OPEN.with(|open| open.replace(list));
+    let made = work();
+    let list = OPEN.with(|open| open.replace(around));
+    (made, list.operations)
+}
+
+impl List {
+    fn put(&mut self, operation: Operation) -> Recorded {
+        if let Some(&place) = self.places.get(&operation.key()) {
+            return Recorded(place);
+        }
+        let place = self.operations.len() as Place;
+        let at = |x: Place| self.values[x as usize];
+        let value = match operation {
+            Operation::Constant(x) => x,
+            Operation::Input(i) => self.sample.get(i as usize).copied().unwrap_or(f64::NAN),
+            Operation::Add(x, y) => at(x) + at(y),
+            Operation::Subtract(x, y) => at(x) - at(y),
+            Operation::Multiply(x, y) => at(x) * at(y),
+            Operation::Divide(x, y) => at(x) / at(y),
+            Operation::Negate(x) => -at(x),
+            Operation::Root(x) => at(x).sqrt(),
+            Operation::Sin(x) => Number::sin_cos(at(x)).0,
+            Operation::Cos(x) => Number::sin_cos(at(x)).1,
+        };
+        self.operations.push(operation);
+        self.values.push(value);
+        self.places.insert(operation.key(), place);
+        Recorded(place)
+    }
+
+    fn constant(&self, of: Recorded) -> Option<f64> {
+        match self.operations[of.0 as usize] {
+            Operation::Constant(x) => Some(x),
+            _ => None,
+        }
+    }
+
+    fn negated(&self, of: Recorded) -> Option<Recorded> {
+        match self.operations[of.0 as usize] {
+            Operation::Negate(x) => Some(Recorded(x)),
+            _ => None,
+        }
+    }
+
+    fn literal(&mut self, x: f64) -> Recorded {
+        // −0 and 0 are one constant
+        self.put(Operation::Constant(x + 0.0))
+    }
+
+    fn negate(&mut self, x: Recorded) -> Recorded {
+        if let Some(value) = self.constant(x) {
+            return self.literal(-value);
+        }
+        match self.operations[x.0 as usize] {
+            Operation::Negate(inner) => Recorded(inner),
+            Operation::Subtract(a, b) => self.put(Operation::Subtract(b, a)),
+            _ => self.put(Operation::Negate(x.0)),
+        }
+    }
+
+    fn add(&mut self, x: Recorded, y: Recorded) -> Recorded {
+        match (self.constant(x), self.constant(y)) {
+            (Some(a), Some(b)) => return self.literal(a + b),
+            (Some(0.0), _) => return y,
+            (_, Some(0.0)) => return x,
+            _ => {}
+        }
+        match (self.negated(x), self.negated(y)) {
+            (_, Some(b)) => self.subtract(x, b),
+            (Some(a), None) => self.subtract(y, a),
+            (None, None) => self.put(Operation::Add(x.0.min(y.0), x.0.max(y.0))),
+        }
+    }
+
+    fn subtract(&mut self, x: Recorded, y: Recorded) -> Recorded {
+        match (self.constant(x), self.constant(y)) {
+            (Some(a), Some(b)) => return self.literal(a - b),
+            (Some(0.0), _) => return self.negate(y),
+            (_, Some(0.0)) => return x,
+            _ => {}
+        }
+        if let Some(rest) = self.without(x, y, 0) {
+            return rest;
+        }
+        if let Some(rest) = self.without(y, x, 0) {
+            return self.negate(rest);
+        }
+        match (self.negated(x), self.negated(y)) {
+            (_, Some(b)) => self.add(x, b),
+            (Some(a), None) => {
+                let sum = self.add(a, y);
+                self.negate(sum)
+            }
+            (None, None) => self.put(Operation::Subtract(x.0, y.0)),
+        }
+    }
+
+    /// What is left of a sum without one of its terms: (x + y) + z − x = y + z.
+    fn without(&mut self, sum: Recorded, term: Recorded, depth: usize) -> Option<Recorded> {
+        /// Sums within sums that are looked through.
+        const DEEPEST: usize = 12;
+        if sum == term {
+            return Some(self.literal(0.0));
+        }
+        if depth == DEEPEST {
+            return None;
+        }
+        match self.operations[sum.0 as usize] {
+            Operation::Add(x, y) => {
+                let (x, y) = (Recorded(x), Recorded(y));
+                match self.without(x, term, depth + 1) {
+                    Some(rest) => Some(self.add(rest, y)),
+                    None => (self.without(y, term, depth + 1)).map(|rest| self.add(x, rest)),
+                }
+            }
+            Operation::Subtract(x, y) => {
+                let rest = self.without(Recorded(x), term, depth + 1)?;
+                Some(self.subtract(rest, Recorded(y)))
+            }
+            _ => None,
+        }
+    }
+
+    fn multiply(&mut self, x: Recorded, y: Recorded) -> Recorded {
+        let (x, y) = match self.constant(y) {
+            Some(_) => (y, x),
+            None => (x, y),
+        };
+        if let Some(factor) = self.constant(x) {
+            if let Some(value) = self.constant(y) {
+                return self.literal(factor * value);
+            }
+            match factor {
+                0.0 | 1.0 => return if factor == 0.0 { x } else { y },
+                -1.0 => return self.negate(y),
+                _ => {}
+            }
+            if let Operation::Multiply(c, inner) = self.operations[y.0 as usize]
+                && let Some(second) = self.constant(Recorded(c))
+            {
+                let factor = self.literal(factor * second);
+                return self.multiply(factor, Recorded(inner));
+            }
+        }
+        match (self.negated(x), self.negated(y)) {
+            (Some(a), Some(b)) => self.multiply(a, b),
+            (Some(a), None) => {
+                let product = self.multiply(a, y);
+                self.negate(product)
+            }
+            (None, Some(b)) => {
+                let product = self.multiply(x, b);
+                self.negate(product)
+            }
+            (None, None) if self.constant(x).is_some() => self.put(Operation::Multiply(x.0, y.0)),
+            (None, None) => self.put(Operation::Multiply(x.0.min(y.0), x.0.max(y.0))),
+        }
+    }
+
+    fn divide(&mut self, x: Recorded, y: Recorded) -> Recorded {
+        match (self.constant(x), self.constant(y)) {
+            (Some(a), Some(b)) => self.literal(a / b),
+            (Some(0.0), None) => x,
+            (None, Some(b)) => {
+                let inverse = self.literal(1.0 / b);
+                self.multiply(inverse, x)
+            }
+            _ => match self.negated(y) {
+                Some(b) => {
+                    let quotient = self.divide(x, b);
+                    self.negate(quotient)
+                }
+                None => self.put(Operation::Divide(x.0, y.0)),
+            },
+        }
+    }
+
+    fn sin_cos(&mut self, x: Recorded) -> (Recorded, Recorded) {
+        if let Some(angle) = self.constant(x) {
+            let (sin, cos) = Number::sin_cos(angle);
+            return (self.literal(sin), self.literal(cos));
+        }
+        match self.negated(x) {
+            Some(angle) => {
+                let (sin, cos) = self.sin_cos(angle);
+                (self.negate(sin), cos)
+            }
+            None => (self.put(Operation::Sin(x.0)), self.put(Operation::Cos(x.0))),
+        }
+    }
+
+    fn root(&mut self, x: Recorded) -> Recorded {
+        match self.constant(x) {
+            Some(value) => self.literal(value.sqrt()),
+            None => self.put(Operation::Root(x.0)),
+        }
+    }
+}
+
+fn with<R>(f: impl FnOnce(&mut List) -> R) -> R {
+    OPEN.with(|open| f(&mut open.borrow_mut()))
+}
+
+impl Recorded {
+    /// The input of that number.
+    pub fn input(number: usize) -> Self {
+        with(|list| list.put(Operation::Input(number as u32)))
+    }
+
+    /// Where it stands among the operations.
+    pub fn place(self) -> Place {
+        self.0
+    }
+
+    /// Its value, if it is the same for all inputs.
+    pub fn constant(self) -> Option<f64> {
+        with(|list| list.constant(self))
+    }
+
+    /// x or −x, whichever is written without a sign.
+    pub fn unsigned(self) -> Self {
+        with(|list| list.negated(self).unwrap_or(self))
+    }
+
+    /// A function that no closure equation uses: carried out on constants, not a number otherwise.
+    fn of_constant(self, f: impl FnOnce(f64) -> f64) -> Self {
+        with(|list| {
+            let value = list.constant(self).map_or(f64::NAN, f);
+            list.literal(value)
+        })
+    }
+}
+
+impl Add for Recorded {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        with(|list| list.add(self, other))
+    }
+}
+
+impl Sub for Recorded {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        with(|list| list.subtract(self, other))
+    }
+}
+
+impl Mul for Recorded {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        with(|list| list.multiply(self, other))
+    }
+}
+
+impl Div for Recorded {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        with(|list| list.divide(self, other))
+    }
+}
+
+impl Neg for Recorded {
+    type Output = Self;
+    fn neg(self) -> Self {
+        with(|list| list.negate(self))
+    }
+}
+
+operators!([Recorded]);
+
+impl Number for Recorded {
+    /// No decision is made over unknowns, so that the rows are the entire ones.
+    const REAL: bool = false;
+
+    fn from_f64(x: f64) -> Self {
+        with(|list| list.literal(x))
+    }
+    /// The value at the sample.
+    fn real(self) -> f64 {
+        with(|list| list.values[self.0 as usize])
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        with(|list| list.sin_cos(self))
+    }
+    fn sqrt(self) -> Self {
+        with(|list| list.root(self))
+    }
+    fn asin(self) -> Self {
+        self.of_constant(f64::asin)
+    }
+    fn acos(self) -> Self {
+        self.of_constant(f64::acos)
+    }
+    fn atan(self) -> Self {
+        self.of_constant(f64::atan)
+    }
+    fn atan2(self, x: Self) -> Self {
+        match x.constant() {
+            Some(x) => self.of_constant(|y| Number::atan2(y, x)),
+            None => Self::from_f64(f64::NAN),
+        }
+    }
+    fn exp(self) -> Self {
+        self.of_constant(f64::exp)
+    }
+    fn ln(self) -> Self {
+        self.of_constant(f64::ln)
+    }
+    fn is_finite(self) -> bool {
+        self.real().is_finite()
+    }
+}
+
+impl Field for Recorded {
+    type Size = f64;
+    fn conjugate(self) -> Self {
+        self
+    }
+    fn norm_squared(self) -> f64 {
+        self.real() * self.real()
+    }
+    fn phase(self) -> Self {
+        Self::from_f64(if self.real() < 0.0 { -1.0 } else { 1.0 })
+    }
+    fn stretched(self, factor: f64) -> Self {
+        self.scale(factor)
+    }
+}
+
+impl Factorable for Recorded {
+    type Sparse = DenseOnly;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_depend_on_inputs_is_not_written() {
+        let (kept, operations) = record(vec![0.3, 2.0], || {
+            let (x, y) = (Recorded::input(0), Recorded::input(1));
+            let zero = Recorded::zero();
+            let (sin, cos) = zero.sin_cos();
+            assert_eq!((sin, cos), (zero, Recorded::one()));
+            assert_eq!(x * sin + y * cos, y);
+            assert_eq!(-(x - y), y - x);
+            assert_eq!((x - y) - (x - y), zero);
+            let sum = x + y * y + x * y;
+            assert_eq!((sum - x) - y * y, x * y);
+            assert_eq!(-(-x), x);
+            assert_eq!(x * y, y * x);
+            let (sin, cos) = (-x).sin_cos();
+            assert_eq!((-sin, cos), x.sin_cos());
+            (x * y + sin).place()
+        });
+        let used = |place: Place| operations[place as usize].operands().count();
+        assert_eq!(used(kept), 2);
+    }
+
+    #[test]
+    fn the_value_at_the_sample_is_that_of_the_operations() {
+        let f = |x: f64, y: f64| (x.sin() / y - (x * y).cos()) * (x + y).sqrt();
+        let (value, _) = record(vec![0.4, 1.7], || {
+            let (x, y) = (Recorded::input(0), Recorded::input(1));
+            ((x.sin_cos().0 / y - (x * y).sin_cos().1) * (x + y).sqrt()).real()
+        });
+        assert!((value - f(0.4, 1.7)).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,414 @@
+//! The solver of one question as a straight-line program: closure equations, Jacobian, elimination and the move along
+//! the step, with nothing left in it that does not depend on inputs or unknowns.
+//!
+//! The one kinematics runs over recorded operations; nothing is derived a second time.
+
+mod elimination;
+mod report;
+
+pub use report::{FrameProgram, Slot, Solver};
+
+use crate::algebra::{Place, Recorded, SiUnit, record};
+use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, PlatformPose, PoseCoordinate};
+use crate::number::{Dual, Number};
+use crate::solve::Equations;
+use crate::system::{Coordinate, Held, HeldPlatform, Question, System, Unknown};
+use elimination::eliminate;
+
+/// Why there is no solver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoSolver {
+    /// Nothing is unknown: what is held determines every frame.
+    NothingUnknown,
+    /// Nothing is held, so that there is one configuration only.
+    NothingHeld,
+    /// The configuration is singular, so that no order of elimination can be chosen there.
+    Singular {
+        /// Unknowns that could be eliminated.
+        rank: usize,
+        /// All of them.
+        unknowns: usize,
+    },
+}
+
+/// Writes the solver of a question as a program.
+///
+/// Inputs are the held coordinates, the state is the value of every free joint and the pose of every free platform. `at`
+/// is an assembled configuration; there the order of elimination is chosen: among entries of at least a tenth of the
+/// largest in their column the one with the fewest others in its row and column (Markowitz 1957). For each of `frames`
+/// the pose and the twists for unit rates of the inputs are written too.
+///
+/// # Errors
+/// If nothing is unknown or nothing held, or the configuration is singular.
+pub fn solver(
+    question: &Question,
+    at: &Configuration<f64>,
+    frames: &[(String, Frame)],
+) -> Result<Solver, NoSolver> {
+    let plan = Plan::new(question);
+    if plan.state.is_empty() {
+        return Err(NoSolver::NothingUnknown);
+    }
+    if plan.inputs.is_empty() {
+        return Err(NoSolver::NothingHeld);
+    }
+    let mechanism = question.mechanism();
+    let (inputs, state) = plan.values(at);
+    let mut sample = [inputs.clone(), state.clone()].concat();
+    // as many steps as there are unknowns
+    sample.resize(
+        sample.len() + 6 * mechanism.platforms().len() + state.len(),
+        0.0,
+    );
+    let (written, operations) = record(sample, || plan.write(frames));
+    let written = written?;
+    let slot = |variable: &Variable, value: &f64| Slot {
+        name: variable.name(mechanism),
+        unit: variable.unit(mechanism),
+        value: *value,
+    };
+    let slots = |variables: &[Variable], values: &[f64]| -> Vec<Slot> {
+        variables
+            .iter()
+            .zip(values)
+            .map(|(v, x)| slot(v, x))
+            .collect()
+    };
+    Ok(Solver {
+        mechanism: mechanism.name().into(),
+        inputs: slots(&plan.inputs, &inputs),
+        state: slots(&plan.state, &state),
+        operations,
+        ..written
+    })
+}
+
+/// The inputs and the state of a configuration.
+pub fn values(question: &Question, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
+    Plan::new(question).values(at)
+}
+
+/// A number that is given, or one of those by which a configuration is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Variable {
+    Held(Coordinate),
+    Joint(usize),
+    Orientation(usize, usize),
+    Position(usize, usize),
+}
+
+impl Variable {
+    fn of(self, at: &Configuration<f64>) -> f64 {
+        match self {
+            Variable::Held(coordinate) => coordinate.of(at),
+            Variable::Joint(joint) => at.joints[joint],
+            Variable::Orientation(platform, i) => at.platforms[platform].orientation.0[i],
+            Variable::Position(platform, i) => at.platforms[platform].position.0[i],
+        }
+    }
+
+    fn name(self, mechanism: &Mechanism) -> String {
+        let of = |platform: usize| &mechanism.platforms()[platform].name;
+        match self {
+            Variable::Held(coordinate) => coordinate.name(mechanism),
+            Variable::Joint(joint) => mechanism.joints()[joint].name.clone(),
+            Variable::Orientation(platform, i) => {
+                format!("{}.q{}", of(platform), ["w", "x", "y", "z"][i])
+            }
+            Variable::Position(platform, i) => format!("{}.{}", of(platform), ["x", "y", "z"][i]),
+        }
+    }
+
+    fn unit(self, mechanism: &Mechanism) -> SiUnit {
+        match self {
+            Variable::Held(coordinate) => SiUnit::of_coordinate(coordinate.is_angle(mechanism)),
+            Variable::Joint(joint) => {
+                SiUnit::of_coordinate(mechanism.joints()[joint].kind.is_angle())
+            }
+            Variable::Orientation(..) => SiUnit::ONE,
+            Variable::Position(..) => SiUnit::METRE,
+        }
+    }
+}
+
+/// What is given and what is unknown.
+struct Plan<'a> {
+    mechanism: &'a Mechanism,
+    held: Held<f64>,
+    inputs: Vec<Variable>,
+    state: Vec<Variable>,
+}
+
+impl<'a> Plan<'a> {
+    fn new(question: &Question<'a>) -> Self {
+        let mechanism = question.mechanism();
+        let held = question.held();
+        let (mut inputs, mut state) = (Vec::new(), Vec::new());
+        for (joint, held) in held.joints.iter().enumerate() {
+            match held {
+                true => inputs.push(Variable::Held(Coordinate::Joint(joint))),
+                false => state.push(Variable::Joint(joint)),
+            }
+        }
+        for (platform, part) in held.platforms.iter().enumerate() {
+            let given = question.held_values(platform);
+            let given = given
+                .iter()
+                .map(|(c, _)| Variable::Held(Coordinate::Pose(platform, *c)));
+            inputs.extend(given);
+            if *part != HeldPlatform::Pose {
+                state.extend((0..4).map(|i| Variable::Orientation(platform, i)));
+                state.extend((0..3).map(|i| Variable::Position(platform, i)));
+            }
+        }
+        Plan {
+            mechanism,
+            held,
+            inputs,
+            state,
+        }
+    }
+
+    fn values(&self, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
+        let of = |variables: &[Variable]| variables.iter().map(|v| v.of(at)).collect();
+        (of(&self.inputs), of(&self.state))
+    }
+
+    /// The equations and the configuration with given numbers as inputs and state.
+    fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (System<T>, Configuration<T>) {
+        let value = |variable: Variable| {
+            let among = |of: &[Variable]| of.iter().position(|v| *v == variable);
+            match among(&self.inputs) {
+                Some(i) => inputs[i],
+                None => state[among(&self.state).expect("every variable is held or unknown")],
+            }
+        };
+        let held = |platform: usize, c: PoseCoordinate| {
+            value(Variable::Held(Coordinate::Pose(platform, c)))
+        };
+        let angles = |platform: usize| RollPitchYaw {
+            roll: held(platform, PoseCoordinate::Roll),
+            pitch: held(platform, PoseCoordinate::Pitch),
+            yaw: held(platform, PoseCoordinate::Yaw),
+        };
+        let mut holding = self.held.map(T::from_f64);
+        for (platform, part) in holding.platforms.iter_mut().enumerate() {
+            if let HeldPlatform::Partly {
+                coordinates,
+                orientation,
+                ..
+            } = part
+            {
+                coordinates
+                    .iter_mut()
+                    .for_each(|(c, target)| *target = held(platform, *c));
+                if let Some(orientation) = orientation {
+                    *orientation = angles(platform).rotation();
+                }
+            }
+        }
+        let joints = self
+            .held
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(joint, held)| match held {
+                true => value(Variable::Held(Coordinate::Joint(joint))),
+                false => value(Variable::Joint(joint)),
+            });
+        let platforms = holding.platforms.iter().enumerate();
+        let platforms = platforms.map(|(platform, part)| match part {
+            HeldPlatform::Pose => PlatformPose {
+                orientation: angles(platform).quaternion(),
+                position: Vector3(
+                    [PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+                        .map(|c| held(platform, c)),
+                ),
+            },
+            _ => PlatformPose {
+                orientation: Quaternion(
+                    [0, 1, 2, 3].map(|i| value(Variable::Orientation(platform, i))),
+                ),
+                position: Vector3([0, 1, 2].map(|i| value(Variable::Position(platform, i)))),
+            },
+        });
+        let at = Configuration {
+            joints: joints.collect(),
+            platforms: platforms.collect(),
+        };
+        let dimensions = self.mechanism.dimensions().map(T::from_f64);
+        (System::new(&dimensions, &holding), at)
+    }
+
+    /// The state of a configuration.
+    fn state_of(&self, at: &Configuration<Recorded>) -> Vec<Place> {
+        let value = |variable: &Variable| match *variable {
+            Variable::Joint(joint) => at.joints[joint],
+            Variable::Orientation(platform, i) => at.platforms[platform].orientation.0[i],
+            Variable::Position(platform, i) => at.platforms[platform].position.0[i],
+            Variable::Held(_) => unreachable!("what is held is no state"),
+        };
+        self.state
+            .iter()
+            .map(|variable| value(variable).place())
+            .collect()
+    }
+
+    /// Writes everything; names, values and operations are filled in afterwards.
+    fn write(&self, frames: &[(String, Frame)]) -> Result<Solver, NoSolver> {
+        let (given, kept) = (self.inputs.len(), self.state.len());
+        let inputs: Vec<Recorded> = (0..given).map(Recorded::input).collect();
+        let state: Vec<Recorded> = (given..given + kept).map(Recorded::input).collect();
+        let (system, at) = self.posed(&inputs, &state);
+        let mut work = system.work();
+        system.linearise(&at, &mut work);
+        let residual = system.residual_of(&work).to_vec();
+        let (rows, unknowns) = (system.rows(), system.unknowns().len());
+        let jacobian = system.dense_jacobian(&mut work);
+        // rows that vanish whatever the unknowns are say nothing
+        let open: Vec<usize> = (0..rows)
+            .filter(|&row| residual[row].constant() != Some(0.0))
+            .collect();
+        let matrix: Vec<Vec<Recorded>> = (open.iter())
+            .map(|&row| {
+                (0..unknowns)
+                    .map(|column| jacobian[column * rows + row])
+                    .collect()
+            })
+            .collect();
+        let of_inputs: Vec<Vec<Recorded>> = (0..given)
+            .map(|input| {
+                let all = self.slope(input, &inputs, &state);
+                open.iter().map(|&row| all[row]).collect()
+            })
+            .collect();
+        let rows: Vec<Recorded> = open.iter().map(|&row| residual[row]).collect();
+        let mut sides = vec![rows.clone()];
+        sides.extend(of_inputs);
+        let (solutions, pivots) = eliminate(matrix.clone(), sides, unknowns)
+            .map_err(|rank| NoSolver::Singular { rank, unknowns })?;
+        let negated: Vec<Vec<Recorded>> = (solutions.into_iter())
+            .map(|solution| solution.into_iter().map(|x| -x).collect())
+            .collect();
+        let first_step = given + kept;
+        let step: Vec<Recorded> = (first_step..first_step + unknowns)
+            .map(Recorded::input)
+            .collect();
+        let moved = system.displaced(&at, &step);
+        let places = |numbers: &[Recorded]| -> Vec<Place> {
+            numbers.iter().map(|number| number.place()).collect()
+        };
+        let frames = frames.iter().map(|(name, frame)| {
+            self.frame(name, *frame, &system, (&inputs, &state), &negated[1..])
+        });
+        Ok(Solver {
+            unknowns,
+            residual: places(&rows),
+            jacobian: matrix.iter().map(|row| places(row)).collect(),
+            pivots: (pivots.into_iter())
+                .filter(|pivot| pivot.constant().is_none())
+                .map(|pivot| pivot.unsigned().place())
+                .collect(),
+            step: places(&negated[0]),
+            moved: self.state_of(&moved),
+            frames: frames.collect(),
+            ..Solver::default()
+        })
+    }
+
+    /// The derivatives of all rows by an input.
+    fn slope(&self, input: usize, inputs: &[Recorded], state: &[Recorded]) -> Vec<Recorded> {
+        let (inputs, state) = (varied(inputs, Some(input)), varied(state, None));
+        let (system, at) = self.posed(&inputs, &state);
+        let mut work = system.work();
+        system.residual(&at, &mut work);
+        system
+            .residual_of(&work)
+            .iter()
+            .map(|row| row.slope)
+            .collect()
+    }
+
+    /// The pose of a frame and its twists for unit rates of the inputs, from the rates of the unknowns.
+    fn frame(
+        &self,
+        name: &str,
+        frame: Frame,
+        system: &System<Recorded>,
+        (inputs, state): (&[Recorded], &[Recorded]),
+        rates: &[Vec<Recorded>],
+    ) -> FrameProgram {
+        let dimensions = self
+            .mechanism
+            .dimensions()
+            .map(|x| Dual::constant(Recorded::from_f64(x)));
+        let kinematics = Kinematics::new(&dimensions, [frame]);
+        let mut placement = kinematics.placement();
+        let mut pose = Vec::new();
+        let mut twists = Vec::new();
+        for (input, rates) in rates.iter().enumerate() {
+            let (_, mut at) = self.posed(&varied(inputs, Some(input)), &varied(state, None));
+            for (i, unknown) in system.unknowns().iter().enumerate() {
+                let rate = |i: usize| Dual {
+                    value: Recorded::zero(),
+                    slope: rates[i],
+                };
+                match *unknown {
+                    Unknown::Joint(joint) => {
+                        at.joints[joint] += rate(i).scale(system.joint_scale(joint));
+                    }
+                    Unknown::Twist {
+                        platform,
+                        component: 0,
+                    } => {
+                        let omega = Vector3([rate(i), rate(i + 1), rate(i + 2)]);
+                        let shift = Vector3([rate(i + 3), rate(i + 4), rate(i + 5)]);
+                        let shift = shift.scaled(system.characteristic_length());
+                        at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
+                    }
+                    Unknown::Twist { .. } => {}
+                }
+            }
+            kinematics.place(&at, &mut placement);
+            let placed = kinematics
+                .pose(frame, &placement)
+                .expect("the plan has the frame");
+            let axes = placed.rotation.0;
+            // ω = ½ Σ aᵢ × ȧᵢ over the axes aᵢ of the frame
+            let mut omega = Vector3::zero();
+            for axis in axes {
+                let (a, rate) = (axis.map(|x| x.value), axis.map(|x| x.slope));
+                omega += a.cross(&rate).scaled(0.5);
+            }
+            let velocity = placed.position.map(|x| x.slope);
+            twists.push(
+                [velocity.0, omega.0]
+                    .concat()
+                    .iter()
+                    .map(|x| x.place())
+                    .collect(),
+            );
+            pose = (axes.iter().chain([&placed.position]))
+                .flat_map(|column| column.0.map(|x| x.value.place()))
+                .collect();
+        }
+        FrameProgram {
+            name: name.into(),
+            pose,
+            twists,
+        }
+    }
+}
+
+/// Constants, but for the one that is the variable of differentiation.
+fn varied(of: &[Recorded], variable: Option<usize>) -> Vec<Dual<Recorded>> {
+    let numbers = of.iter().enumerate();
+    numbers
+        .map(|(i, &x)| match Some(i) == variable {
+            true => Dual::variable(x),
+            false => Dual::constant(x),
+        })
+        .collect()
+}

@@ -1,0 +1,123 @@
+//! The solver of the question as a program of its own, and configurations that it must reproduce.
+
+use std::f64::consts::TAU;
+
+use super::{AskError, Mode, Question};
+use crate::analysis::solver::{NoSolver, Solver, solver, values};
+use crate::mechanism::{Configuration, Frame};
+use crate::solve::{Newton, Stop, Watch};
+use crate::system::{self, Coordinate, check_count};
+
+/// Values of the inputs, then the state.
+pub type Example = (Vec<f64>, Vec<f64>);
+
+impl Question {
+    /// The solver for what is held, in the assembly near the start or that of the mode asked for; with poses and twists
+    /// of frames.
+    ///
+    /// # Errors
+    /// If the question is wrong, holds more or less than the mechanism has freedoms, or nothing assembles.
+    pub fn solver_program(
+        &self,
+        frames: &[(String, Frame)],
+        watch: &Watch,
+    ) -> Result<Result<Solver, NoSolver>, AskError> {
+        let (question, start) = self.posed(watch)?;
+        Ok(solver(&question, &start, frames))
+    }
+
+    /// Configurations along a closed curve of the inputs through the start, each near the one before it; fewer if the
+    /// mechanism cannot follow so far.
+    ///
+    /// # Errors
+    /// As for [`solver_program`](Self::solver_program).
+    pub fn examples(&self, count: usize, watch: &Watch) -> Result<Vec<Example>, AskError> {
+        /// Amplitudes to begin with, in rad and in characteristic lengths.
+        const WIDEST: f64 = 0.3;
+        /// How often they are halved where the mechanism cannot follow.
+        const HALVINGS: usize = 8;
+        let (question, start) = self.posed(watch)?;
+        let mut amplitude = WIDEST;
+        let mut found = Vec::new();
+        for _ in 0..HALVINGS {
+            found = follow(&question, &start, amplitude, count);
+            if found.len() == count {
+                break;
+            }
+            amplitude *= 0.5;
+        }
+        Ok(found)
+    }
+
+    fn posed(&self, watch: &Watch) -> Result<(system::Question<'_>, Configuration<f64>), AskError> {
+        let question = self.resolved()?;
+        if self.mode == Mode::Nearest {
+            check_count(&question).map_err(AskError::Question)?;
+        }
+        let question = question.with_spins_still();
+        let start = self.start(&question, watch)?;
+        Ok((question, start))
+    }
+}
+
+/// Configurations as long as Newton's method closes from one to the next.
+fn follow(
+    question: &system::Question,
+    start: &Configuration<f64>,
+    amplitude: f64,
+    count: usize,
+) -> Vec<Example> {
+    let mechanism = question.mechanism();
+    let held = question.held();
+    let joints = (0..held.joints.len()).filter(|joint| held.joints[*joint]);
+    let poses = (0..held.platforms.len()).flat_map(|p| {
+        question
+            .held_values(p)
+            .into_iter()
+            .map(move |(c, _)| Coordinate::Pose(p, c))
+    });
+    let inputs: Vec<Coordinate> = joints.map(Coordinate::Joint).chain(poses).collect();
+    let values_at = |k: usize| {
+        let turn = TAU * k as f64 / count as f64;
+        let values = inputs.iter().enumerate().map(move |(i, &input)| {
+            // no two inputs go to and fro alike
+            let away = amplitude * input.scale(mechanism) * ((i + 1) as f64 * turn).sin();
+            let value = input.of(start) + away;
+            let limits = match input {
+                Coordinate::Joint(joint) => mechanism.joints()[joint].limits,
+                _ => None,
+            };
+            let within = |(low, high): (f64, f64)| value.clamp(low, high.max(low));
+            (input, limits.map_or(value, within))
+        });
+        values.collect::<Vec<_>>()
+    };
+    let newton = Newton::default();
+    let mut found: Vec<Example> = Vec::with_capacity(count);
+    let (mut system, mut at, mut trial) = (question.system(), start.clone(), start.clone());
+    let mut work = system.work();
+    for k in 0..count {
+        let wanted = values_at(k);
+        if wanted
+            .iter()
+            .all(|(input, _)| matches!(input, Coordinate::Joint(_)))
+        {
+            for (input, value) in wanted {
+                if let Coordinate::Joint(joint) = input {
+                    at.joints[joint] = value;
+                }
+            }
+        } else {
+            let question = question.clone().at_values(wanted).near(&at);
+            system = question.system();
+            at = question.start();
+        }
+        trial.clone_from(&at);
+        let report = newton.solve(&system, &mut at, &mut trial, &mut work);
+        if report.stop != Stop::Solved {
+            break;
+        }
+        found.push(values(question, &at));
+    }
+    found
+}

@@ -1,0 +1,139 @@
+//! `linkwork generate`
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use linkwork::analysis::solver::NoSolver;
+use linkwork::output::complaint::Complaint;
+use linkwork::output::solver::{Code, Language, Precision};
+
+use super::asked::{self, Asked};
+use super::source::Source;
+use super::written::{save, written};
+use super::{Answer, Refusal};
+
+/// Write a solver for one question as source code, C or Rust, without dependencies.
+///
+/// The inputs of the solver are the coordinates that are held: the actuated joints, unless --hold and --free say
+/// otherwise; their values only say where the order of elimination is chosen. What it finds is the state: every other
+/// joint, and the position and the unit quaternion of every platform. It follows the assembly near the start, or the one
+/// of --mode. Lengths are in m, angles in rad.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork generate mechanisms/four_bar.ron --lang c --output four_bar.h --with-test\n  \
+    linkwork generate mechanisms/three_rps.ron --lang rust --frame top")]
+pub struct Generate {
+    #[command(flatten)]
+    source: Source,
+    /// The language
+    #[arg(long, value_enum)]
+    lang: Lang,
+    /// The numbers
+    #[arg(long, value_enum, default_value = "double")]
+    precision: Numbers,
+    /// Add the pose of a frame and its twists for unit rates of the inputs, e.g. --frame top.S1
+    #[arg(long, value_name = "FRAME")]
+    frame: Vec<String>,
+    /// Write to this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write a program beside it that runs the solver through so many configurations found by linkwork
+    #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "100",
+        requires = "output", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    with_test: Option<u32>,
+    #[command(flatten)]
+    asked: Asked,
+    /// Solve in the assembly of this number, as `assemblies` lists them
+    #[arg(long, value_name = "NUMBER")]
+    mode: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Lang {
+    /// C99, a header of static functions.
+    C,
+    /// Rust, a module that needs no standard library.
+    Rust,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Numbers {
+    /// 32 bits.
+    Single,
+    /// 64 bits.
+    Double,
+}
+
+impl Generate {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let mut posed = self.asked.pose(&self.source)?;
+        posed.mode(self.mode);
+        let mechanism = posed.question.mechanism().clone();
+        let named = |name: &String| Ok((name.clone(), asked::frame(&mechanism, name, "--frame")?));
+        let frames = self
+            .frame
+            .iter()
+            .map(named)
+            .collect::<Result<Vec<_>, Refusal>>()?;
+        let solver = posed.ask(|question, watch| question.solver_program(&frames, watch))?;
+        let solver = solver.map_err(|none| Refusal::from(complaint(&none)))?;
+        let code = Code {
+            language: match self.lang {
+                Lang::C => Language::C,
+                Lang::Rust => Language::Rust,
+            },
+            precision: match self.precision {
+                Numbers::Single => Precision::Single,
+                Numbers::Double => Precision::Double,
+            },
+            name: identifier(self.output.as_ref().unwrap_or(&self.source.beside(""))),
+        };
+        if let (Some(count), Some(path)) = (self.with_test, &self.output) {
+            let examples = posed.ask(|question, watch| question.examples(count as usize, watch))?;
+            let test = format!("{}_test.{}", code.name, code.language.program_ending());
+            save(
+                &path.with_file_name(test),
+                code.test(&solver, &examples).as_bytes(),
+            )?;
+        }
+        Ok(Answer {
+            data: written(code.solver(&solver), self.output.as_deref())?,
+            remarks: posed.loaded.warnings(),
+            yes: true,
+        })
+    }
+}
+
+/// A name for functions, from that of a file.
+fn identifier(path: &std::path::Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '_'
+        }
+    };
+    let name: String = stem.chars().map(plain).collect();
+    match name.starts_with(|c: char| c.is_ascii_lowercase()) {
+        true => name,
+        false => format!("solver_{name}"),
+    }
+}
+
+fn complaint(none: &NoSolver) -> Complaint {
+    match none {
+        NoSolver::NothingUnknown => {
+            Complaint::new("there is nothing to solve: what is held determines every frame")
+                .help("`linkwork formulas --rust` writes the frames as functions")
+        }
+        NoSolver::NothingHeld => {
+            Complaint::new("the mechanism cannot move, so that a solver would have no inputs")
+                .help("`linkwork solve` prints its configuration")
+        }
+        NoSolver::Singular { rank, unknowns } => Complaint::new(format!(
+            "the configuration is singular: {rank} of {unknowns} unknowns are determined there"
+        ))
+        .help("choose another one with --hold, --guess or --mode"),
+    }
+}

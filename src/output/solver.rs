@@ -1,0 +1,148 @@
+//! A solver as source code: C99 or Rust without the standard library, one file without dependencies.
+
+mod language;
+mod sections;
+
+pub use language::{Language, Precision};
+
+use crate::analysis::solver::{Slot, Solver};
+use crate::ask::Example;
+use sections::Writer;
+
+/// How to write a solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Code {
+    /// The language.
+    pub language: Language,
+    /// The numbers.
+    pub precision: Precision,
+    /// What names in the code begin with; a Rust module needs none and has this one as its own.
+    pub name: String,
+}
+
+impl Code {
+    /// The solver.
+    pub fn solver(&self, solver: &Solver) -> String {
+        let language = self.language;
+        let writer = Writer::new(self, solver);
+        let sections = [
+            ("heading", self.heading(solver)),
+            (
+                "start_inputs",
+                self.numbers(solver.inputs.iter().map(|slot| slot.value)),
+            ),
+            (
+                "start_state",
+                self.numbers(solver.state.iter().map(|slot| slot.value)),
+            ),
+            ("fast", writer.fast()),
+            ("linearise", writer.linearise()),
+            ("move", writer.moved()),
+            ("normalise", writer.normalise()),
+            ("frames", writer.frames()),
+            ("sine", self.precision.sine(language)),
+        ];
+        let filled = sections
+            .into_iter()
+            .fold(language.template().to_owned(), |text, (name, section)| {
+                text.replace(&format!("@{name}@\n"), &section)
+            });
+        self.named(filled, solver)
+    }
+
+    /// A program that runs the solver through configurations found by the library, each from the one before it, and
+    /// fails if a number differs by more than it should.
+    pub fn test(&self, solver: &Solver, examples: &[Example]) -> String {
+        let rows = examples.iter().map(|(inputs, state)| {
+            let row = self.numbers(inputs.iter().chain(state).copied());
+            let (open, close) = self.language.brackets();
+            format!("    {open}{}{close},\n", row.trim_end().replace('\n', ""))
+        });
+        let text =
+            (self.language.test_template()).replace("@examples@\n", &rows.collect::<String>());
+        self.named(
+            text.replace("@example_count@", &examples.len().to_string()),
+            solver,
+        )
+    }
+
+    /// The names and counts put in.
+    fn named(&self, text: String, solver: &Solver) -> String {
+        let counts = [
+            ("@inputs@", solver.inputs.len()),
+            ("@state@", solver.state.len()),
+            ("@unknowns@", solver.unknowns),
+            ("@rows@", solver.residual.len()),
+            ("@frame_count@", solver.frames.len()),
+        ];
+        let text = counts.into_iter().fold(text, |text, (name, count)| {
+            text.replace(name, &count.to_string())
+        });
+        let words = self.precision.words(self.language);
+        let text = words
+            .into_iter()
+            .fold(text, |text, (name, word)| text.replace(name, word));
+        text.replace("@NAME@", &self.name.to_uppercase())
+            .replace("@name@", &self.name)
+    }
+
+    fn numbers(&self, numbers: impl Iterator<Item = f64>) -> String {
+        let numbers = numbers.map(|x| self.precision.literal(x, self.language));
+        let numbers: Vec<String> = numbers.collect();
+        let lines = numbers
+            .chunks(4)
+            .map(|line| format!("    {},\n", line.join(", ")));
+        lines.collect()
+    }
+
+    /// What is solved, units and the order of arrays.
+    fn heading(&self, solver: &Solver) -> String {
+        let list = |slots: &[Slot]| -> String {
+            let lines = slots.iter().enumerate().map(|(i, slot)| {
+                let unit = slot.unit.to_string();
+                let unit = if unit.is_empty() {
+                    String::new()
+                } else {
+                    format!(", {unit}")
+                };
+                format!("   {i:>3}  {}{unit}\n", plain(&slot.name))
+            });
+            lines.collect()
+        };
+        let mut lines = format!(
+            "{}\n\nSolver written by linkwork {}.\n\nInputs, what is held:\n{}\nState, what is found:\n{}",
+            plain(&solver.mechanism),
+            env!("CARGO_PKG_VERSION"),
+            list(&solver.inputs),
+            list(&solver.state),
+        );
+        if solver
+            .state
+            .iter()
+            .any(|slot| slot.unit.to_string().is_empty())
+        {
+            lines += "qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.\n";
+        }
+        if !solver.frames.is_empty() {
+            lines += "\nFrames:\n";
+            for (i, frame) in solver.frames.iter().enumerate() {
+                lines += &format!("   {i:>3}  {}\n", plain(&frame.name));
+            }
+        }
+        let comment = self.language.comment();
+        let lines = lines
+            .lines()
+            .map(|line| format!("{comment} {line}").trim_end().to_owned() + "\n");
+        lines.collect()
+    }
+}
+
+/// A name on one line of a comment, which it cannot end.
+fn plain(name: &str) -> String {
+    let kept = name
+        .chars()
+        .map(|c| if c.is_control() || c == '\\' { ' ' } else { c });
+    kept.collect::<String>()
+        .replace("*/", "* /")
+        .replace("??", "? ?")
+}

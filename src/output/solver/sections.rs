@@ -1,0 +1,366 @@
+//! The straight-line parts of a solver.
+
+use std::collections::BTreeSet;
+
+use super::{Code, Language};
+use crate::algebra::{Operation, Place};
+use crate::analysis::solver::{Slot, Solver};
+
+/// Writes operations in the language of the code.
+pub(super) struct Writer<'a> {
+    code: &'a Code,
+    solver: &'a Solver,
+    /// For each operation whether it depends on nothing but what is held.
+    given: Vec<bool>,
+}
+
+/// The text of one function, with what is already written in it.
+struct Text<'w, 'a> {
+    writer: &'w Writer<'a>,
+    text: String,
+    indent: usize,
+    known: BTreeSet<Place>,
+    /// Whether sines and cosines of the state have names of their own.
+    carries: bool,
+}
+
+impl<'a> Writer<'a> {
+    pub fn new(code: &'a Code, solver: &'a Solver) -> Self {
+        let mut given: Vec<bool> = Vec::with_capacity(solver.operations.len());
+        for operation in &solver.operations {
+            let of_inputs = match *operation {
+                Operation::Input(i) => (i as usize) < solver.inputs.len(),
+                _ => operation.operands().all(|place| given[place as usize]),
+            };
+            given.push(of_inputs);
+        }
+        Writer {
+            code,
+            solver,
+            given,
+        }
+    }
+
+    fn text(&self, indent: usize, carries: bool) -> Text<'_, 'a> {
+        Text {
+            writer: self,
+            text: String::new(),
+            indent,
+            known: BTreeSet::new(),
+            carries,
+        }
+    }
+
+    fn language(&self) -> Language {
+        self.code.language
+    }
+
+    fn name(&self, place: Place, carries: bool) -> String {
+        let (given, kept) = (self.solver.inputs.len(), self.solver.state.len());
+        match self.solver.operations[place as usize] {
+            Operation::Constant(x) => {
+                let literal = self.code.precision.literal(x, self.language());
+                if x < 0.0 {
+                    format!("({literal})")
+                } else {
+                    literal
+                }
+            }
+            Operation::Input(i) => match i as usize {
+                i if i < given => format!("u{i}"),
+                i if i < given + kept => format!("x{}", i - given),
+                i => format!("d{}", i - given - kept),
+            },
+            Operation::Sin(angle) if carries && self.state_of(angle).is_some() => {
+                format!("s{}", self.state_of(angle).unwrap_or_default())
+            }
+            Operation::Cos(angle) if carries && self.state_of(angle).is_some() => {
+                format!("c{}", self.state_of(angle).unwrap_or_default())
+            }
+            _ => format!("t{place}"),
+        }
+    }
+
+    /// The number of the state at a place.
+    fn state_of(&self, place: Place) -> Option<usize> {
+        let (given, kept) = (self.solver.inputs.len(), self.solver.state.len());
+        match self.solver.operations[place as usize] {
+            Operation::Input(i) => (i as usize).checked_sub(given).filter(|i| *i < kept),
+            _ => None,
+        }
+    }
+
+    /// What is needed for places, in order.
+    fn needed(&self, places: impl IntoIterator<Item = Place>) -> BTreeSet<Place> {
+        let mut needed = BTreeSet::new();
+        let mut open: Vec<Place> = places.into_iter().collect();
+        while let Some(place) = open.pop() {
+            if needed.insert(place) {
+                open.extend(self.solver.operations[place as usize].operands());
+            }
+        }
+        needed
+    }
+
+    /// The numbers of the state whose sines or cosines are used.
+    fn angles(&self, used: &BTreeSet<Place>) -> BTreeSet<usize> {
+        let angles =
+            used.iter()
+                .filter_map(|&place| match self.solver.operations[place as usize] {
+                    Operation::Sin(angle) | Operation::Cos(angle) => self.state_of(angle),
+                    _ => None,
+                });
+        angles.collect()
+    }
+
+    /// Newton's method where every step is a good one.
+    pub fn fast(&self) -> String {
+        let Solver {
+            residual,
+            pivots,
+            step,
+            moved,
+            state,
+            ..
+        } = self.solver;
+        let language = self.language();
+        let used = self.needed([residual, step].into_iter().flatten().copied());
+        let angles = self.angles(&used);
+        let mut text = self.text(1, true);
+        text.inputs(&used);
+        text.operations(
+            used.iter()
+                .copied()
+                .filter(|&place| self.given[place as usize]),
+        );
+        for i in 0..state.len() {
+            text.line(&language.variable(&format!("x{i}"), &format!("x[{i}]")));
+        }
+        for i in &angles {
+            text.line(&language.turning(&format!("s{i}"), &format!("c{i}"), &format!("x{i}")));
+        }
+        text.line(&language.variable("last", "LARGE"));
+        text.line(match language {
+            Language::C => "int k;\nfor (k = 0; k < MOST_STEPS; ++k) {\n",
+            Language::Rust => "for _ in 0..MOST_STEPS {\n",
+        });
+        text.indent = 2;
+        text.operations(self.needed(residual.iter().copied()));
+        text.line(&language.variable("size", &self.code.precision.literal(0.0, language)));
+        for &row in residual {
+            text.line(&language.larger("size", &self.name(row, true)));
+        }
+        // where rounding is reached the rows no longer halve
+        let settled = "!(size < HALF * last)";
+        let (condition, done) = match language {
+            Language::C => (
+                format!("if (size <= TOLERANCE || (size <= ROUNDING && {settled})) {{\n"),
+                "    return 1;\n}\n",
+            ),
+            Language::Rust => (
+                format!("if size <= TOLERANCE || size <= ROUNDING && {settled} {{\n"),
+                "    return true;\n}\n",
+            ),
+        };
+        text.line(&condition);
+        for i in 0..state.len() {
+            text.line(&format!("    x[{i}] = x{i};\n"));
+        }
+        text.line(done);
+        text.line("/* a step that does not halve the rows is not to be trusted */\n");
+        text.line(&language.gives_up_if(settled));
+        text.line("last = size;\n");
+        text.operations(self.needed(step.iter().copied()));
+        for &pivot in pivots {
+            if used.contains(&pivot) {
+                let name = self.name(pivot, true);
+                text.line(&language.gives_up_if(&match language {
+                    Language::C => format!("!(@fabs@({name}) > LEAST_PIVOT)"),
+                    Language::Rust => format!("!(absolute({name}) > LEAST_PIVOT)"),
+                }));
+            }
+        }
+        for (i, &part) in step.iter().enumerate() {
+            text.line(&language.bound(&format!("d{i}"), &self.name(part, true)));
+        }
+        text.line(&language.variable("longest", &self.code.precision.literal(0.0, language)));
+        for i in 0..step.len() {
+            text.line(&language.larger("longest", &format!("d{i}")));
+        }
+        text.line(&language.gives_up_if("!(longest <= LONGEST_STEP)"));
+        text.operations(self.needed(moved.iter().copied()));
+        // all at once: one may depend on another
+        for (i, &to) in moved.iter().enumerate() {
+            text.line(&language.bound(&format!("y{i}"), &self.name(to, true)));
+        }
+        for &i in &angles {
+            let turn =
+                language.turned_on(&format!("s{i}"), &format!("c{i}"), &format!("y{i} - x{i}"));
+            text.line(&turn);
+        }
+        for i in 0..moved.len() {
+            text.line(&format!("x{i} = y{i};\n"));
+        }
+        text.indent = 1;
+        text.line("}\n");
+        text.text
+    }
+
+    /// Rows and Jacobian into arrays.
+    pub fn linearise(&self) -> String {
+        let Solver {
+            residual, jacobian, ..
+        } = self.solver;
+        let used = self.needed(residual.iter().chain(jacobian.iter().flatten()).copied());
+        let mut text = self.text(1, false);
+        text.inputs(&used);
+        text.state(&used);
+        text.operations(used);
+        for (i, &row) in residual.iter().enumerate() {
+            text.line(&format!("r[{i}] = {};\n", self.name(row, false)));
+        }
+        for (i, row) in jacobian.iter().enumerate() {
+            for (k, &entry) in row.iter().enumerate() {
+                text.line(&format!("j[{i}][{k}] = {};\n", self.name(entry, false)));
+            }
+        }
+        text.text
+    }
+
+    /// The state moved by a step.
+    pub fn moved(&self) -> String {
+        let Solver { moved, step, .. } = self.solver;
+        let used = self.needed(moved.iter().copied());
+        let mut text = self.text(1, false);
+        text.state(&used);
+        for i in 0..step.len() {
+            let read = format!("d[{i}]");
+            text.line(&self.language().bound(&format!("d{i}"), &read));
+        }
+        text.operations(used);
+        for (i, &to) in moved.iter().enumerate() {
+            text.line(&format!("y[{i}] = {};\n", self.name(to, false)));
+        }
+        text.text
+    }
+
+    /// Unit quaternions after a small change: one step of Newton's method for 1/√(q·q).
+    pub fn normalise(&self) -> String {
+        let mut text = self.text(1, false);
+        let first = |(_, slot): &(usize, &Slot)| slot.name.ends_with(".qw");
+        for (i, _) in self.solver.state.iter().enumerate().filter(first) {
+            let squares: Vec<String> = (i..i + 4).map(|i| format!("x[{i}] * x[{i}]")).collect();
+            let of = |x: f64| self.code.precision.literal(x, self.language());
+            let factor = format!("{} - {} * ({})", of(1.5), of(0.5), squares.join(" + "));
+            text.line(&self.language().bound(&format!("f{i}"), &factor));
+            (i..i + 4).for_each(|k| text.line(&format!("x[{k}] *= f{i};\n")));
+        }
+        text.text
+    }
+
+    /// Poses and twists of frames into arrays.
+    pub fn frames(&self) -> String {
+        let Solver { frames, pivots, .. } = self.solver;
+        let places = frames
+            .iter()
+            .flat_map(|f| f.pose.iter().chain(f.twists.iter().flatten()));
+        let used = self.needed(places.copied());
+        let mut text = self.text(1, false);
+        text.inputs(&used);
+        text.state(&used);
+        text.operations(used.iter().copied());
+        for &pivot in pivots.iter().filter(|pivot| used.contains(pivot)) {
+            let name = self.name(pivot, false);
+            text.line(&self.language().gives_up_if(&match self.language() {
+                Language::C => format!("!(@fabs@({name}) > LEAST_PIVOT)"),
+                Language::Rust => format!("!(absolute({name}) > LEAST_PIVOT)"),
+            }));
+        }
+        for (f, frame) in frames.iter().enumerate() {
+            for (i, &place) in frame.pose.iter().enumerate() {
+                text.line(&format!("pose[{f}][{i}] = {};\n", self.name(place, false)));
+            }
+            for (input, twist) in frame.twists.iter().enumerate() {
+                for (i, &place) in twist.iter().enumerate() {
+                    let name = self.name(place, false);
+                    text.line(&format!("twist[{f}][{input}][{i}] = {name};\n"));
+                }
+            }
+        }
+        text.text
+    }
+}
+
+impl Text<'_, '_> {
+    fn line(&mut self, lines: &str) {
+        for line in lines.lines() {
+            self.text += &"    ".repeat(self.indent);
+            self.text += line;
+            self.text.push('\n');
+        }
+    }
+
+    /// The inputs that are used.
+    fn inputs(&mut self, used: &BTreeSet<Place>) {
+        self.numbers(used, "u", &|name| name.starts_with('u'));
+    }
+
+    /// The state that is used.
+    fn state(&mut self, used: &BTreeSet<Place>) {
+        self.numbers(used, "x", &|name| name.starts_with('x'));
+    }
+
+    fn numbers(&mut self, used: &BTreeSet<Place>, array: &str, wanted: &dyn Fn(&str) -> bool) {
+        for &place in used {
+            if let Operation::Input(_) = self.writer.solver.operations[place as usize] {
+                let name = self.writer.name(place, false);
+                if wanted(&name) {
+                    let read = format!("{array}[{}]", &name[1..]);
+                    self.line(&self.writer.language().bound(&name, &read));
+                }
+            }
+        }
+    }
+
+    /// Operations that are not written yet.
+    fn operations(&mut self, places: impl IntoIterator<Item = Place>) {
+        let places: BTreeSet<Place> = places.into_iter().collect();
+        for &place in &places {
+            if !self.known.insert(place) {
+                continue;
+            }
+            let writer = self.writer;
+            let (language, carries) = (writer.language(), self.carries);
+            let name = |place: Place| writer.name(place, carries);
+            match writer.solver.operations[place as usize] {
+                Operation::Constant(_) | Operation::Input(_) => {}
+                Operation::Sin(angle) | Operation::Cos(angle) => {
+                    if carries && writer.state_of(angle).is_some() {
+                        continue;
+                    }
+                    self.turned(place, angle);
+                }
+                operation => {
+                    let value = language.operation(operation, &name);
+                    self.line(&language.bound(&name(place), &value));
+                }
+            }
+        }
+    }
+
+    /// Sine and cosine of an angle, of which both are written where either is used.
+    fn turned(&mut self, place: Place, angle: Place) {
+        let writer = self.writer;
+        let all = writer.solver.operations.iter().enumerate();
+        let partner = |wanted: Operation| all.clone().find(|(_, of)| **of == wanted);
+        let place_of = |wanted| partner(wanted).map(|(place, _)| place as Place);
+        let sin = place_of(Operation::Sin(angle)).unwrap_or(place);
+        let cos = place_of(Operation::Cos(angle)).unwrap_or(place);
+        self.known.extend([sin, cos]);
+        let name = |place| writer.name(place, self.carries);
+        let line = writer
+            .language()
+            .turned(&name(sin), &name(cos), &name(angle));
+        self.line(&line);
+    }
+}

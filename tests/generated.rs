@@ -1,0 +1,438 @@
+//! Solvers written as C and Rust: compiled without warnings, they find what the library finds.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use linkwork::analysis::solver::{NoSolver, Solver};
+use linkwork::ask::{Example, Question};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::solver::{Code, Language, Precision};
+use linkwork::solve::Watch;
+
+/// Configurations that every solver is run through.
+const CONFIGURATIONS: usize = 10_000;
+/// Unknowns of the largest mechanisms that are compiled.
+const MOST_UNKNOWNS: usize = 12;
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn load(name: &str) -> Question {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    Question::new(Mechanism::load(folder.join(format!("{name}.ron"))).unwrap())
+}
+
+fn written(question: &Question) -> Option<Solver> {
+    let solver = question.solver_program(&[], &Watch::none()).ok()?.ok()?;
+    (solver.unknowns <= MOST_UNKNOWNS).then_some(solver)
+}
+
+/// Every shipped file that has a solver of so many unknowns, with its name in code.
+fn shipped() -> Vec<(String, Question, Solver)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let mut found = Vec::new();
+    for (part, prefix) in [("", ""), ("axes", "axes_")] {
+        for file in fs::read_dir(folder.join(part)).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "ron") {
+                continue;
+            }
+            let question = Question::new(Mechanism::load(&path).unwrap());
+            if let Some(solver) = written(&question) {
+                let stem = path.file_stem().unwrap().to_str().unwrap();
+                found.push((format!("{prefix}{stem}"), question, solver));
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0.cmp(&b.0));
+    found
+}
+
+fn code(language: Language, name: &str) -> Code {
+    Code {
+        language,
+        precision: Precision::Double,
+        name: name.into(),
+    }
+}
+
+fn compiled(command: &mut Command) {
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.is_empty(), "{said}");
+}
+
+fn cc() -> Command {
+    let mut cc = Command::new("cc");
+    cc.args([
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-pedantic",
+        "-O1",
+    ]);
+    cc
+}
+
+fn has_cc() -> bool {
+    let has = Command::new("cc").arg("--version").output().is_ok();
+    if !has {
+        eprintln!("skipped: there is no C compiler here");
+    }
+    has
+}
+
+/// All configurations of all mechanisms as numbers in a file, in the order of the solvers.
+fn examples(solvers: &[(String, Question, Solver)], path: &Path) {
+    let mut bytes = Vec::new();
+    for (name, question, _) in solvers {
+        let examples: Vec<Example> = question.examples(CONFIGURATIONS, &Watch::none()).unwrap();
+        assert_eq!(examples.len(), CONFIGURATIONS, "{name} cannot follow");
+        for (inputs, state) in examples {
+            bytes.extend(inputs.iter().chain(&state).flat_map(|x| x.to_ne_bytes()));
+        }
+    }
+    fs::write(path, bytes).unwrap();
+}
+
+/// What a compiled program says: for each solver how many searches failed, and the largest difference. Lengths may differ
+/// by a part of the characteristic length.
+fn judged(program: &Path, data: &Path, solvers: &[(String, Question, Solver)]) {
+    let output = Command::new(program).arg(data).output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(said.lines().count(), solvers.len(), "{said}");
+    let mut wrong = String::new();
+    for (line, (_, question, _)) in said.lines().zip(solvers) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [name, failed, apart] = words[..] else {
+            panic!("{line}");
+        };
+        let apart: f64 = apart.parse().unwrap();
+        let limit = 1e-12 * question.mechanism().characteristic_length().max(1.0);
+        if failed != "0" || !(apart <= limit) {
+            writeln!(wrong, "{name}: {failed} failed, {apart:e} apart").unwrap();
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn solvers_of_every_shipped_file_find_what_the_library_finds() {
+    let (folder, solvers) = (folder("generated"), shipped());
+    let data = folder.join("examples");
+    examples(&solvers, &data);
+    judged(&all_rust(&folder, &solvers), &data, &solvers);
+    if has_cc() {
+        judged(&all_c(&folder, &solvers), &data, &solvers);
+    }
+}
+
+/// All solvers as C, and a program that runs them.
+fn all_c(folder: &Path, solvers: &[(String, Question, Solver)]) -> PathBuf {
+    let mut main = String::from("#include <stdio.h>\n#include <string.h>\n");
+    let mut calls = String::new();
+    for (name, _, solver) in solvers {
+        let text = code(Language::C, name).solver(solver);
+        fs::write(folder.join(format!("{name}.h")), text).unwrap();
+        let (inputs, state) = (solver.inputs.len(), solver.state.len());
+        write!(
+            main,
+            r#"#include "{name}.h"
+static void run_{name}(FILE *file)
+{{
+    double row[{inputs} + {state}], apart = 0;
+    {name}_follower follower = {{{{0}}, {{0}}}};
+    int i, k, failed = 0;
+    memcpy(follower.state, {name}_start_state, sizeof follower.state);
+    for (k = 0; k < {CONFIGURATIONS}; ++k) {{
+        failed += fread(row, sizeof row, 1, file) != 1;
+        failed += {name}_follow(&follower, row) != {upper}_SOLVED;
+        for (i = 0; i < {state}; ++i) {{
+            const double off = fabs(follower.state[i] - row[{inputs} + i]);
+            apart = off <= apart ? apart : off;
+        }}
+    }}
+    printf("{name} %d %.3e\n", failed, apart);
+}}
+"#,
+            upper = name.to_uppercase()
+        )
+        .unwrap();
+        writeln!(calls, "    run_{name}(file);").unwrap();
+    }
+    write!(
+        main,
+        "int main(int argc, char **argv)\n{{\n    FILE *file = argc > 1 ? fopen(argv[1], \"rb\") : 0;\n    \
+         if (!file) return 1;\n{calls}    return 0;\n}}\n"
+    )
+    .unwrap();
+    let (source, program) = (folder.join("all.c"), folder.join("all_c"));
+    fs::write(&source, main).unwrap();
+    compiled(cc().arg(&source).arg("-o").arg(&program).arg("-lm"));
+    program
+}
+
+/// The same as Rust.
+fn all_rust(folder: &Path, solvers: &[(String, Question, Solver)]) -> PathBuf {
+    let mut main = String::from("use std::io::Read;\n");
+    let mut calls = String::new();
+    for (name, _, solver) in solvers {
+        let text = code(Language::Rust, name).solver(solver);
+        fs::write(folder.join(format!("{name}.rs")), text).unwrap();
+        writeln!(main, "mod {name};").unwrap();
+        writeln!(calls, "    run!(file, {name});").unwrap();
+    }
+    write!(
+        main,
+        r#"macro_rules! run {{
+    ($file:ident, $solver:ident) => {{{{
+        use $solver::*;
+        let mut follower = Follower::new(START_STATE);
+        let (mut failed, mut apart) = (0, 0.0f64);
+        let mut read = || {{
+            let mut bytes = [0; 8];
+            $file.read_exact(&mut bytes).unwrap();
+            f64::from_ne_bytes(bytes)
+        }};
+        for _ in 0..{CONFIGURATIONS} {{
+            let inputs = std::array::from_fn::<f64, INPUTS, _>(|_| read());
+            failed += usize::from(follower.solve(&inputs) != Verdict::Solved);
+            for x in follower.state {{
+                let off = (x - read()).abs();
+                apart = if off <= apart {{ apart }} else {{ off }};
+            }}
+        }}
+        println!("{{}} {{failed}} {{apart:e}}", stringify!($solver));
+    }}}};
+}}
+fn main() {{
+    let path = std::env::args().nth(1).unwrap();
+    let mut file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
+{calls}}}
+"#
+    )
+    .unwrap();
+    let (source, program) = (folder.join("all.rs"), folder.join("all_rust"));
+    fs::write(&source, main).unwrap();
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    compiled(
+        Command::new(rustc)
+            .args(["--edition=2021", "-Copt-level=1", "-Dwarnings", "-o"])
+            .arg(&program)
+            .arg(&source),
+    );
+    program
+}
+
+/// The rocker of the 4-bar turns back where crank and coupler are in line: law of cosines.
+#[test]
+fn beyond_and_at_a_dead_point_there_is_a_verdict_and_never_nan() {
+    if !has_cc() {
+        return;
+    }
+    let (l0, l1, l2, l3) = (5.0f64, 1.0, 3.0, 4.0);
+    let reach = l1 + l2;
+    let dead =
+        std::f64::consts::PI - ((l0 * l0 + l3 * l3 - reach * reach) / (2.0 * l0 * l3)).acos();
+    let question = load("four_bar").free("theta1").hold("phi1", dead + 0.1);
+    let solver = question
+        .solver_program(&[], &Watch::none())
+        .unwrap()
+        .unwrap();
+    let folder = folder("dead_point");
+    let name = "rocker";
+    fs::write(
+        folder.join("rocker.h"),
+        code(Language::C, name).solver(&solver),
+    )
+    .unwrap();
+    let main = format!(
+        r#"#include <stdio.h>
+#include "rocker.h"
+int main(void)
+{{
+    const double away[] = {{0.1, 1e-3, 1e-6, 0.0, -1e-6, -1e-3, -0.1, 3.0, NAN, INFINITY}};
+    double x[ROCKER_STATE];
+    unsigned k;
+    int i;
+    for (k = 0; k < sizeof away / sizeof *away; ++k) {{
+        double u[1], sum = 0;
+        for (i = 0; i < ROCKER_STATE; ++i) x[i] = rocker_start_state[i];
+        /* near the dead point first, as a motion comes there */
+        u[0] = {dead:?} + 0.1;
+        if (rocker_solve(u, x) != ROCKER_SOLVED) return 1;
+        u[0] = {dead:?} + away[k];
+        printf("%d", rocker_solve(u, x));
+        for (i = 0; i < ROCKER_STATE; ++i) sum += x[i];
+        printf(" %d\n", sum - sum == 0);
+    }}
+    return 0;
+}}
+"#
+    );
+    fs::write(folder.join("main.c"), main).unwrap();
+    let program = folder.join("main");
+    compiled(
+        cc().arg(folder.join("main.c"))
+            .arg("-o")
+            .arg(&program)
+            .arg("-lm"),
+    );
+    let output = Command::new(&program).output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    let verdicts: Vec<&str> = said
+        .lines()
+        .map(|line| line.split(' ').next().unwrap())
+        .collect();
+    assert!(
+        said.lines().all(|line| line.ends_with(" 1")),
+        "not a number: {said}"
+    );
+    // solved to either side of the singular one, not assembled beyond it, bad input
+    assert_eq!(verdicts[..2], ["0", "0"], "{said}");
+    assert_eq!(verdicts[3], "1", "{said}");
+    assert_eq!(verdicts[5..7], ["2", "2"], "{said}");
+    assert_eq!(verdicts[8..], ["4", "4"], "{said}");
+}
+
+#[test]
+fn twists_of_frames_are_the_derivatives_of_their_poses() {
+    if !has_cc() {
+        return;
+    }
+    for name in ["four_bar", "three_rps", "stewart_gough_6sps"] {
+        let question = load(name);
+        let mechanism = question.mechanism();
+        let frames: Vec<_> = (mechanism.platforms().iter().map(|p| p.name.clone()))
+            .chain(mechanism.chains().iter().map(|c| c.name.clone()))
+            .map(|name| (name.clone(), mechanism.frame(&name).unwrap()))
+            .collect();
+        let solver = question
+            .solver_program(&frames, &Watch::none())
+            .unwrap()
+            .unwrap();
+        let folder = folder(&format!("twists_{name}"));
+        fs::write(
+            folder.join("made.h"),
+            code(Language::C, "made").solver(&solver),
+        )
+        .unwrap();
+        fs::write(
+            folder.join("main.c"),
+            r#"#include <stdio.h>
+#include "made.h"
+int main(void)
+{
+    const double h = 3e-5;
+    double worst = 0;
+    int f, k, i, c, side;
+    for (k = 0; k < MADE_INPUTS; ++k) {
+        double pose[5][MADE_FRAMES][12], twist[MADE_FRAMES][MADE_INPUTS][6];
+        for (side = -2; side <= 2; ++side) {
+            double u[MADE_INPUTS], x[MADE_STATE];
+            for (i = 0; i < MADE_INPUTS; ++i) u[i] = made_start_inputs[i] + (i == k ? side * h : 0);
+            for (i = 0; i < MADE_STATE; ++i) x[i] = made_start_state[i];
+            if (made_solve(u, x) != MADE_SOLVED) return 1;
+            if (side != 0) {
+                double unused[MADE_FRAMES][MADE_INPUTS][6];
+                if (!made_frames(u, x, pose[side + 2], unused)) return 1;
+            } else if (!made_frames(u, x, pose[2], twist)) {
+                return 1;
+            }
+        }
+        for (f = 0; f < MADE_FRAMES; ++f) {
+            const double *t = twist[f][k];
+            for (c = 0; c < 4; ++c) {
+                /* an axis a moves with omega x a, the origin with v */
+                const double *a = pose[2][f] + 3 * c;
+                double rate[3];
+                rate[0] = c == 3 ? t[0] : t[4] * a[2] - t[5] * a[1];
+                rate[1] = c == 3 ? t[1] : t[5] * a[0] - t[3] * a[2];
+                rate[2] = c == 3 ? t[2] : t[3] * a[1] - t[4] * a[0];
+                for (i = 0; i < 3; ++i) {
+                    const int e = 3 * c + i;
+                    const double narrow = pose[3][f][e] - pose[1][f][e];
+                    const double wide = pose[4][f][e] - pose[0][f][e];
+                    const double off = fabs((8 * narrow - wide) / (12 * h) - rate[i]);
+                    worst = off <= worst ? worst : off;
+                }
+            }
+        }
+    }
+    printf("%.3e\n", worst);
+    return 0;
+}
+"#,
+        )
+        .unwrap();
+        let program = folder.join("main");
+        compiled(
+            cc().arg(folder.join("main.c"))
+                .arg("-o")
+                .arg(&program)
+                .arg("-lm"),
+        );
+        let output = Command::new(&program).output().unwrap();
+        assert!(output.status.success(), "{name} does not solve");
+        let worst: f64 = String::from_utf8(output.stdout)
+            .unwrap()
+            .trim()
+            .parse()
+            .unwrap();
+        assert!(worst < 1e-7, "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn a_question_without_unknowns_or_inputs_has_no_solver() {
+    let none = |name: &str| load(name).solver_program(&[], &Watch::none()).unwrap();
+    assert_eq!(none("axes/gears"), Err(NoSolver::NothingUnknown));
+    assert_eq!(none("triangle"), Err(NoSolver::NothingHeld));
+}
+
+/// Rewritten with `UPDATE_GENERATED=1`.
+#[test]
+fn the_solvers_of_the_bench_are_those_that_the_program_writes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let lengths = [("l0", "4.5"), ("l1", "2"), ("l2", "4"), ("l3", "3.5")];
+    let set = lengths
+        .iter()
+        .flat_map(|(name, value)| ["--set".into(), format!("{name}={value}")]);
+    let four_bar: Vec<String> = set.chain(["--hold".into(), "theta1=0".into()]).collect();
+    let legs = (1..=3).flat_map(|leg| ["--hold".into(), format!("l{leg}=0.8")]);
+    let angles = (1..=3).flat_map(|leg| ["--guess".into(), format!("phi{leg}=40 deg")]);
+    let three_rps = legs.chain(angles).collect();
+    for (name, options) in [
+        ("four_bar", four_bar),
+        ("three_rps", three_rps),
+        ("stewart_gough_6sps", vec![]),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+            .current_dir(root)
+            .args([
+                "generate",
+                &format!("mechanisms/{name}.ron"),
+                "--lang",
+                "rust",
+            ])
+            .args(&options)
+            .output()
+            .unwrap();
+        let path = root.join(format!("benches/generated/{name}.rs"));
+        let written = String::from_utf8(output.stdout).unwrap();
+        if std::env::var_os("UPDATE_GENERATED").is_some() {
+            fs::write(&path, &written).unwrap();
+        }
+        assert!(
+            fs::read_to_string(&path).unwrap() == written,
+            "{name} is out of date"
+        );
+    }
+}
