@@ -116,7 +116,7 @@ fn judged(program: &Path, data: &Path, solvers: &[(String, Question, Solver)]) {
         };
         let apart: f64 = apart.parse().unwrap();
         let limit = 1e-12 * question.mechanism().characteristic_length().max(1.0);
-        if failed != "0" || !(apart <= limit) {
+        if failed != "0" || apart.is_nan() || apart > limit {
             writeln!(wrong, "{name}: {failed} failed, {apart:e} apart").unwrap();
         }
     }

@@ -58,7 +58,8 @@ pub(super) fn eliminate(
 /// The pivot that makes the fewest new entries; constants first, then the largest.
 fn chosen(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Option<(usize, usize)> {
     let filled = |x: Recorded| x.constant() != Some(0.0);
-    let mut best: Option<((usize, bool), f64, (usize, usize))> = None;
+    // new entries and whether the pivot varies, its size, its place
+    let mut best = ((usize::MAX, true), 0.0, None);
     for &column in columns {
         let size = |&row: &usize| matrix[row][column].real().abs();
         let largest = rows.iter().map(size).fold(0.0, f64::max);
@@ -78,13 +79,11 @@ fn chosen(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Option
             }
             let along = columns.iter().filter(|&&c| filled(matrix[row][c])).count() - 1;
             let cost = (beside * along, entry.constant().is_none());
-            let better = best.is_none_or(|(least, most, _)| {
-                cost < least || (cost == least && size > most * (1.0 + 1e-9))
-            });
-            if better {
-                best = Some((cost, size, (row, column)));
+            let (least, most, _) = best;
+            if cost < least || (cost == least && size > most * (1.0 + 1e-9)) {
+                best = (cost, size, Some((row, column)));
             }
         }
     }
-    best.map(|(_, _, place)| place)
+    best.2
 }
