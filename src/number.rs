@@ -55,6 +55,12 @@ pub trait Number:
     }
     /// The real part: what comparisons and printed values use.
     fn real(self) -> f64;
+    /// Whether the number is its real part and nothing beside; of an interval, whether it is a constant
+    /// known to rounding.
+    #[inline]
+    fn is_real(self) -> bool {
+        self == Self::from_f64(self.real())
+    }
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Principal square root.

@@ -84,7 +84,7 @@ impl<T: Number> Mul<Vector3<T>> for Pose<T> {
 pub(crate) fn exact_sin_cos<T: Number>(angle: T) -> (T, T) {
     let quarters = angle.real() / std::f64::consts::FRAC_PI_2;
     let whole = quarters.round();
-    let right = angle == T::from_f64(angle.real()) && whole.abs() < 1e6;
+    let right = angle.is_real() && whole.abs() < 1e6;
     if right
         && (quarters - whole).abs() <= 4.0 * f64::EPSILON * whole.abs().max(1.0)
         && (whole != 0.0 || angle.real() == 0.0)

@@ -22,7 +22,7 @@ impl Mechanism {
     }
 
     /// Values of all parameters over any number, from values of the independent ones in the order
-    /// of [`Mechanism::independent_parameters`].
+    /// of [`Mechanism::independent_parameters`]; those left out have the values of their definitions.
     ///
     /// # Errors
     /// If a definition has no value there.

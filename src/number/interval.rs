@@ -85,12 +85,6 @@ impl Interval {
         rounded(low, values.fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// π enclosed: the f64 nearest to it lies below.
-    #[inline]
-    fn pi() -> Self {
-        interval(PI, PI.next_up())
-    }
-
     /// Whether some (k + `phase`)·π with whole k of the wanted parity may be inside.
     #[inline]
     fn meets(self, phase: f64, odd: bool) -> bool {
@@ -131,6 +125,23 @@ impl Number for Interval {
     #[inline]
     fn from_f64(x: f64) -> Self {
         Interval::point(x)
+    }
+    /// The f64 nearest to π lies below it.
+    #[inline]
+    fn pi() -> Self {
+        interval(PI, PI.next_up())
+    }
+    /// The f64 nearest to π/180 and the product are each within half a unit in the last place.
+    #[inline]
+    fn degrees(angle: f64) -> Self {
+        match angle.to_radians() {
+            0.0 => Interval::point(0.0),
+            radians => outward(radians, radians),
+        }
+    }
+    #[inline]
+    fn is_real(self) -> bool {
+        self.width() <= 8.0 * f64::EPSILON * self.magnitude()
     }
     /// The middle.
     #[inline]
@@ -277,6 +288,31 @@ mod tests {
             let (one, width) = (sin * sin + cos * cos, x.width());
             assert!(one.contains(1.0) && one.width() < 4.0 * width + 1e-14);
         }
+    }
+
+    #[test]
+    fn constants_enclose_numbers_that_no_f64_is() {
+        fn pi<T: Number>() -> T {
+            T::pi()
+        }
+        let pi: Interval = pi();
+        // sin falls through zero at π
+        assert!(pxfm::f_sin(pi.low) > 0.0 && pxfm::f_sin(pi.high) < 0.0);
+        // what is left of π beside the f64 nearest to it
+        let rest = pxfm::f_sin(PI);
+        for k in 1..=720 {
+            let k = f64::from(k);
+            let angle = Interval::degrees(k);
+            // 180 x - k π, the products each with what rounding leaves of it
+            let beyond = |x: f64| {
+                let (a, b) = (180.0 * x, k * PI);
+                (a - b) + (x.mul_add(180.0, -a) - k.mul_add(PI, -b)) - k * rest
+            };
+            assert!(beyond(angle.low) < 0.0 && beyond(angle.high) > 0.0, "{k}");
+            assert!(angle.width() < 1e-15 * k);
+            assert_eq!(Interval::degrees(-k), -angle);
+        }
+        assert_eq!(Interval::degrees(0.0), Interval::point(0.0));
     }
 
     #[test]

@@ -27,13 +27,8 @@ impl Certifier {
     /// For the target inputs and a choice of as many rows as unknowns. `None` if a dimension has no
     /// enclosure.
     pub fn new(mechanism: &Mechanism, held: &Held<f64>, rows: &[usize]) -> Option<Self> {
-        let own = mechanism.independent_parameters().into_iter();
-        let own: Vec<Interval> = own
-            .map(|i| Interval::point(mechanism.parameters()[i].value))
-            .collect();
-        let mut dimensions = mechanism
-            .dimensions_over(&mechanism.parameters_from(&own).ok()?)
-            .ok()?;
+        let parameters = mechanism.parameters_from::<Interval>(&[]).ok()?;
+        let mut dimensions = mechanism.dimensions_over(&parameters).ok()?;
         let real = mechanism.dimensions();
         dimensions.characteristic_length = real.characteristic_length;
         dimensions.joint_scales.clone_from(&real.joint_scales);
