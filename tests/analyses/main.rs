@@ -20,6 +20,7 @@ mod reports;
 mod singularities;
 mod spins;
 mod statics;
+mod stretched;
 mod suspension;
 mod sweep;
 mod velocity;

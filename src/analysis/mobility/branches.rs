@@ -217,6 +217,19 @@ fn singular(
         rng,
         seen: Vec::new(),
     };
+    if let Some(motions) = cone.flat() {
+        let branch = match motions.is_empty() {
+            true => Some(vec![]),
+            false => walk.flat(&motions).map(|branch| vec![branch]),
+        };
+        if let Some(branches) = branch {
+            return Part {
+                branches,
+                regular: false,
+                complete: true,
+            };
+        }
+    }
     let mut limits: Vec<Limit> = Vec::new();
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);

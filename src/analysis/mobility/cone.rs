@@ -1,5 +1,6 @@
 //! Directions in which an infinitesimal motion is finite to second order.
 
+use nalgebra::DMatrix;
 use rand::Rng;
 
 use crate::linear::{add, dot, norm, orthonormal};
@@ -80,6 +81,59 @@ impl Cone {
         })
     }
 
+    /// A space of motions that contains the cone: where a combination of the forms vanishes that has
+    /// one sign elsewhere. `None` if none is found to have.
+    ///
+    /// Rods that are stretched straight forbid every motion of their ends to the side, but not that the
+    /// links between them turn about their line: their stress makes the form (Connelly and Whiteley
+    /// 1996). The combination is sought as a perceptron does, by adding the forms' values at the
+    /// motion where it is most negative (Rosenblatt 1958).
+    pub fn flat(&self) -> Option<Vec<Vec<f64>>> {
+        /// Forms have coefficients of unit norm.
+        const ZERO: f64 = 1e-3;
+        const STEPS: usize = 100;
+        let n = self.freedoms;
+        let matrix = |form: &Vec<f64>| {
+            let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+            let mut matrix = DMatrix::<f64>::zeros(n, n);
+            for ((i, j), c) in pairs.zip(form) {
+                matrix[(i, j)] += 0.5 * c;
+                matrix[(j, i)] += 0.5 * c;
+            }
+            matrix
+        };
+        let forms: Vec<DMatrix<f64>> = self.forms.iter().map(matrix).collect();
+        let mut weights: Vec<f64> = forms.iter().map(DMatrix::trace).collect();
+        for _ in 0..STEPS {
+            let size = norm(&weights);
+            let parts = forms.iter().zip(&weights);
+            let sum = parts.fold(DMatrix::zeros(n, n), |sum, (form, weight)| {
+                sum + form * (weight / size)
+            });
+            // no form, or a size of zero
+            if !sum.iter().any(|x| x.abs() > ZERO) {
+                return None;
+            }
+            let eigen = sum.symmetric_eigen();
+            let least = eigen.eigenvalues.imin();
+            if eigen.eigenvalues[least] > -ZERO {
+                let zeros = (0..n).filter(|&i| eigen.eigenvalues[i] < ZERO);
+                let motion = |i: usize| {
+                    let mut motion = vec![0.0; self.basis[0].len()];
+                    for (weight, basis) in eigen.eigenvectors.column(i).iter().zip(&self.basis) {
+                        add(&mut motion, *weight, basis);
+                    }
+                    motion
+                };
+                return Some(zeros.map(motion).collect());
+            }
+            let worst: Vec<f64> = eigen.eigenvectors.column(least).iter().copied().collect();
+            let (values, _) = self.linearised(&worst);
+            add(&mut weights, 1.0, &values);
+        }
+        None
+    }
+
     /// Whether second order excludes nothing.
     pub fn is_all(&self) -> bool {
         self.forms.is_empty()
@@ -139,7 +193,7 @@ impl Cone {
 /// value where S loses rank (Levenberg 1944). Iterated, it need not be exact.
 fn shortest(rows: usize, columns: &[f64], b: &[f64]) -> Option<Vec<f64>> {
     const DAMPING: f64 = 1e-13;
-    let s = nalgebra::DMatrix::from_column_slice(rows, columns.len() / rows, columns);
+    let s = DMatrix::from_column_slice(rows, columns.len() / rows, columns);
     let mut gram = &s * s.transpose();
     let damping = DAMPING * gram.trace().max(f64::MIN_POSITIVE);
     (0..rows).for_each(|i| gram[(i, i)] += damping);

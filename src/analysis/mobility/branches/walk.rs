@@ -4,7 +4,7 @@ use rand::Rng;
 
 use super::super::MobilitySettings;
 use super::super::cone::{Cone, combination};
-use super::{is_regular, see};
+use super::{Branch, is_regular, see};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
 use crate::system::{Neighbourhood, Tangent};
@@ -191,14 +191,49 @@ impl<R: Rng> Walk<'_, '_, R> {
 
     /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
+        at.motions.len() == 1 || self.follows(at, step).is_some()
+    }
+
+    /// Where steps in the span of the motions arrive, if all arrive where they aim.
+    pub fn follows(&mut self, at: &Tangent, step: f64) -> Option<Vec<Configuration<f64>>> {
         const TRIALS: usize = 6;
         const ALONG: f64 = 0.95;
-        at.motions.len() == 1
-            || (0..TRIALS).all(|_| {
-                let direction = combination(&at.motions, self.rng);
-                let arrived = arrive(self.near, at, &direction, step);
-                arrived.is_some_and(|(_, way)| dot(&way, &direction) > ALONG)
-            })
+        let arrivals = (0..TRIALS).map(|_| {
+            let direction = combination(&at.motions, self.rng);
+            let (at, way) = arrive(self.near, at, &direction, step)?;
+            (dot(&way, &direction) > ALONG).then_some(at)
+        });
+        arrivals.collect()
+    }
+
+    /// The branch, if there is one, whose motions at the meeting point are all those that are not
+    /// forbidden to second order, if the rank is as low everywhere on it: then it is the only one.
+    /// Where a function and its slope vanish on a set, beside which it is curved, it vanishes nowhere
+    /// else nearby (the lemma of Morse and Bott).
+    pub fn flat(&mut self, motions: &[Vec<f64>]) -> Option<Branch> {
+        let flat = Tangent {
+            motions: motions.to_vec(),
+            ..self.from.clone()
+        };
+        let arrivals = self.follows(&flat, self.settings.branch_step)?;
+        let mut moved = vec![false; flat.columns()];
+        for at in arrivals {
+            let way = self.near.system().difference(&self.from.at, &at);
+            see(
+                &mut moved,
+                &way,
+                MOVED_ON_A_BRANCH * self.settings.branch_step,
+            );
+            if self.tangent(at).motions.len() != self.from.motions.len() {
+                return None;
+            }
+        }
+        Some(Branch {
+            freedoms: motions.len(),
+            motions: flat.motions,
+            moved,
+            ..Branch::default()
+        })
     }
 
     fn add(&mut self, beside: Tangent, regular: bool) {
