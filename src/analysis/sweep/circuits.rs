@@ -7,6 +7,7 @@
 
 mod course;
 mod described;
+mod sets;
 
 use std::ops::ControlFlow;
 
@@ -22,6 +23,7 @@ use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
 use crate::system::{Coordinate, Curve, Event, Held, Walk};
 use course::platform_courses;
 use described::{branches, class};
+use sets::sets_of_angles;
 
 /// How to look for circuits.
 #[derive(Clone, Debug, PartialEq)]
@@ -181,8 +183,7 @@ pub fn circuits(
             continue;
         };
         // with another set of the angles of a ball everything moves alike
-        let sets = mechanism.sets_of_angles(&seed).into_iter();
-        let mut sets = sets.filter(|set| input.of(set) == input.of(&seed));
+        let mut sets = sets_of_angles(mechanism, (held, input), &seed).into_iter();
         let known = sets.find_map(|mut set| {
             let place = curve.begin(mechanism, &mut set, method).ok()?;
             holding(&mut curve, method, &traced, &place)
