@@ -87,6 +87,11 @@ impl ClosureKind {
         self.conditions().axes == AxisCondition::Free
     }
 
+    /// Whether each frame may turn about its own z axis without the other.
+    pub fn leaves_turn(self) -> bool {
+        self.conditions().axes < AxisCondition::Oriented
+    }
+
     /// Whether it has a given length, as a rod with a ball at each end.
     pub fn has_length(self) -> bool {
         self == Self::Distance

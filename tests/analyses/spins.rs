@@ -20,7 +20,7 @@ const ROD: f64 = 0.8;
 
 /// The R-S-S-R linkage of `mechanisms/rssr.ron` with another model of its rod: a distance, a platform
 /// on two balls, a link of the crank's chain after a ball of three rows, the same cut in the middle
-/// of the rod, where the spins of both halves are one.
+/// of the rod, where the spins of both halves are one or, about a swivel, two.
 fn rssr(model: &str) -> Mechanism {
     let ball = |first: &str, [u, v, w]: [&str; 3]| {
         format!(
@@ -57,11 +57,14 @@ fn rssr(model: &str) -> Mechanism {
             rocker,
             r#"closures: { "B": Spherical("crank", "rocker") },"#,
         ),
-        "halves" => (
+        "halves" | "swivel" => (
             format!("{joints} {more}"),
             format!(r#"rows: [(theta: "theta"), {after_crank}], tip: [Tz(0.3)]"#),
             format!(r#"rows: [(theta: "psi"), {after_rocker}], tip: [Tz(0.5), Rx("180 deg")]"#),
-            r#"closures: { "middle": Rigid("crank", "rocker") },"#,
+            match model {
+                "halves" => r#"closures: { "middle": Rigid("crank", "rocker") },"#,
+                _ => r#"closures: { "middle": Revolute("crank", "rocker") },"#,
+            },
         ),
         other => panic!("{other}"),
     };
@@ -84,7 +87,7 @@ fn rssr(model: &str) -> Mechanism {
     Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 
-const MODELS: [&str; 4] = ["distance", "platform", "chain", "halves"];
+const MODELS: [&str; 5] = ["distance", "platform", "chain", "halves", "swivel"];
 
 /// ψ ≥ 0 for θ; the other assembly has −ψ. From |A − B|² = s² with A = (a cos θ, a sin θ, 0) and
 /// B = (g + c cos ψ, h, c sin ψ).
@@ -105,9 +108,19 @@ fn of(names: &[(String, f64)], name: &str) -> f64 {
 }
 
 #[test]
+fn one_freedom_is_counted_however_the_rod_is_written() {
+    for (model, spins) in MODELS.into_iter().zip([1, 1, 1, 1, 2]) {
+        let question = Question::new(rssr(model));
+        let report = question.mobility(&Watch::none()).unwrap().closed().unwrap();
+        assert_eq!((report.mobility, report.infinitesimal), (1, 1), "{model}");
+        assert_eq!(report.idle_freedoms.len(), spins, "{model}");
+    }
+}
+
+#[test]
 fn a_finite_number_of_assemblies_stays_finite() {
     // a ball of three rows has two sets of angles for each of its orientations
-    for (model, modes) in MODELS.into_iter().zip([2, 2, 4, 8]) {
+    for (model, modes) in MODELS.into_iter().zip([2, 2, 4, 8, 8]) {
         let report = assemblies(&rssr(model));
         assert_eq!(report.fit, Fit::Finite, "{model}");
         assert!(report.continua.is_empty(), "{model}");

@@ -140,7 +140,7 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// For each motion the rates that vanish in local freedoms: of origins of frames, platforms, driven
-    /// joints, links that do not end in a ball, joints that affect no closure.
+    /// joints, links where a closure is turned too, joints that affect no closure.
     fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
         let mechanism = self.mechanism;
         let mut placement = self.frames.placement();
@@ -158,13 +158,13 @@ impl<'a> Neighbourhood<'a> {
             let mut others = (0..frames.len()).filter(on_it);
             others.any(|other| apart(place, other))
         };
-        let turning: Vec<usize> = (mechanism.closures().iter())
+        let turning: Vec<(usize, bool)> = (mechanism.closures().iter())
             .filter(|closure| !closure.kind.leaves_orientation())
             .flat_map(|closure| closure.frames.map(|frame| (closure.kind, frame)))
             .filter_map(|(kind, frame)| {
                 let place = frames.iter().position(|f| *f == frame)?;
                 let cut = kind == ClosureKind::Rigid && has_line(frame, place);
-                (!cut).then_some(place)
+                (!cut).then_some((place, kind.leaves_turn()))
             })
             .collect();
         let outside = mechanism.joints_outside_closures();
@@ -185,8 +185,13 @@ impl<'a> Neighbourhood<'a> {
                 let twist = self.frames.twist(i, &placement, motion);
                 moved.extend(twist.velocity.times(scale).0);
             }
-            for &i in &turning {
-                moved.extend(self.frames.twist(i, &placement, motion).omega.0);
+            for &(i, about_axis) in &turning {
+                let omega = self.frames.twist(i, &placement, motion).omega;
+                let seen = match about_axis {
+                    true => omega.cross(&self.frames.axis(i, &placement)),
+                    false => omega,
+                };
+                moved.extend(seen.0);
             }
             for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
                 let idle = match *unknown {

@@ -1,6 +1,6 @@
 //! Twists of frames from the rates of all unknowns.
 
-use crate::geometry::Vector3;
+use crate::geometry::{Axis, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Frame, Kinematics, Mover, Placement, Point};
 use crate::number::Number;
 use crate::system::Unknown;
@@ -101,6 +101,14 @@ impl<T: Number> FrameTwists<T> {
         let point = &self.plans[i].point;
         let pose = self.kinematics.pose(point.frame, placement);
         point.placed(pose.expect("the plan was made for it"))
+    }
+
+    /// The z axis of the frame of point `i`, in ground.
+    pub fn axis(&self, i: usize, placement: &Placement<T>) -> Vector3<T> {
+        let pose = self.kinematics.pose(self.plans[i].point.frame, placement);
+        pose.expect("the plan was made for it")
+            .rotation
+            .column(Axis::Z)
     }
 
     /// The twist at point `i`. Nothing allocates.
