@@ -23,11 +23,13 @@ pub use circuits::{
     Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, JointMotion, circuits,
 };
 pub use dwell::Dwell;
-pub(crate) use dwell::{Timed, dwell};
+pub(crate) use dwell::dwell;
 pub use follow::follow;
 pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
-pub use motion::{Columns, Extreme, Extremum, KeptRows, MotionReport, MotionsReport};
+pub use motion::{
+    Columns, Extreme, Extremum, KeptRows, Missing, MotionReport, MotionsReport, Pole,
+};
 pub use paths::{PathPoint, PathReport};
 pub use schedule::Schedule;
 pub use straightness::Straightness;

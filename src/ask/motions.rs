@@ -3,15 +3,23 @@
 use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 
-use super::quantities::{Extremes, Meter, Metered};
+use super::quantities::{Course, Extremes, Meter, Metered, Passage, Placed, Seen};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
     Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Row, Schedule, Sink,
-    Straightness, SweepReport, SweepSettings, Timed, dwell, follow, sweep,
+    Straightness, SweepReport, SweepSettings, dwell, follow, sweep,
 };
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Quantity, Variable};
 use crate::solve::Watch;
 use crate::system::{self, Coordinate, Driven, Held, Load, Lock};
+
+/// What is sought between the rows of a motion.
+#[derive(Default)]
+struct Located {
+    extremes: Vec<Extremum>,
+    straightness: Vec<Straightness>,
+    dwells: Vec<Dwell>,
+}
 
 /// Motions that can begin: of one mode or of several.
 #[derive(Clone, Debug)]
@@ -101,30 +109,15 @@ impl Motions<'_> {
         let mut motions = Vec::new();
         for (mode, start) in &self.starts {
             let mut rows = KeptRows::of(most);
-            let mut places = vec![Vec::new(); self.points().len()];
-            let mut series: Vec<Vec<Timed>> = vec![Vec::new(); self.dwells.len()];
             let mut take = |row: &Row| {
                 if row.between {
                     sink(*mode, row);
                     return;
                 }
-                if self.settings.straightness {
-                    let points = places.iter_mut().zip(row.points);
-                    points.for_each(|(places, place)| places.push(*place));
-                }
-                for ((quantity, _), series) in self.dwells.iter().zip(&mut series) {
-                    let inputs = self.inputs.iter();
-                    let inputs = inputs.map(|input| input.coordinate.of(row.configuration));
-                    // the time comes before the quantities
-                    if let [Some(time), values @ ..] = row.quantities {
-                        let part = time / self.settings.pace.duration;
-                        series.push((part, values[*quantity], inputs.collect()));
-                    }
-                }
                 rows.take(&columns, row);
                 sink(*mode, row);
             };
-            let (sweep, extremes) = self.measured(start, &mut take, watch);
+            let (sweep, located) = self.measured(start, &mut take, watch);
             let interrupted = sweep.interrupted;
             motions.push(MotionReport {
                 mode: *mode,
@@ -132,24 +125,9 @@ impl Motions<'_> {
                 sweep,
                 pace: (!self.inputs.is_empty()).then_some(self.settings.pace),
                 table: self.settings.schedule.as_ref().map(Schedule::rows),
-                extremes,
-                straightness: (self.points().iter().zip(&places))
-                    .filter_map(|(point, places)| Straightness::of(&point.name, places))
-                    .collect(),
-                dwells: (self.dwells.iter().zip(&series))
-                    .filter_map(|((quantity, tolerance), rows)| {
-                        let (value, times, inputs) = dwell(rows, *tolerance)?;
-                        let of = &self.quantities[*quantity];
-                        Some(Dwell {
-                            name: of.name.clone(),
-                            unit: of.unit,
-                            tolerance: *tolerance,
-                            value,
-                            times,
-                            inputs,
-                        })
-                    })
-                    .collect(),
+                extremes: located.extremes,
+                straightness: located.straightness,
+                dwells: located.dwells,
                 columns: columns.variables().to_vec(),
                 values: rows.finished(),
             });
@@ -168,15 +146,16 @@ impl Motions<'_> {
         self.measured(start, sink, watch).0
     }
 
-    /// The same with the extremes of the quantities, which are sought between rows too.
+    /// The same with what is sought between rows too.
     fn measured(
         &self,
         start: &Configuration<f64>,
         sink: &mut Sink,
         watch: &Watch,
-    ) -> (SweepReport, Vec<Extremum>) {
-        if self.quantities.is_empty() {
-            return (self.moved(start, sink, watch), Vec::new());
+    ) -> (SweepReport, Located) {
+        let wanted = self.settings.straightness || !self.dwells.is_empty();
+        if self.quantities.is_empty() && !wanted {
+            return (self.moved(start, sink, watch), Located::default());
         }
         let metered = Metered {
             quantities: &self.quantities,
@@ -189,8 +168,9 @@ impl Motions<'_> {
         };
         let mut meter = Meter::new(metered, start);
         let mut extremes = Extremes::new(self.quantities.len());
-        let timed = !self.inputs.is_empty();
+        let timed = !self.inputs.is_empty() && !self.quantities.is_empty();
         let mut values = Vec::new();
+        let mut all: Vec<Seen> = Vec::new();
         let steps = self.settings.steps as f64;
         let latest = Cell::new(0);
         let mut measured = |row: &Row| {
@@ -199,9 +179,17 @@ impl Motions<'_> {
             let time = row
                 .step
                 .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
-            let found = meter.read(at, time);
+            meter.read(at, time);
+            let found = meter.values();
             if !row.between {
-                extremes.take(at, time, found);
+                extremes.take(at, time, found, meter.noise());
+            }
+            if wanted && !row.between {
+                all.push(Seen {
+                    at: at.clone(),
+                    time,
+                    values: found.to_vec(),
+                });
             }
             values.clear();
             values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
@@ -212,14 +200,51 @@ impl Motions<'_> {
             });
         };
         let report = self.moved(start, &mut measured, watch);
-        let found = extremes.located(
-            &self.quantities,
-            self.mechanism,
-            (&self.held, &self.inputs, self.settings.schedule.as_ref()),
-            &mut meter,
-            &|at| self.time(at, latest.get()),
-        );
-        (report, found)
+        let passage = Passage {
+            mechanism: self.mechanism,
+            held: &self.held,
+            inputs: &self.inputs,
+            schedule: self.settings.schedule.as_ref(),
+            time: &|at| self.time(at, latest.get()),
+        };
+        let dwells = self.dwells.iter().filter_map(|(quantity, tolerance)| {
+            let mut course = Course::new(passage, &all);
+            let (value, places) = dwell(all.len(), *tolerance, &mut |place| {
+                meter.settle(&course.row(place).values);
+                let (at, when) = course.at(place)?;
+                Some([when, meter.read(at, when)[*quantity]?])
+            })?;
+            let [begin, end] = places.map(|place| {
+                let found = course.at(place);
+                found.map(|(at, when)| (when, passage.inputs(at)))
+            });
+            let ((begin, from), (end, to)) = (begin?, end?);
+            let of = &self.quantities[*quantity];
+            Some(Dwell {
+                name: of.name.clone(),
+                unit: of.unit,
+                tolerance: *tolerance,
+                value,
+                times: [begin, end],
+                inputs: [from, to],
+            })
+        });
+        let dwells = dwells.collect();
+        let points = self.points().iter().filter(|_| self.settings.straightness);
+        let straightness = points.filter_map(|named| {
+            let mut placed = Placed::new(self.mechanism, &[named.point.frame]);
+            let mut course = Course::new(passage, &all);
+            Straightness::along(&named.name, all.len(), &mut |place| {
+                placed.place(course.at(place)?.0);
+                Some(placed.pose(named.point).position.0)
+            })
+        });
+        let located = Located {
+            straightness: straightness.collect(),
+            dwells,
+            extremes: extremes.located(&self.quantities, passage, &mut meter),
+        };
+        (report, located)
     }
 
     fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {

@@ -13,7 +13,7 @@ use crate::system::{self, Coordinate, QuestionError};
 pub struct TableError {
     /// The line, from 1.
     pub line: usize,
-    /// The column of the table, from 1.
+    /// The character in it where the value stands, from 1.
     pub column: usize,
     /// What is wrong.
     pub kind: TableErrorKind,
@@ -77,7 +77,11 @@ impl Question {
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(table.as_bytes());
-        let error = |line: usize, column: usize, kind| TableError { line, column, kind };
+        let error = |line: usize, value: usize, kind| TableError {
+            line,
+            column: character(table.lines().nth(line - 1).unwrap_or_default(), value),
+            kind,
+        };
         let mut header: Vec<(String, String)> = Vec::new();
         let mut coordinates: Vec<Coordinate> = Vec::new();
         let (mut times, mut values) = (Vec::new(), Vec::<Vec<f64>>::new());
@@ -152,6 +156,28 @@ impl Question {
             suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
         }
     }
+}
+
+/// The character, from 1, where a value of a line begins, counted from 1; its end if there are not so many.
+fn character(line: &str, value: usize) -> usize {
+    let (mut values, mut quoted) = (1, false);
+    for (i, c) in line.chars().enumerate() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => {
+                values += 1;
+                continue;
+            }
+            _ => {}
+        }
+        if values == value && !c.is_whitespace() {
+            return i + 1;
+        }
+        if values > value {
+            return i;
+        }
+    }
+    line.chars().count() + 1
 }
 
 /// Name and unit of a column: `theta1 (deg)` or `theta1 [deg]`.

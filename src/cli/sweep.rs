@@ -243,7 +243,7 @@ impl Sweep {
         };
         let report = worded(watched(|watch| all.report(kept, &mut sink, watch)));
         csv.finish().map_err(unwritten)?.finish()?;
-        picture.crossed(&report);
+        picture.completed(mechanism, &report);
         self.keep(posed, &picture)?;
         let unfinished = report.motions.iter().filter(|m| !m.sweep.ending.is_whole());
         let unfinished = unfinished.filter(|_| self.format == Format::Csv);

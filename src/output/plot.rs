@@ -1,5 +1,9 @@
 //! Charts: curves with labelled axes over a map of colours or a mechanism, special points marked.
 
+mod within;
+
+pub(super) use within::{broken, most};
+
 use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
 use super::drawing::{Fit, View, strobe};
 use super::quantity::{number, with_unit};
@@ -61,6 +65,8 @@ pub struct Chart {
     pub y: String,
     /// Whether a unit is as long along both axes.
     pub equal: bool,
+    /// From where to where the vertical axis goes at most: curves without bound are cut there.
+    pub within: Option<(f64, f64)>,
     /// What is under the curves.
     pub heat: Option<Heat>,
     /// The mechanism under the curves, where they are paths in m.
@@ -164,6 +170,9 @@ fn ranges(chart: &Chart) -> [(f64, f64); 2] {
     let lines = chart.series.iter().flat_map(|series| &series.points);
     let points = lines.chain(chart.marks.iter().flat_map(|marks| &marks.points));
     let mut points: Vec<[f64; 2]> = points.map(|p| [p.0, p.1]).collect();
+    if let Some((low, high)) = chart.within {
+        points.iter_mut().for_each(|p| p[1] = p[1].clamp(low, high));
+    }
     if let Some(Strobe { bounds: [x, y], .. }) = &chart.strobe {
         points.extend([[x.0, y.0], [x.1, y.1]]);
     }
@@ -303,7 +312,9 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
             .split(|p| !finite(p))
             .filter(|piece| !piece.is_empty())
         {
-            shapes.push(Shape::line(piece.iter().map(|p| place(*p)), style));
+            for part in within::inside(piece, chart.within) {
+                shapes.push(Shape::line(part.into_iter().map(place), style));
+            }
         }
         let sample = [at(right, line), at(right + 24.0, line)];
         shapes.push(Shape::line(sample, style));
@@ -313,7 +324,17 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
     }
     for (i, marks) in chart.marks.iter().enumerate() {
         let finite = |p: &&(f64, f64)| p.0.is_finite() && p.1.is_finite();
-        let points = marks.points.iter().filter(finite).map(|p| place(*p));
+        let seen = |p: &&(f64, f64)| {
+            chart
+                .within
+                .is_none_or(|(low, high)| low <= p.1 && p.1 <= high)
+        };
+        let points = marks
+            .points
+            .iter()
+            .filter(finite)
+            .filter(seen)
+            .map(|p| place(*p));
         for place in points.chain([at(right + 12.0, line)]) {
             let outline = SHAPES[i % SHAPES.len()].iter();
             let outline = outline.map(|(x, y)| (place.0 + x, place.1 + y));

@@ -29,6 +29,7 @@ impl Report for MotionsReport {
                 let (mode, sentence) = (mode(one), sentence(&one.sweep));
                 let document = Document::new(&self.mechanism, mode + &sentence);
                 let document = document.notes(words::paced(one));
+                let document = document.notes(words::poles(one));
                 let document = document.notes(words::shapes(one));
                 let document = document.section(extremes(one));
                 let document = document.sections(words::met(one));
@@ -47,6 +48,7 @@ impl Report for MotionsReport {
                     let section = section.text(sentence(&motion.sweep));
                     let section = section
                         .list(words::paced(motion))
+                        .list(words::poles(motion))
                         .list(words::shapes(motion));
                     let section = section.section(extremes(motion));
                     let met = words::met(motion).into_iter();
@@ -85,21 +87,19 @@ fn mode(motion: &MotionReport) -> String {
 fn extremes(motion: &MotionReport) -> Section {
     type Side = fn(&Extremum) -> &Option<Extreme>;
     let sides: [(&str, Side); 2] = [("least", |of| &of.least), ("greatest", |of| &of.greatest)];
-    // without inputs the first joint says where
-    let driven: Vec<(&str, SiUnit)> = match &motion.sweep.inputs[..] {
-        [] => (motion.columns.get(1).iter().take(1))
-            .map(|of| (of.name.as_str(), of.unit))
-            .collect(),
-        inputs => inputs
-            .iter()
-            .map(|input| (input.name.as_str(), input.unit))
-            .collect(),
-    };
+    let driven = words::driven(motion);
     let table = Table::of(&motion.extremes).words("quantity", |of| &of.name);
     let table = sides.into_iter().fold(table, |table, (word, side)| {
         let table = table.words(word, move |of| match side(of) {
             Some(found) => quantity(found.value, of.unit),
-            None => "not determined".into(),
+            None => match (of.constant, of.unbounded.is_empty()) {
+                (Some(value), _) if word == "least" => {
+                    format!("constant: {}", quantity(value, of.unit))
+                }
+                (Some(_), _) => String::new(),
+                (None, false) => "no bound".into(),
+                (None, true) => "not determined".into(),
+            },
         });
         driven
             .iter()

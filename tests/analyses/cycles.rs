@@ -1,6 +1,6 @@
 //! Inputs that follow tables, coordinates of points as inputs, and the paths of coupler points.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use linkwork::analysis::convert::{CognateError, ConversionNote, cognates};
@@ -136,7 +136,7 @@ fn a_table_that_is_wrong_is_refused_at_its_place() {
     let (line, column, kind) = refused("time (s),theta1 (deg)\n0,10\n1,\n2,30\n");
     assert_eq!(
         (line, column, kind),
-        (3, 2, TableErrorKind::Gap("theta1".into()))
+        (3, 3, TableErrorKind::Gap("theta1".into()))
     );
     let (line, column, kind) = refused("time,theta1\n0,1\n1\n");
     assert_eq!(
@@ -152,13 +152,13 @@ fn a_table_that_is_wrong_is_refused_at_its_place() {
     };
     assert_eq!(
         (line, column, suggestion.as_deref()),
-        (1, 3, Some("theta1"))
+        (1, 13, Some("theta1"))
     );
     let (line, column, kind) = refused("time,theta1 (mm)\n0,1\n1,2\n");
     assert!(matches!(kind, TableErrorKind::Value(_)), "{kind:?}");
-    assert_eq!((line, column), (2, 2));
+    assert_eq!((line, column), (2, 3));
     let (line, column, kind) = refused("time,theta1\n0,1\n1,2,3\n");
-    assert_eq!((line, column, kind), (3, 3, TableErrorKind::Extra(2)));
+    assert_eq!((line, column, kind), (3, 5, TableErrorKind::Extra(2)));
     assert!(matches!(
         refused("theta1,time\n1,0\n").2,
         TableErrorKind::NoTime(_)
@@ -308,18 +308,22 @@ fn meet(a: [f64; 2], ra: f64, b: [f64; 2], rb: f64, side: f64) -> [f64; 2] {
     ]
 }
 
-/// Half the width of the narrowest strip with all points, by trying directions.
+/// Half the width of the narrowest strip with all points, by trying directions: first with one point of a hundred, then
+/// near the best of these with all.
 fn half_width(points: &[[f64; 2]]) -> f64 {
-    let width = |angle: f64| {
-        let across = points
-            .iter()
-            .map(|p| p[1] * angle.cos() - p[0] * angle.sin());
+    const TRIED: u32 = 36_000;
+    let width = |angle: f64, every: usize| {
+        let across =
+            (points.iter().step_by(every)).map(|p| p[1] * angle.cos() - p[0] * angle.sin());
         let (low, high) = across.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
         0.5 * (high - low)
     };
-    (0..36000)
-        .map(|k| width(f64::from(k) * PI / 36000.0))
-        .fold(f64::MAX, f64::min)
+    let step = PI / f64::from(TRIED);
+    let roughly = (0..TRIED).map(|k| f64::from(k) * step);
+    let best = roughly.min_by(|a, b| width(*a, 100).total_cmp(&width(*b, 100)));
+    let best = best.unwrap();
+    let near = (-200..=200).map(|k| best + f64::from(k) / 200.0 * step);
+    near.map(|angle| width(angle, 1)).fold(f64::MAX, f64::min)
 }
 
 /// Nothing tried is narrower, and the best of it is nearly as narrow.
@@ -347,8 +351,8 @@ fn straight_line_linkages_are_as_straight_as_their_closed_forms() {
     };
     let straight = |name: &str, range: [f64; 2], point: &str| straight_of(load(name), range, point);
     let angles = |range: [f64; 2]| {
-        (0..=400)
-            .map(move |k| (range[0] + (range[1] - range[0]) * f64::from(k) / 400.0).to_radians())
+        let part = |k: i32| f64::from(k) / 40_000.0;
+        (0..=40_000).map(move |k| (range[0] + (range[1] - range[0]) * part(k)).to_radians())
     };
     // Hoeken, half a turn of the crank about the straight part: by Thales P stands square to the crank pin over the
     // pivot of the rocker
@@ -402,8 +406,151 @@ fn straight_line_linkages_are_as_straight_as_their_closed_forms() {
     let circle = straight("watt_linkage", range, "left.2");
     let rise = 2.0 * (1.0 - 15f64.to_radians().cos());
     assert!(
-        (circle.deviation - 0.5 * rise).abs() < 1e-9 && circle.deviation > 10.0 * watt.deviation
+        (circle.deviation - 0.5 * rise).abs() < 1e-12 && circle.deviation > 10.0 * watt.deviation
     );
+}
+
+#[test]
+fn how_straight_a_path_is_does_not_depend_on_the_number_of_rows() {
+    let straight = |count: usize, range: [f64; 2]| {
+        let question = Question::new(load("hoeken"))
+            .input("theta1", range[0].to_radians(), range[1].to_radians())
+            .point("left.2+5,0");
+        let settings = SweepSettings {
+            straightness: true,
+            ..steps(count)
+        };
+        moved(&question, &settings).straightness.remove(0)
+    };
+    for range in [[90.0, 270.0], [100.0, 250.0]] {
+        let lines = [7, 20, 100, 401].map(|count| straight(count, range));
+        for line in &lines {
+            let apart = line.deviation - lines[0].deviation;
+            assert!(apart.abs() < 1e-12, "{apart:e}");
+            assert!((line.length - lines[0].length).abs() < 1e-10);
+        }
+        // no point of the path by Thales is farther from the line, and some are as far
+        let line = &lines[0];
+        let [from, along] = [line.through, line.direction];
+        let off = |theta: f64| {
+            let (s, c) = theta.sin_cos();
+            let r = (5.0 - 4.0 * c).sqrt();
+            let h = (6.25 - r * r / 4.0).sqrt();
+            let [x, y] = [
+                2.0 + 2.0 * h * s / r - from[0],
+                2.0 * h * (2.0 - c) / r - from[1],
+            ];
+            (x * along[1] - y * along[0]).abs()
+        };
+        let angles = (0..=200_000).map(|k| f64::from(k) / 200_000.0);
+        let angles = angles.map(|part| (range[0] + part * (range[1] - range[0])).to_radians());
+        let farthest = angles.map(off).fold(0.0, f64::max);
+        assert!(
+            (farthest - line.deviation).abs() < 1e-10,
+            "{farthest} {line:?}"
+        );
+    }
+    // the way back is not straight
+    let [half, more] = [[90.0, 270.0], [20.0, 340.0]].map(|range| straight(50, range).deviation);
+    assert!(more > 10.0 * half, "{more} {half}");
+}
+
+/// Angles of the crank of the press where it is in line with its rod, stretched and folded.
+fn in_line_of_press() -> [f64; 2] {
+    let (crank, upper, shaft) = (0.07, 0.3, -0.5);
+    let angle = 16f64.to_radians();
+    let [x, z] = [-upper * angle.sin(), -upper * angle.cos()];
+    let (o, rod) = ([shaft, z - crank], x - shaft);
+    // stretched, then folded
+    [1.0, -1.0].map(|side| {
+        let knee = meet(o, rod + side * crank, [0.0, 0.0], upper, -1.0);
+        let [right, up] = [0, 1].map(|k| side * (knee[k] - o[k]));
+        // the crank turns about -y, from upright
+        (-right).atan2(up).rem_euclid(TAU)
+    })
+}
+
+#[test]
+fn the_advantage_of_a_press_has_no_bound_where_crank_and_rod_are_in_line() {
+    let press = load("axes/toggle_press");
+    let [stretched, folded] = in_line_of_press();
+    for count in [20, 36, 100] {
+        let question = Question::new(press.clone()).input("turn", 0.0, TAU);
+        let motion = moved(&question, &steps(count));
+        let advantage = &motion.extremes[0];
+        assert_eq!(advantage.name, "advantage");
+        assert!(advantage.least.is_none() && advantage.greatest.is_none());
+        assert_eq!(advantage.unbounded.len(), 2, "{advantage:?}");
+        let mut expected = [stretched, folded];
+        expected.sort_by(f64::total_cmp);
+        for (pole, turn) in advantage.unbounded.iter().zip(expected) {
+            assert!((pole.inputs[0] - turn).abs() < 1e-9, "{pole:?} {turn}");
+            assert!((pole.time.unwrap() - turn / TAU).abs() < 1e-9);
+            // it changes its sign
+            let [before, after] = pole.upwards;
+            assert_ne!(before.unwrap(), after.unwrap());
+        }
+        // the height of the die is bounded
+        let height = &motion.extremes[1];
+        assert!(height.unbounded.is_empty() && height.least.is_some());
+    }
+    // between them it has both
+    let question = Question::new(press).input("turn", folded + 0.2, stretched - 0.2);
+    let motion = moved(&question, &steps(50));
+    let advantage = &motion.extremes[0];
+    assert!(advantage.unbounded.is_empty() && advantage.constant.is_none());
+    assert!(advantage.least.is_some() && advantage.greatest.is_some());
+}
+
+#[test]
+fn a_row_on_a_pole_has_no_value_and_what_does_not_change_is_constant() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/slider_crank.ron");
+    let (_, description) = Mechanism::read(path).unwrap();
+    let central = description.with_parameter("e", "0").unwrap();
+    let question = Question::new(Mechanism::new(&central).unwrap())
+        .input("theta", 0.0, TAU)
+        .report(
+            "ratio=velocity:theta/velocity:s, crank.z, rate=velocity:theta, k=curvature:crank, s",
+        );
+    let motion = moved(&question, &steps(36));
+    let ratio = column(&motion, "ratio");
+    for (step, value) in ratio.iter().enumerate() {
+        assert_eq!(value.is_nan(), step % 18 == 0, "{step}: {value}");
+    }
+    let of = |name: &str| motion.extremes.iter().find(|of| of.name == name).unwrap();
+    let turns = of("ratio").unbounded.iter().map(|pole| pole.inputs[0]);
+    for (turn, expected) in turns.zip([0.0, PI, TAU]) {
+        assert!((turn - expected).abs() < 1e-9);
+    }
+    assert_eq!(of("ratio").unbounded.len(), 3);
+    // the end of the rod goes straight, at the rate of the crank
+    for (name, value) in [("crank.z", 0.0), ("rate", TAU), ("k", 0.0)] {
+        let found = of(name);
+        let constant = found.constant.unwrap_or_else(|| panic!("{found:?}"));
+        assert!((constant - value).abs() < 1e-12 && found.unbounded.is_empty());
+        assert!(found.least.is_none() && found.greatest.is_none());
+    }
+    assert!(of("s").constant.is_none() && of("s").least.is_some());
+}
+
+#[test]
+fn rates_grow_without_bound_towards_a_dead_point() {
+    let question = Question::new(load("chebyshev"))
+        .input("theta1", "40 deg", "200 deg")
+        .report("velocity:phi1, phi1");
+    let motion = moved(&question, &steps(30));
+    assert_eq!(motion.sweep.ending, SweepEnd::Fold);
+    let [rate, angle] = &motion.extremes[..] else {
+        panic!("{:?}", motion.extremes)
+    };
+    let [pole] = &rate.unbounded[..] else {
+        panic!("{rate:?}")
+    };
+    // crank and rocker of 5, ground 4, coupler 2: coupler and rocker in line, 16 + 25 - 40 cos θ = 49
+    assert!((pole.inputs[0] - (-0.2f64).acos()).abs() < 1e-9, "{pole:?}");
+    assert_eq!(pole.upwards, [Some(false), None]);
+    assert!(rate.least.is_none() && rate.greatest.is_some());
+    assert!(angle.unbounded.is_empty() && angle.greatest.is_some());
 }
 
 #[test]
@@ -418,13 +565,24 @@ fn a_slider_dwells_about_its_dead_point() {
     let s = |theta: f64| theta.cos() + (9.0 - (theta.sin() - 0.5).powi(2)).sqrt();
     // farthest where crank and rod are in line: sin θ = e/(r + l)
     let top = (0.5f64 / 4.0).asin();
-    assert!((dwell.value - (s(top) - 0.01)).abs() < 1e-6, "{dwell:?}");
+    assert!((dwell.value - (s(top) - 0.01)).abs() < 1e-12, "{dwell:?}");
     for end in [0, 1] {
         let theta = dwell.inputs[end][0];
-        assert!((s(theta) - (s(top) - 0.02)).abs() < 1e-6, "{theta}");
+        assert!((s(theta) - (s(top) - 0.02)).abs() < 1e-12, "{theta}");
         assert!((dwell.times[end] - (theta.to_degrees() + 80.0) / 180.0).abs() < 1e-12);
     }
     assert!(dwell.inputs[0][0] < top && top < dwell.inputs[1][0]);
+    // as long however many rows there are, and twice the tolerance is longer
+    for count in [7, 20, 100] {
+        let other = moved(&question, &steps(count)).dwells.remove(0);
+        for end in [0, 1] {
+            let apart = other.times[end] - dwell.times[end];
+            assert!(apart.abs() < 1e-12, "{count} steps: {apart:e}");
+        }
+        let wider = question.clone().dwell("s", 0.02);
+        let wider = moved(&wider, &steps(count)).dwells.remove(1);
+        assert!(wider.times[1] - wider.times[0] > 1.3 * (other.times[1] - other.times[0]));
+    }
     // a rate passes through its greatest value sooner
     let rate = Question::new(load("slider_crank"))
         .input("theta", "-80 deg", "100 deg")

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use linkwork::algebra::SiUnit;
 use linkwork::analysis::singularities::SingularitiesSettings;
-use linkwork::analysis::sweep::{Extreme, Law, MotionReport, Pace, SweepSettings};
+use linkwork::analysis::sweep::{Extreme, Law, Missing, MotionReport, Pace, SweepSettings};
 use linkwork::ask::{AskError, Question, Unmeasured};
 use linkwork::description::{Description, ProblemKind};
 use linkwork::mechanism::{Mechanism, QuantityError};
@@ -96,6 +96,8 @@ fn the_transmission_angle_of_a_four_bar_follows_the_law_of_cosines() {
     let moving = moved(&skew, 4, Pace::default());
     assert!(column(&moving, "transmission").iter().all(|x| x.is_nan()));
     assert!(moving.extremes[0].least.is_none());
+    assert_eq!(moving.extremes[0].missing, Some(Missing::PlanarLoop));
+    assert_eq!(motion.extremes[0].missing, None);
     // a quarter of a turn between no rows: where the diagonal is 5
     let [least, greatest] = extremes(&motion, "transmission");
     assert!((least.value - angle(PI)).abs() < 1e-13);

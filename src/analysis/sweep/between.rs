@@ -86,6 +86,17 @@ impl Between {
         Some(from + part * (to - from))
     }
 
+    /// The part of the way where the middle row is.
+    pub fn middle(&self) -> f64 {
+        match (&self.schedule, &self.moved[..]) {
+            (None, [first, ..]) => {
+                (first.coordinate.of(&self.middle) - first.from) / (first.to - first.from)
+            }
+            // rows are equal parts of the time
+            _ => 0.5,
+        }
+    }
+
     /// The assembled configuration at a part of the way, if the branch of the rows has one there.
     pub fn at(&mut self, part: f64) -> Option<&Configuration<f64>> {
         /// Steps in which it is gone to from the middle row where one is too long.
@@ -93,11 +104,7 @@ impl Between {
         self.tracker.restart(&self.middle);
         if !self.go(part) {
             self.tracker.restart(&self.middle);
-            let first = self.moved.first()?;
-            let from = match self.schedule {
-                Some(_) => 0.5,
-                None => (first.coordinate.of(&self.middle) - first.from) / (first.to - first.from),
-            };
+            let from = self.middle();
             for k in 1..=STEPS {
                 if !self.go(from + (part - from) * f64::from(k) / f64::from(STEPS)) {
                     return None;

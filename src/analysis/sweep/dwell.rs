@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
+use crate::solve::summit;
 
 /// The longest part of a motion over which a quantity stays within a tolerance of one value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,20 +24,99 @@ pub struct Dwell {
     pub inputs: [Vec<f64>; 2],
 }
 
-/// A row: the part of the time that is gone, the value of the quantity, the inputs.
-pub(crate) type Timed = (f64, Option<f64>, Vec<f64>);
+/// The time and the value of a quantity at a place of a motion: from 0, its first row, to its last.
+type At<'f> = dyn FnMut(f64) -> Option<[f64; 2]> + 'f;
 
-/// The longest run of rows within a band that is twice the tolerance wide, with the parts of the rows beside it that
-/// still are, by straight lines between rows. None if no row has a value.
-pub(crate) fn dwell(rows: &[Timed], tolerance: f64) -> Option<(f64, [f64; 2], [Vec<f64>; 2])> {
+/// A place with the time and the value there, if there is one.
+type Sample = (f64, Option<[f64; 2]>);
+
+/// The longest stay within a band that is twice the tolerance wide: the middle of the band, and where the stay begins and
+/// ends, both located to rounding. None if there is no value anywhere.
+///
+/// A window slides over samples so near to one another that a line between two is off by less than a quarter of the
+/// tolerance. Its band is then moved as far as the extremes inside allow, to where the stay is longest.
+pub(crate) fn dwell(rows: usize, tolerance: f64, at: &mut At) -> Option<(f64, [f64; 2])> {
     let width = 2.0 * tolerance;
-    let value = |i: usize| rows[i].1.unwrap_or(f64::NAN);
+    let samples = sampled(rows, 0.25 * tolerance, at);
+    let [first, last] = longest(&samples, width)?;
+    let value = |i: usize| samples[i].1.map_or(f64::NAN, |[_, value]| value);
+    let core = (first + last) / 2;
+    // the band holds the core and the extremes inside
+    let (mut low, mut high) = (value(core), value(core));
+    for sense in [-1.0, 1.0] {
+        let inside = (first + 1..last).filter(|&i| {
+            let [a, b, c] = [i - 1, i, i + 1].map(|i| sense * value(i));
+            b >= a && b >= c
+        });
+        let peak = inside.max_by(|&i, &j| (sense * value(i)).total_cmp(&(sense * value(j))));
+        let Some(peak) = peak else { continue };
+        let mut height = |place: f64| Some(sense * at(place)?[1]);
+        let top = summit(samples[peak - 1].0, samples[peak + 1].0, &mut height);
+        let top = sense * top.map_or(sense * value(peak), |(_, height)| height);
+        (low, high) = (low.min(top), high.max(top));
+    }
+    let (least, most) = ((high - width).min(low), low);
+    let mut stay = |from: f64| {
+        let ends = ends(&samples, core, [from, from + width], at);
+        let [begin, end] = ends.map(|place| at(place).map_or(f64::NAN, |[time, _]| time));
+        (end - begin, ends)
+    };
+    let middle = 0.5 * (least + most);
+    let found = summit(least, most, |base| Some(stay(base).0));
+    let bases = [least, most, found.map_or(middle, |(base, _)| base)];
+    let stays = bases.map(&mut stay);
+    let all_of_it = stay(middle);
+    let longest = (0..3).max_by(|&i, &j| stays[i].0.total_cmp(&stays[j].0))?;
+    // where the band does not matter its middle is that of the values
+    let (base, (_, ends)) = match stays.iter().all(|of| (of.0 - all_of_it.0).abs() < 1e-12) {
+        true => (middle, all_of_it),
+        false => (bases[longest], stays[longest]),
+    };
+    Some((base + tolerance, ends))
+}
+
+/// The rows, and between them so many places that straight lines are off by no more than a limit.
+fn sampled(rows: usize, limit: f64, at: &mut At) -> Vec<Sample> {
+    fn refine(
+        [a, b]: [(f64, [f64; 2]); 2],
+        (limit, depth): (f64, u32),
+        at: &mut At,
+        all: &mut Vec<Sample>,
+    ) {
+        const DEEPEST: u32 = 12;
+        let place = 0.5 * (a.0 + b.0);
+        let Some(found) = at(place) else { return };
+        let straight = (found[1] - 0.5 * (a.1[1] + b.1[1])).abs() <= limit;
+        let deeper = (limit, depth + 1);
+        if !straight && depth < DEEPEST {
+            refine([a, (place, found)], deeper, at, all);
+        }
+        all.push((place, Some(found)));
+        if !straight && depth < DEEPEST {
+            refine([(place, found), b], deeper, at, all);
+        }
+    }
+    let mut all: Vec<Sample> = Vec::new();
+    for row in 0..rows {
+        let here = (row as f64, at(row as f64));
+        if let (Some((place, Some(before))), Some(found)) = (all.last().copied(), here.1) {
+            refine([(place, before), (here.0, found)], (limit, 0), at, &mut all);
+        }
+        all.push(here);
+    }
+    all
+}
+
+/// The first and the last of the samples that are longest within a band of some width.
+fn longest(samples: &[Sample], width: f64) -> Option<[usize; 2]> {
+    let [time, value] =
+        [0, 1].map(|k| move |i: usize| samples[i].1.map_or(f64::NAN, |found| found[k]));
     // indices whose values may still be the least and the greatest
     let (mut least, mut most) = (VecDeque::new(), VecDeque::<usize>::new());
     let mut first = 0;
-    let mut best: Option<(f64, [usize; 2], [f64; 2])> = None;
-    for last in 0..rows.len() {
-        if rows[last].1.is_none() {
+    let mut best: Option<(f64, [usize; 2])> = None;
+    for last in 0..samples.len() {
+        if samples[last].1.is_none() {
             least.clear();
             most.clear();
             first = last + 1;
@@ -58,55 +138,112 @@ pub(crate) fn dwell(rows: &[Timed], tolerance: f64) -> Option<(f64, [f64; 2], [V
                 }
             }
         }
-        let time = rows[last].0 - rows[first].0;
-        if best.is_none_or(|(longest, ..)| time > longest) {
-            best = Some((time, [first, last], [value(least[0]), value(most[0])]));
+        let stays = time(last) - time(first);
+        if best.is_none_or(|(longest, _)| stays > longest) {
+            best = Some((stays, [first, last]));
         }
     }
-    let (_, [first, last], [mut low, mut high]) = best?;
-    let mut ends = [first, last].map(|i| (rows[i].0, rows[i].2.clone()));
-    let beyond = [
-        first.checked_sub(1),
-        (last + 1 < rows.len()).then_some(last + 1),
-    ];
-    for ((end, inside), outside) in ends.iter_mut().zip([first, last]).zip(beyond) {
-        let Some(outside) = outside.filter(|i| rows[*i].1.is_some()) else {
-            continue;
-        };
-        let (from, to) = (value(inside), value(outside));
-        let wall = if to > from { low + width } else { high - width };
-        let part = ((wall - from) / (to - from)).clamp(0.0, 1.0);
-        let between = |a: f64, b: f64| a + part * (b - a);
-        let inputs = rows[inside].2.iter().zip(&rows[outside].2);
-        *end = (
-            between(rows[inside].0, rows[outside].0),
-            inputs.map(|(a, b)| between(*a, *b)).collect(),
-        );
-        (low, high) = (low.min(between(from, to)), high.max(between(from, to)));
+    best.map(|(_, range)| range)
+}
+
+/// Where a band is left, before and after a sample in it.
+fn ends(samples: &[Sample], core: usize, [low, high]: [f64; 2], at: &mut At) -> [f64; 2] {
+    let slack = 1e-13 * low.abs().max(high.abs());
+    let beyond = |value: f64| match value {
+        _ if value > high + slack => Some(high),
+        _ if value < low - slack => Some(low),
+        _ => None,
+    };
+    [-1, 1].map(|way| {
+        let mut inside = core;
+        loop {
+            let next = inside
+                .checked_add_signed(way)
+                .filter(|i| *i < samples.len());
+            let Some((next, [_, value])) = next.and_then(|i| Some((i, samples[i].1?))) else {
+                return samples[inside].0;
+            };
+            if let Some(wall) = beyond(value) {
+                let ends = [samples[inside].0, samples[next].0];
+                return crossing(ends, &mut |place| Some(at(place)?[1] - wall));
+            }
+            inside = next;
+        }
+    })
+}
+
+/// Where a function changes its sign between two places, by false position with halved heights.
+///
+/// Source: Dowell and Jarratt, A modified regula falsi method (Illinois), 1971.
+fn crossing([inside, outside]: [f64; 2], f: &mut dyn FnMut(f64) -> Option<f64>) -> f64 {
+    let (mut a, mut b) = (inside, outside);
+    let (Some(mut at_a), Some(mut at_b)) = (f(a), f(b)) else {
+        return inside;
+    };
+    if at_a * at_b >= 0.0 {
+        return if at_b == 0.0 { outside } else { inside };
     }
-    let [(begin, from), (end, to)] = ends;
-    Some((0.5 * (low + high), [begin, end], [from, to]))
+    for _ in 0..100 {
+        let x = b - at_b * (b - a) / (at_b - at_a);
+        let Some(at_x) = f(x) else { return a };
+        if at_x == 0.0 || (x - b).abs() <= 4.0 * f64::EPSILON * b.abs() {
+            return x;
+        }
+        match at_x * at_b < 0.0 {
+            true => (a, at_a) = (b, at_b),
+            false => at_a *= 0.5,
+        }
+        (b, at_b) = (x, at_x);
+    }
+    b
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Timed, dwell};
+    use super::dwell;
+
+    /// Of a function of the time from 0 to 1 at so many rows.
+    fn of(rows: usize, tolerance: f64, f: fn(f64) -> f64) -> (f64, [f64; 2]) {
+        let time = |place: f64| place / (rows - 1) as f64;
+        let found = dwell(rows, tolerance, &mut |place| {
+            Some([time(place), f(time(place))])
+        });
+        let (value, places) = found.unwrap();
+        (value, places.map(time))
+    }
 
     #[test]
-    fn a_parabola_dwells_about_its_vertex() {
-        let row = |k: i32| -> Timed {
-            let time = 0.001 * f64::from(k);
-            (time, Some((time - 0.3).powi(2)), vec![2.0 * time])
-        };
-        let rows: Vec<Timed> = (0..=1000).map(row).collect();
-        let (value, times, inputs) = dwell(&rows, 0.005).unwrap();
-        // within 0.01 over its vertex: 0.1 to either side, but for the chords between rows
-        assert!((value - 0.005).abs() < 1e-6, "{value}");
-        assert!(
-            (times[0] - 0.2).abs() < 1e-5 && (times[1] - 0.4).abs() < 1e-5,
-            "{times:?}"
-        );
-        assert!((inputs[1][0] - 2.0 * times[1]).abs() < 1e-12);
-        assert!(dwell(&[(0.0, None, vec![])], 1.0).is_none());
+    fn a_dwell_is_as_long_as_the_quantity_says_however_many_rows_there_are() {
+        for rows in [11, 20, 101] {
+            // within 0.01 over the vertex of a parabola: 0.1 to either side
+            let (value, times) = of(rows, 0.005, |t| (t - 0.3).powi(2));
+            assert!((value - 0.005).abs() < 1e-14, "{value}");
+            let [begin, end] = times;
+            assert!(
+                (begin - 0.2).abs() < 1e-12 && (end - 0.4).abs() < 1e-12,
+                "{times:?}"
+            );
+            // about an inflection: 2 x³ = 2 tolerances, as far to either side
+            let (value, times) = of(rows, 0.001, |t| (t - 0.45).powi(3));
+            assert!(value.abs() < 1e-9, "{value}");
+            let [begin, end] = times;
+            assert!(
+                (begin - 0.35).abs() < 1e-8 && (end - 0.55).abs() < 1e-8,
+                "{times:?}"
+            );
+            // with a maximum and a minimum inside: x³ - 3a²x is q where x = 2a cosh(arcosh(q/2a³)/3)
+            let (value, times) = of(rows, 0.00201, |t| (t - 0.5).powi(3) - 0.03 * (t - 0.5));
+            let end = 0.2 * (1.005f64.acosh() / 3.0).cosh();
+            assert!(value.abs() < 1e-9, "{value}");
+            let [before, after] = times.map(|t| t - 0.5);
+            assert!(
+                (before + end).abs() < 1e-8 && (after - end).abs() < 1e-8,
+                "{times:?}"
+            );
+        }
+        // all of it
+        let (value, times) = of(5, 2.0, |t| t);
+        assert_eq!((value, times), (0.5, [0.0, 1.0]));
+        assert!(dwell(3, 1.0, &mut |_| None).is_none());
     }
 }

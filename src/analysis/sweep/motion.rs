@@ -47,17 +47,51 @@ pub struct MotionReport {
     pub values: Vec<Vec<Option<f64>>>,
 }
 
-/// The least and the greatest value of a quantity over a motion; none where it has no value.
+/// The least and the greatest value of a quantity over a motion; none where it has no value, no bound, or one value only.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extremum {
     /// The quantity.
     pub name: String,
     /// Its unit.
     pub unit: SiUnit,
+    /// The value of one that does not change.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constant: Option<f64>,
     /// Where it is least.
     pub least: Option<Extreme>,
     /// Where it is greatest.
     pub greatest: Option<Extreme>,
+    /// Where it grows without bound.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unbounded: Vec<Pole>,
+    /// Why it has no value anywhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub missing: Option<Missing>,
+}
+
+/// Why a quantity has no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Missing {
+    /// A transmission angle belongs to a loop that moves in a plane.
+    PlanarLoop,
+    /// The inputs do not determine the rates.
+    Rates,
+    /// The expression has none.
+    Expression,
+}
+
+/// A place where a quantity grows without bound: its reciprocal vanishes there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pole {
+    /// The part of the time that is gone there, if there are inputs.
+    pub time: Option<f64>,
+    /// The inputs there, in m or rad.
+    pub inputs: Vec<f64>,
+    /// The joints there, in m or rad, in the order of the file.
+    pub joints: Vec<f64>,
+    /// Whether it grows upwards just before, and just after; none where it does not grow or is not known.
+    pub upwards: [Option<bool>; 2],
 }
 
 /// A value of a quantity and where it has it.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{Svd, dot};
+use crate::solve::summit;
 
 /// The straight line that a path over a motion comes nearest to, and how near.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,7 +20,69 @@ pub struct Straightness {
     pub deviation: f64,
 }
 
+/// Where a point is at a place of a motion: from 0, its first row, to its last.
+type At<'f> = dyn FnMut(f64) -> Option<[f64; 3]> + 'f;
+
 impl Straightness {
+    /// Of the path over a motion with so many rows. Places where it is farthest from its line, sought between those known,
+    /// join these until none is farther than they are: an exchange after Remez, for a line with both offset and direction free.
+    pub(crate) fn along(point: &str, rows: usize, at: &mut At) -> Option<Self> {
+        const ROUNDS: usize = 24;
+        /// In parts of the length.
+        const SAME: f64 = 1e-13;
+        let mut known: Vec<(f64, [f64; 3])> = (0..rows)
+            .filter_map(|row| Some((row as f64, at(row as f64)?)))
+            .collect();
+        for _ in 0..ROUNDS {
+            let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();
+            let line = Straightness::of(point, &places)?;
+            let (begin, end) = places
+                .iter()
+                .map(|place| line.apart(place)[0])
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            // how far off, and how far beyond either end
+            let beyond = |place: &[f64; 3]| {
+                let [along, off] = line.apart(place);
+                [off - line.deviation, along - end, begin - along]
+            };
+            let mut more = Vec::new();
+            for i in 1..known.len().saturating_sub(1) {
+                let [a, b, c] = [i - 1, i, i + 1].map(|i| beyond(&known[i].1));
+                let (from, to) = (known[i - 1].0, known[i + 1].0);
+                for k in 0..3 {
+                    let near = b[k] > -0.5 * line.deviation.max(1e-3 * line.length);
+                    if !near || b[k] < a[k] || b[k] < c[k] || to - from < 1e-9 {
+                        continue;
+                    }
+                    let top = summit(from, to, |place| Some(beyond(&at(place)?)[k]));
+                    if let Some((place, height)) = top
+                        && height > SAME * line.length
+                        && let Some(found) = at(place)
+                    {
+                        more.push((place, found));
+                    }
+                }
+            }
+            if more.is_empty() {
+                return Some(line);
+            }
+            known.extend(more);
+            known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();
+        Straightness::of(point, &places)
+    }
+
+    /// How far along the line a place is from where the line is said to go through, and how far off.
+    fn apart(&self, place: &[f64; 3]) -> [f64; 2] {
+        let from: [f64; 3] = std::array::from_fn(|k| place[k] - self.through[k]);
+        let along = dot(&from, &self.direction);
+        let off = (0..3).map(|k| from[k] - along * self.direction[k]);
+        [along, off.map(|x| x * x).sum::<f64>().sqrt()]
+    }
+
     /// Of places of a path; none if there is no more than one. In its plane the line is the middle of the narrowest
     /// strip with all places, which has one edge of their convex hull on its border; the plane is that of least squares.
     ///
@@ -58,23 +121,22 @@ impl Straightness {
         let lift = |x: f64, y: f64| -> [f64; 3] { std::array::from_fn(|k| x * u[k] + y * v[k]) };
         let direction = lift(ny, -nx);
         let through = lift(inside[0], inside[1]);
-        let along: Vec<f64> = apart.iter().map(|place| dot(place, &direction)).collect();
-        let far = apart.iter().zip(&along).map(|(place, along)| {
-            let origin = dot(&through, &direction);
-            let off = |k: usize| place[k] - through[k] - (along - origin) * direction[k];
-            [0, 1, 2].map(off).iter().map(|x| x * x).sum::<f64>().sqrt()
-        });
-        let (low, high) = along
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                (l.min(*x), h.max(*x))
-            });
-        Some(Straightness {
+        let line = Straightness {
             point: point.to_owned(),
             through: std::array::from_fn(|k| middle[k] + through[k]),
             direction,
+            length: 0.0,
+            deviation: 0.0,
+        };
+        let measures = places.iter().map(|place| line.apart(place));
+        let (low, high, far) = measures.fold(
+            (f64::INFINITY, f64::NEG_INFINITY, 0.0f64),
+            |(low, high, far), [along, off]| (low.min(along), high.max(along), far.max(off)),
+        );
+        Some(Straightness {
             length: high - low,
-            deviation: far.fold(0.0, f64::max),
+            deviation: far,
+            ..line
         })
     }
 }

@@ -1,25 +1,20 @@
-//! The least and greatest values of quantities over a motion.
+//! The least and greatest values of quantities over a motion, and where they have no bound.
 
-use super::Meter;
-use crate::analysis::sweep::{Between, Extreme, Extremum, Schedule};
-use crate::mechanism::{Configuration, Mechanism, Quantity};
+use std::cmp::Ordering;
+
+use super::poles::{middle_of_gap, unbounded};
+use super::{Meter, Passage, Seen};
+use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
+use crate::mechanism::{Configuration, Measured, Order, Quantity};
 use crate::solve::summit;
-use crate::system::{Driven, Held};
 
 /// Watches rows and remembers where quantities are least and greatest.
 pub(in super::super) struct Extremes {
     rows: Vec<Seen>,
     seen: usize,
     sides: Vec<[Side; 2]>,
-}
-
-/// A row that was seen.
-#[derive(Clone)]
-struct Seen {
-    at: Configuration<f64>,
-    /// The part of the time that is gone.
-    time: f64,
-    values: Vec<Option<f64>>,
+    /// Of each quantity the range of values that all rows allow.
+    allowed: Vec<[f64; 2]>,
 }
 
 /// Rows where a quantity is greater than at their neighbours, or less: the best of them.
@@ -35,13 +30,15 @@ struct Peak {
     /// Times the sense: what is sought is the greatest.
     height: f64,
     rows: [Seen; 3],
+    /// The part of the way where the first or the last row has no value.
+    gap: Option<f64>,
 }
 
 /// The senses of least and greatest.
 const SENSES: [f64; 2] = [-1.0, 1.0];
 
 /// Peaks remembered: a lower row may have the higher peak beside it.
-const PEAKS: usize = 4;
+const PEAKS: usize = 8;
 
 impl Extremes {
     pub fn new(quantities: usize) -> Self {
@@ -49,11 +46,18 @@ impl Extremes {
             rows: Vec::new(),
             seen: 0,
             sides: vec![<[Side; 2]>::default(); quantities],
+            allowed: vec![[f64::NEG_INFINITY, f64::INFINITY]; quantities],
         }
     }
 
-    /// Takes in the next row.
-    pub fn take(&mut self, at: &Configuration<f64>, time: f64, values: &[Option<f64>]) {
+    /// Takes in the next row, with how far its values may be off.
+    pub fn take(
+        &mut self,
+        at: &Configuration<f64>,
+        time: f64,
+        values: &[Option<f64>],
+        noise: &[f64],
+    ) {
         match self.rows.len() {
             3 => {
                 self.rows.rotate_left(1);
@@ -69,6 +73,11 @@ impl Extremes {
         }
         self.seen += 1;
         for (i, sides) in self.sides.iter_mut().enumerate() {
+            if let Some(value) = values[i] {
+                let off = 4.0 * noise[i].max(f64::EPSILON * value.abs());
+                let [low, high] = &mut self.allowed[i];
+                (*low, *high) = (low.max(value - off), high.min(value + off));
+            }
             for (side, sense) in sides.iter_mut().zip(SENSES) {
                 if let Some(value) = values[i] {
                     side.reach(sense * value, at, time);
@@ -76,7 +85,19 @@ impl Extremes {
                 if let Some([a, b, c]) = heights(&self.rows, i, sense)
                     && (b >= a && b >= c && b > a.min(c) || self.seen == 3 && a > b)
                 {
-                    side.peak(a.max(b), &self.rows);
+                    side.peak(a.max(b), None, &self.rows);
+                }
+            }
+            if let [a, b, c] = &self.rows[..]
+                && let Some(value) = b.values[i]
+            {
+                // it may grow towards a row where it is not known
+                let grows = |row: &Seen| row.values[i].is_none_or(|x| x.abs() < value.abs());
+                let side = &mut sides[usize::from(value > 0.0)];
+                for (beyond, other, gap) in [(a, c, 0.0), (c, a, 1.0)] {
+                    if beyond.values[i].is_none() && grows(other) {
+                        side.peak(value.abs(), Some(gap), &self.rows);
+                    }
                 }
             }
         }
@@ -86,10 +107,8 @@ impl Extremes {
     pub fn located(
         mut self,
         quantities: &[Quantity],
-        mechanism: &Mechanism,
-        (held, inputs, schedule): (&Held<f64>, &[Driven], Option<&Schedule>),
+        passage: Passage,
         meter: &mut Meter,
-        time: &dyn Fn(&Configuration<f64>) -> f64,
     ) -> Vec<Extremum> {
         // beside the last row there may be more too, as beside the first
         for (i, sides) in self.sides.iter_mut().enumerate() {
@@ -97,7 +116,7 @@ impl Extremes {
                 if let Some([_, b, c]) = heights(&self.rows, i, sense)
                     && c > b
                 {
-                    side.peak(c, &self.rows);
+                    side.peak(c, None, &self.rows);
                 }
             }
         }
@@ -105,55 +124,162 @@ impl Extremes {
         const ROUNDING: f64 = 1e-12;
         let mut all = Vec::new();
         for (i, (sides, quantity)) in self.sides.into_iter().zip(quantities).enumerate() {
-            let rows = sides.iter().filter_map(|side| side.row.as_ref());
-            let largest = rows.fold(0.0f64, |most, (height, ..)| most.max(height.abs()));
-            let found = std::array::from_fn::<_, 2, _>(|k| {
+            let none = Extremum {
+                name: quantity.name.clone(),
+                unit: quantity.unit,
+                constant: None,
+                least: None,
+                greatest: None,
+                unbounded: Vec::new(),
+                missing: None,
+            };
+            let row = |k: usize| sides[k].row.as_ref().map(|(height, ..)| SENSES[k] * height);
+            let (Some(least), Some(greatest)) = (row(0), row(1)) else {
+                all.push(Extremum {
+                    missing: Some(missing(quantity)),
+                    ..none
+                });
+                continue;
+            };
+            let largest = least.abs().max(greatest.abs());
+            let known = |value: f64| match value.abs() > ROUNDING * largest {
+                true => value,
+                false => 0.0,
+            };
+            // one value is within what rounding leaves open at every row
+            let [low, high] = self.allowed[i];
+            if self.seen > 1 && low <= high && high.is_finite() {
+                let zero = low <= 0.0 && high >= 0.0;
+                all.push(Extremum {
+                    constant: Some(if zero { 0.0 } else { 0.5 * (low + high) }),
+                    ..none
+                });
+                continue;
+            }
+            let mut poles: Vec<Pole> = Vec::new();
+            let [least, greatest] = std::array::from_fn::<_, 2, _>(|k| {
                 let (side, sense) = (&sides[k], SENSES[k]);
                 let mut best = side.row.clone()?;
                 for peak in &side.peaks {
-                    let [first, middle, last] = &peak.rows;
-                    let rows = [&first.at, &middle.at, &last.at];
-                    let ends = schedule.map(|of| (of.clone(), [first.time, last.time]));
-                    let between = Between::new(mechanism, held, inputs, ends, rows);
-                    let Some(mut between) = between else {
+                    let rows = &peak.rows;
+                    let Some(mut between) = passage.between(rows.each_ref()) else {
                         continue;
                     };
-                    let mut height = |part: f64| {
-                        let when = between.time(part);
-                        let at = between.at(part)?;
-                        meter.settle(&middle.values);
-                        Some(sense * meter.read(at, when.unwrap_or_else(|| time(at)))[i]?)
+                    let mut gap = None;
+                    let mut value = |part: f64| {
+                        let (at, when) = passage.at(&mut between, part)?;
+                        meter.settle(&rows[1].values);
+                        let value = meter.read(at, when)[i];
+                        if value.is_none() {
+                            gap = Some(part);
+                        }
+                        value
                     };
-                    if let Some((part, height)) = summit(0.0, 1.0, &mut height)
+                    let found = match peak.gap {
+                        Some(_) => None,
+                        None => summit(0.0, 1.0, |part| Some(sense * value(part)?)),
+                    };
+                    let seen = found.map(|(part, _)| part);
+                    let place = match (peak.gap, gap) {
+                        (Some(gap), _) => Some(gap),
+                        (None, Some(gap)) if found.is_none() => {
+                            let mut value = |part: f64| {
+                                let (at, when) = passage.at(&mut between, part)?;
+                                meter.read(at, when)[i]
+                            };
+                            Some(middle_of_gap(gap, &mut value))
+                        }
+                        _ => seen,
+                    };
+                    let Some(place) = place else {
+                        continue;
+                    };
+                    let sides = unbounded(place, &mut |part| {
+                        let (at, when) = passage.at(&mut between, part)?;
+                        meter.settle(&rows[1].values);
+                        let value = meter.read(at, when)[i]?;
+                        // what is nothing but rounding grows where it is divided by little
+                        Some(if value.abs() > 4.0 * meter.noise()[i] {
+                            value
+                        } else {
+                            0.0
+                        })
+                    });
+                    let Some((at, when)) = passage.at(&mut between, place) else {
+                        continue;
+                    };
+                    let time = (!passage.inputs.is_empty()).then_some(when);
+                    if sides.iter().any(Option::is_some) {
+                        let inputs = passage.inputs(at);
+                        let joints = at.joints.clone();
+                        merge(
+                            &mut poles,
+                            Pole {
+                                time,
+                                inputs,
+                                joints,
+                                upwards: sides,
+                            },
+                        );
+                    } else if let Some((_, height)) = found
                         && height > best.0
-                        && let when = between.time(part)
-                        && let Some(at) = between.at(part)
                     {
-                        best = (height, at.clone(), when.unwrap_or_else(|| time(at)));
+                        best = (height, at.clone(), when);
                     }
                 }
                 Some(Extreme {
-                    value: match best.0.abs() > ROUNDING * largest {
-                        true => sense * best.0,
-                        false => 0.0,
-                    },
-                    time: (!inputs.is_empty()).then_some(best.2),
-                    inputs: inputs
-                        .iter()
-                        .map(|input| input.coordinate.of(&best.1))
-                        .collect(),
+                    value: known(sense * best.0),
+                    time: (!passage.inputs.is_empty()).then_some(best.2),
+                    inputs: passage.inputs(&best.1),
                     joints: best.1.joints,
                 })
             });
-            let [least, greatest] = found;
+            poles.sort_by(|a, b| a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal));
+            let bounded = |upwards: bool| {
+                let mut sides = poles.iter().flat_map(|pole| pole.upwards);
+                !sides.any(|side| side == Some(upwards))
+            };
             all.push(Extremum {
-                name: quantity.name.clone(),
-                unit: quantity.unit,
-                least,
-                greatest,
+                least: least.filter(|_| bounded(false)),
+                greatest: greatest.filter(|_| bounded(true)),
+                unbounded: poles,
+                ..none
             });
         }
         all
+    }
+}
+
+/// Why a quantity has no value at any row.
+fn missing(quantity: &Quantity) -> Missing {
+    if (quantity.measured()).any(|of| matches!(of, Measured::Transmission(_))) {
+        return Missing::PlanarLoop;
+    }
+    let still = |of: &Measured| match of {
+        Measured::Parameter(_) => true,
+        Measured::Joint(_, order) | Measured::Place(_, _, order) => *order == Order::Value,
+        _ => false,
+    };
+    match quantity.measured().all(still) {
+        true => Missing::Expression,
+        false => Missing::Rates,
+    }
+}
+
+/// Adds a pole to others; each is seen from either side, and in either sense.
+fn merge(poles: &mut Vec<Pole>, pole: Pole) {
+    /// In m and rad.
+    const SAME: f64 = 1e-6;
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME);
+    let same =
+        |known: &&mut Pole| near(&known.inputs, &pole.inputs) && near(&known.joints, &pole.joints);
+    match poles.iter_mut().find(same) {
+        Some(known) => {
+            for (known, side) in known.upwards.iter_mut().zip(pole.upwards) {
+                *known = known.or(side);
+            }
+        }
+        None => poles.push(pole),
     }
 }
 
@@ -176,7 +302,7 @@ impl Side {
         }
     }
 
-    fn peak(&mut self, height: f64, rows: &[Seen]) {
+    fn peak(&mut self, height: f64, gap: Option<f64>, rows: &[Seen]) {
         let [a, b, c] = rows else { return };
         if self.peaks.len() == PEAKS {
             let lowest =
@@ -189,6 +315,6 @@ impl Side {
             }
         }
         let rows = [a, b, c].map(Clone::clone);
-        self.peaks.push(Peak { height, rows });
+        self.peaks.push(Peak { height, rows, gap });
     }
 }

@@ -39,6 +39,9 @@ pub(in super::super) struct Meter<'q> {
     loose: Vec<Frame>,
     motion: Option<Motion>,
     loaded: Option<Loaded>,
+    /// What everything does for a unit rate of each held coordinate, and what holds these against the load.
+    responses: Vec<Vec<f64>>,
+    forces: Vec<f64>,
     outputs: Option<(Outputs<'q>, Spinning<'q>)>,
     transmission: Option<TransmissionAngles>,
     /// With the distances that are asked for.
@@ -48,6 +51,14 @@ pub(in super::super) struct Meter<'q> {
     driven: [Vec<f64>; 2],
     before: Vec<Option<f64>>,
     values: Vec<Option<f64>>,
+    /// What the names in the quantities stand for, each once.
+    names: Vec<Measured>,
+    /// The quantities over the numbers of these names.
+    programs: Vec<Expression<usize>>,
+    /// The values of the names, and how far each may be off.
+    known: Vec<[f64; 2]>,
+    /// How far each quantity may be off.
+    noise: Vec<f64>,
 }
 
 /// The lines about which links spin: none, or those of each configuration.
@@ -109,8 +120,10 @@ struct Found<'a> {
     loose: &'a [Frame],
     /// Whether rates are determined there.
     moves: bool,
+    /// The largest rate and acceleration, in rad and characteristic lengths.
+    rates: [f64; 2],
     coordinates: &'a [Coordinate],
-    forces: Vec<f64>,
+    forces: &'a [f64],
     transmission: Vec<(&'a str, Option<f64>)>,
     jacobian: Option<Normalised>,
     singular_values: Vec<f64>,
@@ -130,6 +143,19 @@ impl<'q> Meter<'q> {
             _ => None,
         });
         let frames: Vec<Frame> = frames.collect();
+        let mut names: Vec<Measured> = Vec::new();
+        let mut number = |name: &Measured| {
+            let known = names.iter().position(|of| of == name);
+            known.unwrap_or_else(|| {
+                names.push(*name);
+                names.len() - 1
+            })
+        };
+        let programs = of.quantities.iter().map(|quantity| {
+            let program = (quantity.expression).try_resolve(|name, _| Ok::<_, ()>(number(name)));
+            program.expect("every name has a number")
+        });
+        let programs = programs.collect();
         let coordinates = question.driven_coordinates();
         let moves = wants.order > Order::Value || wants.responses();
         let still = question.clone().with_spins_still();
@@ -152,6 +178,8 @@ impl<'q> Meter<'q> {
             places: Places::new(mechanism, &frames, wants.order),
             loaded: (motion.as_ref().filter(|_| wants.forces))
                 .map(|motion| Loaded::new(mechanism, motion.unknowns(), of.load)),
+            responses: Vec::new(),
+            forces: Vec::new(),
             loose: loose.copied().collect(),
             outputs: (motion.as_ref().filter(|_| wants.jacobian)).map(|motion| {
                 let outputs = outputs(mechanism, motion, &held, &rest);
@@ -176,6 +204,10 @@ impl<'q> Meter<'q> {
             driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
+            known: vec![[0.0; 2]; names.len()],
+            noise: vec![0.0; of.quantities.len()],
+            names,
+            programs,
             wants,
             of,
         }
@@ -195,13 +227,13 @@ impl<'q> Meter<'q> {
                 }
             };
         }
-        let (mut moves, mut responses) = (false, Vec::new());
+        let (mut moves, responses) = (false, &mut self.responses);
         if let Some(motion) = &mut self.motion {
             motion.at(at);
             moves = motion.is_determined();
             if self.wants.responses() {
-                responses = motion.responses();
-                motion.set_rates(&responses, rates);
+                motion.responses_into(responses);
+                motion.set_rates(responses, rates);
             } else {
                 motion.rates(rates);
             }
@@ -215,22 +247,21 @@ impl<'q> Meter<'q> {
             }
             (_, None) => unreachable!("rates are those of a motion"),
         }
-        let forces = match &mut self.loaded {
+        self.forces.clear();
+        if let Some(loaded) = self.loaded.as_mut().filter(|_| moves) {
             // τ δh + g δx = 0: what holds a coordinate does the work of the load
-            Some(loaded) if moves => {
-                loaded.place(at);
-                responses.iter().map(|rates| -loaded.power(rates)).collect()
-            }
-            _ => Vec::new(),
-        };
+            loaded.place(at);
+            let forces = responses.iter().map(|rates| -loaded.power(rates));
+            self.forces.extend(forces);
+        }
         let jacobian = self.outputs.as_mut().filter(|_| moves);
         let jacobian = jacobian.map(|(outputs, spinning)| {
             outputs.place(at);
             match spinning {
-                Spinning::Nothing(spins) => outputs.normalised(at, &responses, spins),
+                Spinning::Nothing(spins) => outputs.normalised(at, responses, spins),
                 Spinning::Something(held) => {
                     let rest = held.tangent(at.clone());
-                    outputs.normalised(at, &responses, &Spins::of(held, &rest))
+                    outputs.normalised(at, responses, &Spins::of(held, &rest))
                 }
             }
         });
@@ -245,40 +276,87 @@ impl<'q> Meter<'q> {
             places: &self.places,
             loose: &self.loose,
             moves,
+            rates: self.motion.as_ref().map_or([0.0; 2], Motion::largest),
             coordinates: self.motion.as_ref().map_or(&[], Motion::coordinates),
-            forces,
+            forces: &self.forces,
             transmission: transmission.into_iter().flatten().collect(),
             singular_values: values.map_or_else(Vec::new, Normalised::singular_values),
             jacobian,
             distances: distances.collect(),
         };
-        for (i, quantity) in self.of.quantities.iter().enumerate() {
-            let value = quantity.expression.evaluate(&|of| found.value(of));
-            let value = value
-                .ok()
-                .map(|value| match (self.turns[i], self.before[i]) {
-                    // an angle is told without jumps
-                    (true, Some(before)) if (value - before).abs() > PI => {
-                        value - TAU * ((value - before) / TAU).round()
-                    }
-                    _ => value,
-                });
+        for (known, name) in self.known.iter_mut().zip(&self.names) {
+            *known = found.value(name);
+        }
+        for (i, program) in self.programs.iter().enumerate() {
+            let (value, noise) = evaluated(program, &self.known);
+            let value = value.map(|value| match (self.turns[i], self.before[i]) {
+                // an angle is given without jumps
+                (true, Some(before)) if (value - before).abs() > PI => {
+                    value - TAU * ((value - before) / TAU).round()
+                }
+                _ => value,
+            });
             self.values[i] = value;
+            self.noise[i] = noise;
             self.before[i] = value.or(self.before[i]);
         }
         &self.values
     }
 
-    /// Angles are told near to these values from here on.
+    /// The values last read.
+    pub fn values(&self) -> &[Option<f64>] {
+        &self.values
+    }
+
+    /// How far each value last read may be off.
+    pub fn noise(&self) -> &[f64] {
+        &self.noise
+    }
+
+    /// Angles are given near to these values from here on.
     pub fn settle(&mut self, values: &[Option<f64>]) {
         self.before.copy_from_slice(values);
     }
 }
 
 impl Found<'_> {
-    /// The value of a name; not a number where it is not determined.
-    fn value(&self, of: &Measured) -> f64 {
-        self.known(of).unwrap_or(f64::NAN)
+    /// The value of a name, not a number where it is not determined, and how far it may be off.
+    fn value(&self, of: &Measured) -> [f64; 2] {
+        [self.known(of).unwrap_or(f64::NAN), self.noise(of)]
+    }
+
+    /// How far the value of a name may be off: configurations are closed to 1e-12.
+    fn noise(&self, of: &Measured) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let [rate, change] = self.rates;
+        let most = |order: Order| match order {
+            Order::Value => 1.0,
+            Order::Velocity => rate,
+            Order::Acceleration => change.max(rate * rate),
+        };
+        let length = self.mechanism.characteristic_length();
+        let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
+        let size = match *of {
+            Measured::Parameter(_) => 0.0,
+            Measured::Joint(joint, order) => {
+                self.mechanism.dimensions().joint_scales[joint] * most(order)
+            }
+            Measured::Place(_, c, order) => scale(c.is_angle()) * most(order),
+            Measured::Size(_, order) => length * most(order),
+            Measured::Transmission(_) => 10.0,
+            Measured::Force(_) | Measured::PlatformForce(..) => self
+                .forces
+                .iter()
+                .fold(0.0, |most: f64, x| most.max(x.abs())),
+            // κ = |v × a| / |v|³ by δv and δa
+            Measured::Curvature(point) => {
+                let [v, a] = [Order::Velocity, Order::Acceleration]
+                    .map(|order| self.vector(point, order).map_or(0.0, |v| v.norm()));
+                length * (change.max(rate * rate) + rate * a / v) / (v * v)
+            }
+            Measured::Figure(_) => self.known(of).map_or(0.0, f64::abs),
+        };
+        ROUNDING * size
     }
 
     fn known(&self, of: &Measured) -> Option<f64> {
@@ -296,6 +374,9 @@ impl Found<'_> {
             // κ = |v × a| / |v|³
             Measured::Curvature(point) => {
                 let velocity = self.vector(point, Order::Velocity)?;
+                if velocity.norm() <= self.noise(&Measured::Size(point, Order::Velocity)) {
+                    return None;
+                }
                 let across = velocity.cross(&self.vector(point, Order::Acceleration)?);
                 Some(across.norm() / velocity.norm().powi(3))
             }
@@ -343,7 +424,29 @@ impl Found<'_> {
     }
 }
 
-/// Whether a quantity is an angle that is told modulo a turn.
+/// The value of a quantity, if it has one, and how far it may be off, over values of names that may be. A value that
+/// only rounding keeps finite, as that of 1/x where x is nothing but rounding, is none: away from it, it shrinks.
+fn evaluated(program: &Expression<usize>, known: &[[f64; 2]]) -> (Option<f64>, f64) {
+    if let Node::Name(name) = program.node {
+        let [value, noise] = known[name];
+        return (value.is_finite().then_some(value), noise);
+    }
+    let Ok(value) = program.evaluate(&|&name| known[name][0]) else {
+        return (None, 0.0);
+    };
+    // uneven, so that differences of names are off too
+    let beside = [1.0, -1.0].map(|side| {
+        let off = |name: usize| side * [1.0, -0.73, 0.87, -0.61][name % 4];
+        let value = program.evaluate(&|&name| known[name][0] + off(name) * known[name][1]);
+        value.ok()
+    });
+    let shrinks = |of: &Option<f64>| of.is_some_and(|x| 2.0 * x.abs() < value.abs());
+    let off = beside.iter().flatten();
+    let noise = off.fold(0.0, |most: f64, x| most.max((x - value).abs()));
+    ((!beside.iter().all(shrinks)).then_some(value), noise)
+}
+
+/// Whether a quantity is an angle that is known but for whole turns.
 fn turns(quantity: &Quantity) -> bool {
     fn has_atan2(expression: &Expression<Measured>) -> bool {
         matches!(expression.node, Node::Call(Function::Atan2, _))

@@ -13,7 +13,7 @@ pub(super) enum Places {
     Accelerations(Placed<Dual<Dual<f64>>>),
 }
 
-pub(super) struct Placed<T> {
+pub(in super::super) struct Placed<T> {
     kinematics: Kinematics<T>,
     placement: Placement<T>,
     joints: Vec<T>,
@@ -35,7 +35,7 @@ impl<T: Number> Placed<T> {
         self.joints.copy_from_slice(&at.joints);
     }
 
-    fn pose(&self, point: Point) -> Pose<T> {
+    pub fn pose(&self, point: Point) -> Pose<T> {
         let pose = self.kinematics.pose(point.frame, &self.placement);
         let mut pose = *pose.expect("the kinematics was planned for the frames of all points");
         pose.position = point.placed(&pose);

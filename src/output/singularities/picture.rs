@@ -70,6 +70,7 @@ pub fn svg(report: &LocusReport) -> String {
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
+        within: None,
         heat: None,
         strobe: None,
         series,

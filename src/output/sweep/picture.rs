@@ -29,6 +29,8 @@ pub struct Picture {
     /// What tells motions apart.
     what: &'static str,
     double_points: Vec<Triple>,
+    /// Quantities without bound, by name, with what the abscissa is where they have none.
+    unbounded: Vec<(String, Vec<f64>)>,
     course: Course,
 }
 
@@ -88,6 +90,7 @@ impl Picture {
             driven: !inputs.is_empty(),
             what: "mode",
             double_points: Vec::new(),
+            unbounded: Vec::new(),
             course: Course::of(points.iter().map(|named| named.point)),
         }
     }
@@ -143,8 +146,23 @@ impl Picture {
         scenes
     }
 
-    /// Also marks where paths cross themselves.
-    pub fn crossed(&mut self, report: &MotionsReport) {
+    /// Also marks where paths cross themselves, and breaks curves where they have no bound.
+    pub fn completed(&mut self, mechanism: &Mechanism, report: &MotionsReport) {
+        for of in report.motions.iter().flat_map(|motion| &motion.extremes) {
+            let abscissas = of.unbounded.iter().filter_map(|pole| {
+                let input = self.input?.coordinate;
+                let value = match input {
+                    Coordinate::Joint(joint) => *pole.joints.get(joint)?,
+                    _ => *pole.inputs.first()?,
+                };
+                let unit = SiUnit::of_coordinate(input.is_angle(mechanism));
+                Some(quantity::shown(value, unit))
+            });
+            let abscissas: Vec<f64> = abscissas.collect();
+            if !abscissas.is_empty() {
+                self.unbounded.push((of.name.clone(), abscissas));
+            }
+        }
         let paths = report.motions.iter().flat_map(|motion| &motion.sweep.paths);
         let points = paths.flat_map(|path| &path.double_points);
         self.double_points
@@ -314,12 +332,31 @@ impl Picture {
     }
 
     fn over_input(&self, pairs: &[Curve], label: String) -> Chart {
-        let (series, marks) = self.chart(pairs);
+        let (mut series, marks) = self.chart(pairs);
+        let unbounded = |label: &str| -> Vec<f64> {
+            let of_it = self.unbounded.iter().filter(|(name, _)| {
+                (label.strip_prefix(name.as_str()))
+                    .is_some_and(|l| l.is_empty() || l.starts_with(','))
+            });
+            of_it.flat_map(|(_, poles)| poles.clone()).collect()
+        };
+        let mut heights = Vec::new();
+        for series in &mut series {
+            let poles = unbounded(&series.label);
+            heights.extend(series.points.iter().map(|(_, y)| *y));
+            if !poles.is_empty() {
+                series.points = plot::broken(&series.points, &poles);
+            }
+        }
+        let any = series
+            .iter()
+            .any(|series| !unbounded(&series.label).is_empty());
         Chart {
             title: self.title.clone(),
             x: self.input_label.clone(),
             y: label,
             equal: false,
+            within: any.then(|| plot::most(heights)).flatten(),
             heat: None,
             strobe: None,
             series,
@@ -370,6 +407,7 @@ impl Picture {
             x: axis(&right, "across"),
             y: axis(&up, "up"),
             equal: true,
+            within: None,
             heat: None,
             strobe: Some(Strobe {
                 view,

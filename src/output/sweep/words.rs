@@ -1,7 +1,9 @@
 //! What is said about a motion.
 
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{Law, Met, MetKind, MotionReport, SweepEnd, SweepReport};
+use crate::analysis::sweep::{
+    Law, Met, MetKind, Missing, MotionReport, Pole, SweepEnd, SweepReport,
+};
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Section, Table};
 use crate::output::quantity::{at, form, metres, number, quantity, range};
@@ -158,6 +160,54 @@ pub(super) fn paced(motion: &MotionReport) -> Option<String> {
         ),
     };
     Some(format!("{} {go} {range}in {time} {law}", listed(&inputs)))
+}
+
+/// What says where a motion is: its inputs; without any, the first joint.
+pub(super) fn driven(motion: &MotionReport) -> Vec<(&str, SiUnit)> {
+    match &motion.sweep.inputs[..] {
+        [] => (motion.columns.get(1).iter().take(1))
+            .map(|of| (of.name.as_str(), of.unit))
+            .collect(),
+        inputs => inputs
+            .iter()
+            .map(|input| (input.name.as_str(), input.unit))
+            .collect(),
+    }
+}
+
+/// Where quantities have no bound, and why some have no value.
+pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
+    /// Places that are listed of one quantity.
+    const SHOWN: usize = 8;
+    let driven = driven(motion);
+    let place = |pole: &Pole| {
+        let values = match pole.inputs.is_empty() {
+            true => &pole.joints,
+            false => &pole.inputs,
+        };
+        let places = driven.iter().zip(values);
+        let places = places.map(|((name, unit), value)| at(name, *value, *unit));
+        listed(&places.collect::<Vec<_>>())
+    };
+    let unbounded = motion.extremes.iter().filter(|of| !of.unbounded.is_empty());
+    let missing = motion.extremes.iter().filter_map(|of| {
+        let why = match of.missing? {
+            Missing::PlanarLoop => "no loop of it moves in a plane",
+            Missing::Rates => "what is held and driven does not determine the rates",
+            Missing::Expression => "its expression has none at any row",
+        };
+        Some(format!("{} has no value: {why}", of.name))
+    });
+    let said = unbounded.map(|of| {
+        let places = of.unbounded.iter().take(SHOWN).map(place);
+        let beyond = match of.unbounded.len() > SHOWN {
+            true => ", and elsewhere",
+            false => "",
+        };
+        let places = listed(&places.collect::<Vec<_>>());
+        format!("{} grows without bound at {places}{beyond}", of.name)
+    });
+    said.chain(missing).collect()
 }
 
 /// How straight paths are, and where quantities dwell.

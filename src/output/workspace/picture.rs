@@ -143,6 +143,7 @@ fn picture(
         x: label(x),
         y: label(y),
         equal: x.unit == y.unit,
+        within: None,
         heat: Some(Heat {
             x: extent(x),
             y: extent(y),
@@ -193,6 +194,7 @@ fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
         x: label(axis),
         y: "1/condition".into(),
         equal: false,
+        within: None,
         heat: None,
         strobe: None,
         series: series.collect(),

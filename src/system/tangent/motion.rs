@@ -218,14 +218,21 @@ impl Motion {
 
     /// Rates of all unknowns for unit rates of the held coordinates, one at a time.
     pub fn responses(&mut self) -> Vec<Vec<f64>> {
+        let mut responses = Vec::new();
+        self.responses_into(&mut responses);
+        responses
+    }
+
+    /// The same in storage that is kept.
+    pub fn responses_into(&mut self, responses: &mut Vec<Vec<f64>>) {
         let mut given = vec![0.0; self.coordinates.len()];
-        let responses = (0..given.len()).map(|i| {
+        responses.resize_with(given.len(), Vec::new);
+        for (i, response) in responses.iter_mut().enumerate() {
             given[i] = 1.0;
-            let rates = self.rates(&given).to_vec();
+            response.clear();
+            response.extend_from_slice(self.rates(&given));
             given[i] = 0.0;
-            rates
-        });
-        responses.collect()
+        }
     }
 
     /// Goes on with rates that were computed before, as a sum of [responses](Self::responses).
@@ -286,6 +293,13 @@ impl Motion {
     pub fn path(&mut self, at: &Configuration<f64>) -> &Configuration<Dual<Dual<f64>>> {
         self.follow_accelerations(at);
         &self.second_path
+    }
+
+    /// The largest of the rates and of the accelerations last computed, in rad and characteristic lengths per unit of
+    /// time.
+    pub fn largest(&self) -> [f64; 2] {
+        let largest = |all: &[f64]| all.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        [largest(&self.rates), largest(&self.accelerations)]
     }
 
     /// Whether rates and accelerations are determined where it was last factorised.
