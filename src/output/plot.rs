@@ -90,7 +90,10 @@ const COLOURS: [Colour; 7] = [
 
 /// The label of an axis: `theta1 (°)`.
 pub(super) fn label(name: &str, unit: SiUnit) -> String {
-    format!("{name} ({})", with_unit("", unit).trim())
+    match unit {
+        SiUnit::ONE => name.to_owned(),
+        unit => format!("{name} ({})", with_unit("", unit).trim()),
+    }
 }
 
 /// The charts one below the other.

@@ -105,11 +105,14 @@ export class Motion {
       ? [...motions[0]!.values.toReversed(), ...motions[1]!.values.slice(1)]
       : motions[0]!.values;
     this.swept = first;
-    find("motion-said").textContent = motions.map((motion) => motion.sentence).join(" ");
+    const unbounded = new Set(motions.flatMap((motion) => motion.extremes ?? []).filter((of) => of.unbounded?.length).map((of) => of.name));
+    const sentences = [...motions.map((motion) => motion.sentence), ...[...unbounded].map((name) => `${name} grows without bound.`)];
+    find("motion-said").textContent = sentences.join(" ");
     const columns = motions[0]!.columns;
     const angle = this.model.mechanism?.coordinates.find((of) => of.name === this.input.value)?.angle ?? false;
     this.plot.columns = columns;
     this.plot.values = values;
+    this.plot.unbounded = unbounded;
     this.plot.marks = this.rows.flatMap((row, i) => (row.special ? [i] : []));
     const chosen = this.quantity.value;
     this.quantity.replaceChildren(...columns.slice(1).map((name, i) => element("option", { value: String(i + 1) }, name)));

@@ -5,6 +5,8 @@ export class Plot {
   values: (number | null)[][] = [];
   /** Rows in which something special was met. */
   marks: number[] = [];
+  /** Names of quantities that have no bound. */
+  unbounded = new Set<string>();
   private x = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement, to: (row: number) => void) {
@@ -53,7 +55,8 @@ export class Plot {
     const known = ys.filter((value): value is number => value !== null);
     if (!known.length) return;
     [this.low, this.high] = [Math.min(...xs), Math.max(...xs)];
-    let [bottom, top] = [Math.min(...known), Math.max(...known)];
+    const free = [...this.unbounded].some((name) => this.columns[y] === name || this.columns[y]!.startsWith(`${name} (`));
+    let [bottom, top] = free ? most(known) : [Math.min(...known), Math.max(...known)];
     if (top - bottom < 1e-9 * Math.max(Math.abs(top), 1e-9)) [bottom, top] = [bottom - 0.5, top + 0.5];
     const up = (value: number) => canvas.height - 52 - ((value - bottom) / (top - bottom)) * (canvas.height - 92);
     pen.strokeStyle = colour("--line");
@@ -76,6 +79,10 @@ export class Plot {
     pen.fillText(this.title(y), 8, 22);
     pen.strokeStyle = colour("--mark");
     pen.lineWidth = 3;
+    pen.save();
+    pen.beginPath();
+    pen.rect(70, 40, canvas.width - 90, canvas.height - 92);
+    if (free) pen.clip();
     pen.beginPath();
     let open = false;
     ys.forEach((value, i) => {
@@ -83,15 +90,19 @@ export class Plot {
         open = false;
         return;
       }
+      // a pole is not crossed
+      const before = ys[i - 1];
+      if (free && before != null && before * value < 0 && Math.abs(value - before) > 0.5 * (top - bottom)) open = false;
       if (open) pen.lineTo(this.across(xs[i]!), up(value));
       else pen.moveTo(this.across(xs[i]!), up(value));
       open = true;
     });
     pen.stroke();
+    pen.restore();
     pen.fillStyle = colour("--warn");
     const dot = (i: number, size: number) => {
       const value = ys[i];
-      if (value == null) return;
+      if (value == null || value < bottom || value > top) return;
       pen.beginPath();
       pen.arc(this.across(xs[i]!), up(value), size, 0, 2 * Math.PI);
       pen.fill();
@@ -106,6 +117,14 @@ export class Plot {
     pen.fillStyle = colour("--ink");
     dot(cursor, 5);
   }
+}
+
+/** The range of four values of five, and as much again above and below: what is beyond belongs to a pole. */
+function most(values: number[]): [number, number] {
+  const sorted = [...values].sort((a, b) => a - b);
+  const at = (part: number) => sorted[Math.floor(part * (sorted.length - 1))]!;
+  const room = at(0.9) - at(0.1);
+  return [at(0.1) - room, at(0.9) + room];
 }
 
 function ticks(low: number, high: number): number[] {

@@ -134,6 +134,7 @@ export interface Swept {
       ending: string;
       columns: string[];
       values: (number | null)[][];
+      extremes?: { name: string; unbounded?: unknown[] }[];
       met: { met: string; part: number | null; inputs: number[]; joints: number[] }[];
     }[];
   };
