@@ -20,6 +20,7 @@
 
 mod at_configuration;
 mod error;
+mod many;
 mod modes;
 mod motions;
 mod quantities;
@@ -29,6 +30,8 @@ mod schedule;
 mod singularities;
 mod solver;
 mod steering;
+mod study;
+mod study_error;
 mod sweep;
 mod workspace;
 
@@ -36,12 +39,15 @@ use std::sync::Arc;
 
 pub use crate::system::Value;
 pub use error::{AskError, Item, Role, Unmeasured};
+pub use many::Many;
 pub use modes::{Mode, Modes, Solved, Store};
 pub use motions::Motions;
 pub use remedy::Holdable;
 pub use schedule::{TableError, TableErrorKind};
 pub use solver::Example;
 pub use steering::Steering;
+pub use study::{Points, Study, StudyRows};
+pub use study_error::StudyError;
 pub use workspace::MOST_BYTES;
 
 use crate::analysis::sweep::Schedule;

@@ -12,6 +12,7 @@ mod formulas;
 mod frames;
 mod generate;
 mod import;
+mod merge;
 mod mobility;
 mod pictures;
 mod search;
@@ -21,6 +22,7 @@ mod solve;
 mod source;
 mod statics;
 mod store;
+mod study;
 mod sweep;
 mod velocity;
 mod view;
@@ -29,8 +31,14 @@ mod words;
 mod workspace;
 mod written;
 
+use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
-use std::process::ExitCode;
+
+// the Python module says what is wrong, and how far work is, in the same words
+#[cfg(feature = "python")]
+pub use self::{
+    asked::said, watched::words as stage, words::Ranged, words::question::unknown_frame,
+};
 
 use clap::{Parser, Subcommand};
 use linkwork::output::complaint::Complaint;
@@ -67,6 +75,8 @@ enum Command {
     Sweep(sweep::Sweep),
     Singularities(singularities::Singularities),
     Workspace(workspace::Workspace),
+    Study(study::Study),
+    Merge(merge::Merge),
 }
 
 /// What a command has to say.
@@ -104,9 +114,15 @@ fn lines(word: &str, said: impl IntoIterator<Item = String>) -> String {
     lines.collect()
 }
 
-/// Does what the command line asks for.
-pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
+/// Does what the command line asks for; returns the exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let _ = error.print();
+            return error.exit_code() as u8;
+        }
+    };
     let answer = match &arguments.command {
         Command::Check(check) => check.run(),
         Command::Solve(solve) => solve.run(),
@@ -126,6 +142,8 @@ pub fn run() -> ExitCode {
         Command::Sweep(sweep) => sweep.run(),
         Command::Singularities(singularities) => singularities.run(),
         Command::Workspace(workspace) => workspace.run(),
+        Command::Study(study) => study.run(),
+        Command::Merge(merge) => merge.run(),
     };
     match answer {
         Ok(answer) => {
@@ -133,19 +151,19 @@ pub fn run() -> ExitCode {
             match write(&answer.data) {
                 Ok(()) if watched::interruptions() > 0 => {
                     say("note: interrupted: the answer has what was found until then\n");
-                    ExitCode::from(1)
+                    1
                 }
-                Ok(()) if answer.yes => ExitCode::SUCCESS,
-                Ok(()) => ExitCode::from(1),
+                Ok(()) if answer.yes => 0,
+                Ok(()) => 1,
                 Err(error) => {
                     say(&format!("error: the answer cannot be written: {error}\n"));
-                    ExitCode::from(2)
+                    2
                 }
             }
         }
         Err(Refusal(problems)) => {
             say(&problems);
-            ExitCode::from(if watched::interruptions() > 0 { 1 } else { 2 })
+            if watched::interruptions() > 0 { 1 } else { 2 }
         }
     }
 }

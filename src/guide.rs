@@ -77,6 +77,10 @@ pub mod motion {}
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/performance.md"))]
 pub mod performance {}
 
+/// The same questions from Python.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/python.md"))]
+pub mod python {}
+
 /// Singularities: at a configuration, along inputs, and as loci.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/singularities.md"))]
 pub mod singularities {}
@@ -84,6 +88,10 @@ pub mod singularities {}
 /// The assembled configuration near a guess: direct, inverse and mixed kinematics.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/solve.md"))]
 pub mod solve {}
+
+/// Quantities at many points of parameters and inputs, on any number of machines.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/studies.md"))]
+pub mod studies {}
 
 /// A page in which the mechanism can be moved, with the solver inside.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/view.md"))]

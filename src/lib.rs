@@ -40,6 +40,7 @@
 //! | [`scene`] | a configuration as named shapes |
 //! | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
 //! | `page` | the door through which the page of `linkwork view` asks; with the feature `page` |
+//! | `python` | the door through which the Python package asks; with the feature `python` |
 
 pub mod algebra;
 pub mod analysis;
@@ -55,9 +56,18 @@ pub mod number;
 pub mod output;
 #[cfg(feature = "page")]
 pub mod page;
+#[cfg(feature = "python")]
+mod python;
 pub mod scene;
 pub mod solve;
 pub mod system;
+
+// the Python module brings the command line with it, which sees the library as other programs do
+#[cfg(feature = "python")]
+#[allow(unreachable_patterns)]
+mod cli;
+#[cfg(feature = "python")]
+extern crate self as linkwork;
 
 /// The Rust of the README, compiled and run.
 #[cfg(doctest)]

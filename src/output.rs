@@ -38,6 +38,7 @@ pub mod singularities;
 pub mod solution;
 pub mod solver;
 pub mod statics;
+pub mod study;
 pub mod sweep;
 pub mod velocity;
 #[cfg(feature = "cli")]

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 ///
 /// `interchange` makes descriptions from files of other programs and such files from mechanisms: it knows both and
 /// nothing of systems and analyses.
-const ORDER: [&str; 14] = [
+/// `cli` is a program of its own, which the Python module has inside.
+const ORDER: [&str; 16] = [
     "number",
     "linear",
     "algebra",
@@ -22,6 +23,8 @@ const ORDER: [&str; 14] = [
     "scene",
     "output",
     "page",
+    "cli",
+    "python",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

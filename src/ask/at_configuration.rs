@@ -125,7 +125,7 @@ impl Question {
         formulas(&self.mechanism, settings)
     }
 
-    fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
+    pub(super) fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
         let mut drive = Drive::still(question);
         for (index, (name, value)) in self.rates.iter().enumerate() {
             drive = (drive.rate(question, name, value)).map_err(Role::Rate.driven(index))?;

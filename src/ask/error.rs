@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::study_error::StudyError;
 use crate::analysis::assemblies::AssembliesError;
 use crate::description::{count, listed};
 use crate::mechanism::QuantityError;
@@ -329,6 +330,9 @@ pub enum AskError {
     /// The store cannot be used.
     #[error("{0}")]
     Store(String),
+    /// There is no such study.
+    #[error("{0}")]
+    Study(StudyError),
     /// The work was stopped before its first result.
     #[error("interrupted before the first result")]
     Interrupted,
@@ -380,6 +384,12 @@ impl AskError {
             | AskError::AlsoHeld { item, .. } => Some(*item),
             _ => None,
         }
+    }
+}
+
+impl From<StudyError> for AskError {
+    fn from(error: StudyError) -> Self {
+        AskError::Study(error)
     }
 }
 

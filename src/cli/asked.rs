@@ -156,11 +156,24 @@ impl<'o> Posed<'o> {
         self.ask_with(|question| question.mode(mode));
     }
 
-    /// The ranges of an option, `NAME=FROM..TO`.
+    /// The ranges of an option, `NAME=FROM..TO`, as inputs.
     pub fn ranges(&mut self, ranges: Ranged, given: &'o [Assignment]) -> Result<(), Refusal> {
+        for (name, from, to) in self.varied(ranges, given)? {
+            self.ask_with(|question| question.input(name, from, to));
+        }
+        Ok(())
+    }
+
+    /// The ranges of an option.
+    pub fn varied(
+        &mut self,
+        ranges: Ranged,
+        given: &'o [Assignment],
+    ) -> Result<Vec<(String, String, String)>, Refusal> {
         let option = ranges.option();
         self.ranges = ranges;
         once(option, given)?;
+        let mut varied = Vec::new();
         for assignment in given {
             let name = &assignment.name;
             self.given.push((Role::Input, assignment.given(option)));
@@ -168,14 +181,14 @@ impl<'o> Posed<'o> {
                 // a wrong name is the first thing to say
                 let known = system::Question::new(self.question.mechanism()).value(name, "home");
                 let said = match known {
-                    Err(error) => complaint(&error),
-                    Ok(_) => words::no_range(ranges, name),
+                    Err(error) if ranges != Ranged::Vary => complaint(&error),
+                    _ => words::no_range(ranges, name),
                 };
                 return Err(refused(&said, Some(assignment.given(option))));
             };
-            self.ask_with(|question| question.input(name, from, to));
+            varied.push((name.clone(), from.to_owned(), to.to_owned()));
         }
-        Ok(())
+        Ok(varied)
     }
 
     /// Asks, showing how far the work is.
@@ -199,10 +212,7 @@ impl<'o> Posed<'o> {
 
     /// What is wrong with what is held, with options that put it right.
     pub fn complaint(&self, error: &QuestionError) -> Complaint {
-        let freed = self.given.iter().filter(|(role, _)| *role == Role::Free);
-        let freed: Vec<&str> = freed.map(|(_, given)| given.name).collect();
-        freed_in_vain(error, &freed)
-            .unwrap_or_else(|| complaint_of(error, &|names| held(&self.question, names)))
+        held_wrong(&self.question, &self.given, error)
     }
 
     /// What is wrong with the question, under the option that says so if one does.
@@ -210,28 +220,42 @@ impl<'o> Posed<'o> {
         if let AskError::Store(said) = error {
             return Refusal(said.clone());
         }
-        let given = error.item().and_then(|item| self.given(item));
-        let said = match error {
-            AskError::Question(error) => self.complaint(error),
-            _ => words::complaint(
-                self.question.mechanism(),
-                self.ranges,
-                error,
-                given,
-                &|names| held(&self.question.clone().free("actuated"), names),
-            ),
-        };
+        let (said, given) = said(&self.question, &self.given, self.ranges, error);
         refused(&said, given)
     }
+}
 
-    fn given(&self, item: Item) -> Option<Given<'o>> {
-        let role = match item.role {
-            Role::From | Role::To => Role::Input,
-            role => role,
-        };
-        let mut of_role = self.given.iter().filter(|(of, _)| *of == role);
-        of_role.nth(item.index).map(|(_, given)| *given)
-    }
+/// What is wrong with a question that options posed, and the one that says so if one does.
+pub fn said<'o>(
+    question: &Question,
+    given: &[(Role, Given<'o>)],
+    ranges: Ranged,
+    error: &AskError,
+) -> (Complaint, Option<Given<'o>>) {
+    let option = error.item().and_then(|item| option(given, item));
+    let said = match error {
+        AskError::Question(error) => held_wrong(question, given, error),
+        _ => words::complaint(question.mechanism(), ranges, error, option, &|names| {
+            held(&question.clone().free("actuated"), names)
+        }),
+    };
+    (said, option)
+}
+
+fn held_wrong(question: &Question, given: &[(Role, Given)], error: &QuestionError) -> Complaint {
+    let freed = given.iter().filter(|(role, _)| *role == Role::Free);
+    let freed: Vec<&str> = freed.map(|(_, given)| given.name).collect();
+    freed_in_vain(error, &freed)
+        .unwrap_or_else(|| complaint_of(error, &|names| held(question, names)))
+}
+
+fn option<'o>(given: &[(Role, Given<'o>)], item: Item) -> Option<Given<'o>> {
+    let role = match item.role {
+        Role::From | Role::To => Role::Input,
+        role => role,
+    };
+    let mut of_role = given.iter().filter(|(of, _)| *of == role);
+    of_role.nth(item.index).map(|(_, given)| *given)
 }
 
 /// The options that hold coordinates where the mechanism assembles.

@@ -5,9 +5,9 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use linkwork::description::{self, Description, FileError, LoadError, Problem, load_text};
+use linkwork::description::{Description, FileError, LoadError, load_text};
 use linkwork::mechanism::Mechanism;
-use linkwork::output::complaint::{Complaint, Given, Part};
+use linkwork::output::complaint::{Complaint, Given};
 use linkwork::output::view::Viewed;
 use linkwork::output::{JsonReport, diagnostics};
 
@@ -114,7 +114,17 @@ impl Source {
                 description,
                 mechanism: Arc::new(mechanism),
             }),
-            Err(problems) => Err(Refusal(self.wrong(text, problems, &description))),
+            Err(problems) => {
+                let path = self.file.clone();
+                let error = FileError {
+                    path,
+                    text,
+                    problems,
+                };
+                let set: Vec<Given> = self.set.iter().map(|set| set.given("--set")).collect();
+                let wrong = diagnostics::with_replacements(error, &description, &set, style());
+                Err(Refusal(wrong))
+            }
         }
     }
 
@@ -133,51 +143,6 @@ impl Source {
     /// The file beside it with another ending.
     pub fn beside(&self, ending: &str) -> PathBuf {
         self.file.with_extension(ending)
-    }
-
-    /// Problems of values that stand in options are shown there, the others in the file.
-    fn wrong(
-        &self,
-        text: String,
-        problems: Vec<Problem>,
-        description: &description::Description,
-    ) -> String {
-        let option_of = |problem: &Problem| {
-            let parameters = description.parameters.iter();
-            let mut replaced = parameters.filter(|named| named.value.span == problem.span);
-            let name = &replaced.next()?.name.value;
-            self.set.iter().rfind(|assignment| assignment.name == *name)
-        };
-        let mut shown = Vec::new();
-        let mut in_file = Vec::new();
-        for problem in problems {
-            match option_of(&problem) {
-                Some(assignment) => {
-                    let given = assignment.given("--set");
-                    let said = Complaint::of(&problem).at(Part::WholeValue);
-                    shown.push(said.render_in(&given, style()));
-                }
-                None => in_file.push(problem),
-            }
-        }
-        if !in_file.is_empty() {
-            let path = self.file.clone();
-            let error = FileError {
-                path,
-                text,
-                problems: in_file,
-            };
-            let mut rendered = diagnostics::render(&error, style());
-            if !self.set.is_empty() {
-                let set = self.set.iter();
-                let set: Vec<String> = set
-                    .map(|s| format!("--set {}={}", s.name, s.value))
-                    .collect();
-                rendered += &format!("note: read with {}\n", set.join(" "));
-            }
-            shown.push(rendered);
-        }
-        shown.join("\n")
     }
 }
 

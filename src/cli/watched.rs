@@ -78,7 +78,7 @@ fn show(bar: &ProgressBar, now: Progress) {
 }
 
 /// What is counted.
-fn words(stage: Stage) -> String {
+pub fn words(stage: Stage) -> String {
     let words = match stage {
         Stage::Seeds { found } => return format!("{found} generic solutions; seeds tried"),
         Stage::Loops { found } => return format!("{found} generic solutions; monodromy loops"),
@@ -95,6 +95,7 @@ fn words(stage: Stage) -> String {
         Stage::Nodes => "nodes searched for modes",
         Stage::Reached => "nodes in modes reached",
         Stage::Boundary => "edges on which the boundary is located",
+        Stage::Rows => "rows",
         Stage::Curves => "kinds of boundary followed",
         _ => "done",
     };

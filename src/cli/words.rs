@@ -23,6 +23,8 @@ pub enum Ranged {
     Locus,
     /// Mapped coordinates.
     Map,
+    /// What a study varies.
+    Vary,
 }
 
 impl Ranged {
@@ -32,6 +34,7 @@ impl Ranged {
             Ranged::Input => "--input",
             Ranged::Locus => "--locus",
             Ranged::Map => "--map",
+            Ranged::Vary => "--vary",
         }
     }
 }
@@ -112,7 +115,7 @@ pub fn complaint(
                     let from = quoted(from.trim());
                     format!("for one configuration ask `linkwork solve`, with --hold {name}={from}")
                 }
-                Ranged::Locus | Ranged::Map => {
+                Ranged::Locus | Ranged::Map | Ranged::Vary => {
                     "write the lower end first; for one value hold it with --hold".into()
                 }
             },
@@ -146,7 +149,7 @@ pub fn complaint(
         AskError::Steps { given, most } => steps(*given, *most, false),
         AskError::Starts { most, .. } => said.help(match ranged {
             Ranged::Map => format!("give --starts and --search from 1 to {most}"),
-            Ranged::Input | Ranged::Locus => format!("give --starts from 1 to {most}"),
+            Ranged::Input | Ranged::Locus | Ranged::Vary => format!("give --starts from 1 to {most}"),
         }),
         AskError::NothingLeft { held } => said.help(match held.is_empty() {
             true => "`linkwork mobility` shows why it cannot move",

@@ -106,6 +106,20 @@ impl Configuration<Lanes> {
     pub fn lane(&self, lane: usize) -> Configuration<f64> {
         self.map(|x| x.part(lane))
     }
+
+    /// The same, put into another configuration of the mechanism.
+    pub fn copy_lane(&self, lane: usize, to: &mut Configuration<f64>) {
+        for (x, value) in to.joints.iter_mut().zip(&self.joints) {
+            *x = value.part(lane);
+        }
+        for (pose, of) in to.platforms.iter_mut().zip(&self.platforms) {
+            let parts = (pose.orientation.0.iter_mut()).chain(&mut pose.position.0);
+            let values = of.orientation.0.iter().chain(&of.position.0);
+            parts
+                .zip(values)
+                .for_each(|(x, value)| *x = value.part(lane));
+        }
+    }
 }
 
 impl<T: Number> Configuration<T> {

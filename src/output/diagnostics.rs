@@ -7,7 +7,9 @@ use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::complaint::{Complaint, Given, Part};
-use crate::description::{FileError, Lines, ReplacementError, Severity, count, listed};
+use crate::description::{
+    Description, FileError, Lines, Problem, ReplacementError, Severity, count, listed,
+};
 use crate::interchange::{ImportProblem, WrongFile};
 
 /// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
@@ -294,6 +296,45 @@ pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> Str
             rendered.collect::<Vec<_>>().join("\n")
         }
     }
+}
+
+/// All problems of a file some of whose parameters have other values: those of such a value are shown where it was given.
+pub fn with_replacements(
+    error: FileError,
+    description: &Description,
+    set: &[Given],
+    style: Style,
+) -> String {
+    let given_of = |problem: &Problem| {
+        let mut parameters = description.parameters.iter();
+        let replaced = parameters.find(|named| named.value.span == problem.span)?;
+        set.iter().rfind(|given| given.name == replaced.name.value)
+    };
+    let mut shown = Vec::new();
+    let mut in_file = Vec::new();
+    for problem in error.problems {
+        match given_of(&problem) {
+            Some(given) => {
+                let said = Complaint::of(&problem).at(Part::WholeValue);
+                shown.push(said.render_in(given, style));
+            }
+            None => in_file.push(problem),
+        }
+    }
+    if !in_file.is_empty() {
+        let problems = in_file;
+        let mut rendered = render(&FileError { problems, ..error }, style);
+        if !set.is_empty() {
+            let set = set.iter().map(|given| {
+                let value = given.value.unwrap_or_default();
+                format!("{} {}={value}", given.option, given.name)
+            });
+            let set: Vec<String> = set.collect();
+            rendered += &format!("note: read with {}\n", set.join(" "));
+        }
+        shown.push(rendered);
+    }
+    shown.join("\n")
 }
 
 #[cfg(test)]

@@ -45,6 +45,8 @@ pub enum Stage {
     Boundary,
     /// Kinds of boundary whose curves are followed.
     Curves,
+    /// Rows of a study.
+    Rows,
 }
 
 /// How far long work has come.

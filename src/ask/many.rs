@@ -1,0 +1,270 @@
+//! One configuration after another for rows of held values.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::{AskError, Question, Role};
+use crate::linear::Factorable;
+use crate::mechanism::Configuration;
+use crate::number::{LANES, Lanes, Packed};
+use crate::solve::{Progress, Stage, Watch, each};
+use crate::system::{self, Coordinate, MotionTracker, System, check_count};
+
+/// Rows that one lane follows from the start; they decide where following begins again, and so belong to the answer.
+const ROWS: usize = 256;
+
+/// The longest step of what is held, in rad or characteristic lengths.
+const LONGEST: f64 = 0.2;
+
+/// The shortest step that is tried, over the longest.
+const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Configurations for rows of held values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Many {
+    /// The columns: the joints, then x, y, z (m) and roll, pitch, yaw (rad) of each platform.
+    pub names: Vec<String>,
+    /// Row by row; not a number in rows that were not reached.
+    pub values: Vec<f64>,
+    /// Whether each row was reached.
+    pub reached: Vec<bool>,
+    /// Whether the work was stopped before it was done.
+    pub interrupted: bool,
+}
+
+/// What follows rows.
+struct Follower<'a> {
+    coordinates: &'a [Coordinate],
+    system: System<f64>,
+    wide: System<Lanes>,
+    start: Configuration<f64>,
+    values: &'a [f64],
+    /// What makes each coordinate dimensionless.
+    scales: Vec<f64>,
+}
+
+impl Question {
+    /// The configuration for each row of values of the named coordinates, which are held: `values` are row by row, in m
+    /// and rad.
+    ///
+    /// The way begins at the configuration of the question, in its mode, and goes straight from row to row, so that no
+    /// row is on another branch than the row before it unless a way between them is lost; every 256th row is come to
+    /// from the beginning. Eight ways are followed side by side in the lanes of a vector register, on all cores, with the
+    /// same results on any number of them. A row that no way leads to, as beyond a dead point, is not reached.
+    ///
+    /// # Errors
+    /// If the question or a name is wrong, or the mechanism does not assemble where the way begins.
+    ///
+    /// # Panics
+    /// If `values` are not whole rows.
+    pub fn solve_many(
+        &self,
+        names: &[String],
+        values: &[f64],
+        watch: &Watch,
+    ) -> Result<Many, AskError> {
+        let mechanism = &*self.mechanism;
+        let plain = system::Question::new(mechanism);
+        let mut coordinates = Vec::new();
+        let mut begins = self.clone();
+        for (index, name) in names.iter().enumerate() {
+            let (coordinate, _) = (plain.value(name, "home")).map_err(Role::Input.named(index))?;
+            coordinates.push(coordinate);
+            if !self.hold.iter().any(|(held, _)| held == name) {
+                begins = begins.hold(name, "home");
+            }
+        }
+        let question = begins.resolved()?;
+        check_count(&question).map_err(AskError::Question)?;
+        let question = question.with_spins_still();
+        let follower = Follower {
+            coordinates: &coordinates,
+            system: question.system(),
+            wide: question.system_over(),
+            start: begins.start(&question, watch)?,
+            values,
+            scales: coordinates.iter().map(|c| c.scale(mechanism)).collect(),
+        };
+        let rows = match names.len() {
+            0 => 0,
+            width => {
+                assert!(values.len() % width == 0, "values are whole rows");
+                values.len() / width
+            }
+        };
+        let block = LANES * ROWS;
+        let blocks = rows.div_ceil(block);
+        let done = AtomicUsize::new(0);
+        let columns: Vec<Coordinate> = Coordinate::all(mechanism).collect();
+        let found = each(blocks, &(), |(), number| {
+            let first = number * block;
+            let last = rows.min(first + block);
+            let done = done.fetch_add(last - first, Ordering::Relaxed);
+            let of = Some(rows);
+            let stage = Stage::Motion;
+            let mut found = Found::none(&columns, last - first);
+            if watch.at(Progress { stage, done, of }).is_continue() {
+                follower.block(first, last, &mut found);
+            }
+            found
+        });
+        let mut many = Many {
+            names: columns.iter().map(|of| of.name(mechanism)).collect(),
+            values: Vec::with_capacity(rows * columns.len()),
+            reached: Vec::with_capacity(rows),
+            interrupted: watch.is_stopped(),
+        };
+        for block in found {
+            many.values.extend(block.values);
+            many.reached.extend(block.reached);
+        }
+        Ok(many)
+    }
+}
+
+/// What was found for some rows.
+struct Found<'a> {
+    columns: &'a [Coordinate],
+    values: Vec<f64>,
+    reached: Vec<bool>,
+}
+
+impl<'a> Found<'a> {
+    fn none(columns: &'a [Coordinate], rows: usize) -> Self {
+        Found {
+            columns,
+            values: vec![f64::NAN; rows * columns.len()],
+            reached: vec![false; rows],
+        }
+    }
+
+    fn put(&mut self, row: usize, at: &Configuration<f64>) {
+        let width = self.columns.len();
+        let values = &mut self.values[row * width..(row + 1) * width];
+        for (value, column) in values.iter_mut().zip(self.columns) {
+            *value = column.of(at);
+        }
+        self.reached[row] = true;
+    }
+}
+
+impl Follower<'_> {
+    fn row(&self, row: usize) -> &[f64] {
+        let width = self.coordinates.len();
+        &self.values[row * width..(row + 1) * width]
+    }
+
+    /// Solves for other held values.
+    fn solve<T: Factorable>(
+        &self,
+        tracker: &mut MotionTracker<T>,
+        value: impl Fn(usize) -> T,
+    ) -> bool {
+        for (i, &coordinate) in self.coordinates.iter().enumerate() {
+            if let Coordinate::Pose(platform, of) = coordinate {
+                tracker.set_target(platform, of, value(i));
+            }
+        }
+        let report = tracker.solve(|at| {
+            for (i, &coordinate) in self.coordinates.iter().enumerate() {
+                if let Coordinate::Joint(joint) = coordinate {
+                    at.joints[joint] = value(i);
+                }
+            }
+        });
+        report.solved
+    }
+
+    /// How far it is from one row of values to another, in rad or characteristic lengths.
+    fn distance(&self, from: &[f64], to: &[f64]) -> f64 {
+        let ways = from.iter().zip(to).zip(&self.scales);
+        ways.fold(0.0, |most, ((a, b), scale)| {
+            f64::max(most, (b - a).abs() / scale)
+        })
+    }
+
+    /// The rows from `first` to before `last`, side by side where all lanes can be followed.
+    fn block(&self, first: usize, last: usize, found: &mut Found) {
+        let length = (last - first).div_ceil(LANES);
+        // lanes past the end follow its last row, which is not theirs
+        let own = |lane: usize, k: usize| Some(lane * length + k).filter(|row| first + row < last);
+        let row = |lane: usize, k: usize| own(lane, k).map_or(last - 1, |row| first + row);
+        let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
+        let mut at: Vec<Configuration<f64>> = vec![self.start.clone(); LANES];
+        let mut wide =
+            MotionTracker::new(self.wide.clone(), Configuration::beside(|_| &self.start));
+        let mut standing = [true; LANES];
+        for k in 0..length {
+            let near = |lane| {
+                let [before, now] = [k - 1, k].map(|k| self.row(row(lane, k)));
+                standing[lane] && self.distance(before, now) <= LONGEST
+            };
+            let side_by_side = k > 0
+                && (0..LANES).all(near)
+                && self.solve(&mut wide, |i| {
+                    Lanes::of_parts(|lane| self.row(row(lane, k))[i])
+                });
+            for (lane, at) in at.iter_mut().enumerate() {
+                let reached = match side_by_side {
+                    true => {
+                        wide.configuration().copy_lane(lane, at);
+                        true
+                    }
+                    // one by one, each from where its lane was last, or else from the beginning
+                    false => {
+                        let to = self.row(row(lane, k));
+                        self.goes(&mut single, at, to) || self.goes_from_start(&mut single, at, to)
+                    }
+                };
+                standing[lane] = reached;
+                if let (true, Some(row)) = (reached, own(lane, k)) {
+                    found.put(row, at);
+                }
+            }
+            if !side_by_side {
+                wide.restart(&Configuration::beside(|lane| &at[lane]));
+            }
+        }
+    }
+
+    fn goes_from_start(
+        &self,
+        tracker: &mut MotionTracker,
+        at: &mut Configuration<f64>,
+        to: &[f64],
+    ) -> bool {
+        let mut start = self.start.clone();
+        let went = self.goes(tracker, &mut start, to);
+        if went {
+            *at = start;
+        }
+        went
+    }
+
+    /// Goes the straight way from a configuration to held values; stays there if the way cannot be followed.
+    fn goes(&self, tracker: &mut MotionTracker, at: &mut Configuration<f64>, to: &[f64]) -> bool {
+        let begin: Vec<f64> = self.coordinates.iter().map(|c| c.of(at)).collect();
+        let longest = (LONGEST / self.distance(&begin, to)).min(1.0);
+        tracker.restart(at);
+        let (mut gone, mut step) = (0.0, longest);
+        while gone < 1.0 {
+            let next = f64::min(gone + step, 1.0);
+            let value = |i: usize| match next {
+                1.0 => to[i],
+                _ => begin[i] + next * (to[i] - begin[i]),
+            };
+            let before = tracker.configuration().clone();
+            if self.solve(tracker, value) {
+                gone = next;
+                step = (2.0 * step).min(longest);
+                continue;
+            }
+            tracker.restart(&before);
+            step *= 0.5;
+            if !(step >= SHORTEST * longest) {
+                return false;
+            }
+        }
+        at.clone_from(tracker.configuration());
+        true
+    }
+}

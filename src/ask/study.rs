@@ -1,0 +1,366 @@
+//! Studies: quantities at many points of parameters and coordinates, cut into shards.
+//!
+//! A row is a function of the mechanism, the question, the points, the seed and its number. Where, when and how often it is
+//! worked out changes no byte of it, so that shards put together in their order are the study.
+
+mod points;
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+pub use points::Points;
+
+use super::quantities::{Meter, Metered};
+use super::study_error::StudyError;
+use super::{AskError, Question, Role, Unmeasured};
+use crate::algebra::{Measure, SiUnit};
+use crate::analysis::assemblies::Wanted;
+use crate::analysis::sweep::Pace;
+use crate::description::{Description, ReplacementError, nearest};
+use crate::mechanism::{Measured, Mechanism, Order, Quantity, Variable};
+use crate::solve::{Progress, Stage, Watch, each};
+use crate::system::{self, Coordinate, Driven, QuestionError, check_count};
+
+/// The number of real assemblies, which is no quantity of one configuration.
+const ASSEMBLIES: &str = "assemblies";
+
+/// What a study asks.
+#[derive(Clone)]
+pub struct Study {
+    question: Question,
+    description: Description,
+    points: Points,
+    varied: Vec<Varied>,
+    ranges: Vec<(f64, f64)>,
+    /// Whether assemblies are counted.
+    counted: bool,
+    columns: Vec<Variable>,
+}
+
+/// What is varied.
+#[derive(Clone)]
+enum Varied {
+    Parameter(String, Measure),
+    Coordinate(String),
+}
+
+/// Some rows of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyRows {
+    /// The columns: the number of the row, what is varied, whether the mechanism assembles there (0 or 1), the quantities.
+    pub columns: Vec<Variable>,
+    /// The rows in their order; empty where something is not determined.
+    pub rows: Vec<Vec<Option<f64>>>,
+    /// Whether the work was stopped before it was done; then rows are missing at the end.
+    pub interrupted: bool,
+}
+
+impl Study {
+    /// A study of a question about the mechanism of a description: what it reports
+    /// ([`Question::report`], and `assemblies`, the number of real ones), at points of what it moves ([`Question::input`]),
+    /// which may be parameters too.
+    ///
+    /// # Errors
+    /// If the question or the points are wrong.
+    pub fn new(
+        description: Description,
+        question: &Question,
+        vary: &[(String, system::Value, system::Value)],
+        points: Points,
+    ) -> Result<Self, AskError> {
+        let mechanism = question.mechanism().clone();
+        let plain = system::Question::new(&mechanism);
+        let (mut varied, mut ranges) = (Vec::new(), Vec::new());
+        for (index, (name, from, to)) in vary.iter().enumerate() {
+            let mut parameters = mechanism.parameters().iter();
+            if let Some(parameter) = parameters.find(|parameter| parameter.name == *name) {
+                let number = |value: &system::Value| {
+                    let number = value.number(&mechanism, parameter.measure);
+                    number.map_err(|error| StudyError::Value {
+                        name: name.clone(),
+                        text: value.to_string(),
+                        why: error.to_string(),
+                    })
+                };
+                ranges.push((number(from)?, number(to)?));
+                varied.push(Varied::Parameter(name.clone(), parameter.measure));
+                continue;
+            }
+            if let Err(QuestionError::UnknownName { suggestion, .. }) = plain.value(name, "home") {
+                let parameters = mechanism.parameters().iter();
+                let parameter = nearest(name, parameters.map(|of| of.name.as_str()));
+                let suggestion = parameter.map(str::to_owned).or(suggestion);
+                let name = name.clone();
+                return Err(StudyError::Unknown { name, suggestion }.into());
+            }
+            let (_, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
+            let (_, to) = (plain.value(name, to)).map_err(Role::To.named(index))?;
+            ranges.push((from, to));
+            varied.push(Varied::Coordinate(name.clone()));
+        }
+        let wanted = varied.len();
+        let width = |given| Err(StudyError::Width { given, wanted }.into());
+        match &points {
+            _ if wanted == 0 => return Err(StudyError::NothingVaried.into()),
+            Points::Sobol(_) if wanted > Points::MOST_SOBOL => {
+                return Err(StudyError::Sobol(Points::MOST_SOBOL).into());
+            }
+            Points::Sobol(count) if *count >= 1 << 32 => return Err(StudyError::Count.into()),
+            Points::Grid(nodes) if nodes.len() != wanted => {
+                return width(format!("{} numbers of nodes", nodes.len()));
+            }
+            Points::Given(rows) => {
+                if let Some(row) = rows.iter().find(|row| row.len() != wanted) {
+                    return width(format!("rows of {} values", row.len()));
+                }
+            }
+            _ => {}
+        }
+        if points.count().is_none_or(|count| count == 0) {
+            return Err(StudyError::Count.into());
+        }
+        let mut question = question.clone();
+        let lists = question.reports.iter();
+        let mut counted = false;
+        let kept = lists.map(|list| {
+            let mut parts = Quantity::split(list);
+            let before = parts.len();
+            parts.retain(|part| part.trim() != ASSEMBLIES);
+            counted |= parts.len() < before;
+            parts.join(", ")
+        });
+        question.reports = kept.filter(|list| !list.is_empty()).collect();
+        let mut study = Study {
+            question,
+            description,
+            points,
+            varied,
+            ranges,
+            counted,
+            columns: Vec::new(),
+        };
+        study.columns = study.named()?;
+        Ok(study)
+    }
+
+    /// How many rows there are.
+    pub fn count(&self) -> usize {
+        self.points.count().unwrap_or_default()
+    }
+
+    /// The rows of a shard, from 1, of so many: all have the same number of rows but for one.
+    ///
+    /// # Errors
+    /// If there is no such shard.
+    pub fn shard(&self, shard: usize, of: usize) -> Result<Range<usize>, StudyError> {
+        if shard == 0 || shard > of {
+            return Err(StudyError::Shard(shard, of));
+        }
+        // in 128 bits, where the product of two counts has room
+        let end = |shard: usize| (self.count() as u128 * shard as u128 / of as u128) as usize;
+        Ok(end(shard - 1)..end(shard))
+    }
+
+    /// The rows of these numbers, on all cores.
+    pub fn rows(&self, range: Range<usize>, watch: &Watch) -> StudyRows {
+        let done = AtomicUsize::new(0);
+        let of = Some(range.len());
+        let rows = each(range.len(), &(), |(), i| {
+            let done = done.fetch_add(1, Ordering::Relaxed);
+            let stage = Stage::Rows;
+            let goes_on = watch.at(Progress { stage, done, of }).is_continue();
+            goes_on.then(|| self.row(range.start + i))
+        });
+        let rows: Vec<Vec<Option<f64>>> = rows.into_iter().map_while(|row| row).collect();
+        StudyRows {
+            columns: self.columns.clone(),
+            interrupted: rows.len() < range.len(),
+            rows,
+        }
+    }
+
+    /// What the columns are.
+    fn named(&self) -> Result<Vec<Variable>, AskError> {
+        let mechanism = self.question.mechanism();
+        let mut columns = vec![Variable::plain("row")];
+        let coordinates: Vec<Coordinate> = Coordinate::all(mechanism).collect();
+        columns.extend(self.varied.iter().map(|varied| match varied {
+            Varied::Parameter(name, measure) => Variable::new(
+                name,
+                match measure {
+                    Measure::Angle => SiUnit::RADIAN,
+                    Measure::Length => SiUnit::METRE,
+                    _ => SiUnit::ONE,
+                },
+            ),
+            Varied::Coordinate(name) => {
+                let mut known = coordinates.iter();
+                let angle = known
+                    .find(|of| of.name(mechanism) == *name)
+                    .is_some_and(|of| of.is_angle(mechanism));
+                Variable::new(name, SiUnit::of_coordinate(angle))
+            }
+        }));
+        columns.push(Variable::plain("assembled"));
+        if self.counted {
+            columns.push(Variable::plain(ASSEMBLIES));
+        }
+        let posed = self.at(&self.point(0), mechanism);
+        let held = posed.resolved()?;
+        check_count(&held).map_err(AskError::Question)?;
+        let (quantities, _) = posed.measured_by_rates(&held)?;
+        columns.extend(quantities.iter().map(|of| Variable::new(&of.name, of.unit)));
+        Ok(columns)
+    }
+
+    fn point(&self, index: usize) -> Vec<f64> {
+        self.points.at(index, &self.ranges, self.question.seed)
+    }
+
+    fn row(&self, index: usize) -> Vec<Option<f64>> {
+        let point = self.point(index);
+        let mut row = vec![Some(index as f64)];
+        row.extend(point.iter().map(|x| Some(*x)));
+        let found = self.made(&point).and_then(|mechanism| {
+            let asked = self.at(&point, &mechanism);
+            asked.measured_here(self.counted).ok()
+        });
+        match found {
+            Some(values) => row.extend(values),
+            // dimensions that make no mechanism make none that assembles
+            None => {
+                row.push(Some(0.0));
+                row.resize(self.columns.len(), None);
+            }
+        }
+        row.resize(self.columns.len(), None);
+        row
+    }
+
+    /// The mechanism with the parameters of a point.
+    fn made(&self, point: &[f64]) -> Option<Mechanism> {
+        let named = self.varied.iter().zip(point);
+        let mut parameters = named.filter_map(|(varied, value)| match varied {
+            Varied::Parameter(name, Measure::Angle) => Some((name, format!("{value:?} rad"))),
+            Varied::Parameter(name, _) => Some((name, format!("{value:?}"))),
+            Varied::Coordinate(_) => None,
+        });
+        let changed = parameters.try_fold(
+            self.description.clone(),
+            |description, (name, text)| -> Result<Description, ReplacementError> {
+                description.with_parameter(name, &text)
+            },
+        );
+        Mechanism::new(&changed.ok()?).ok()
+    }
+
+    /// The question at a point.
+    fn at(&self, point: &[f64], mechanism: &Mechanism) -> Question {
+        let coordinates = self.varied.iter().zip(point);
+        let coordinates = coordinates.filter_map(|(varied, value)| match varied {
+            Varied::Coordinate(name) => Some((name, *value)),
+            Varied::Parameter(..) => None,
+        });
+        let asked = self.question.about(mechanism.clone());
+        coordinates.fold(asked, |asked, (name, value)| {
+            asked.let_go(name).hold(name, value)
+        })
+    }
+}
+
+impl Question {
+    /// The same question about another mechanism with the same names.
+    fn about(&self, mechanism: Mechanism) -> Question {
+        let mut asked = Question {
+            mechanism: mechanism.into(),
+            hold: Vec::new(),
+            free: Vec::new(),
+            ..self.clone()
+        };
+        asked = self.free.iter().fold(asked, |asked, name| asked.free(name));
+        let held = self.hold.iter();
+        held.fold(asked, |asked, (name, value)| {
+            asked.hold(name, value.clone())
+        })
+    }
+
+    /// The quantities that are asked for where what is held moves at the rates that are given, and how it moves.
+    fn measured_by_rates(
+        &self,
+        held: &system::Question,
+    ) -> Result<(Vec<Quantity>, Vec<Driven>), AskError> {
+        let drive = self.drive(held)?;
+        let driven = drive.coordinates.iter().zip(&drive.rates);
+        let inputs = driven.map(|(&coordinate, &rate)| Driven {
+            coordinate,
+            from: 0.0,
+            to: rate,
+        });
+        let inputs: Vec<Driven> = inputs.collect();
+        let mut asked = self.clone();
+        asked.inputs = (drive.coordinates.iter())
+            .map(|of| super::Range {
+                name: of.name(&self.mechanism),
+                from: 0.0.into(),
+                to: 1.0.into(),
+            })
+            .collect();
+        let quantities = asked.quantities(held, &[])?;
+        let at_rest = quantities
+            .iter()
+            .find(|of| !drive.given && of.measured().any(moves));
+        match at_rest {
+            Some(quantity) => Err(AskError::Unmeasured {
+                item: Role::Quantity.item(0),
+                quantity: quantity.name.clone(),
+                error: Unmeasured::NoInput,
+            }),
+            None => Ok((quantities, inputs)),
+        }
+    }
+
+    /// Whether the mechanism assembles, how many ways if that is asked for, and the quantities there.
+    fn measured_here(&self, counted: bool) -> Result<Vec<Option<f64>>, AskError> {
+        let watch = &Watch::none();
+        let held = self.resolved()?;
+        check_count(&held).map_err(AskError::Question)?;
+        let still = held.clone().with_spins_still();
+        let count = counted.then(|| {
+            let wanted = Wanted {
+                certificates: false,
+                all_complex: false,
+                starts: true,
+            };
+            let report = self.all(&still, wanted, watch);
+            report.ok().map(|report| report.real as f64)
+        });
+        let start = match self.start(&still, watch) {
+            Ok(start) => start,
+            Err(_) => return Ok([Some(0.0)].into_iter().chain(count).collect()),
+        };
+        let (quantities, inputs) = self.measured_by_rates(&held)?;
+        let metered = Metered {
+            quantities: &quantities,
+            question: &held,
+            inputs: &inputs,
+            pace: Pace::default(),
+            schedule: None,
+            load: &self.load_of(&held)?,
+            outputs: &self.asked_outputs()?,
+        };
+        let mut values: Vec<Option<f64>> = [Some(1.0)].into_iter().chain(count).collect();
+        values.extend_from_slice(Meter::new(metered, &start).read(&start, 0.0));
+        Ok(values)
+    }
+}
+
+/// Whether it depends on how the inputs move.
+fn moves(measured: &Measured) -> bool {
+    match measured {
+        Measured::Joint(_, order) | Measured::Place(_, _, order) | Measured::Size(_, order) => {
+            *order != Order::Value
+        }
+        Measured::Curvature(_) => true,
+        _ => false,
+    }
+}

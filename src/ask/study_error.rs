@@ -1,0 +1,52 @@
+//! Studies that there are not.
+
+/// Why there is no study.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StudyError {
+    /// Nothing is varied.
+    #[error("nothing is varied")]
+    NothingVaried,
+    /// Neither a parameter nor a coordinate.
+    #[error(
+        "`{name}` is neither a parameter nor a coordinate{}",
+        meant(suggestion)
+    )]
+    Unknown {
+        /// The name.
+        name: String,
+        /// What was probably meant.
+        suggestion: Option<String>,
+    },
+    /// No value of what is varied.
+    #[error("`{name}` cannot be `{text}`: {why}")]
+    Value {
+        /// What is varied.
+        name: String,
+        /// The value.
+        text: String,
+        /// Why it is none.
+        why: String,
+    },
+    /// Other points than there are ranges.
+    #[error("{given} are given for {wanted} varied names")]
+    Width {
+        /// What is given.
+        given: String,
+        /// How many are varied.
+        wanted: usize,
+    },
+    /// No points, or more than can be counted.
+    #[error("a study has one point or more, and at most 2³² of Sobol's")]
+    Count,
+    /// Points in more dimensions than there are.
+    #[error("Sobol's points have at most {0} coordinates")]
+    Sobol(usize),
+    /// A shard that is none of so many.
+    #[error("there is no shard {0} of {1}: they are 1/{1} to {1}/{1}")]
+    Shard(usize, usize),
+}
+
+fn meant(suggestion: &Option<String>) -> String {
+    let asked = |meant| format!(": did you mean `{meant}`?");
+    suggestion.as_ref().map_or_else(String::new, asked)
+}

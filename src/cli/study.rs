@@ -1,0 +1,120 @@
+//! `linkwork study`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use linkwork::ask::{self, Points, Question, Role};
+use linkwork::output::study::csv;
+use linkwork::system::Value;
+
+use super::asked::{Asked, Forces, Ranges};
+use super::search::Search;
+use super::source::{Assignment, Source, once};
+use super::watched::watched;
+use super::written::save;
+use super::{Answer, Refusal, lines};
+
+/// Work out quantities at many points of parameters and coordinates.
+///
+/// Rows are written as CSV: what is varied, whether the mechanism assembles there, and the quantities, in m and rad. A
+/// study can be cut into shards for any number of machines; `linkwork merge` puts them together to the same bytes.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork study mechanisms/four_bar.ron --vary l2=3..5 --vary theta1=0deg..360deg --grid 20,36 --quantity transmission\n  \
+    linkwork study mechanisms/three_rps.ron --vary a=0.3..0.6 --vary b=0.8..1.2 --samples 1000 --quantity condition,assemblies\n  \
+    linkwork study mechanisms/four_bar.ron --vary l2=3..5 --samples 1000000 --quantity phi1 --shard 3/200 > part-3.csv")]
+pub struct Study {
+    #[command(flatten)]
+    source: Source,
+    /// Vary a parameter or a coordinate, which then is held, e.g. --vary l2=3..5 or --vary theta1=0deg..360deg
+    #[arg(long, value_name = "NAME=FROM..TO", required = true)]
+    vary: Vec<Assignment>,
+    /// So many points of Sobol's sequence, spread evenly over the ranges
+    #[arg(long, value_name = "NUMBER", required_unless_present = "grid")]
+    samples: Option<usize>,
+    /// With --samples: points of a Latin hypercube instead, at random by --seed
+    #[arg(long, requires = "samples")]
+    latin: bool,
+    /// Every combination of so many equally spaced values of each
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        value_delimiter = ',',
+        conflicts_with = "samples"
+    )]
+    grid: Vec<usize>,
+    /// What is worked out: as --report of `sweep`, and `assemblies`, the number of real ones, e.g. --quantity
+    /// transmission,reach=hypot(left.x, left.y)
+    #[arg(long, value_name = "QUANTITIES", allow_hyphen_values = true)]
+    quantity: Vec<String>,
+    #[command(flatten)]
+    asked: Asked,
+    /// Rate of a held joint or coordinate, for quantities such as velocity:left, e.g. --rate theta1=1
+    #[arg(long, value_name = "NAME=RATE")]
+    rate: Vec<Assignment>,
+    #[command(flatten)]
+    forces: Forces,
+    #[command(flatten)]
+    search: Search,
+    /// Work out only this part of so many, e.g. --shard 3/200
+    #[arg(long, value_name = "PART/OF", value_parser = shard, default_value = "1/1")]
+    shard: (usize, usize),
+    /// Write to a file, whole or not at all
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/');
+    let parts = parts.and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
+    parts.ok_or_else(|| "write PART/OF, e.g. 3/200".into())
+}
+
+impl Study {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let mut posed = self.asked.pose(&self.source)?;
+        self.search.pose(&mut posed)?;
+        once("--rate", &self.rate)?;
+        posed.names(
+            Role::Quantity,
+            "--quantity",
+            &self.quantity,
+            Question::report,
+        );
+        posed.values(Role::Rate, "--rate", &self.rate, Question::rate);
+        self.forces.pose(&mut posed);
+        let vary = posed.varied(Ranges::Vary, &self.vary)?;
+        let vary: Vec<(String, Value, Value)> = vary
+            .into_iter()
+            .map(|(name, from, to)| (name, from.into(), to.into()))
+            .collect();
+        let points = match self.samples {
+            Some(samples) if self.latin => Points::LatinHypercube(samples),
+            Some(samples) => Points::Sobol(samples),
+            None if self.grid.len() == 1 => Points::Grid(vec![self.grid[0]; vary.len()]),
+            None => Points::Grid(self.grid.clone()),
+        };
+        let description = &posed.loaded.description;
+        let study = posed
+            .ask(|question, _| ask::Study::new(description.clone(), question, &vary, points))?;
+        let (part, of) = self.shard;
+        let range = study.shard(part, of);
+        let range = range.map_err(|error| Refusal(format!("error: {error}\n")))?;
+        let rows = watched(|watch| study.rows(range, watch));
+        let whole = !rows.interrupted;
+        let note = (!whole).then(|| "interrupted: rows are missing at the end".to_owned());
+        let mut data = csv(&study, &rows);
+        if let Some(path) = &self.output {
+            // a part of a shard is none
+            if whole {
+                save(path, data.as_bytes())?;
+            }
+            data.clear();
+        }
+        Ok(Answer {
+            data,
+            remarks: posed.loaded.warnings() + &lines("note", note),
+            yes: whole,
+        })
+    }
+}

@@ -1,0 +1,290 @@
+//! The Python module `linkwork._linkwork`: a thin door to [`ask`](crate::ask) and [`output`](crate::output).
+//!
+//! What a Python user reads stands in `python/linkwork/__init__.py`, which gives these few functions signatures and
+//! documentation.
+
+mod asked;
+mod report;
+mod watched;
+mod words;
+
+use std::ffi::OsString;
+use std::sync::Arc;
+
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::analysis::convert::to_axes;
+use crate::ask::{AskError, Points, Study};
+use crate::description::{Description, FileError, Problem, Role};
+use crate::mechanism;
+use crate::output::complaint::Given;
+use crate::output::diagnostics::{self, Style};
+use crate::output::drawing::{DrawingSettings, Panel, sheet};
+use crate::output::view::{Viewed, page};
+use crate::scene::Scene;
+use crate::system::Value;
+use asked::{Asked, Number};
+use report::Report;
+use watched::watched;
+
+create_exception!(
+    linkwork,
+    Error,
+    PyValueError,
+    "What is wrong, where, and the remedy, in the words of the command line."
+);
+create_exception!(
+    linkwork,
+    MechanismError,
+    Error,
+    "A mechanism is wrong; the message shows the lines."
+);
+create_exception!(
+    linkwork,
+    QuestionError,
+    Error,
+    "A question cannot be answered as it is put."
+);
+
+/// A mechanism as a text describes it.
+#[pyclass(frozen, module = "linkwork._linkwork")]
+struct Mechanism {
+    text: String,
+    description: Description,
+    mechanism: Arc<mechanism::Mechanism>,
+}
+
+#[pymethods]
+impl Mechanism {
+    /// Reads a text whose errors name it as `name`, and gives parameters other values.
+    #[new]
+    fn new(text: String, name: &str, parameters: Vec<(String, Number)>) -> PyResult<Self> {
+        let wrong = |problems: Vec<Problem>| FileError {
+            path: name.into(),
+            text: text.clone(),
+            problems,
+        };
+        let style = Style::Plain;
+        let mut description = Description::read(&text).map_err(|_| {
+            let problems = mechanism::Mechanism::problems(&text);
+            MechanismError::new_err(diagnostics::render(&wrong(problems), style))
+        })?;
+        let values: Vec<String> = parameters.iter().map(|(_, v)| v.to_string()).collect();
+        let set: Vec<Given> = (parameters.iter().zip(&values))
+            .map(|((name, _), value)| Given {
+                option: "with_parameters",
+                name,
+                value: Some(value),
+            })
+            .collect();
+        for (given, value) in set.iter().zip(&values) {
+            description = (description.with_parameter(given.name, value)).map_err(|refused| {
+                MechanismError::new_err(diagnostics::replacement(&refused, given, style))
+            })?;
+        }
+        match mechanism::Mechanism::new(&description) {
+            Ok(mechanism) => Ok(Mechanism {
+                text,
+                description,
+                mechanism: mechanism.into(),
+            }),
+            Err(problems) => {
+                let error = wrong(problems);
+                let said = diagnostics::with_replacements(error, &description, &set, style);
+                Err(MechanismError::new_err(said))
+            }
+        }
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        self.mechanism.name()
+    }
+
+    /// The joint variables: name, unit, whether it is driven, home, limits.
+    #[allow(clippy::type_complexity)]
+    fn joints(&self) -> Vec<(String, &'static str, bool, f64, Option<(f64, f64)>)> {
+        let joints = self.mechanism.joints().iter();
+        let of = |joint: &mechanism::Joint| {
+            let unit = if joint.kind.is_angle() { "rad" } else { "m" };
+            let driven = joint.role == Role::Actuated;
+            (joint.name.clone(), unit, driven, joint.home, joint.limits)
+        };
+        joints.map(of).collect()
+    }
+
+    /// The parameters with their values in m, rad or without unit.
+    fn parameters(&self) -> Vec<(String, f64)> {
+        let parameters = self.mechanism.parameters().iter();
+        parameters.map(|p| (p.name.clone(), p.value)).collect()
+    }
+
+    /// What is odd about the file, in words; empty if nothing is.
+    fn warnings(&self, name: &str) -> String {
+        let problems = self.mechanism.warnings().to_vec();
+        if problems.is_empty() {
+            return String::new();
+        }
+        let error = FileError {
+            path: name.into(),
+            text: self.text.clone(),
+            problems,
+        };
+        diagnostics::render(&error, Style::Plain)
+    }
+
+    /// The mechanism as a file of tables, or of joint coordinates.
+    fn ron(&self, axes: bool) -> PyResult<String> {
+        let refused = |error: &dyn std::fmt::Display| Error::new_err(error.to_string());
+        match axes {
+            false => self.description.to_ron().map_err(|e| refused(&e)),
+            true => {
+                let made = to_axes(&self.mechanism, &self.description);
+                let (axes, _) = made.map_err(|e| refused(&e))?;
+                axes.to_ron().map_err(|e| refused(&e))
+            }
+        }
+    }
+
+    /// The page of `linkwork view`.
+    fn page(&self, file: &str, set: Vec<(String, Number)>) -> String {
+        let set = set.into_iter();
+        page(&Viewed {
+            file: file.into(),
+            text: self.text.clone(),
+            set: set.map(|(name, value)| (name, value.to_string())).collect(),
+            watch: false,
+        })
+    }
+
+    /// Does what the method of that name of a question does. `progress` is called with words, what is done, and of how
+    /// much.
+    fn ask<'py>(
+        &self,
+        py: Python<'py>,
+        what: &str,
+        given: &Bound<'py, PyDict>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Report, Vec<(String, Bound<'py, PyAny>)>)> {
+        let asked = Asked::new(self.mechanism.clone(), given)?;
+        let long = what != "solve" || asked.settings.numbered;
+        let answer = watched(py, progress, long, |watch| {
+            report::answer(what, &asked, &self.mechanism, watch)
+        })?;
+        let (report, columns) = answer.map_err(|error| asked.refusal(&error))?;
+        let columns = columns.into_iter().map(|column| column.into_array(py));
+        Ok((report, columns.collect::<PyResult<_>>()?))
+    }
+
+    /// A picture of the configurations that a question means.
+    fn svg(&self, py: Python<'_>, given: &Bound<'_, PyDict>, labels: bool) -> PyResult<String> {
+        let asked = Asked::new(self.mechanism.clone(), given)?;
+        let modes = watched(py, None, true, |watch| asked.question.configurations(watch))?;
+        let modes = modes.map_err(|error| asked.refusal(&error.into()))?;
+        let name = self.mechanism.name();
+        let panel = |(mode, at): &(Option<usize>, _)| Panel {
+            title: mode.map_or_else(|| name.to_owned(), |mode| format!("{name}: mode {mode}")),
+            scene: Scene::of(&self.mechanism, at),
+            ghosts: Vec::new(),
+        };
+        let panels: Vec<Panel> = modes.iter().map(panel).collect();
+        let settings = DrawingSettings {
+            labels,
+            ..DrawingSettings::default()
+        };
+        Ok(sheet(&panels, &settings).svg())
+    }
+
+    /// Configurations for rows of held values: the columns, their values row by row, and whether each row was reached.
+    #[allow(clippy::type_complexity)]
+    fn solve_many<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        names: Vec<String>,
+        values: PyReadonlyArray2<'py, f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(
+        Vec<String>,
+        Bound<'py, PyArray2<f64>>,
+        Bound<'py, PyArray1<bool>>,
+    )> {
+        let asked = Asked::new(self.mechanism.clone(), given)?;
+        let values = values.as_slice()?;
+        let many = watched(py, progress, true, |watch| {
+            asked.question.solve_many(&names, values, watch)
+        })?;
+        let many = many.map_err(|error| asked.refusal(&error.into()))?;
+        let (rows, width) = (many.reached.len(), many.names.len());
+        Ok((
+            many.names,
+            PyArray1::from_vec(py, many.values).reshape([rows, width])?,
+            PyArray1::from_vec(py, many.reached),
+        ))
+    }
+
+    /// Rows of a study: part of so many, with their columns.
+    #[allow(clippy::too_many_arguments)]
+    fn study<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        vary: Vec<(String, (Number, Number))>,
+        kind: &str,
+        counts: Vec<usize>,
+        rows: Option<PyReadonlyArray2<'py, f64>>,
+        part: (usize, usize),
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Vec<(String, Bound<'py, PyArray1<f64>>)>> {
+        let count = counts.first().copied().unwrap_or_default();
+        let points = match (rows, kind) {
+            (Some(rows), _) => Points::Given(
+                rows.as_array()
+                    .rows()
+                    .into_iter()
+                    .map(|row| row.to_vec())
+                    .collect(),
+            ),
+            (None, "grid") => Points::Grid(counts),
+            (None, "latin") => Points::LatinHypercube(count),
+            (None, _) => Points::Sobol(count),
+        };
+        let asked = Asked::varied(self.mechanism.clone(), given, &vary)?;
+        let vary: Vec<(String, Value, Value)> = (vary.iter())
+            .map(|(name, (from, to))| (name.clone(), from.into(), to.into()))
+            .collect();
+        let study = Study::new(self.description.clone(), &asked.question, &vary, points);
+        let study = study.map_err(|error| asked.refusal(&error.into()))?;
+        let range = study.shard(part.0, part.1);
+        let range = range.map_err(|error| asked.refusal(&AskError::from(error).into()))?;
+        let found = watched(py, progress, true, |watch| study.rows(range, watch))?;
+        let columns = found.columns.iter().enumerate().map(|(i, of)| {
+            let values = found.rows.iter().map(|row| row[i].unwrap_or(f64::NAN));
+            (of.to_string(), PyArray1::from_iter(py, values))
+        });
+        Ok(columns.collect())
+    }
+}
+
+/// The command line.
+#[pyfunction]
+fn run(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| crate::cli::run(arguments))
+}
+
+#[pymodule]
+fn _linkwork(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    watched::begin();
+    module.add("Error", py.get_type::<Error>())?;
+    module.add("MechanismError", py.get_type::<MechanismError>())?;
+    module.add("QuestionError", py.get_type::<QuestionError>())?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<Mechanism>()?;
+    module.add_class::<Report>()?;
+    module.add_function(wrap_pyfunction!(run, module)?)
+}

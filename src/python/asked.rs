@@ -1,0 +1,244 @@
+//! What a call gives, put into a question.
+
+use std::fmt::{self, Display, Formatter};
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::words::worded;
+use super::{QuestionError, report};
+use crate::ask::{Mode, Question, Role, Value};
+use crate::cli::{self, Ranged};
+use crate::mechanism::Mechanism;
+use crate::output::complaint::Given;
+
+/// A number in SI units and rad, or an expression with units as in a file.
+#[derive(FromPyObject)]
+pub enum Number {
+    Number(f64),
+    Text(String),
+}
+
+impl Display for Number {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Number::Number(number) => write!(f, "{number:?}"),
+            Number::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl From<&Number> for Value {
+    fn from(given: &Number) -> Self {
+        match given {
+            Number::Number(number) => Value::Number(*number),
+            Number::Text(text) => Value::Text(text.clone()),
+        }
+    }
+}
+
+/// One name or several.
+#[derive(FromPyObject)]
+enum Names {
+    One(String),
+    Several(Vec<String>),
+}
+
+/// How an analysis works; what is absent is the default.
+#[derive(Default)]
+pub struct Settings {
+    /// Whether a mode is meant by its number, for which all assemblies are searched.
+    pub numbered: bool,
+    pub all_complex: bool,
+    pub follow: bool,
+    pub straight: bool,
+    pub steps: Option<usize>,
+    pub law: Option<String>,
+    pub duration: Option<f64>,
+    pub grid: Vec<usize>,
+    pub starts: Option<usize>,
+    pub search: Option<usize>,
+    pub samples: Option<usize>,
+    pub of: Option<String>,
+    pub relative_to: Option<String>,
+}
+
+/// Something that was given, to be shown where it is wrong.
+struct Part {
+    role: Role,
+    option: &'static str,
+    name: String,
+    value: Option<String>,
+}
+
+/// A question with what posed it.
+pub struct Asked {
+    pub question: Question,
+    pub settings: Settings,
+    parts: Vec<Part>,
+    ranges: Ranged,
+}
+
+/// The options that give values to names.
+type Put = fn(Question, String, Value) -> Question;
+const VALUES: [(&str, Role, Put); 7] = [
+    ("hold", Role::Hold, Question::hold),
+    ("guess", Role::Guess, Question::guess),
+    ("rate", Role::Rate, Question::rate),
+    ("acceleration", Role::Acceleration, Question::acceleration),
+    ("load", Role::Load, Question::load),
+    ("dwell", Role::Dwell, Question::dwell),
+    ("wrench", Role::Wrench, |question, name, value| {
+        question.wrench_text(name, value.to_string())
+    }),
+];
+
+/// The options that are names.
+type Name = fn(Question, String) -> Question;
+const NAMES: [(&str, Role, Name); 6] = [
+    ("free", Role::Free, Question::free),
+    ("lock", Role::Lock, Question::lock),
+    ("output", Role::Output, Question::output),
+    ("point", Role::Point, Question::point),
+    ("trace", Role::Point, Question::point),
+    ("report", Role::Quantity, Question::report),
+];
+
+/// The options that are ranges.
+const RANGES: [(&str, Ranged); 3] = [
+    ("input", Ranged::Input),
+    ("locus", Ranged::Locus),
+    ("map", Ranged::Map),
+];
+
+impl Asked {
+    /// The question of a mechanism with what keywords say, in their order.
+    pub fn new(mechanism: Arc<Mechanism>, given: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let mut asked = Asked {
+            question: Question::new(mechanism),
+            settings: Settings::default(),
+            parts: Vec::new(),
+            ranges: Ranged::Input,
+        };
+        for (key, value) in given {
+            asked.put(&key.extract::<String>()?, &value)?;
+        }
+        Ok(asked)
+    }
+
+    /// The same with what a study varies, which is wrong where it is.
+    pub fn varied(
+        mechanism: Arc<Mechanism>,
+        given: &Bound<'_, PyDict>,
+        vary: &[(String, (Number, Number))],
+    ) -> PyResult<Self> {
+        let mut asked = Asked::new(mechanism, given)?;
+        asked.ranges = Ranged::Vary;
+        for (name, (from, to)) in vary {
+            let range = format!("{from}..{to}");
+            asked.part(Role::Input, "vary", name.clone(), Some(range));
+        }
+        Ok(asked)
+    }
+
+    fn put(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
+        if let Some((option, role, put)) = VALUES.iter().find(|(option, ..)| *option == key) {
+            let pairs: Vec<(String, Number)> = given.cast::<PyDict>()?.items().extract()?;
+            for (name, number) in pairs {
+                self.change(|question| put(question, name.clone(), (&number).into()));
+                self.part(*role, option, name, Some(number.to_string()));
+            }
+        } else if let Some((option, role, put)) = NAMES.iter().find(|(option, ..)| *option == key) {
+            let names = match given.extract()? {
+                Names::One(name) => vec![name],
+                Names::Several(names) => names,
+            };
+            for name in names {
+                self.change(|question| put(question, name.clone()));
+                self.part(*role, option, name, None);
+            }
+        } else if let Some((option, ranges)) = RANGES.iter().find(|(option, _)| *option == key) {
+            let pairs: Vec<(String, (Number, Number))> =
+                given.cast::<PyDict>()?.items().extract()?;
+            for (name, (from, to)) in pairs {
+                self.ranges = *ranges;
+                self.change(|question| question.input(&name, &from, &to));
+                self.part(Role::Input, option, name, Some(format!("{from}..{to}")));
+            }
+        } else {
+            self.set(key, given)?;
+        }
+        Ok(())
+    }
+
+    fn set(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
+        let settings = &mut self.settings;
+        match key {
+            "mode" => {
+                settings.numbered = true;
+                let mode = match given.extract::<String>() {
+                    Ok(all) if all == "all" => Mode::All,
+                    Ok(_) => return Err(QuestionError::new_err("a mode is a number or \"all\"")),
+                    Err(_) => Mode::Number(given.extract()?),
+                };
+                self.change(|question| question.mode(mode));
+            }
+            "seed" => {
+                let seed = given.extract()?;
+                self.change(|question| question.seed(seed));
+            }
+            "all_complex" => settings.all_complex = given.extract()?,
+            "follow" => settings.follow = given.extract()?,
+            "straight" => settings.straight = given.extract()?,
+            "steps" => settings.steps = Some(given.extract()?),
+            "law" => settings.law = Some(given.extract()?),
+            "duration" => settings.duration = Some(given.extract()?),
+            "grid" => settings.grid = given.extract()?,
+            "starts" => settings.starts = Some(given.extract()?),
+            "search" => settings.search = Some(given.extract()?),
+            "samples" => settings.samples = Some(given.extract()?),
+            "of" => settings.of = Some(given.extract()?),
+            "relative_to" => settings.relative_to = Some(given.extract()?),
+            _ => {
+                return Err(QuestionError::new_err(format!(
+                    "there is no option `{key}`"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn change(&mut self, change: impl FnOnce(Question) -> Question) {
+        self.question = change(self.question.clone());
+    }
+
+    fn part(&mut self, role: Role, option: &'static str, name: String, value: Option<String>) {
+        self.parts.push(Part {
+            role,
+            option,
+            name,
+            value,
+        });
+    }
+
+    /// What is wrong with the question, in the words of the command line, under what says so if something does.
+    pub fn refusal(&self, error: &report::Refused) -> PyErr {
+        let parts = self.parts.iter().map(|part| {
+            let given = Given {
+                option: part.option,
+                name: &part.name,
+                value: part.value.as_deref(),
+            };
+            (part.role, given)
+        });
+        let given: Vec<(Role, Given)> = parts.collect();
+        QuestionError::new_err(match error {
+            report::Refused::Asked(error) => {
+                let (said, given) = cli::said(&self.question, &given, self.ranges, error);
+                worded(said, given)
+            }
+            report::Refused::Said(said) => worded(said.clone(), None),
+        })
+    }
+}

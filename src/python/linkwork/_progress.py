@@ -1,0 +1,50 @@
+"""Progress of long work."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any, Callable, Optional
+
+#: Called with what is being done, how much of it is done, and how much there is to do, if that is known.
+Progress = Callable[[str, int, Optional[int]], None]
+
+#: Work that is done sooner, in s, needs no bar.
+PATIENCE = 0.5
+
+
+class Bar:
+    """A bar of tqdm, if that is installed and somebody can see it."""
+
+    def __init__(self, shown: bool) -> None:
+        self._since = time.monotonic()
+        self._bar: Any = None
+        self._shown = shown
+
+    def __call__(self, stage: str, done: int, of: int | None) -> None:
+        if not self._shown or time.monotonic() < self._since + PATIENCE:
+            return
+        if self._bar is None:
+            try:
+                from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+            except ImportError:
+                self._shown = False
+                return
+            self._bar = tqdm(leave=False)
+        self._bar.set_description(stage, refresh=False)
+        self._bar.total = of
+        self._bar.n = done
+        self._bar.refresh()
+
+    def close(self) -> None:
+        """Takes the bar away."""
+        if self._bar is not None:
+            self._bar.close()
+
+
+def bar(wanted: bool | None | Progress) -> Progress | Bar:
+    """What is called with the progress: the user's function, or a bar where a terminal or a notebook shows it."""
+    if callable(wanted):
+        return wanted
+    seen = sys.stderr is not None and sys.stderr.isatty() or "ipykernel" in sys.modules
+    return Bar(seen if wanted is None else wanted)

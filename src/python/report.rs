@@ -1,0 +1,260 @@
+//! Reports as Python sees them.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use super::asked::Asked;
+use crate::analysis::assemblies::Wanted;
+use crate::analysis::assembly::AssemblySettings;
+use crate::analysis::compare::CompareSettings;
+use crate::analysis::formulas::FormulasSettings;
+use crate::analysis::overview::overview;
+use crate::analysis::singularities::SingularitiesSettings;
+use crate::analysis::sweep::{Law, Pace, Row, SweepSettings};
+use crate::analysis::workspace::WorkspaceSettings;
+use crate::ask::{AskError, Solved};
+use crate::description::listed;
+use crate::mechanism::{Frame, Mechanism};
+use crate::output::complaint::Complaint;
+use crate::output::document::{Cell, Document};
+use crate::output::sweep::{row_columns, row_values, worded};
+use crate::output::{JsonReport, Rows, html, json, markdown, text};
+use crate::solve::Watch;
+
+/// A report, shown in the way that is asked for.
+trait Shown: Send + Sync {
+    fn document(&self) -> Document;
+    fn json(&self) -> String;
+    fn yes(&self) -> bool;
+    fn warnings(&self) -> Vec<String>;
+}
+
+impl<R: JsonReport + Send + Sync> Shown for R {
+    fn document(&self) -> Document {
+        self.shown()
+    }
+
+    fn json(&self) -> String {
+        json::render(self)
+    }
+
+    fn yes(&self) -> bool {
+        self.is_yes()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        crate::output::Report::warnings(self)
+    }
+}
+
+/// A report.
+#[pyclass(frozen, module = "linkwork._linkwork")]
+pub struct Report(Box<dyn Shown>);
+
+#[pymethods]
+impl Report {
+    /// Whether the answer is yes, or at least not no.
+    #[getter]
+    fn yes(&self) -> bool {
+        self.0.yes()
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings()
+    }
+
+    fn json(&self) -> String {
+        self.0.json()
+    }
+
+    fn text(&self) -> String {
+        text::render(&self.0.document())
+    }
+
+    fn markdown(&self) -> String {
+        markdown::render(&self.0.document())
+    }
+
+    fn html(&self) -> String {
+        html::render(&self.0.document())
+    }
+}
+
+/// A column of rows.
+pub struct Column {
+    name: String,
+    numbers: Vec<f64>,
+    /// The texts, if it has any.
+    texts: Vec<String>,
+}
+
+impl Column {
+    fn named(names: Vec<String>) -> Vec<Column> {
+        let empty = |name| Column {
+            name,
+            numbers: Vec::new(),
+            texts: Vec::new(),
+        };
+        names.into_iter().map(empty).collect()
+    }
+
+    fn of(rows: Rows) -> Vec<Column> {
+        let mut columns = Column::named(rows.columns);
+        rows.rows.for_each(|row| Column::row(&mut columns, row));
+        columns
+    }
+
+    fn row(columns: &mut [Column], row: impl IntoIterator<Item = Cell>) {
+        let cells = columns.iter_mut().zip(row);
+        cells.for_each(|(column, cell)| column.push(cell));
+    }
+
+    fn push(&mut self, cell: Cell) {
+        let row = self.numbers.len();
+        self.numbers.push(match cell {
+            Cell::Count(count) => count as f64,
+            Cell::Number { value, .. } => value,
+            _ => f64::NAN,
+        });
+        if let Cell::Text(text) = cell {
+            self.texts.resize(row, String::new());
+            self.texts.push(text);
+        }
+    }
+
+    /// Its name with the unit, and numbers as an array without a copy, or texts.
+    pub fn into_array<'py>(mut self, py: Python<'py>) -> PyResult<(String, Bound<'py, PyAny>)> {
+        let array = match self.texts.is_empty() {
+            true => PyArray1::from_vec(py, self.numbers).into_any(),
+            false => {
+                self.texts.resize(self.numbers.len(), String::new());
+                PyList::new(py, self.texts)?.into_any()
+            }
+        };
+        Ok((self.name, array))
+    }
+}
+
+/// Why there is no answer.
+pub enum Refused {
+    Asked(AskError),
+    Said(Complaint),
+}
+
+impl From<AskError> for Refused {
+    fn from(error: AskError) -> Self {
+        Refused::Asked(error)
+    }
+}
+
+fn report<R: JsonReport + Send + Sync + 'static>(report: R) -> (Report, Vec<Column>) {
+    let columns = report.rows().map_or_else(Vec::new, Column::of);
+    (Report(Box::new(report)), columns)
+}
+
+/// Asks the question that has this name.
+pub fn answer(
+    what: &str,
+    asked: &Asked,
+    mechanism: &Mechanism,
+    watch: &Watch,
+) -> Result<(Report, Vec<Column>), Refused> {
+    let (question, settings) = (&asked.question, &asked.settings);
+    let singularities = || {
+        let default = SingularitiesSettings::default();
+        SingularitiesSettings {
+            follow: settings.follow,
+            starts: settings.starts.unwrap_or(default.starts),
+            ..default
+        }
+    };
+    Ok(match what {
+        "check" => report(overview(mechanism)),
+        "solve" => match question.solve(&AssemblySettings::default(), watch)? {
+            Solved::Ended(ended) => report(*ended),
+            Solved::Lost(lost) => report(*lost),
+        },
+        "assemblies" => {
+            let wanted = Wanted {
+                all_complex: settings.all_complex,
+                ..Wanted::default()
+            };
+            report(question.assemblies(wanted, watch)?)
+        }
+        "mobility" => report(question.mobility(watch)?),
+        "velocity" => report(question.velocity(watch)?),
+        "statics" => report(question.statics(watch)?),
+        "singularities" => report(question.singularities(&singularities(), watch)?),
+        "along" => report(question.along(&singularities(), watch)?),
+        "loci" => report(question.loci(&singularities(), watch)?),
+        "workspace" => {
+            let default = WorkspaceSettings::default();
+            let settings = WorkspaceSettings {
+                nodes: settings.grid.clone(),
+                searched: settings.search.unwrap_or(default.searched),
+                starts: settings.starts.unwrap_or(default.starts),
+                ..default
+            };
+            report(question.workspace(&settings, watch)?)
+        }
+        "compare" => {
+            let default = CompareSettings::default().samples;
+            report(question.compare(settings.samples.unwrap_or(default), watch))
+        }
+        "formulas" => {
+            let frame = |name: &Option<String>| {
+                let frame = |name: &String| {
+                    let frame = mechanism.frame(name);
+                    frame.ok_or_else(|| Refused::Said(crate::cli::unknown_frame(mechanism, name)))
+                };
+                name.as_ref().map(frame).transpose()
+            };
+            let (of, relative_to) = (frame(&settings.of)?, frame(&settings.relative_to)?);
+            let settings = FormulasSettings {
+                transform: of.map(|of| (of, relative_to.unwrap_or(Frame::Ground))),
+                ..FormulasSettings::default()
+            };
+            let formulas = question.formulas(&settings);
+            report(formulas.map_err(|error| Refused::Said(Complaint::new(error.to_string())))?)
+        }
+        "circuits" => report(question.circuits(watch)?),
+        "sweep" => return motions(asked, watch),
+        _ => unreachable!("the questions of the package are these"),
+    })
+}
+
+/// Rows of motions are kept as columns, and few of them in the report.
+fn motions(asked: &Asked, watch: &Watch) -> Result<(Report, Vec<Column>), Refused> {
+    /// Rows that the text shows.
+    const SHOWN: usize = 37;
+    let (question, settings) = (&asked.question, &asked.settings);
+    let default = SweepSettings::default();
+    let law = match &settings.law {
+        None => default.pace.law,
+        Some(word) => Law::from_word(word).ok_or_else(|| {
+            let laws = Law::ALL.map(Law::word);
+            let said = Complaint::new(format!("`{word}` is no law of motion"));
+            Refused::Said(said.help(format!("the laws are {}", listed(&laws))))
+        })?,
+    };
+    let settings = SweepSettings {
+        steps: settings.steps.unwrap_or(default.steps),
+        follow: settings.follow,
+        pace: Pace {
+            law,
+            duration: settings.duration.unwrap_or(default.pace.duration),
+        },
+        straightness: settings.straight,
+        ..default
+    };
+    let all = question.motions(&settings, watch)?;
+    let names = all.columns();
+    let mut columns = Column::named(row_columns(&names));
+    let mut sink = |mode: Option<usize>, row: &Row| {
+        Column::row(&mut columns, row_values(&names, mode, row));
+    };
+    let report = worded(all.report(SHOWN, &mut sink, watch));
+    Ok((Report(Box::new(report)), columns))
+}

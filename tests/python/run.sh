@@ -1,0 +1,19 @@
+#!/bin/sh
+# Builds the Python package, installs it in a new environment as a user does, and tests it there.
+set -eu
+cd "$(dirname "$0")/../.."
+environment="$PWD/target/python"
+python3 -m venv --clear "$environment"
+PATH="$environment/bin:$PATH"
+export PATH
+pip install --quiet --disable-pip-version-check pytest mypy ruff pandas "maturin>=1.9,<2"
+# built as tests are: a release takes minutes longer, and says the same
+MATURIN_PEP517_ARGS="${MATURIN_PEP517_ARGS---profile dev}" \
+    pip install --quiet --disable-pip-version-check --no-build-isolation .
+ruff check src/python tests/python
+ruff format --check src/python tests/python
+mypy src/python/linkwork
+# away from the sources, so that what is imported is what was installed
+tests="$PWD/tests/python"
+cd "$environment"
+pytest -q --rootdir "$tests" -p no:cacheprovider "$tests"

@@ -1,0 +1,314 @@
+"""The Python module as a user has it: installed, with numpy."""
+
+import concurrent.futures
+import doctest
+import json
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import warnings
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwork
+from linkwork import Mechanism, MechanismError, QuestionError, parts
+from linkwork.parts import Actuated, Chain, Passive, Revolute, Tx
+
+ROOT = Path(__file__).parents[2]
+SHIPPED = ROOT / "mechanisms"
+
+
+@pytest.fixture
+def four_bar():
+    return linkwork.load(SHIPPED / "four_bar.ron")
+
+
+def command(*arguments):
+    return subprocess.run(["linkwork", *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def coupler(p, theta1, phi1):
+    """The length of the coupler of the 4-bar from the angles of crank and rocker alone."""
+    x = p["l0"] + p["l3"] * np.cos(phi1) - p["l1"] * np.cos(theta1)
+    return np.hypot(x, p["l3"] * np.sin(phi1) - p["l1"] * np.sin(theta1))
+
+
+def test_a_four_bar_is_assembled_where_its_coupler_fits(four_bar):
+    report = four_bar.solve(theta1=1.0)
+    assert report and report.joints.theta1 == 1.0
+    assert coupler(four_bar.parameters, 1.0, report.joints.phi1) == pytest.approx(four_bar.parameters["l2"], abs=1e-12)
+    apart = four_bar.with_parameters(l2=0.1).solve(theta1=pi)
+    assert not apart and "annot be assembled" in repr(apart)
+
+
+def test_values_have_units_and_names_that_python_has_not(four_bar):
+    a = four_bar.solve(theta1="60 deg")
+    b = four_bar.solve(hold={"theta1": pi / 3})
+    assert a.joints.phi1 == pytest.approx(b.joints.phi1, abs=1e-13)
+    platform = linkwork.load(SHIPPED / "three_rps.ron")
+    held = platform.solve(hold={"top.z": 0.6, "top.roll": 0.0, "top.pitch": "5 deg"}, free="actuated")
+    assert held and held.platforms["top"].position[2] == 0.6
+    # given in another order, the question is the same
+    other = platform.solve(free="actuated", hold={"top.z": 0.6, "top.roll": 0.0, "top.pitch": "5 deg"})
+    assert held == other
+
+
+def test_assemblies_are_iterable_numbered_and_certified(four_bar):
+    report = four_bar.assemblies(theta1=1.0)
+    assert report.real == report.complex_count == len(report) == len(list(report)) == 2
+    assert [mode.mode for mode in report] == [1, 2] and all(mode.certified for mode in report)
+    for mode in report:
+        length = coupler(four_bar.parameters, 1.0, mode.joints["phi1"])
+        assert length == pytest.approx(four_bar.parameters["l2"], abs=1e-12)
+    out_of_reach = four_bar.with_parameters(l2=0.1).assemblies(theta1=pi)
+    assert out_of_reach.real == 0 and not out_of_reach
+
+
+def test_a_sweep_is_a_mapping_of_arrays(four_bar):
+    motion = four_bar.sweep("theta1", 0, 2 * pi, steps=36, of="left", report="transmission")
+    assert motion and isinstance(motion, dict)
+    assert isinstance(motion["phi1"], np.ndarray) and motion["phi1"].dtype == np.float64
+    rows = np.isfinite(motion["step"])
+    assert rows.sum() == 37
+    np.testing.assert_allclose(motion["theta1"][rows], np.linspace(0, 2 * pi, 37), atol=1e-12)
+    p = four_bar.parameters
+    np.testing.assert_allclose(motion["left.x"], p["l0"] + p["l3"] * np.cos(motion["phi1"]), atol=1e-11)
+    assert motion.units["theta1"] == "rad" and motion.units["left.x"] == "m"
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(motion)
+    assert list(frame.columns) == list(motion) and len(frame) == len(motion["phi1"])
+
+
+def test_many_rows_are_what_single_solves_are(four_bar):
+    angles = np.linspace(0.2, 0.2 + 6 * pi, 5000)
+    many = four_bar.solve_many(angles)
+    assert many["reached"].all()
+    lengths = coupler(four_bar.parameters, angles, many["phi1"])
+    np.testing.assert_allclose(lengths, four_bar.parameters["l2"], atol=1e-11)
+    home = four_bar.joints["theta1"].home
+    one = four_bar.solve(theta1=home)
+    assert four_bar.solve_many([home])["phi1"][0] == pytest.approx(one.joints.phi1, abs=1e-10)
+    # the last block is not whole, and rows in any order are reached too
+    mixed = np.random.default_rng(1).permutation(angles)[:777]
+    found = four_bar.solve_many(mixed)
+    assert found["reached"].all() and len(found["phi1"]) == 777
+    np.testing.assert_allclose(
+        coupler(four_bar.parameters, mixed, found["phi1"]), four_bar.parameters["l2"], atol=1e-11
+    )
+
+
+def test_rows_beyond_a_dead_point_are_not_reached(four_bar):
+    # with a coupler of 1.7 m the crank cannot turn fully
+    rocking = four_bar.with_parameters(l2=1.7)
+    p = rocking.parameters
+    angles = np.linspace(-pi, pi, 400)
+    reach = np.hypot(p["l0"] - p["l1"] * np.cos(angles), p["l1"] * np.sin(angles))
+    slack = np.minimum(p["l2"] + p["l3"] - reach, reach - abs(p["l2"] - p["l3"]))
+    assert (slack > 0.01).any() and (slack < -0.01).any()
+    many = rocking.solve_many(angles, hold={"theta1": 0.5})
+    assert not many["reached"][slack < 0].any()
+    assert np.isnan(many["phi1"][~many["reached"]]).all()
+    assert many["reached"][slack > 0.01].sum() > 50
+    found = many["reached"]
+    np.testing.assert_allclose(coupler(p, angles[found], many["phi1"][found]), p["l2"], atol=1e-9)
+
+
+def test_reports_say_what_the_command_line_says(four_bar):
+    file = SHIPPED / "four_bar.ron"
+    report = four_bar.mobility()
+    assert repr(report) == command("mobility", file).stdout.rstrip("\n")
+    assert report.to_json() == command("mobility", file, "--format", "json").stdout
+    assert report.to_markdown() == command("mobility", file, "--format", "markdown").stdout
+    assert report._repr_html_().lstrip().lower().startswith("<!doctype html")
+    assert "sentence" in dir(report) and report["sentence"] == report.sentence
+    with pytest.raises(AttributeError, match="there is no `freedom`"):
+        report.freedom  # noqa: B018
+    # a report of the same question from the command line
+    swept = four_bar.sweep("theta1", 0, 1, steps=4)
+    printed = command("sweep", file, "--input", "theta1=0..1", "--steps", "4").stdout
+    assert repr(swept) == printed.rstrip("\n")
+
+
+def test_every_question_has_an_answer(four_bar):
+    assert four_bar.velocity(rate={"theta1": 1.0})
+    assert (
+        four_bar.statics(wrench={"left": (0, -10, 0)}).to_dict()
+        == four_bar.statics(wrench={"left": "0,-10,0"}).to_dict()
+    )
+    assert four_bar.singularities() is not None
+    along = four_bar.singularities(input={"theta1": (0, "90 deg")})
+    assert isinstance(along, dict) and "theta1" in along
+    assert four_bar.circuits(of="left").circuits
+    assert four_bar.formulas() is not None
+    assert four_bar.check().joints
+    assert linkwork.load(SHIPPED / "three_rps.ron").compare(samples=5).agree
+    assert four_bar.svg(labels=True).startswith("<svg") and four_bar.svg(mode="all") != four_bar.svg()
+    hand = linkwork.load(SHIPPED / "five_bar_hand.ron")
+    grid = hand.workspace({"hand.x": (-0.6, 0.8), "hand.y": (-0.1, 0.7)}, grid=5)
+    assert len(grid["hand.x"]) == len(grid["condition"]) > 0
+
+
+def test_mechanisms_are_made_of_python_data():
+    made = Mechanism(
+        name="4-bar",
+        parameters={"l2": np.float64(4.0)},
+        joints={"theta1": Actuated(home="1 rad"), "phi2": Passive(), "phi1": Passive()},
+        chains={
+            "left": Chain(rows=[{"theta": "theta1"}, {"a": 2.0, "theta": "phi2"}], tip=[Tx("l2")]),
+            "right": Chain(rows=[{"theta": "phi1"}], base=[Tx(4.5)], tip=[Tx(3.5)]),
+        },
+        closures={"joint": Revolute("left", "right")},
+    )
+    assert made.assemblies(theta1=1.0).real == 2
+    again = linkwork.parse(made.to_ron())
+    assert again.solve(theta1=1.0).joints["phi1"] == made.solve(theta1=1.0).joints["phi1"]
+    with pytest.raises(MechanismError, match=r"<Mechanism>:\d+:.*"):
+        Mechanism(joints={"q": Actuated()}, chains={"arm": Chain(rows=[{"tetha": "q"}])})
+
+
+def test_mechanisms_are_made_of_joint_axes(four_bar):
+    z = (0, 0, 1)
+    made = Mechanism.from_axes(
+        joints={
+            "theta1": Revolute(point=np.zeros(3), direction=z, between=("ground", "crank")),
+            "phi2": Revolute(point=(2, 0, 0), direction=z, between=("crank", "coupler")),
+            "B": Revolute(point=(2, 4, 0), direction=z, between=("coupler", "rocker")),
+            "phi1": Revolute(point=(4.5, 0, 0), direction=z, between=("ground", "rocker")),
+        },
+    )
+    report = made.assemblies()
+    assert report.real == 2 and "joints" in made.to_ron(axes=True)
+
+
+def test_errors_say_where_and_what_and_the_remedy(four_bar):
+    with pytest.raises(QuestionError, match=r"(?s)`tetha1` is neither.*hold tetha1=1.*did you mean `theta1`\?"):
+        four_bar.solve(hold={"tetha1": 1})
+    with pytest.raises(QuestionError, match=r'free=\{?"theta1"'):
+        four_bar.solve(phi1=1)
+    with pytest.raises(QuestionError, match="velocity:phi1"):
+        four_bar.sweep("theta1", 0, 1, report="velocty:phi1")
+    with pytest.raises(MechanismError, match=r"wrong\.ron:1:"):
+        linkwork.parse("Mechanism(name: )", "wrong.ron")
+    with pytest.raises(MechanismError, match="l9"):
+        four_bar.with_parameters(l9=1)
+    with pytest.raises(FileNotFoundError):
+        linkwork.load("no such file.ron")
+    with pytest.raises(ValueError, match="column"):
+        four_bar.solve_many(np.zeros((3, 2)))
+    with pytest.raises(TypeError, match="did you mean `theta1`"):
+        four_bar.solve(tetha1=1)
+    with pytest.raises(TypeError, match="did you mean `steps`"):
+        four_bar.sweep("theta1", 0, 1, step=4)
+    with pytest.raises(QuestionError, match="no law"):
+        four_bar.sweep("theta1", 0, 1, law="sudden")
+    assert issubclass(QuestionError, linkwork.Error) and issubclass(linkwork.Error, ValueError)
+
+
+def test_everything_pickles(four_bar):
+    changed = four_bar.with_parameters(l1="1.1 m")
+    again = pickle.loads(pickle.dumps(changed))
+    assert again == changed and again.parameters == changed.parameters
+    for report in (changed.sweep("theta1", 0, 1, steps=4), changed.mobility()):
+        copy = pickle.loads(pickle.dumps(report))
+        assert copy == report and repr(copy) == repr(report) and copy._repr_html_() == report._repr_html_()
+        assert pickle.loads(pickle.dumps(copy)) == report
+    with pytest.raises(QuestionError) as caught:
+        four_bar.solve(hold={"tetha1": 1})
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+
+
+def test_a_notebook_shows_the_page_and_the_picture(four_bar):
+    shown = four_bar._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and 'sandbox="allow-scripts"' in shown
+    assert four_bar.page().count("four_bar.ron") == 1 and "<script" in four_bar.page()
+    assert four_bar._repr_svg_() in shown
+    assert four_bar.with_parameters(l2=0.1)._repr_svg_() is None
+
+
+def test_progress_is_shown_and_an_error_in_it_ends_the_work():
+    hand = linkwork.load(SHIPPED / "stewart_gough_6sps.ron")
+    seen = []
+
+    def progress(stage, done, of):
+        seen.append((stage, done, of))
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        hand.assemblies(progress=progress)
+    assert len(seen) == 1 and isinstance(seen[0][0], str) and threading.active_count() == 1
+
+
+def test_ctrl_c_ends_long_work():
+    script = """
+        import linkwork, sys, threading, time
+        m = linkwork.load(sys.argv[1])
+        print("begun", flush=True)
+        try:
+            for seed in range(1000):
+                m.assemblies(seed=seed)
+        except KeyboardInterrupt:
+            print("interrupted")
+    """
+    arguments = [sys.executable, "-c", textwrap.dedent(script), str(SHIPPED / "stewart_gough_6sps.ron")]
+    with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "begun\n"
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=10)[0] == "interrupted\n"
+
+
+def solved(m):
+    return m.assemblies().real, m.solve_many(np.linspace(0.5, 0.9, 3000))["phi1"].sum()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no fork")
+def test_forked_processes_have_threads_of_their_own(four_bar):
+    here = solved(four_bar)
+    context = __import__("multiprocessing").get_context("fork")
+    with warnings.catch_warnings(), concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as executor:
+        warnings.simplefilter("ignore")
+        assert list(executor.map(solved, [four_bar, four_bar], timeout=60)) == [here, here]
+
+
+def test_threads_ask_side_by_side(four_bar):
+    with concurrent.futures.ThreadPoolExecutor(4) as executor:
+        reports = list(executor.map(lambda angle: four_bar.solve(theta1=angle), [0.5, 0.6, 0.7, 0.8]))
+    assert [report.joints.theta1 for report in reports] == [0.5, 0.6, 0.7, 0.8]
+
+
+def test_the_command_line_comes_with_it():
+    shown = command("--version")
+    assert shown.stdout.split()[1] == linkwork.__version__
+    assert command("solve", "no such file").returncode == 2
+    assert json.loads(command("solve", SHIPPED / "four_bar.ron", "--format", "json").stdout)["outcome"] == "converged"
+
+
+@pytest.mark.parametrize("module", [linkwork, parts])
+def test_examples_in_the_documentation_are_right(module):
+    result = doctest.testmod(module)
+    assert result.attempted > 1 and result.failed == 0
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", ROOT / "src/guide/python.md"], ids=["README", "guide"])
+def test_the_pages_run(page, monkeypatch, tmp_path):
+    """The blocks of a page are one program, run where it finds the mechanisms; a comment behind an expression is what
+    it prints."""
+    (tmp_path / "mechanisms").symlink_to(SHIPPED)
+    monkeypatch.chdir(tmp_path)
+    blocks = page.read_text(encoding="utf-8").split("```python\n")[1:]
+    assert blocks
+    names = {"__name__": "page"}
+    for block in blocks:
+        code = block.split("```")[0]
+        exec(compile(code, str(page), "exec"), names)
+        for line in code.splitlines():
+            expression, _, comment = line.partition("  # ")
+            if comment.startswith("→ "):
+                assert repr(eval(expression, names)).splitlines()[0] == comment[2:], line
