@@ -20,6 +20,7 @@
 
 mod at_configuration;
 mod error;
+mod live;
 mod many;
 mod modes;
 mod motions;
@@ -39,6 +40,7 @@ use std::sync::Arc;
 
 pub use crate::system::Value;
 pub use error::{AskError, Item, Role, Unmeasured};
+pub use live::{Gained, Reading};
 pub use many::Many;
 pub use modes::{Mode, Modes, Solved, Store};
 pub use motions::Motions;

@@ -6,6 +6,8 @@
 
 #[cfg(target_arch = "wasm32")]
 mod abi;
+mod grip;
+mod live;
 mod request;
 mod shown;
 mod state;
@@ -18,8 +20,7 @@ use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::sweep::{Row, SweepReport, SweepSettings};
 use crate::ask::{AskError, Question, Solved, Steering};
 use crate::description::{Description, Problem};
-use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Frame, Mechanism, Point};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
 use crate::output::json::render;
 use crate::output::sweep::{sentence, worded};
@@ -27,7 +28,7 @@ use crate::output::{JsonReport, text};
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
-use request::{Analysis, Load, Request, Sweep};
+use request::{Analysis, Load, Press, Request, Sweep};
 use state::State;
 
 /// What a page keeps between requests.
@@ -36,6 +37,9 @@ pub struct Page {
     mechanism: Option<Arc<Mechanism>>,
     /// Where it is; nowhere if it does not assemble.
     steering: Option<Steering>,
+    load: Option<Press>,
+    /// The quantities that are read.
+    watched: String,
 }
 
 /// What there is instead of an answer.
@@ -51,10 +55,16 @@ impl Page {
     /// The reply to a request.
     pub fn answer(&mut self, request: &str) -> String {
         let reply = match serde_json::from_str(request) {
-            Ok(request) => self.reply(request).unwrap_or_else(|Refusal(said)| said),
-            Err(error) => json!({ "error": error.to_string() }),
+            Ok(Request::Ask { what, as_filed }) => self.ask(what, as_filed, &Watch::none()),
+            Ok(Request::Sweep(sweep)) => self.sweep(&sweep, &Watch::none()),
+            Ok(request) => self.reply(request).map(|reply| reply.to_string()),
+            Err(error) => Err(nothing(&error.to_string())),
         };
-        reply.to_string()
+        reply.unwrap_or_else(|Refusal(said)| said.to_string())
+    }
+
+    fn mechanism(&self) -> Result<Arc<Mechanism>, Refusal> {
+        (self.mechanism.clone()).ok_or_else(|| nothing("no mechanism"))
     }
 
     fn reply(&mut self, request: Request) -> Result<Value, Refusal> {
@@ -64,10 +74,7 @@ impl Page {
             Request::Move { to } => return self.move_to(&to, watch),
             _ => {}
         }
-        let mechanism = self
-            .mechanism
-            .clone()
-            .ok_or_else(|| nothing("no mechanism"))?;
+        let mechanism = self.mechanism()?;
         match request {
             Request::Hold { names } => {
                 let at = self.steering()?.at().clone();
@@ -81,24 +88,22 @@ impl Page {
                 self.steering = Some(asked.steering_from(at)?);
                 Ok(self.frame(None))
             }
-            Request::Grab { body, at } => {
-                let frame = body_frame(&mechanism, body)?;
-                let pose = mechanism.transform(Frame::Ground, frame, self.steering()?.at());
-                let offset = (pose.inverse() * Vector3(at)).0;
-                let name = Point { frame, offset }.name(&mechanism);
-                Ok(json!({ "offset": offset, "name": name }))
-            }
-            Request::Pull {
-                body,
-                offset,
-                to,
-                sight,
-            } => {
-                let frame = body_frame(&mechanism, body)?;
+            Request::Grab { part, at } => grip::grab(self.steering()?, part, at),
+            Request::Pull { grip, to, sight } => {
+                let grip = grip::points(&mechanism, &grip)?;
                 let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
-                let report = steering.pull(&Point { frame, offset }, to, sight, watch);
+                let report = steering.pull(&grip, to, sight, watch);
                 Ok(self.frame(stopped(&report).as_deref()))
             }
+            Request::Press { load } => {
+                self.load = load;
+                Ok(self.frame(None))
+            }
+            Request::Watch { quantities } => {
+                self.watch(quantities);
+                Ok(self.frame(None))
+            }
+            Request::Gained => live::gained(self.steering()?, watch),
             Request::Show { at } => {
                 Ok(json!({ "scene": Scene::of(&mechanism, &configuration(&at, &mechanism)?) }))
             }
@@ -116,14 +121,7 @@ impl Page {
                 let picture = sheet(&[panel], &DrawingSettings { view, labels });
                 Ok(json!({ "svg": picture.svg() }))
             }
-            Request::Ask { what, as_filed } => {
-                let asked = match as_filed {
-                    true => Question::new(mechanism.clone()),
-                    false => self.asked(&mechanism),
-                };
-                self::asked(&mechanism, &asked, what, watch)
-            }
-            Request::Sweep(sweep) => self.sweep(&mechanism, &sweep, watch),
+            Request::Ask { .. } | Request::Sweep(_) => unreachable!("answered before"),
             Request::Load(_) | Request::Move { .. } => unreachable!("answered above"),
         }
     }
@@ -161,6 +159,8 @@ impl Page {
         };
         let why = steering.as_ref().err().map(ToString::to_string);
         self.steering = steering.ok();
+        self.load = load.load.clone();
+        self.watch(load.quantities.clone());
         let mut reply = self.frame(why.as_deref());
         reply["mechanism"] = shown::mechanism(&mechanism, &description);
         reply["warnings"] = shown::problems(text, mechanism.warnings()).into();
@@ -184,12 +184,33 @@ impl Page {
         Ok(self.frame(stopped(&report).as_deref()))
     }
 
-    fn sweep(
-        &self,
-        mechanism: &Arc<Mechanism>,
-        sweep: &Sweep,
-        watch: &Watch,
-    ) -> Result<Value, Refusal> {
+    /// What the command line answers too.
+    fn ask(&self, what: Analysis, as_filed: bool, watch: &Watch) -> Result<String, Refusal> {
+        let mechanism = &self.mechanism()?;
+        let asked = match as_filed {
+            true => Question::new(mechanism.clone()),
+            false => self.asked(mechanism),
+        };
+        Ok(match what {
+            Analysis::Solve => match asked.solve(&AssemblySettings::default(), watch)? {
+                Solved::Ended(report) => answered(&*report, &[]),
+                Solved::Lost(lost) => answered(&*lost, &[]),
+            },
+            Analysis::Assemblies => {
+                let report = asked.assemblies(Default::default(), watch)?;
+                let like = mechanism.home();
+                let states = report.assemblies.iter().map(|assembly| {
+                    let at = assembly.configuration(&like);
+                    json!({ "at": State::of(&at), "scene": Scene::of(mechanism, &at) })
+                });
+                answered(&report, &states.collect::<Vec<_>>())
+            }
+            Analysis::Mobility => answered(&asked.mobility(watch)?, &[]),
+        })
+    }
+
+    fn sweep(&self, sweep: &Sweep, watch: &Watch) -> Result<String, Refusal> {
+        let mechanism = &self.mechanism()?;
         let asked = self.asked(mechanism);
         let mut asked = match &sweep.input {
             Some((name, from, to)) => (asked.let_go(name)).input(name, *from, *to),
@@ -224,9 +245,7 @@ impl Page {
             }));
         };
         let report = worded(motions.report(usize::MAX, &mut keep, watch));
-        let mut reply = report_of(&report);
-        reply["states"] = states.into();
-        Ok(reply)
+        Ok(answered(&report, &states))
     }
 
     fn steering(&self) -> Result<&Steering, Refusal> {
@@ -239,6 +258,13 @@ impl Page {
             Some(steering) => steering.question(),
             None => Question::new(mechanism.clone()),
         }
+    }
+
+    fn watch(&mut self, quantities: String) {
+        self.watched = match (quantities.trim(), &self.steering) {
+            ("", Some(steering)) => live::usual(steering),
+            _ => quantities,
+        };
     }
 
     /// The mechanism as it is now.
@@ -254,10 +280,17 @@ impl Page {
                 &home
             }
         };
+        let scene = Scene::of(mechanism, at);
+        let (scene, forces) = match (&self.steering, &self.load) {
+            (Some(steering), Some(load)) => live::pressed(steering, load, scene),
+            _ => (scene, Value::Null),
+        };
         json!({
             "said": said,
             "assembled": self.steering.is_some(),
-            "scene": Scene::of(mechanism, at),
+            "scene": scene,
+            "forces": forces,
+            "quantities": self.steering.as_ref().map(|of| live::readings(of, &self.watched)),
             "at": State::of(at),
             "values": shown::values(mechanism, at),
             "held": self.steering.as_ref().map(shown::held),
@@ -269,14 +302,6 @@ impl Page {
 /// Why a motion did not reach its end.
 fn stopped(report: &SweepReport) -> Option<String> {
     (!report.ending.is_whole()).then(|| sentence(report))
-}
-
-fn body_frame(mechanism: &Mechanism, body: usize) -> Result<Frame, Refusal> {
-    let bodies = mechanism.bodies();
-    let body = bodies
-        .get(body)
-        .ok_or_else(|| nothing("there is no such body"))?;
-    Ok(mechanism.body_frame(*body))
 }
 
 fn not_assembled() -> Refusal {
@@ -298,38 +323,12 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
         .fold(asked, |asked, (name, of)| asked.hold(name, of.of(at)))
 }
 
-/// What the command line answers too.
-fn asked(
-    mechanism: &Mechanism,
-    asked: &Question,
-    what: Analysis,
-    watch: &Watch,
-) -> Result<Value, Refusal> {
-    Ok(match what {
-        Analysis::Solve => match asked.solve(&AssemblySettings::default(), watch)? {
-            Solved::Ended(report) => report_of(&*report),
-            Solved::Lost(lost) => report_of(&*lost),
-        },
-        Analysis::Assemblies => {
-            let report = asked.assemblies(Default::default(), watch)?;
-            let like = mechanism.home();
-            let states = report.assemblies.iter().map(|assembly| {
-                let at = assembly.configuration(&like);
-                json!({ "at": State::of(&at), "scene": Scene::of(mechanism, &at) })
-            });
-            let states: Vec<Value> = states.collect();
-            let mut reply = report_of(&report);
-            reply["states"] = states.into();
-            reply
-        }
-        Analysis::Mobility => report_of(&asked.mobility(watch)?),
-    })
-}
-
-/// A report as the command line prints it, as JSON and as text.
-fn report_of(report: &impl JsonReport) -> Value {
-    let json: Value = serde_json::from_str(&render(report)).expect("what was written is JSON");
-    json!({ "report": json, "text": text::render(&report.shown()) })
+/// A report as the command line prints it, as JSON and as text, with the configurations that it lists. It may be long:
+/// it is written once.
+fn answered(report: &impl JsonReport, states: &[Value]) -> String {
+    let (report, text) = (render(report), Value::from(text::render(&report.shown())));
+    let states = Value::from(states);
+    format!("{{\"report\":{report},\"text\":{text},\"states\":{states}}}")
 }
 
 fn configuration(state: &State, mechanism: &Mechanism) -> Result<Configuration<f64>, Refusal> {

@@ -112,6 +112,32 @@ fn a_watched_page_is_served_to_this_machine_alone_and_follows_its_file() {
 }
 
 #[test]
+fn a_gallery_has_nothing_to_set_and_nothing_to_watch() {
+    for (given, why) in [
+        (
+            ["--set", "l2=3"].as_slice(),
+            "a gallery has no parameters to set",
+        ),
+        (&["--watch"], "there is no file to watch"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let run = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+            .arg("view")
+            .args(given)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert_eq!(run.status.code(), Some(2), "{said}");
+        assert!(
+            said.contains(why) && said.contains("linkwork view FILE"),
+            "{said}"
+        );
+        assert!(!folder.path().join("linkwork.html").exists());
+    }
+}
+
+#[test]
 fn a_page_is_written_beside_its_file_and_a_wrong_file_gives_none() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("linkage.ron");

@@ -21,6 +21,8 @@ pub struct Steering {
     still: Vec<Still>,
     driven: Vec<Coordinate>,
     at: Configuration<f64>,
+    /// The singular configuration that stopped the last motion.
+    stopped: Option<Configuration<f64>>,
 }
 
 /// Before a dead point a motion stops at least this far away, in rad or characteristic lengths: the rest of the mechanism,
@@ -71,6 +73,7 @@ impl Question {
             driven: resolved.held_coordinates(),
             still: resolved.with_spins_still().still().to_vec(),
             at,
+            stopped: None,
         })
     }
 
@@ -120,6 +123,18 @@ impl Steering {
         &self.at
     }
 
+    /// Whether a singular configuration stopped the last motion.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.is_some()
+    }
+
+    /// The same at the singular configuration that stopped the last motion, if one did.
+    pub(super) fn where_stopped(&self) -> Self {
+        let mut there = self.clone();
+        there.at = there.stopped.take().unwrap_or(there.at);
+        there
+    }
+
     /// What is held, where it is.
     pub fn held(&self) -> Held<f64> {
         self.held_but(&[])
@@ -164,6 +179,7 @@ impl Steering {
             return self.standing();
         }
         let (report, end) = self.moved(&inputs, watch);
+        self.stopped = None;
         let part = report.met.last().and_then(|met| met.part).unwrap_or(0.0);
         match report.ending {
             SweepEnd::Complete | SweepEnd::Limit => self.at = end,
@@ -186,17 +202,19 @@ impl Steering {
                     }
                     before *= 10.0;
                 }
+                self.stopped = Some(end);
             }
             _ => {}
         }
         report
     }
 
-    /// Moves what is held so that a point comes near to a place, both seen along `sight`: the step of least squares on the
-    /// motions that what is held has together, damped (J. Baillieul 1985, C. Wampler 1986), and no longer than is sure.
+    /// Moves what is held so that the weighted mean of points, such as a point of a rod between its ends, comes near to a
+    /// place, both seen along `sight`: the step of least squares on the motions that what is held has together, damped
+    /// (J. Baillieul 1985, C. Wampler 1986), and no longer than is sure.
     pub fn pull(
         &mut self,
-        point: &Point,
+        grip: &[(Point, f64)],
         to: [f64; 3],
         sight: Option<[f64; 3]>,
         watch: &Watch,
@@ -210,16 +228,24 @@ impl Steering {
         let loose = self.held_but(&self.driven);
         let freedoms = Freedoms::at(mechanism.dimensions(), &loose, &self.at);
         let motions = &freedoms.motions;
-        let twists = FrameTwists::new(mechanism.dimensions(), &freedoms.unknowns, &[*point]);
+        let points: Vec<Point> = grip.iter().map(|(point, _)| *point).collect();
+        let twists = FrameTwists::new(mechanism.dimensions(), &freedoms.unknowns, &points);
         let placement = twists.placed(&self.at);
+        let mean = |of: &dyn Fn(usize) -> Vector3<f64>| {
+            let weighted = grip.iter().enumerate();
+            weighted.fold(Vector3::zero(), |sum, (i, (_, weight))| {
+                sum + of(i).times(*weight)
+            })
+        };
         let seen = |v: Vector3<f64>| match sight.map(Vector3) {
             Some(sight) => v - sight.times(v.dot(&sight) / sight.dot(&sight)),
             None => v,
         };
-        let way = seen(Vector3(to) - twists.origin(0, &placement)).times(1.0 / length);
+        let from = mean(&|i| twists.origin(i, &placement));
+        let way = seen(Vector3(to) - from).times(1.0 / length);
         let mut matrix = Vec::new();
         for (k, motion) in motions.iter().enumerate() {
-            let velocity = seen(twists.twist(0, &placement, motion).velocity);
+            let velocity = seen(mean(&|i| twists.twist(i, &placement, motion).velocity));
             matrix.extend(velocity.times(1.0 / length).0);
             matrix.extend((0..motions.len()).map(|row| if row == k { DAMPING } else { 0.0 }));
         }
@@ -344,7 +370,7 @@ mod tests {
         let angle = 80_f64.to_radians();
         let to = [2.0 * angle.cos(), 2.0 * angle.sin(), 0.0];
         for _ in 0..60 {
-            steering.pull(&point, to, None, watch);
+            steering.pull(&[(point, 1.0)], to, None, watch);
         }
         let reached = steering.at().joints[0];
         assert!((reached - angle).abs() < 1e-3, "{reached} is not {angle}");

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use linkwork::output::complaint::Complaint;
 use linkwork::output::view::{Viewed, page};
 
 use super::served::serve;
@@ -23,13 +24,13 @@ pub struct View {
     /// The mechanism file: tables, or joint coordinates; without one the page is a gallery
     file: Option<PathBuf>,
     /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
-    #[arg(long, value_name = "NAME=VALUE", requires = "file")]
+    #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
     /// Where to write the page; beside the mechanism file if it is not given, or to linkwork.html without one
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Serve the page to this machine alone, and show the file anew whenever it is saved, until Ctrl-C
-    #[arg(long, conflicts_with = "output", requires = "file")]
+    #[arg(long, conflicts_with = "output")]
     watch: bool,
 }
 
@@ -43,6 +44,10 @@ impl View {
                 let viewed = source.viewed()?;
                 (viewed, source.beside("html"), loaded.warnings())
             }
+            None if self.watch => return Err(nameless("there is no file to watch")),
+            None if !self.set.is_empty() => {
+                return Err(nameless("a gallery has no parameters to set"));
+            }
             None => (Viewed::default(), "linkwork.html".into(), String::new()),
         };
         let path = self.output.as_ref().unwrap_or(&beside);
@@ -54,4 +59,11 @@ impl View {
         };
         Ok(answer.after(warnings))
     }
+}
+
+/// What only a mechanism file can have was asked for without one.
+fn nameless(why: &str) -> Refusal {
+    Complaint::new(why)
+        .help("name the mechanism file: `linkwork view FILE …`")
+        .into()
 }

@@ -53,6 +53,11 @@ pub fn quantity(value: f64, unit: SiUnit) -> String {
     with_unit(&number(shown(value, unit)), unit)
 }
 
+/// The same with three digits.
+pub(crate) fn three_digits(value: f64, unit: SiUnit) -> String {
+    quantity(format!("{value:.2e}").parse().unwrap_or(value), unit)
+}
+
 /// An angle in rad, shown in degrees.
 pub(super) fn degrees(radians: f64) -> String {
     quantity(radians, SiUnit::RADIAN)

@@ -1,6 +1,6 @@
 //! What a page can ask.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::state::State;
 
@@ -11,16 +11,25 @@ pub enum Request {
     Load(Load),
     /// Moves held coordinates together, in rad or m.
     Move { to: Vec<(String, f64)> },
-    /// Takes a point of a body, by its number in the scene, where it is in ground: its place in the body.
-    Grab { body: usize, at: [f64; 3] },
+    /// Takes a point of a body or a rod, by its number in the scene, where it is in ground: what holds it.
+    Grab {
+        #[serde(flatten)]
+        part: Part,
+        at: [f64; 3],
+    },
     /// Pulls such a point to a place in ground, both seen along a direction.
     Pull {
-        body: usize,
-        offset: [f64; 3],
+        grip: Vec<Hold>,
         to: [f64; 3],
         #[serde(default)]
         sight: Option<[f64; 3]>,
     },
+    /// Presses on a point, or on none any more.
+    Press { load: Option<Press> },
+    /// Reads quantities from now on: a list, or those of the file and the transmission angle if it is empty.
+    Watch { quantities: String },
+    /// The freedoms gained where a motion was stopped, or where the mechanism is.
+    Gained,
     /// Holds these coordinates where they are, and no others.
     Hold { names: Vec<String> },
     /// Puts the mechanism into an assembled configuration.
@@ -44,6 +53,28 @@ pub enum Request {
     Sweep(Sweep),
 }
 
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    Body(usize),
+    Rod(usize),
+}
+
+/// A point of a body, and its share in a place that bodies carry together.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Hold {
+    pub body: usize,
+    pub offset: [f64; 3],
+    pub share: f64,
+}
+
+/// A force in N, in ground, at a point.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Press {
+    pub point: String,
+    pub force: [f64; 3],
+}
+
 #[derive(Debug, Deserialize)]
 pub struct Load {
     pub text: String,
@@ -56,6 +87,10 @@ pub struct Load {
     /// Where the mechanism was, so that it stays on its branch.
     #[serde(default)]
     pub near: Option<State>,
+    #[serde(default)]
+    pub load: Option<Press>,
+    #[serde(default)]
+    pub quantities: String,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -107,6 +107,7 @@ pub fn figures(steering: &Steering) -> Value {
     let condition = freedoms.condition();
     json!({
         "condition": condition.is_finite().then_some(condition),
+        "stopped": steering.is_stopped(),
         "shown": match condition.is_finite() {
             true => number(condition),
             false => "infinite".into(),

@@ -1,5 +1,5 @@
-// How fast the solver in the page is, beside the program on one thread: `node tests/page/bench.mjs`, with the program
-// in LINKWORK. Times are medians; what is wanted is in brackets.
+// How fast the solver in the page is, beside the program on one thread: `node tests/page/bench.mjs`, with the program,
+// built with --release, in LINKWORK. Steps are medians, whole answers means; what is wanted is in brackets.
 import { execFileSync } from "node:child_process";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
@@ -39,30 +39,57 @@ for (const file of ["four_bar.ron", "three_rps.ron", "stewart_gough_6ups.ron"]) 
   const moved = timed(200, 100, step);
   const body = loaded.scene.bodies.findIndex((of) => !of.ground && (of.lines.length || of.corners.length));
   const [at] = loaded.scene.bodies[body].corners;
-  const { offset } = ask({ do: "grab", body, at });
+  const { grip } = ask({ do: "grab", body, at });
   const pulled = timed(200, 100, (i) => {
     const to = [at[0] + 0.02 * Math.sin(i / 10), at[1] + 0.02 * Math.cos(i / 10), at[2]];
-    ask({ do: "pull", body, offset, to });
+    const reply = ask({ do: "pull", grip, to });
+    if (reply.error) throw new Error(reply.error);
   });
   console.log(`${file}: a step of a slider ${moved.toFixed(2)} ms, of a drag ${pulled.toFixed(2)} ms [4]`);
 }
 
-for (const [file, wanted] of [["stewart_gough_6sps.ron", "2000"], ["three_rps.ron", ""], ["delta.ron", ""]]) {
-  const times = [1, 2, 3].map(() => {
-    ask({ do: "load", text: text(file) });
-    const begun = performance.now();
-    ask({ do: "ask", what: "assemblies", as_filed: true });
-    return performance.now() - begun;
+// processor time in ms of this process and of those that it has waited for, where the system tells it; else the time
+function spent() {
+  try {
+    const fields = readFileSync("/proc/self/stat", "utf8").split(") ").at(-1).split(" ").map(Number);
+    return [10 * (fields[11] + fields[12]), 10 * (fields[13] + fields[14])];
+  } catch {
+    return [performance.now(), performance.now()];
+  }
+}
+
+/** Milliseconds of one of so many calls, of this process or of the programs it starts. */
+function cost(which, count, act) {
+  const before = spent()[which];
+  for (let i = 0; i < count; i++) act();
+  return (spent()[which] - before) / count;
+}
+
+const RUNS = 5;
+const sweep = (steps, input) => ({
+  asked: { do: "sweep", steps, input: [input[0], input[1], input[2]] },
+  given: ["--input", `${input[0]}=${input[1]}..${input[2]}`, "--steps", String(steps)],
+});
+const tasks = [
+  ...["stewart_gough_6sps", "three_rps", "delta", "stewart_gough_6ups", "jansen_leg", "dietmaier", "bennett"].map((name) => (
+    { name, what: "assemblies", asked: { do: "ask", what: "assemblies", as_filed: true }, given: [] })),
+  { name: "four_bar", what: "sweep", ...sweep(20000, ["theta1", 1.0472, 7.3304]) },
+  { name: "stewart_gough_6ups", what: "sweep", ...sweep(5000, ["l1", 0.953618, 1.1]) },
+  { name: "jansen_leg", what: "sweep", ...sweep(10000, ["theta", 1.5708, 7.854]) },
+];
+for (const { name, what, asked, given } of tasks) {
+  const file = `mechanisms/${name}.ron`;
+  ask({ do: "load", text: text(`${name}.ron`) });
+  ask(asked);
+  const here = cost(0, RUNS, () => {
+    const reply = ask(asked);
+    if (reply.error) throw new Error(reply.error);
   });
   let beside = "";
   if (process.env.LINKWORK) {
-    const native = [1, 2, 3].map(() => {
-      const begun = performance.now();
-      const arguments_ = ["assemblies", join("mechanisms", file)];
-      execFileSync(process.env.LINKWORK, arguments_, { cwd: root, stdio: "ignore", env: { ...process.env, RAYON_NUM_THREADS: "1" } });
-      return performance.now() - begun;
-    });
-    beside = `, the program on one thread ${median(native).toFixed(0)} ms`;
+    const how = { cwd: root, stdio: "ignore", env: { ...process.env, RAYON_NUM_THREADS: "1" } };
+    const there = cost(1, RUNS, () => execFileSync(process.env.LINKWORK, [what, file, ...given, "--format", "json"], how));
+    beside = `, the program on one thread ${there.toFixed(0)} ms: ${(here / there).toFixed(2)} times [2]`;
   }
-  console.log(`${file}: all assemblies ${median(times).toFixed(0)} ms${wanted && ` [${wanted}]`}${beside}`);
+  console.log(`${name}: ${what} ${here.toFixed(0)} ms${name === "stewart_gough_6sps" ? " [2000]" : ""}${beside}`);
 }

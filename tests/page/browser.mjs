@@ -38,7 +38,7 @@ async function opened(file, fragment = "") {
 
 async function shown(path, fragment = "") {
   const page = await browser.newPage();
-  await page.setViewport({ width: 1000, height: 700 });
+  await page.setViewport({ width: 800, height: 500 });
   page.complaints = [];
   page.on("console", (message) => ["error", "warn"].includes(message.type()) && page.complaints.push(message.text()));
   page.on("pageerror", (error) => page.complaints.push(error.message));
@@ -50,6 +50,27 @@ async function shown(path, fragment = "") {
   await page.waitForSelector("html[data-ready]");
   return page;
 }
+
+let shared = null;
+
+/** A file in the page that is open already, shown as the gallery shows it: as fast as that, for what no fresh page is needed. */
+async function loaded(file) {
+  shared ??= await opened("mechanisms/four_bar.ron");
+  await shared.bringToFront();
+  shared.complaints.length = 0;
+  const text = readFileSync(resolve(root, file), "utf8");
+  await shared.evaluate((file, text) => {
+    document.querySelectorAll("#panel details").forEach((part) => (part.open = true));
+    globalThis.linkwork.load({ file, text, set: [] });
+  }, file, text);
+  await drawn(shared);
+  return shared;
+}
+
+const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** Files that are opened in pages of their own: planar, spatial, from joint coordinates. */
+const FRESH = ["four_bar", "stewart_gough_6ups", "axes/agile_eye"].map((name) => `mechanisms/${name}.ron`);
 
 /** How many pixels of the picture are not paper. */
 const inked = (page) => page.evaluate(() => {
@@ -64,18 +85,31 @@ const inked = (page) => page.evaluate(() => {
   return count;
 });
 
+/** Takes hold of a place of the picture and moves it so many pixels. */
+async function dragged(page, [x, y], [right, down]) {
+  const box = await page.$eval("#canvas", (canvas) => canvas.getBoundingClientRect().toJSON());
+  await page.mouse.move(box.x + x, box.y + y);
+  await page.mouse.down();
+  for (let i = 1; i <= 12; i++) {
+    await page.mouse.move(box.x + x + (right * i) / 12, box.y + y + (down * i) / 12);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
+  }
+  await page.mouse.up();
+}
+
 const values = (page) => page.evaluate(() => globalThis.linkwork.frame.values.map(([value]) => value));
 const said = (page) => page.$eval("#said", (element) => element.textContent);
 
 const tests = {
   async "every shipped file opens, without a complaint, and shows its mechanism"() {
     for (const file of files) {
-      const page = await opened(file);
+      const fresh = FRESH.includes(file);
+      const page = await (fresh ? opened(file) : loaded(file));
       check(page.complaints.length === 0, `${file}: ${page.complaints.join("; ")}`);
       check(await page.evaluate(() => globalThis.linkwork.frame?.assembled), `${file} is not assembled: ${await said(page)}`);
       const ink = await inked(page);
       check(ink > 1500, `${file}: only ${ink} pixels are drawn`);
-      await page.close();
+      if (fresh) await page.close();
     }
   },
 
@@ -87,14 +121,14 @@ const tests = {
       globalThis.linkwork.onMoved(() => {});
       document.querySelector("[data-view=plane]").click();
     });
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await drawn(page);
     check((await inked(page)) < 100, "an empty scene is not empty");
     await page.close();
   },
 
   async "a slider moves the mechanism on its branch and stops at a dead point"() {
     // the rocker of a crank-rocker, driven: it locks where crank and coupler are in line
-    const page = await opened("mechanisms/four_bar.ron");
+    const page = await loaded("mechanisms/four_bar.ron");
     await page.evaluate(() => globalThis.linkwork.holdToo("phi1"));
     const turns = ([, phi2]) => Math.sign(Math.sin(phi2));
     const before = await values(page);
@@ -109,31 +143,91 @@ const tests = {
       const after = await values(page);
       check(after.every((value, i) => Math.abs(value - before[i]) < 1e-7), `the way back ends at ${after}, not at ${before}`);
     }
-    await page.close();
   },
 
   async "a body follows the pointer and never flips"() {
-    const page = await opened("mechanisms/four_bar.ron");
-    const box = await page.$eval("#canvas", (canvas) => canvas.getBoundingClientRect().toJSON());
+    const page = await loaded("mechanisms/four_bar.ron");
     const at = await page.evaluate(() => globalThis.picture.pixelOf("left.1"));
     const before = await values(page);
-    await page.mouse.move(box.x + at[0], box.y + at[1]);
-    await page.mouse.down();
-    for (let i = 1; i <= 12; i++) {
-      await page.mouse.move(box.x + at[0] + 6 * i, box.y + at[1] + 2 * i);
-      await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
-    }
-    await page.mouse.up();
+    await dragged(page, at, [72, 24]);
     const after = await values(page);
     check(Math.abs(after[0] - before[0]) > 0.05, `the crank was not moved: ${after[0]}`);
     // the angle between coupler and rocker keeps its sign all the way round
     const side = ([theta1, phi2, phi1]) => Math.sign(Math.sin(phi1 - theta1 - phi2));
     check(side(after) === side(before), "the mechanism flipped");
-    await page.close();
+  },
+
+  async "a rod follows the pointer, and takes the mechanism with it"() {
+    const page = await loaded("mechanisms/delta.ron");
+    const before = await values(page);
+    const middle = await page.evaluate(() => {
+      const [a, b] = globalThis.linkwork.frame.scene.rods[0].ends;
+      return globalThis.picture.pixel(a.map((x, i) => (x + b[i]) / 2));
+    });
+    await dragged(page, middle, [20, 15]);
+    const after = await values(page);
+    check(after.some((value, i) => Math.abs(value - before[i]) > 1e-3), "nothing was moved");
+    check(await page.evaluate(() => globalThis.linkwork.frame.assembled), "it came apart");
+  },
+
+  async "the transmission angle is read as the crank moves"() {
+    const page = await loaded("mechanisms/four_bar.ron");
+    for (const crank of [1.1, 2, 3]) {
+      await page.evaluate((to) => globalThis.linkwork.move("theta1", to), crank);
+      const [name, shown] = await page.$eval("#readings", (all) => [all.querySelector("th").textContent, all.querySelector("td").textContent]);
+      // law of cosines on l0 = 5, l1 = 1, l2 = 3, l3 = 4
+      const cosine = (9 + 16 - (26 - 10 * Math.cos(crank))) / 24;
+      const angle = (Math.acos(Math.abs(cosine)) * 180) / Math.PI;
+      check(name === "transmission" && Math.abs(parseFloat(shown) - angle) < 1e-5, `${name} is ${shown}, not ${angle}°`);
+    }
+    await page.evaluate(() => globalThis.linkwork.watch("transmision"));
+    const said = await page.$eval("#readings-said", (element) => element.textContent);
+    check(said.includes("transmision"), `a wrong name is answered by: ${said}`);
+  },
+
+  async "a load is put on a body and dragged, and the forces follow"() {
+    const page = await loaded("mechanisms/four_bar.ron");
+    await page.click("#place-load");
+    const at = await page.evaluate(() => globalThis.picture.pixelOf("left.1"));
+    await dragged(page, at, [0, 0]);
+    // virtual work: what holds the crank does the opposite of the moment of the load about its pivot
+    const state = () => page.evaluate(() => {
+      const { scene, forces } = globalThis.linkwork.frame;
+      const arrow = scene.arrows.find((of) => of.applied);
+      const [x, y] = arrow.at;
+      return { force: arrow.force, moment: x * arrow.force[1] - y * arrow.force[0], held: parseFloat(forces.held[0][1]), tip: globalThis.picture.pixel(globalThis.picture.scenery.arrows.tip(arrow).toArray()) };
+    });
+    const first = await state();
+    check(Math.hypot(...first.force) === 10, `the load is ${first.force} N`);
+    check(Math.abs(first.held + first.moment) < 1e-4, `${first.held} N·m balance ${first.moment} N·m`);
+    await dragged(page, first.tip, [45, 10]);
+    const second = await state();
+    check(Math.abs(second.force[0]) > 1, `the load is ${second.force} N after it was dragged`);
+    check(Math.abs(second.held + second.moment) < 1e-4, `${second.held} N·m balance ${second.moment} N·m`);
+    await page.evaluate(() => globalThis.linkwork.move("theta1", 2));
+    const third = await state();
+    check(Math.abs(third.held + third.moment) < 1e-4 && third.held !== second.held, "the forces do not follow the crank");
+    await page.click("#remove-load");
+    check(await page.evaluate(() => !globalThis.linkwork.frame.scene.arrows), "the load stays");
+  },
+
+  async "a freedom gained at a dead point is shown moving"() {
+    const page = await loaded("mechanisms/four_bar.ron");
+    await page.evaluate(() => globalThis.linkwork.holdToo("phi1"));
+    const home = (await values(page))[2];
+    check((await page.$eval("#gained", (of) => of.textContent)) === "", "a freedom is gained at home");
+    await page.evaluate((to) => globalThis.linkwork.move("phi1", to), home + 2);
+    await page.waitForFunction(() => document.getElementById("gained").textContent !== "");
+    const picture = () => page.evaluate(() => document.getElementById("canvas").toDataURL());
+    const before = await picture();
+    await new Promise((done) => setTimeout(done, 400));
+    check((await picture()) !== before, "it does not move");
+    await page.evaluate((to) => globalThis.linkwork.move("phi1", to), home);
+    check((await page.$eval("#gained", (of) => of.textContent)) === "", "it is shown where there is none");
   },
 
   async "assemblies are listed, and a click goes to one"() {
-    const page = await opened("mechanisms/three_rps.ron");
+    const page = await loaded("mechanisms/three_rps.ron");
     await page.click("#list-modes");
     await page.waitForSelector("#mode-list button", { timeout: 120_000 });
     const modes = await page.$$("#mode-list button");
@@ -141,16 +235,14 @@ const tests = {
     await modes[5].click();
     const pressed = await page.$$eval("#mode-list button", (all) => all.map((b) => b.getAttribute("aria-pressed")));
     check(pressed.indexOf("true") === 5, `marked are ${pressed}`);
-    await page.close();
   },
 
   async "what is held is chosen by a click, whole platforms too"() {
-    const page = await opened("mechanisms/four_bar.ron");
+    const page = await loaded("mechanisms/four_bar.ron");
     const held = () => page.evaluate(() => globalThis.linkwork.frame.held.join(" "));
     await page.click("[data-name=phi1][type=checkbox]");
     check((await held()) === "phi1", `held is ${await held()}`);
-    await page.close();
-    const platform = await opened("mechanisms/stewart_gough_6ups.ron");
+    const platform = await loaded("mechanisms/stewart_gough_6ups.ron");
     const all = ["x", "y", "z", "roll", "pitch", "yaw"].map((c) => `top.${c}`);
     check(await platform.evaluate((names) => globalThis.linkwork.holds(names), all), "a platform cannot be held whole");
     await platform.evaluate(() => globalThis.linkwork.move("top.z", 0.95));
@@ -158,11 +250,10 @@ const tests = {
     const at = (await values(platform)).slice(-6);
     check(Math.abs(at[2] - 0.95) < 1e-9 && Math.abs(at[0] - 0.05) < 1e-9, `the platform is at ${at}`);
     check((await said(platform)) === "", await said(platform));
-    await platform.close();
   },
 
   async "a sweep marks dead points, and its cursor moves the picture"() {
-    const page = await opened("mechanisms/chebyshev.ron");
+    const page = await loaded("mechanisms/chebyshev.ron");
     await page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = true)));
     await page.click("#sweep");
     await page.waitForSelector("#play:not([disabled])", { timeout: 60_000 });
@@ -174,28 +265,25 @@ const tests = {
       cursor.value = "30";
       cursor.dispatchEvent(new Event("input"));
     });
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await drawn(page);
     check((await picture()) !== before, "the cursor does not move the picture");
-    await page.close();
   },
 
   async "keys move what is held"() {
-    const page = await opened("mechanisms/four_bar.ron");
+    const page = await loaded("mechanisms/four_bar.ron");
     await page.focus("#canvas");
     for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowRight");
     const [theta1] = await values(page);
     check(Math.abs((theta1 * 180) / Math.PI - 63) < 1e-9, `theta1 is ${theta1}`);
-    await page.close();
   },
 
   async "a parameter that leaves no assembly is refused"() {
-    const page = await opened("mechanisms/four_bar.ron");
+    const page = await loaded("mechanisms/four_bar.ron");
     await page.evaluate(() => globalThis.linkwork.set([["l2", "3.2"]]));
     check((await page.evaluate(() => globalThis.linkwork.file.set.length)) === 1, "l2 is not set");
     await page.evaluate(() => globalThis.linkwork.set([["l2", "0.2"]]));
     check((await page.evaluate(() => globalThis.linkwork.file.set[0][1])) === "3.2", "the old value is not kept");
     check((await said(page)).includes("l2 = 0.2"), await said(page));
-    await page.close();
   },
 
   async "a page without a mechanism is a gallery of all that are shipped"() {
@@ -232,7 +320,7 @@ const tests = {
   },
 
   async "problems of the editor stand at their line and column"() {
-    const page = await opened("mechanisms/four_bar.ron");
+    const page = await loaded("mechanisms/four_bar.ron");
     const text = readFileSync(join(root, "mechanisms/four_bar.ron"), "utf8");
     const wrongText = text.replace(/theta: "theta1"/, 'theta: "tehta1"');
     check(wrongText !== text, "the file names theta1");
@@ -252,7 +340,6 @@ const tests = {
       area.dispatchEvent(new Event("input"));
     }, text);
     await page.waitForFunction(() => !document.querySelector("#problems .error"));
-    await page.close();
   },
 
   async "a link holds the mechanism and where it is"() {

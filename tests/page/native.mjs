@@ -1,9 +1,12 @@
 // The solver in the page answers as the program does: solve, assemblies and mobility of every shipped file.
 import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
+import { availableParallelism } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { isMainThread, parentPort, Worker, workerData } from "node:worker_threads";
 import { files, root } from "./files.mjs";
-import { solver } from "./solver.mjs";
+import { compiled, instance } from "./solver.mjs";
 
 const page = process.env.PAGE ?? join(root, "src/page/page.html");
 const program = process.env.LINKWORK;
@@ -11,7 +14,6 @@ const program = process.env.LINKWORK;
 const TOLERANCE = 1e-12;
 /** What tells how an answer was found: last digits decide it. */
 const WORK = new Set(["steps", "evaluations", "retried", "paths", "seeds", "quiet_seeds", "loops", "quiet_loops", "complete"]);
-const asked = process.argv.slice(2).length ? process.argv.slice(2) : files;
 
 /** Rounding that a condition number magnifies: where it is some thousands, the last of twelve digits are lost. */
 const ROUNDING = 16 * Number.EPSILON;
@@ -37,48 +39,64 @@ function difference(a, b, at, condition = 1) {
   return null;
 }
 
-/** Assemblies that the program needs so long for, in ms, are left out: the page has one thread. */
-const PATIENCE = 20_000;
-
-/** What the program answers; null if it has no answer, nothing if it needs too long. */
+/** What the program answers; null if it has no answer. */
 function native(what, file) {
-  const how = { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28, timeout: PATIENCE, killSignal: "SIGKILL" };
+  const how = { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28 };
   try {
     return JSON.parse(execFileSync(program, [what, file, "--format", "json"], how));
   } catch (error) {
-    if (error.signal || error.code === "ETIMEDOUT") return undefined;
     // exit 1 is an answer, 2 is none
     return error.status === 1 ? JSON.parse(error.stdout) : null;
   }
 }
 
-let wrong = 0;
-for (const file of asked) {
+/** What differs in the answers about a file. */
+async function differences(module, file) {
   // one solver for each file, as a page has
-  const ask = await solver(page);
+  const ask = await instance(module);
   const loaded = ask({ do: "load", text: readFileSync(join(root, file), "utf8") });
-  if (loaded.error || loaded.problems) {
-    console.log(`${file}: cannot be loaded: ${JSON.stringify(loaded).slice(0, 200)}`);
-    wrong++;
-    continue;
-  }
-  for (const what of ["solve", "assemblies", "mobility"]) {
-    const then = performance.now();
+  if (loaded.error || loaded.problems) return [`cannot be loaded: ${JSON.stringify(loaded).slice(0, 200)}`];
+  return ["solve", "assemblies", "mobility"].flatMap((what) => {
+    if (what === "assemblies" && LONG.has(file)) return [];
     const there = native(what, file);
-    const program = performance.now() - then;
-    if (there === undefined) {
-      console.log(`${file} ${what}: left out, it takes the program more than ${PATIENCE / 1000} s`);
-      continue;
-    }
-    const begun = performance.now();
     const here = ask({ do: "ask", what, as_filed: true });
-    const spent = performance.now() - begun;
     const found = there === null ? (here.error ? null : "the page answers, the program does not") : difference(here.report ?? null, there, "");
-    if (found) wrong++;
-    if (found || process.env.TIMES) {
-      console.log(`${file} ${what}: ${found ?? "same"} (page ${spent.toFixed(0)} ms, program ${program.toFixed(0)} ms)`);
-    }
-  }
+    return found ? [`${what}: ${found}`] : [];
+  });
 }
-console.log(`${asked.length} files, ${wrong} differences`);
-process.exit(wrong ? 1 : 0);
+
+/** Assemblies that take minutes: the page has one thread. */
+const LONG = new Set(["mechanisms/axes/h4.ron"]);
+
+if (isMainThread) {
+  const asked = process.argv.slice(2).length ? process.argv.slice(2) : files;
+  const module = await compiled(page);
+  // what takes longest first, so that no core waits at the end
+  const size = (file) => statSync(join(root, file)).size;
+  const waiting = asked.toSorted((a, b) => size(b) - size(a));
+  let wrong = 0;
+  const worker = () => new Promise((done, fail) => {
+    const worker = new Worker(fileURLToPath(import.meta.url), { workerData: module });
+    const next = () => {
+      const file = waiting.shift();
+      if (file) worker.postMessage(file);
+      else worker.terminate().then(done, fail);
+    };
+    worker.on("error", fail);
+    worker.on("message", ({ file, found, spent }) => {
+      wrong += found.length;
+      found.forEach((words) => console.log(`${file} ${words}`));
+      if (process.env.TIMES) console.log(`${file}: ${spent.toFixed(0)} ms`);
+      next();
+    });
+    next();
+  });
+  await Promise.all(Array.from({ length: Math.min(availableParallelism(), asked.length) }, worker));
+  console.log(`${asked.length} files, ${wrong} differences`);
+  process.exit(wrong ? 1 : 0);
+} else {
+  parentPort.on("message", async (file) => {
+    const begun = performance.now();
+    parentPort.postMessage({ file, found: await differences(workerData, file), spent: performance.now() - begun });
+  });
+}

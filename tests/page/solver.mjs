@@ -3,16 +3,25 @@ import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 
 export async function solver(page) {
+  return instance(await compiled(page));
+}
+
+/** The module in a page. */
+export async function compiled(page) {
   const html = readFileSync(page, "utf8");
   const packed = html.match(/<script type="text\/plain" id="wasm">([^<]*)</)[1];
-  const module = await WebAssembly.compile(gunzipSync(Buffer.from(packed, "base64")));
+  return WebAssembly.compile(gunzipSync(Buffer.from(packed, "base64")));
+}
+
+/** What answers requests. */
+export async function instance(module) {
   // no time passes, as in the page (src/page/script/clock.ts)
   const imports = {};
   for (const { module: from, name } of WebAssembly.Module.imports(module)) {
     (imports[from] ??= {})[name] = () => (/_now_|is_undefined/.test(name) ? 0 : 1);
   }
-  const instance = await WebAssembly.instantiate(module, imports);
-  const { memory, room, answer, reply } = instance.exports;
+  const { exports } = await WebAssembly.instantiate(module, imports);
+  const { memory, room, answer, reply } = exports;
   return (request) => {
     const bytes = new TextEncoder().encode(JSON.stringify(request));
     const at = room(bytes.length);

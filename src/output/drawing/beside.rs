@@ -6,8 +6,8 @@ use super::{GROUND, Layer, Piece, Stage};
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
 use crate::output::canvas::{Colour, INK, Pixel, Shape, Style};
-use crate::output::quantity::quantity;
-use crate::scene::{Arrow, Travel, Triple, across};
+use crate::output::quantity::three_digits;
+use crate::scene::{Arrow, Axis, Travel, Triple, across};
 
 type Point = Vector3<f64>;
 
@@ -92,15 +92,7 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
         if screw.pitch.is_some() {
             shapes.extend(turning(stage, at, along, 2.2 * metres, GAINED).0);
         }
-        let said = match screw.pitch {
-            None => format!("{} slides", screw.name),
-            Some(0.0) => format!("{} turns", screw.name),
-            Some(pitch) => {
-                let pitch = three_digits(pitch, SiUnit::METRE);
-                format!("{} screws, {pitch}/rad", screw.name)
-            }
-        };
-        named.push((said, at + half));
+        named.push((movement(screw), at + half));
     }
     for centre in &scene.centres {
         let (x, y) = stage.pixel(&Vector3(centre.at));
@@ -118,6 +110,18 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
         force(stage, arrow, largest, &mut shapes, &mut named);
     }
     (shapes, named)
+}
+
+/// How a body moves about and along a screw.
+pub(crate) fn movement(screw: &Axis) -> String {
+    match screw.pitch {
+        None => format!("{} slides", screw.name),
+        Some(0.0) => format!("{} turns", screw.name),
+        Some(pitch) => {
+            let pitch = three_digits(pitch, SiUnit::METRE);
+            format!("{} screws, {pitch}/rad", screw.name)
+        }
+    }
 }
 
 /// A force as an arrow that begins, or if it is applied ends, at its point; a moment as an arc about its axis.
@@ -172,11 +176,6 @@ fn turning(
     let line = stage.open(&arc, Style::line(colour, 2.0));
     let head = head(stage.pixel(&arc[22]), stage.pixel(&arc[24]), colour);
     (std::iter::once(line).chain(head).collect(), arc[8])
-}
-
-/// A quantity with three digits.
-fn three_digits(value: f64, unit: SiUnit) -> String {
-    quantity(format!("{value:.2e}").parse().unwrap_or(value), unit)
 }
 
 /// The head of an arrow; none if it points to the viewer.

@@ -1,26 +1,36 @@
-// Bodies follow the pointer as far as what is held lets them.
+// Bodies and rods follow the pointer as far as what is held lets them; a load follows it at its tip.
 import { Vector3 } from "three";
 import type { Model } from "./model";
 import type { Stage } from "./stage";
-import { Refused, type Scene, type Triple } from "./types";
+import { Refused, type Grip, type Hold, type Scene, type Triple } from "./types";
+import type { Pick } from "./shapes";
 
 interface Grabbed {
   pointer: number;
-  body: number;
-  offset: Triple;
   at: Vector3;
+  /** Takes it to a place, as seen along a direction. */
+  take(to: Triple, sight: Triple): void;
 }
 
-/** The body that a pointer meets; of a joint the one that moves. */
-function bodyOf(scene: Scene, pick: { body?: number; joint?: number }): number | null {
-  if (pick.joint !== undefined) {
-    const [first, second] = scene.joints[pick.joint]!.bodies;
-    return scene.bodies[second]?.ground ? first : second;
+/** What a click on a body is for, if not to move it. */
+export interface Aim {
+  /** Whether it was of use. */
+  clicked(point: string): boolean;
+  /** Takes the tip of the load to a place; nothing if no tip is there. */
+  tip(pick: Pick): ((to: Triple) => void) | null;
+}
+
+/** The body or rod that a pointer meets; of a joint the body that moves. */
+function partOf(scene: Scene, { body, joint, rod }: Pick): { body: number } | { rod: number } | null {
+  if (rod !== undefined) return { rod };
+  if (joint !== undefined) {
+    const [first, second] = scene.joints[joint]!.bodies;
+    body = scene.bodies[second]?.ground ? first : second;
   }
-  return pick.body ?? null;
+  return body === undefined || scene.bodies[body]?.ground ? null : { body };
 }
 
-export function dragging(stage: Stage, model: Model, point: (name: string) => void) {
+export function dragging(stage: Stage, model: Model, aim: Aim, point: (name: string) => void) {
   let grabbed: Grabbed | null = null;
   let waiting: { clientX: number; clientY: number } | null = null;
   const canvas = stage.canvas;
@@ -30,29 +40,42 @@ export function dragging(stage: Stage, model: Model, point: (name: string) => vo
     const to = stage.place(waiting, grabbed.at);
     waiting = null;
     const sight = stage.camera.getWorldDirection(new Vector3()).toArray() as Triple;
-    const { body, offset } = grabbed;
-    // two steps of least squares for each picture: the second corrects what the first bends away
-    for (let i = 0; i < 2; i++) model.change({ do: "pull", body, offset, to: to.toArray() as Triple, sight });
+    grabbed.take(to.toArray() as Triple, sight);
   };
 
-  /** The body under a pointer, if it can be moved. */
-  const held = (event: PointerEvent) => {
+  /** A part takes two steps of least squares for each picture: the second corrects what the first bends away. */
+  const pulled = (grip: Hold[]) => (to: Triple, sight: Triple) => {
+    for (let i = 0; i < 2; i++) model.change({ do: "pull", grip, to, sight });
+  };
+
+  /** What is under a pointer, if it can be moved. */
+  const under = (event: PointerEvent) => {
     const { frame } = model;
-    if (!frame?.assembled || !frame.held?.length) return null;
-    const hit = stage.hit(event);
-    const body = hit && bodyOf(frame.scene, hit.pick);
-    return hit && body !== null && !frame.scene.bodies[body]?.ground ? { hit, body } : null;
+    const hit = frame?.assembled ? stage.hit(event) : null;
+    if (!frame || !hit) return null;
+    const tip = aim.tip(hit.pick);
+    const part = partOf(frame.scene, hit.pick);
+    return tip || part ? { at: hit.at, tip, part } : null;
+  };
+
+  /** Takes hold of a part; nothing if the click was for something else. */
+  const grab = (part: { body: number } | { rod: number }, at: Vector3): Grabbed["take"] | null => {
+    const { grip, name } = model.ask<Grip>({ do: "grab", ...part, at: at.toArray() as Triple });
+    if (name !== null) {
+      if (aim.clicked(name)) return null;
+      point(name);
+    }
+    return model.frame?.held?.length ? pulled(grip) : null;
   };
 
   canvas.addEventListener("pointerdown", (event) => {
-    const found = event.button === 0 ? held(event) : null;
+    const found = event.button === 0 ? under(event) : null;
     if (!found) return;
-    const { body, hit } = found;
     try {
-      const at = hit.at.toArray() as Triple;
-      const { offset, name } = model.ask<{ offset: Triple; name: string }>({ do: "grab", body, at });
-      grabbed = { pointer: event.pointerId, body, offset, at: hit.at };
-      point(name);
+      const take = found.tip ?? (found.part && grab(found.part, found.at));
+      event.stopImmediatePropagation();
+      if (!take) return;
+      grabbed = { pointer: event.pointerId, at: found.at, take };
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       return;
@@ -60,11 +83,10 @@ export function dragging(stage: Stage, model: Model, point: (name: string) => vo
     canvas.classList.add("dragging");
     canvas.setPointerCapture(event.pointerId);
     stage.orbit.enabled = false;
-    event.stopImmediatePropagation();
   }, { capture: true });
 
   canvas.addEventListener("pointermove", (event) => {
-    if (!grabbed && event.buttons === 0) canvas.classList.toggle("over", held(event) !== null);
+    if (!grabbed && event.buttons === 0) canvas.classList.toggle("over", under(event) !== null);
     if (grabbed?.pointer !== event.pointerId) return;
     if (!waiting) requestAnimationFrame(pull);
     waiting = { clientX: event.clientX, clientY: event.clientY };

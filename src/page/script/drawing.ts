@@ -42,6 +42,15 @@ export function points(scene: Scene): Vector3[] {
   return [...[...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints].map(v), ...wheels];
 }
 
+/** Half the length of a guide, in sizes of joints. */
+const GUIDE = 3.5;
+
+/** The ends of the guides of slides. */
+export function guides(scene: Scene, size: number): Vector3[] {
+  const slides = scene.joints.filter((joint) => joint.kind === "prismatic" || joint.kind === "cylindrical");
+  return slides.flatMap(({ at, axes }) => [-GUIDE, GUIDE].map((part) => v(at).addScaledVector(v(axes[0]!).normalize(), part * size)));
+}
+
 /** How large a joint is drawn: as its neighbours leave room for, within what can be seen and hides no links. */
 export function jointSize(scene: Scene, extent: number): number {
   let room = Infinity;
@@ -52,7 +61,7 @@ export function jointSize(scene: Scene, extent: number): number {
       if (apart > 0.008 * extent) room = Math.min(room, apart);
     }
   }
-  return Math.min(Math.max(0.3 * room, 0.009 * extent), 0.02 * extent);
+  return Math.min(Math.max(0.3 * room, 0.009 * extent), 0.018 * extent);
 }
 
 export class Drawing {
@@ -78,7 +87,7 @@ export class Drawing {
   }
 
   /** In the plane, what is of a higher layer covers what is of a lower one. */
-  private above(point: Vector3, layer: number): Vector3 {
+  above(point: Vector3, layer: number): Vector3 {
     return this.plane ? point.clone().addScaledVector(this.plane.towards, 3 * layer * this.size) : point;
   }
 
@@ -103,11 +112,14 @@ export class Drawing {
   }
 
   private joint(scene: Scene, joint: JointShape, index: number) {
-    const { shapes, size, plane } = this;
+    const { shapes, plane } = this;
     const pick = { joint: index };
+    const held = joint.names.some((name) => this.held.has(name));
+    // one that is held is seen where another stands in the same place
+    const size = (held ? 1.06 : 1) * this.size;
     const fixed = joint.bodies.some((body) => scene.bodies[body]?.ground);
     const free = plane ? theme().joint : theme().solid;
-    const colour = joint.names.some((name) => this.held.has(name)) ? theme().driven : free;
+    const colour = held ? theme().driven : free;
     const at = this.above(v(joint.at), 2);
     const axis = (k: number) => v(joint.axes[k] ?? [0, 0, 1]).normalize();
     const facing = plane && Math.abs(plane.towards.dot(axis(0))) > 1 - 1e-9;
@@ -163,10 +175,10 @@ export class Drawing {
 
   /** The line along which a slide moves, hatched where it is fixed to ground. */
   private guide(at: Vector3, axis: Vector3, fixed: boolean) {
-    const [from, to] = [-3.5, 3.5].map((part) => at.clone().addScaledVector(axis, part * this.size));
+    const [from, to] = [-GUIDE, GUIDE].map((part) => at.clone().addScaledVector(axis, part * this.size));
     const colour = fixed ? theme().ground : theme().ink;
     this.shapes.rod(from!, to!, 0.12 * this.size, colour);
-    if (fixed && this.plane) this.hatch(at, axis, axis.clone().cross(this.plane.towards), 3.5);
+    if (fixed && this.plane) this.hatch(at, axis, axis.clone().cross(this.plane.towards), GUIDE);
   }
 
   /** A pin on ground: a triangle on a hatched line. */

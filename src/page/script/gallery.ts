@@ -3,29 +3,26 @@ import { Vector3 } from "three";
 import { planeOf } from "./drawing";
 import { element, find } from "./elements";
 import type { File } from "./model";
-import type { Solver } from "./solver";
+import { unpacked } from "./packed";
+import { Solver } from "./solver";
 import { bodyColour, theme } from "./theme";
 import { type Loaded, Refused, type Scene, type Triple } from "./types";
 
 const SIZE = 120;
 
-export function gallery(files: [string, string][], solver: Solver, open: (file: File) => void) {
+interface Item {
+  item: HTMLButtonElement;
+  canvas: HTMLCanvasElement;
+  text: string;
+}
+
+export function gallery(module: WebAssembly.Module, open: (file: File) => void) {
   const dialog = find<HTMLDialogElement>("gallery");
-  const items = files.map(([file, text]) => {
-    const canvas = element("canvas", { width: String(2 * SIZE), height: String(2 * SIZE) });
-    const name = text.match(/\bname:\s*"((?:[^"\\]|\\.)*)"/)?.[1] ?? file;
-    const item = element("button", { type: "button", "data-file": file }, canvas, element("span", {}, name));
-    item.addEventListener("click", () => {
-      dialog.close();
-      open({ file, text, set: [] });
-    });
-    return { item, canvas, text };
-  });
-  find("gallery-items").replaceChildren(...items.map(({ item }) => item));
-  const waiting = [...items];
+  let waiting: Item[] | null = null;
+  let solver: Solver;
   const next = () => {
-    const { canvas, text } = waiting.shift() ?? {};
-    if (!canvas || text === undefined || !dialog.open) return;
+    const { canvas, text } = (dialog.open && waiting?.shift()) || {};
+    if (!canvas || text === undefined) return;
     try {
       thumbnail(canvas, solver.ask<Loaded>({ do: "load", text }).scene);
     } catch (error) {
@@ -33,10 +30,29 @@ export function gallery(files: [string, string][], solver: Solver, open: (file: 
     }
     setTimeout(next, 0);
   };
-  return () => {
+  return async () => {
+    if (!waiting) {
+      const files = (await unpacked("files").json()) as [string, string][];
+      waiting = items(files, (file) => {
+        dialog.close();
+        open(file);
+      });
+      find("gallery-items").replaceChildren(...waiting.map(({ item }) => item));
+      solver = await Solver.of(module);
+    }
     dialog.showModal();
     setTimeout(next, 0);
   };
+}
+
+function items(files: [string, string][], open: (file: File) => void): Item[] {
+  return files.map(([file, text]) => {
+    const canvas = element("canvas", { width: String(2 * SIZE), height: String(2 * SIZE) });
+    const name = text.match(/\bname:\s*"((?:[^"\\]|\\.)*)"/)?.[1] ?? file;
+    const item = element("button", { type: "button", "data-file": file }, canvas, element("span", {}, name));
+    item.addEventListener("click", () => open({ file, text, set: [] }));
+    return { item, canvas, text };
+  });
 }
 
 /** Links as lines, in the plane of the mechanism or isometric. */

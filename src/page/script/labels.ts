@@ -1,22 +1,18 @@
 // Names of joints, rods and platforms beside them, none over another.
 import { Vector3 } from "three";
 import { element, find } from "./elements";
+import type { Note } from "./arrows";
 import type { Stage } from "./stage";
 import type { Scene, Triple } from "./types";
 
-interface Named {
-  name: string;
-  at: Vector3;
-}
-
 const v = (t: Triple) => new Vector3(...t);
 
-function names(scene: Scene): Named[] {
-  const joints = scene.joints.filter((joint) => joint.kind !== "rigid").map((joint) => ({ name: joint.names.join(", "), at: v(joint.at) }));
-  const rods = scene.rods.map((rod) => ({ name: rod.name, at: v(rod.ends[0]).lerp(v(rod.ends[1]), 0.5) }));
+function names(scene: Scene): Note[] {
+  const joints = scene.joints.filter((joint) => joint.kind !== "rigid").map((joint) => ({ words: joint.names.join(", "), at: v(joint.at) }));
+  const rods = scene.rods.map((rod) => ({ words: rod.name, at: v(rod.ends[0]).lerp(v(rod.ends[1]), 0.5) }));
   const platforms = scene.bodies.filter((body) => body.platform && body.corners.length > 0).map((body) => {
     const middle = body.corners.reduce((sum, corner) => sum.add(v(corner)), new Vector3());
-    return { name: body.name, at: middle.divideScalar(body.corners.length) };
+    return { words: body.name, at: middle.divideScalar(body.corners.length) };
   });
   return [...joints, ...rods, ...platforms];
 }
@@ -25,30 +21,29 @@ export class Labels {
   shown = false;
   private spans: HTMLSpanElement[] = [];
 
-  place(stage: Stage, scene: Scene | null) {
+  /** Notes first, then names if they are shown. */
+  place(stage: Stage, scene: Scene | null, notes: Note[], size: number) {
     const layer = find("labels");
-    if (!this.shown || !scene) {
-      layer.replaceChildren();
-      this.spans = [];
-      return;
-    }
-    const wanted = names(scene);
+    const wanted = [...notes, ...(this.shown && scene ? names(scene) : [])];
     if (this.spans.length !== wanted.length) {
       this.spans = wanted.map(() => element("span"));
       layer.replaceChildren(...this.spans);
     }
     const taken: DOMRect[] = [];
-    wanted.forEach(({ name, at }, i) => {
+    const picture = new DOMRect(0, 0, stage.canvas.clientWidth, stage.canvas.clientHeight);
+    // beside the symbols of joints, not over them
+    const off = Math.max(8, 1.3 * size * stage.pixelsPerMetre());
+    wanted.forEach(({ words, at }, i) => {
       const span = this.spans[i]!;
-      if (span.textContent !== name) span.textContent = name;
+      if (span.textContent !== words) span.textContent = words;
       const [x, y] = stage.pixel(at);
-      const [width, height] = [6.6 * name.length + 2, 15];
+      const [width, height] = [6.6 * words.length + 2, 15];
       const sides: [number, number][] = [
-        [10, -height - 4], [10, 6], [-width - 10, -height - 4], [-width - 10, 6], [-width / 2, -height - 14], [-width / 2, 14],
-        [14, -2 * height - 6], [-width - 14, height + 8],
+        [off, -height - 3], [off, 3], [-width - off, -height - 3], [-width - off, 3], [-width / 2, -height - off - 4],
+        [-width / 2, off + 4], [off + 4, -2 * height - 6], [-width - off - 4, height + 8], [off + 4, height + 8],
       ];
       const boxes = sides.map(([dx, dy]) => new DOMRect(x + dx, y + dy, width, height));
-      const free = boxes.find((box) => taken.every((other) => apart(box, other)));
+      const free = boxes.find((box) => within(box, picture) && taken.every((other) => apart(box, other)));
       span.hidden = !free;
       if (!free) return;
       taken.push(free);
@@ -56,6 +51,8 @@ export class Labels {
     });
   }
 }
+
+const within = (a: DOMRect, b: DOMRect) => a.left >= b.left && a.right <= b.right && a.top >= b.top && a.bottom <= b.bottom;
 
 const apart = (a: DOMRect, b: DOMRect) =>
   a.right < b.left || b.right < a.left || a.bottom < b.top || b.bottom < a.top;

@@ -22,8 +22,8 @@ export async function read(fragment: string): Promise<Linked | null> {
   try {
     const bytes = Uint8Array.from(atob(base.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
     const text = new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
-    const { file, text: content, set, held, at } = JSON.parse(text) as Linked;
-    return { file, text: content, set, held, at };
+    const { file, text: content, set, held, at, load, quantities } = JSON.parse(text) as Linked;
+    return { file, text: content, set, held, at, load, quantities };
   } catch {
     return null;
   }

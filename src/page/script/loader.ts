@@ -1,4 +1,4 @@
-// The only script that the page's policy names: it unpacks the script that does all the rest.
+// The only script that the page's policy names: it unpacks the script that does all the rest, and the solver beside it.
 import { unpacked } from "./packed";
 
 const failed = (error: unknown) => {
@@ -6,9 +6,14 @@ const failed = (error: unknown) => {
   if (said) said.textContent = `The page cannot start: ${error instanceof Error ? error.message : String(error)}`;
 };
 
-unpacked("script").then((script) => {
+async function begin() {
+  const script = await unpacked("script").blob();
   const made = document.createElement("script");
   made.src = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
   made.onerror = () => failed("its script was not let in");
   document.body.append(made);
-}).catch(failed);
+  // the browser compiles what it has while the rest is unpacked
+  globalThis.solver = WebAssembly.compileStreaming(unpacked("wasm", "application/wasm"));
+}
+
+begin().catch(failed);

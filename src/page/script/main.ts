@@ -2,29 +2,34 @@
 import { Vector3 } from "three";
 import { Background } from "./background";
 import { dragging } from "./drag";
-import { Drawing, jointSize, planeOf, points } from "./drawing";
+import { Drawing, guides, jointSize, planeOf, points } from "./drawing";
 import { Editor } from "./editor";
 import { button, find } from "./elements";
 import { exporting } from "./exporting";
+import { GainedFreedoms } from "./gained";
 import { gallery } from "./gallery";
 import { keyboard } from "./keyboard";
 import { Labels } from "./labels";
 import * as link from "./link";
+import { Load } from "./load";
 import { Model, type File } from "./model";
 import { ModeList } from "./modes";
 import { Motion } from "./motion";
 import { Parameters } from "./parameters";
 import { Scenery } from "./scenery";
 import { Sliders } from "./sliders";
-import { unpacked } from "./packed";
+import { Quantities } from "./quantities";
 import { Solver } from "./solver";
 import { Stage, type View } from "./stage";
 import { onThemeChange } from "./theme";
-import type { Scene } from "./types";
+import type { Scene, Triple } from "./types";
 import { Values } from "./values";
 import { watching } from "./watching";
 
 const VIEWS: [string, View][] = [["Plane", "plane"], ["Iso", "iso"], ["Front", "front"], ["Side", "side"], ["Top", "top"]];
+
+/** How long nothing moves before the picture follows, in ms. */
+const REST = 400;
 
 function say(words: string) {
   find("said").textContent = words;
@@ -39,20 +44,23 @@ class Picture {
   /** What is shown in place of where the mechanism is. */
   private other: Scene | null = null;
   private shown = "";
+  private rest = 0;
 
   constructor(private readonly model: Model) {
     this.stage.world.add(this.drawing.shapes.group, this.scenery.shapes.group);
-    this.stage.orbit.addEventListener("change", () => this.labels.place(this.stage, this.scene));
+    this.stage.orbit.addEventListener("change", () => this.label());
     model.onLoaded(() => this.begin());
     model.onMoved(() => {
       this.other = null;
       this.draw();
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => this.follow(), REST);
     });
     onThemeChange(() => this.draw());
     const names = button("Names", () => {
       this.labels.shown = !this.labels.shown;
       names.setAttribute("aria-pressed", String(this.labels.shown));
-      this.labels.place(this.stage, this.scene);
+      this.label();
     }, { "aria-pressed": "false" });
     find("views").append(
       ...VIEWS.map(([words, view]) => button(words, () => this.look(view), { "data-view": view })),
@@ -60,6 +68,12 @@ class Picture {
       button("−", () => this.stage.zoom(0.8), { "aria-label": "farther" }),
       names,
     );
+  }
+
+  /** What has moved out of the picture is brought back, unless somebody has chosen what to see. */
+  private follow() {
+    const { stage, scene } = this;
+    if (scene && stage.camera.zoom === 1 && !stage.canvas.classList.contains("dragging")) stage.include(points(scene));
   }
 
   instead(scene: Scene | null) {
@@ -72,9 +86,15 @@ class Picture {
     if (!scene) return;
     this.drawing.held = new Set(this.model.frame?.held ?? []);
     this.drawing.draw(scene);
-    this.scenery.draw(this.drawing.size, this.drawing.plane !== null);
-    this.labels.place(this.stage, scene);
+    const forces = this.other ? null : this.model.frame?.forces;
+    const words = forces && "arrows" in forces ? forces.arrows : [];
+    this.scenery.draw(scene, words, this.drawing.size, this.drawing.plane !== null, (point) => this.drawing.above(point, 3));
+    this.label();
     this.stage.draw();
+  }
+
+  private label() {
+    this.labels.place(this.stage, this.scene, this.scenery.notes, this.drawing.size);
   }
 
   private get scene(): Scene | null {
@@ -93,6 +113,7 @@ class Picture {
     const middle = all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(all.length, 1));
     const extent = 2 * Math.max(...all.map((p) => p.distanceTo(middle)), 1e-9);
     this.drawing.size = jointSize(scene, extent);
+    this.scenery.arrows.extent = extent;
     find("views").querySelector<HTMLElement>("[data-view=plane]")!.hidden = this.drawing.plane === null;
     if (mechanism.name !== this.shown) this.look(this.drawing.plane ? "plane" : "iso");
     this.shown = mechanism.name;
@@ -105,6 +126,11 @@ class Picture {
     return plane !== null && Math.abs(sight.dot(plane.towards)) > 0.9999;
   }
 
+  /** Downwards, in the plane of what is planar. */
+  get down(): Vector3 {
+    return this.drawing.plane ? this.drawing.plane.up.clone().negate() : new Vector3(0, 0, -1);
+  }
+
   /** Where a body is on the canvas. */
   pixelOf(name: string): [number, number] | null {
     const body = this.scene?.bodies.find((body) => body.name === name);
@@ -112,8 +138,13 @@ class Picture {
     return from && to ? this.stage.pixel(new Vector3(...from).lerp(new Vector3(...to), 0.4)) : null;
   }
 
+  /** Where a place is on the canvas. */
+  pixel(at: Triple): [number, number] {
+    return this.stage.pixel(new Vector3(...at));
+  }
+
   look(view: View) {
-    if (this.scene) this.stage.look(view, points(this.scene), this.drawing.plane);
+    if (this.scene) this.stage.look(view, [...points(this.scene), ...guides(this.scene, this.drawing.size)], this.drawing.plane);
     this.draw();
   }
 }
@@ -122,7 +153,7 @@ const traced = (picture: Picture) =>
   picture.scenery.traces.flatMap((trace) => trace.points.map((point) => new Vector3(...point)));
 
 async function begin() {
-  const module = await WebAssembly.compile(await unpacked("wasm"));
+  const module = await globalThis.solver;
   const model = new Model(await Solver.of(module), new Background(module), say);
   const sliders = new Sliders((name, to) => model.move(name, to));
   const values = new Values(
@@ -158,10 +189,16 @@ async function begin() {
     (scene) => picture.instead(scene),
     (scenes) => picture.stage.include([...scenes.flatMap(points), ...traced(picture)]),
   );
+  const load = new Load(model, picture.scenery.arrows, () => picture.down);
+  new GainedFreedoms(model, (screws, swung) => {
+    Object.assign(picture.scenery, { screws, swung });
+    picture.draw();
+  });
+  new Quantities(model);
   new Parameters(model);
   new Editor(model);
   exporting(model, picture.stage, () => picture.drawing.shapes.group, () => picture.inPlane, () => picture.labels.shown);
-  dragging(picture.stage, model, (point) => motion.take(point));
+  dragging(picture.stage, model, load, (point) => motion.take(point));
   const share = button("Copy link", async () => {
     location.hash = await link.written(model.file, model.place());
     await navigator.clipboard?.writeText(location.href).catch(() => undefined);
@@ -170,13 +207,11 @@ async function begin() {
   find("export").append(" ", share);
 
   keyboard(picture.stage.canvas, model, (factor) => picture.stage.zoom(factor), (view) => picture.look(VIEWS[view]![1]));
-  const files = JSON.parse(new TextDecoder().decode(await unpacked("files"))) as [string, string][];
-  const thumbnails = await Solver.of(module);
-  const browse = gallery(files, thumbnails, (file) => {
+  const browse = gallery(module, (file) => {
     history.replaceState(null, "", " ");
     model.load(file);
   });
-  find("browse").addEventListener("click", browse);
+  find("browse").addEventListener("click", () => void browse());
 
   const given = JSON.parse(find("mechanism").textContent ?? "{}") as File & { watch: boolean };
   const open = async () => {
@@ -187,9 +222,10 @@ async function begin() {
   addEventListener("hashchange", () => void open());
   if (!(await open())) {
     if (given.text) model.load(given);
-    else browse();
+    else void browse();
   }
   if (given.watch) watching(model);
+  requestAnimationFrame(() => performance.mark("picture"));
   // for whoever tests or scripts the page
   Object.assign(globalThis, { linkwork: model, picture });
   document.documentElement.dataset.ready = "true";

@@ -2,7 +2,7 @@
 import { Background } from "./background";
 import { nearest } from "./sliders";
 import type { Solver } from "./solver";
-import { type Frame, type Loaded, type Mechanism, type Problem, Refused, type Request, type Scene, type State } from "./types";
+import { type Frame, type Loaded, type Mechanism, type Press, type Problem, Refused, type Request, type Scene, type State } from "./types";
 
 /** A mechanism file with parameters at other values. */
 export interface File {
@@ -15,12 +15,18 @@ export interface File {
 export interface Place {
   held: string[] | null;
   at: State | null;
+  load?: Press | null;
+  quantities?: string;
 }
 
 export class Model {
   file: File = { file: "", text: "", set: [] };
   mechanism: Mechanism | null = null;
   frame: Frame | null = null;
+  /** What presses on it. */
+  pressed: Press | null = null;
+  /** The quantities that are read; the usual ones if it is empty. */
+  quantities = "";
   /** The assembly that the mechanism was put into, from which it has moved without leaving its branch. */
   branch = "";
   private readonly loaded: (() => void)[] = [];
@@ -46,7 +52,9 @@ export class Model {
     return this.attempt(() => {
       const near = place?.at ?? null;
       const held = place?.held ?? null;
-      const loaded = this.solver.ask<Loaded>({ do: "load", text: file.text, set: file.set, held, near });
+      const [load, quantities] = [place?.load ?? null, place?.quantities ?? ""];
+      const loaded = this.solver.ask<Loaded>({ do: "load", text: file.text, set: file.set, held, near, load, quantities });
+      [this.pressed, this.quantities] = [load, quantities];
       this.background.stop();
       this.file = file;
       this.mechanism = loaded.mechanism;
@@ -68,7 +76,8 @@ export class Model {
   }
 
   place(): Place {
-    return { held: this.frame?.held ?? null, at: this.frame?.assembled ? this.frame.at : null };
+    const { frame, pressed, quantities } = this;
+    return { held: frame?.held ?? null, at: frame?.assembled ? frame.at : null, load: pressed, quantities };
   }
 
   move(name: string, to: number) {
@@ -108,6 +117,18 @@ export class Model {
   go(at: State, branch: string) {
     this.branch = branch;
     this.change({ do: "go", at });
+  }
+
+  /** Presses on a point, or on none any more. */
+  press(load: Press | null) {
+    this.pressed = load;
+    this.change({ do: "press", load });
+  }
+
+  /** Reads quantities from now on. */
+  watch(quantities: string) {
+    this.quantities = quantities;
+    this.change({ do: "watch", quantities });
   }
 
   change(request: Request): boolean {

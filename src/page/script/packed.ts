@@ -1,9 +1,19 @@
 // Parts of the page that are compressed.
 
+/** Of a browser that is new enough. */
+const { fromBase64 } = Uint8Array as unknown as { fromBase64?: (text: string) => Uint8Array<ArrayBuffer> };
+
+function bytes(base64: string): Uint8Array<ArrayBuffer> {
+  if (fromBase64) return fromBase64.call(Uint8Array, base64);
+  const text = atob(base64);
+  const found = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) found[i] = text.charCodeAt(i);
+  return found;
+}
+
 /** What is written as base64 of gzip in an element of the page. */
-export async function unpacked(element: string): Promise<ArrayBuffer> {
-  const text = document.getElementById(element)?.textContent ?? "";
-  const packed = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+export function unpacked(element: string, type = "text/plain"): Response {
+  const packed = bytes(document.getElementById(element)?.textContent?.trim() ?? "");
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+  return new Response(stream, { headers: { "content-type": type } });
 }

@@ -1,9 +1,10 @@
-// What stands beside the mechanism: ghosts of other assemblies and the paths of points.
+// What stands beside the mechanism: ghosts of other assemblies, the paths of points, forces, freedoms gained.
 import { Vector3 } from "three";
+import { Arrows, type Note, screw } from "./arrows";
 import type { Trace } from "./motion";
 import { Shapes } from "./shapes";
 import { theme } from "./theme";
-import type { Scene, Triple } from "./types";
+import type { Scene, Screw, Triple } from "./types";
 
 const v = (t: Triple) => new Vector3(...t);
 
@@ -11,12 +12,21 @@ export class Scenery {
   readonly shapes = new Shapes();
   ghosts: Scene[] = [];
   traces: Trace[] = [];
+  screws: Screw[] = [];
+  /** The mechanism moved about the screws. */
+  swung: Scene[] = [];
+  readonly arrows = new Arrows();
+  notes: Note[] = [];
 
-  draw(size: number, flat: boolean) {
+  /** Beside a scene, of which the arrows are drawn with these words. */
+  draw(scene: Scene, words: string[], size: number, flat: boolean, raised: (point: Vector3) => Vector3) {
     const { shapes } = this;
     shapes.flat = flat;
     shapes.begin();
-    for (const scene of this.ghosts) this.ghost(scene, size);
+    for (const scene of this.ghosts) this.ghost(scene, size, theme().ghost);
+    for (const scene of this.swung) this.ghost(scene, size, theme().gained);
+    for (const moved of this.screws) screw(shapes, moved, size);
+    this.notes = this.arrows.draw(shapes, scene, words, size, raised);
     for (const trace of this.traces) {
       const points = trace.points.map(v);
       for (let i = 0; i + 1 < points.length; i++) {
@@ -27,14 +37,14 @@ export class Scenery {
     shapes.end();
   }
 
-  private ghost(scene: Scene, size: number) {
+  private ghost(scene: Scene, size: number, colour: string) {
     const lines = [
       ...scene.bodies.filter((body) => !body.ground).flatMap((body) => (body.lines.length ? body.lines : [body.corners])),
       ...scene.rods.map((rod) => rod.ends),
     ];
     for (const line of lines) {
       for (let i = 0; i + 1 < line.length; i++) {
-        this.shapes.rod(v(line[i]!), v(line[i + 1]!), 0.2 * size, theme().ghost, undefined, 0.55);
+        this.shapes.rod(v(line[i]!), v(line[i + 1]!), 0.2 * size, colour, undefined, 0.55);
       }
     }
   }

@@ -4,9 +4,10 @@ import {
   MeshBasicMaterial, MeshLambertMaterial, SphereGeometry, Vector3,
 } from "three";
 
-export type Pick = { body?: number; joint?: number; rod?: number };
+export type Pick = { body?: number; joint?: number; rod?: number; arrow?: number };
 
 const bar = new CylinderGeometry(1, 1, 1, 20).rotateX(Math.PI / 2);
+const cone = new CylinderGeometry(0, 1, 1, 20).rotateX(Math.PI / 2);
 const ball = new SphereGeometry(1, 28, 18);
 const box = new BoxGeometry(2, 2, 2);
 
@@ -18,6 +19,9 @@ export class Shapes {
 
   /** Flat colours, or shaded ones. */
   flat = false;
+
+  /** Whether what is drawn now is seen through everything else. */
+  private over = false;
 
   begin() {
     this.used.clear();
@@ -45,6 +49,20 @@ export class Shapes {
 
   cylinder(at: Vector3, axis: Vector3, radius: number, half: number, colour: string, pick?: Pick) {
     place(this.take(bar, colour, 1, pick), at, axis, [radius, radius, 2 * half]);
+  }
+
+  /** A bar with a point, which nothing hides. */
+  arrow(from: Vector3, to: Vector3, radius: number, colour: string, pick?: Pick) {
+    const along = to.clone().sub(from);
+    const length = along.length();
+    if (!(length > 0)) return;
+    along.divideScalar(length);
+    const head = Math.min(7 * radius, 0.6 * length);
+    const neck = to.clone().addScaledVector(along, -head);
+    this.over = true;
+    this.cylinder(from.clone().lerp(neck, 0.5), along, radius, (length - head) / 2, colour, pick);
+    place(this.take(cone, colour, 1, pick), neck.addScaledVector(along, head / 2), along, [0.42 * head, 0.42 * head, head]);
+    this.over = false;
   }
 
   ball(at: Vector3, radius: number, colour: string, pick?: Pick, opacity = 1) {
@@ -86,15 +104,15 @@ export class Shapes {
     }
     mesh.material = this.material(colour, opacity);
     mesh.userData = pick ?? {};
-    mesh.renderOrder = opacity < 1 ? 1 : 0;
+    mesh.renderOrder = this.over ? 2 : opacity < 1 ? 1 : 0;
     return mesh;
   }
 
   private material(colour: string, opacity: number): Material {
-    const name = `${colour} ${opacity} ${this.flat}`;
+    const name = `${colour} ${opacity} ${this.flat} ${this.over}`;
     let material = this.materials.get(name);
     if (!material) {
-      const looks = { color: colour, opacity, transparent: opacity < 1, depthWrite: opacity === 1, side: DoubleSide };
+      const looks = { color: colour, opacity, transparent: opacity < 1, depthWrite: opacity === 1, depthTest: !this.over, side: DoubleSide };
       material = this.flat ? new MeshBasicMaterial(looks) : new MeshLambertMaterial(looks);
       this.materials.set(name, material);
     }

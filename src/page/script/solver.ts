@@ -2,6 +2,11 @@
 import { stillClock } from "./clock";
 import { Refused, type Request } from "./types";
 
+declare global {
+  /** The solver, which loader.ts compiles. */
+  var solver: Promise<WebAssembly.Module>;
+}
+
 interface Exports {
   memory: WebAssembly.Memory;
   room(bytes: number): number;

@@ -24,6 +24,7 @@ export class Stage {
   private sphere = new Sphere(new Vector3(), 1);
   private half = 1;
   private waiting = false;
+  private size = "";
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -81,9 +82,11 @@ export class Stage {
   /** Makes room for points that are not in the picture, seen from where it is seen. */
   include(points: Vector3[]) {
     this.camera.updateMatrixWorld();
+    const [, below] = this.covered();
+    const lowest = (2 * below) / Math.max(this.canvas.clientHeight, 1) - 1;
     const outside = points.some((point) => {
       const { x, y } = point.clone().project(this.camera);
-      return Math.max(Math.abs(x), Math.abs(y)) > 0.96;
+      return Math.max(Math.abs(x), Math.abs(y)) > 0.96 || y < lowest;
     });
     if (outside) this.frame(points);
   }
@@ -98,16 +101,27 @@ export class Stage {
     const size = frame.getSize(new Vector3());
     const aspect = this.aspect();
     // the buttons above and the lines below are over the picture
-    const room = Math.max(1 - 110 / Math.max(this.canvas.parentElement!.clientHeight, 1), 0.6);
+    const height = Math.max(this.canvas.parentElement!.clientHeight, 1);
+    const [above, below] = this.covered();
+    const room = Math.max(1 - (above + below) / height, 0.5);
     this.half = 0.5 * Math.max(size.y / room, size.x / aspect, 0.1 * radius) * 1.12 + 0.06 * radius;
-    const middle = frame.getCenter(new Vector3()).applyMatrix4(this.camera.matrixWorld);
+    const middle = frame.getCenter(new Vector3());
+    middle.y -= ((below - above) * this.half) / height;
+    middle.applyMatrix4(this.camera.matrixWorld);
     const sight = this.camera.getWorldDirection(new Vector3());
     const shift = middle.sub(this.orbit.target);
     shift.addScaledVector(sight, -shift.dot(sight));
     this.orbit.target.add(shift);
     this.camera.position.add(shift);
     this.orbit.update();
-    this.resize();
+    this.project();
+    this.draw();
+  }
+
+  /** Pixels that buttons cover above, and words below. */
+  private covered(): [number, number] {
+    const [above, below] = ["#views", "#under"].map((part) => (this.canvas.parentElement!.querySelector<HTMLElement>(part)?.offsetHeight ?? 0) + 14);
+    return [above!, below!];
   }
 
   zoom(factor: number) {
@@ -139,6 +153,10 @@ export class Stage {
     return [(0.5 + 0.5 * seen.x) * this.canvas.clientWidth, (0.5 - 0.5 * seen.y) * this.canvas.clientHeight];
   }
 
+  pixelsPerMetre(): number {
+    return (this.canvas.clientHeight * this.camera.zoom) / (2 * this.half);
+  }
+
   private ray(event: { clientX: number; clientY: number }): Raycaster {
     const box = this.canvas.getBoundingClientRect();
     const at = new Vector2(
@@ -158,12 +176,21 @@ export class Stage {
 
   private resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
-    if (!clientWidth || !clientHeight) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const ratio = Math.min(devicePixelRatio, 2);
+    const size = `${clientWidth} ${clientHeight} ${ratio}`;
+    if (!clientWidth || !clientHeight || size === this.size) return;
+    this.size = size;
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(clientWidth, clientHeight);
+    this.project();
+    // what was drawn is gone
+    this.drawNow();
+  }
+
+  /** As much of the world as `half` says, above and below the middle. */
+  private project() {
     const aspect = this.aspect();
     Object.assign(this.camera, { left: -this.half * aspect, right: this.half * aspect, top: this.half, bottom: -this.half });
     this.camera.updateProjectionMatrix();
-    this.drawNow();
   }
 }

@@ -14,15 +14,18 @@ export interface Theme {
   driven: string;
   trace: string;
   ghost: string;
+  load: string;
+  reaction: string;
+  gained: string;
 }
 
 const LIGHT: Theme = {
   paper: "#fdfdfc", ink: "#222222", ground: "#777777", plate: "#cfcfcc", joint: "#ffffff", solid: "#c4c4c0", driven: "#E69F00",
-  trace: "#D55E00", ghost: "#b8b8b8",
+  trace: "#D55E00", ghost: "#b8b8b8", load: "#D55E00", reaction: "#007a58", gained: "#a8437f",
 };
 const DARK: Theme = {
-  paper: "#191a1b", ink: "#e4e4e0", ground: "#9a9a96", plate: "#45474a", joint: "#d9d9d6", solid: "#d9d9d6", driven: "#E69F00",
-  trace: "#ff8c42", ghost: "#55585c",
+  paper: "#191a1b", ink: "#e4e4e0", ground: "#9a9a96", plate: "#45474a", joint: "#2a2c2e", solid: "#d9d9d6", driven: "#E69F00",
+  trace: "#ff8c42", ghost: "#55585c", load: "#ff8c42", reaction: "#3fc79b", gained: "#e39ac6",
 };
 
 const dark = matchMedia("(prefers-color-scheme: dark)");

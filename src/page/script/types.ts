@@ -37,6 +37,23 @@ export interface Wheel {
   radius: number;
 }
 
+/** A force in N and a moment in N·m. */
+export interface Arrow {
+  name: string;
+  applied: boolean;
+  at: Triple;
+  force: Triple;
+  moment: Triple;
+}
+
+/** The screw about which a body moves; of a translation without pitch. */
+export interface Screw {
+  name: string;
+  at: Triple;
+  along: Triple;
+  pitch: number | null;
+}
+
 export interface Scene {
   mechanism: string;
   normal: Triple | null;
@@ -44,6 +61,8 @@ export interface Scene {
   joints: JointShape[];
   rods: Rod[];
   wheels?: Wheel[];
+  arrows?: Arrow[];
+  screws?: Screw[];
 }
 
 /** A configuration: joints in rad and m; platforms as position and unit quaternion, scalar first. */
@@ -62,7 +81,47 @@ export interface Frame {
   at: State;
   values: Shown[];
   held: string[] | null;
-  figures: { condition: number | null; shown: string } | null;
+  figures: { condition: number | null; shown: string; stopped: boolean } | null;
+  forces: Forces | { error: string } | null;
+  quantities: Named[] | { error: string } | null;
+}
+
+/** A name and a value as it is read. */
+export type Named = [string, string];
+
+/** What a load calls for. */
+export interface Forces {
+  held: Named[];
+  /** Beside each arrow of the scene. */
+  arrows: string[];
+  /** What nothing balances. */
+  unbalanced: string[];
+}
+
+/** A load: a force in N, in ground, at a point. */
+export interface Press {
+  point: string;
+  force: Triple;
+}
+
+/** A point of a body, and its share in a place that bodies carry together. */
+export interface Hold {
+  body: number;
+  offset: Triple;
+  share: number;
+}
+
+export interface Grip {
+  grip: Hold[];
+  /** As a point is named; a rod is no body. */
+  name: string | null;
+}
+
+/** Freedoms gained, each as pictures from one side to the other. */
+export interface Gained {
+  scene: Scene | null;
+  words: string[];
+  swings: Scene[][];
 }
 
 export interface Coordinate {
@@ -143,10 +202,14 @@ export interface Swept {
 }
 
 export type Request =
-  | { do: "load"; text: string; set?: [string, string][]; held?: string[] | null; near?: State | null }
+  | { do: "load"; text: string; set?: [string, string][]; held?: string[] | null; near?: State | null; load?: Press | null; quantities?: string }
   | { do: "move"; to: [string, number][] }
   | { do: "grab"; body: number; at: Triple }
-  | { do: "pull"; body: number; offset: Triple; to: Triple; sight?: Triple }
+  | { do: "grab"; rod: number; at: Triple }
+  | { do: "pull"; grip: Hold[]; to: Triple; sight?: Triple }
+  | { do: "press"; load: Press | null }
+  | { do: "watch"; quantities: string }
+  | { do: "gained" }
   | { do: "hold"; names: string[] }
   | { do: "go"; at: State }
   | { do: "show"; at: State }

@@ -1,0 +1,98 @@
+//! What a page reads off the mechanism while it moves, in the words and numbers of the command line.
+
+use serde_json::{Value, json};
+
+use super::Refusal;
+use super::request::Press;
+use crate::algebra::SiUnit;
+use crate::ask::Steering;
+use crate::geometry::Vector3;
+use crate::mechanism::Point;
+use crate::output::drawing::movement;
+use crate::output::quantity::{quantity, three_digits};
+use crate::scene::Scene;
+use crate::solve::Watch;
+
+const TRANSMISSION: &str = "transmission";
+
+/// The quantities that the file names, and the transmission angle if there is one.
+pub fn usual(steering: &Steering) -> String {
+    let outputs = steering.mechanism().outputs().iter();
+    let known = outputs
+        .map(|output| output.name.as_str())
+        .filter(|name| steering.readings(name).is_ok());
+    let named = |name: &str| {
+        steering
+            .mechanism()
+            .outputs()
+            .iter()
+            .any(|of| of.name == name)
+    };
+    let angle = steering.readings(TRANSMISSION).ok();
+    let angle = angle.and_then(|found| found[0].value.map(|_| TRANSMISSION));
+    let angle = angle.filter(|name| !named(name));
+    known.chain(angle).collect::<Vec<_>>().join(", ")
+}
+
+/// Quantities as they are now.
+pub fn readings(steering: &Steering, list: &str) -> Value {
+    if list.is_empty() {
+        return json!([]);
+    }
+    match steering.readings(list) {
+        Ok(readings) => readings
+            .iter()
+            .map(|of| {
+                let shown = of.value.map(|value| quantity(value, of.unit));
+                json!([of.name, shown.unwrap_or_else(|| "not determined".into())])
+            })
+            .collect(),
+        Err(error) => json!({ "error": error.to_string() }),
+    }
+}
+
+/// The forces that a load calls for, in the scene and as numbers of what is held.
+pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value) {
+    let mechanism = steering.mechanism();
+    let point = match Point::read(mechanism, &load.point) {
+        Ok(point) => point,
+        Err(error) => return (scene, json!({ "error": error.to_string() })),
+    };
+    let found = steering.forces(&point, load.force, &Watch::none());
+    let report = match found {
+        Ok(found) => found.closed(),
+        Err(error) => return (scene, json!({ "error": error.to_string() })),
+    };
+    let Some(report) = report else {
+        return (scene, Value::Null);
+    };
+    let held = report.actuators.iter();
+    let held = held.map(|force| json!([force.name, quantity(force.force, force.unit)]));
+    let scene = scene.with_forces(mechanism, steering.at(), &report);
+    let size = |of: [f64; 3], unit| three_digits(Vector3(of).norm(), unit);
+    let forces = json!({
+        "held": held.collect::<Vec<_>>(),
+        "arrows": (scene.arrows.iter())
+            .map(|arrow| size(arrow.force, SiUnit::NEWTON))
+            .collect::<Vec<_>>(),
+        "unbalanced": report.unbalanced,
+    });
+    (scene, forces)
+}
+
+/// The freedoms gained at a singular configuration, with the mechanism on both sides of each.
+pub fn gained(steering: &Steering, watch: &Watch) -> Result<Value, Refusal> {
+    let mechanism = steering.mechanism();
+    let Some(gained) = steering.gained(watch)? else {
+        return Ok(json!({ "scene": null, "words": [], "swings": [] }));
+    };
+    let scene = |at| Scene::of(mechanism, at);
+    let there = scene(&gained.at).with_gained(&gained.report);
+    let swings = gained.swings.iter();
+    let swings = swings.map(|phases| phases.iter().map(scene).collect::<Vec<_>>());
+    Ok(json!({
+        "words": there.screws.iter().map(movement).collect::<Vec<_>>(),
+        "scene": there,
+        "swings": swings.collect::<Vec<_>>(),
+    }))
+}
