@@ -111,18 +111,17 @@ impl Page {
                 let view = from.map_or(View::Natural, |(azimuth, elevation)| {
                     View::From(azimuth, elevation)
                 });
-                let at =
-                    (self.steering.as_ref()).map_or_else(|| mechanism.home(), |s| s.at().clone());
                 let panel = Panel {
                     title: mechanism.name().to_owned(),
-                    scene: Scene::of(&mechanism, &at),
+                    scene: self.here(&mechanism).1,
                     ghosts: Vec::new(),
                 };
                 let picture = sheet(&[panel], &DrawingSettings { view, labels });
                 Ok(json!({ "svg": picture.svg() }))
             }
-            Request::Ask { .. } | Request::Sweep(_) => unreachable!("answered before"),
-            Request::Load(_) | Request::Move { .. } => unreachable!("answered above"),
+            Request::Ask { .. } | Request::Sweep(_) | Request::Load(_) | Request::Move { .. } => {
+                unreachable!("answered before")
+            }
         }
     }
 
@@ -267,32 +266,35 @@ impl Page {
         };
     }
 
+    /// Where the mechanism is, how it looks with the load, and what balances that.
+    fn here(&self, mechanism: &Mechanism) -> (Configuration<f64>, Scene, Value) {
+        let Some(steering) = &self.steering else {
+            let home = mechanism.home();
+            let scene = Scene::of(mechanism, &home);
+            return (home, scene, Value::Null);
+        };
+        let scene = Scene::of(mechanism, steering.at());
+        let (scene, forces) = match &self.load {
+            Some(load) => live::pressed(steering, load, scene),
+            None => (scene, Value::Null),
+        };
+        (steering.at().clone(), scene, forces)
+    }
+
     /// The mechanism as it is now.
     fn frame(&self, said: Option<&str>) -> Value {
         let Some(mechanism) = &self.mechanism else {
             return json!({ "said": said });
         };
-        let home;
-        let at = match &self.steering {
-            Some(steering) => steering.at(),
-            None => {
-                home = mechanism.home();
-                &home
-            }
-        };
-        let scene = Scene::of(mechanism, at);
-        let (scene, forces) = match (&self.steering, &self.load) {
-            (Some(steering), Some(load)) => live::pressed(steering, load, scene),
-            _ => (scene, Value::Null),
-        };
+        let (at, scene, forces) = self.here(mechanism);
         json!({
             "said": said,
             "assembled": self.steering.is_some(),
             "scene": scene,
             "forces": forces,
             "quantities": self.steering.as_ref().map(|of| live::readings(of, &self.watched)),
-            "at": State::of(at),
-            "values": shown::values(mechanism, at),
+            "at": State::of(&at),
+            "values": shown::values(mechanism, &at),
             "held": self.steering.as_ref().map(shown::held),
             "figures": self.steering.as_ref().map(shown::figures),
         })

@@ -11,11 +11,13 @@ export CARGO_TARGET_DIR="${PAGE_TARGET_DIR:-$PWD/target/page}"
 export RUSTFLAGS="-C target-feature=+simd128 -C linker=$here/link.sh --cfg getrandom_backend=\"unsupported\""
 export CARGO_PROFILE_RELEASE_PANIC=abort CARGO_PROFILE_RELEASE_STRIP=true
 options="rustc --locked --release --lib --crate-type cdylib --no-default-features --features page --target $target"
+# in one piece the solver is smaller and faster
+whole="-- -C codegen-units=1"
 if [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
-    cargo $options
+    cargo $options $whole
 else
     # Debian has no standard library for wasm32: it is built from its source
-    PATH="/usr/lib/rust-web/bin:$PATH" RUSTC_BOOTSTRAP=1 cargo $options -Zbuild-std=std,panic_abort
+    PATH="/usr/lib/rust-web/bin:$PATH" RUSTC_BOOTSTRAP=1 cargo $options -Zbuild-std=std,panic_abort $whole
 fi
 cd "$here"
 npm ci --silent --no-audit --no-fund

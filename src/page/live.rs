@@ -14,24 +14,21 @@ use crate::scene::Scene;
 use crate::solve::Watch;
 
 const TRANSMISSION: &str = "transmission";
+const UNKNOWN: &str = "not determined";
 
 /// The quantities that the file names, and the transmission angle if there is one.
 pub fn usual(steering: &Steering) -> String {
     let outputs = steering.mechanism().outputs().iter();
-    let known = outputs
-        .map(|output| output.name.as_str())
-        .filter(|name| steering.readings(name).is_ok());
-    let named = |name: &str| {
-        steering
-            .mechanism()
-            .outputs()
-            .iter()
-            .any(|of| of.name == name)
+    let mut names: Vec<&str> = outputs.map(|output| output.name.as_str()).collect();
+    if !names.contains(&TRANSMISSION) {
+        names.push(TRANSMISSION);
+    }
+    let known = |name: &&str| {
+        let readings = steering.readings(name);
+        readings.is_ok_and(|readings| readings.iter().all(|of| of.value.is_some()))
     };
-    let angle = steering.readings(TRANSMISSION).ok();
-    let angle = angle.and_then(|found| found[0].value.map(|_| TRANSMISSION));
-    let angle = angle.filter(|name| !named(name));
-    known.chain(angle).collect::<Vec<_>>().join(", ")
+    names.retain(known);
+    names.join(", ")
 }
 
 /// Quantities as they are now.
@@ -44,7 +41,7 @@ pub fn readings(steering: &Steering, list: &str) -> Value {
             .iter()
             .map(|of| {
                 let shown = of.value.map(|value| quantity(value, of.unit));
-                json!([of.name, shown.unwrap_or_else(|| "not determined".into())])
+                json!([of.name, shown.unwrap_or_else(|| UNKNOWN.into())])
             })
             .collect(),
         Err(error) => json!({ "error": error.to_string() }),
@@ -67,7 +64,10 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
         return (scene, Value::Null);
     };
     let held = report.actuators.iter();
-    let held = held.map(|force| json!([force.name, quantity(force.force, force.unit)]));
+    let held = held.map(|force| {
+        let known = force.unique.then(|| quantity(force.force, force.unit));
+        json!([force.name, known.unwrap_or_else(|| UNKNOWN.into())])
+    });
     let scene = scene.with_forces(mechanism, steering.at(), &report);
     let size = |of: [f64; 3], unit| three_digits(Vector3(of).norm(), unit);
     let forces = json!({

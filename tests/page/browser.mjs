@@ -1,7 +1,7 @@
 // The page in a real browser: every shipped file is shown, dead points hold, nothing hostile runs, nothing is loaded.
 import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import puppeteer from "puppeteer-core";
@@ -342,6 +342,50 @@ const tests = {
     await page.waitForFunction(() => !document.querySelector("#problems .error"));
   },
 
+  async "what is shown is taken away as SVG, PNG, GLB and as the file"() {
+    const page = await loaded("mechanisms/axes/hexaglide.ron");
+    const session = await page.createCDPSession();
+    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+    await page.evaluate(() => globalThis.linkwork.press({ point: "platform", force: [0, 0, -50] }));
+    const taken = async (words, ending) => {
+      const path = join(folder, `mechanisms_axes_hexaglide.${ending}`);
+      await page.evaluate((words) => [...document.querySelectorAll("#panel button")].find((b) => b.textContent === words).click(), words);
+      for (let i = 0; i < 100 && !existsSync(path); i++) await new Promise((done) => setTimeout(done, 50));
+      return readFileSync(path);
+    };
+    const svg = (await taken("SVG", "svg")).toString();
+    check(svg.startsWith("<svg") && svg.includes("50 N"), `the SVG begins ${svg.slice(0, 60)}`);
+    const png = await taken("PNG", "png");
+    check(png.subarray(1, 4).toString() === "PNG" && png.length > 5000, `the PNG has ${png.length} bytes`);
+    const glb = await taken("GLB", "glb");
+    const length = glb.readUInt32LE(12);
+    const meshes = JSON.parse(glb.subarray(20, 20 + length).toString()).meshes.length;
+    check(glb.subarray(0, 4).toString() === "glTF" && meshes > 20, `the GLB has ${meshes} meshes`);
+    check((await taken("Save file", "ron")).equals(readFileSync(join(root, "mechanisms/axes/hexaglide.ron"))), "the file is another");
+  },
+
+  async "keys alone choose a file, a view and what is held"() {
+    const page = await opened("");
+    await page.waitForSelector("#gallery[open]");
+    await page.focus('#gallery-items button[data-file="five_bar.ron"]');
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => globalThis.linkwork.mechanism);
+    await page.focus("#canvas");
+    const before = await values(page);
+    await page.keyboard.press("ArrowDown");
+    const second = await page.evaluate(() => globalThis.linkwork.frame.held[1]);
+    check((await said(page)).includes(second), `said is ${await said(page)}`);
+    await page.keyboard.press("ArrowRight");
+    const after = await values(page);
+    const names = await page.evaluate(() => globalThis.linkwork.mechanism.coordinates.map((of) => of.name));
+    const held = await page.evaluate(() => globalThis.linkwork.frame.held);
+    check(held.every((name) => (after[names.indexOf(name)] !== before[names.indexOf(name)]) === (name === second)), "another is moved");
+    await page.focus(`[type=range][data-name="${held[0]}"]`);
+    await page.keyboard.press("ArrowRight");
+    check((await values(page))[names.indexOf(held[0])] !== after[names.indexOf(held[0])], "a slider does not move by keys");
+    await page.close();
+  },
+
   async "a link holds the mechanism and where it is"() {
     const page = await opened("mechanisms/five_bar.ron");
     const name = await page.evaluate(() => globalThis.linkwork.frame.held[0]);
@@ -351,6 +395,11 @@ const tests = {
       linkwork.move(of, linkwork.frame.values[index][0] + 0.1);
     }, name);
     const before = await values(page);
+    const pressed = await page.evaluate(() => {
+      const { linkwork } = globalThis;
+      linkwork.press({ point: linkwork.frame.scene.bodies[1].name, force: [3, -4, 0] });
+      return linkwork.pressed;
+    });
     await page.evaluate(() => document.getElementById("share").click());
     await page.waitForFunction(() => location.hash.length > 10);
     const fragment = await page.evaluate(() => location.hash);
@@ -359,6 +408,7 @@ const tests = {
     const after = await values(other);
     check((await other.$eval("#name", (e) => e.textContent)).includes("5-bar") || after.length === before.length, "another mechanism is shown");
     check(after.every((value, i) => Math.abs(value - before[i]) < 1e-9), `${after} is not ${before}`);
+    check(JSON.stringify(await other.evaluate(() => globalThis.linkwork.pressed)) === JSON.stringify(pressed), "the load is not linked");
     await other.close();
     const broken = await opened("mechanisms/four_bar.ron", "#m=AAAA");
     check(await broken.evaluate(() => globalThis.linkwork.frame?.assembled), "a broken link breaks the page");

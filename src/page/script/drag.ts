@@ -1,9 +1,9 @@
 // Bodies and rods follow the pointer as far as what is held lets them; a load follows it at its tip.
 import { Vector3 } from "three";
 import type { Model } from "./model";
+import type { Pick } from "./shapes";
 import type { Stage } from "./stage";
 import { Refused, type Grip, type Hold, type Scene, type Triple } from "./types";
-import type { Pick } from "./shapes";
 
 interface Grabbed {
   pointer: number;
@@ -58,11 +58,11 @@ export function dragging(stage: Stage, model: Model, aim: Aim, point: (name: str
     return tip || part ? { at: hit.at, tip, part } : null;
   };
 
-  /** Takes hold of a part; nothing if the click was for something else. */
-  const grab = (part: { body: number } | { rod: number }, at: Vector3): Grabbed["take"] | null => {
+  /** Takes hold of a part, unless the click was for something else; nothing if the part cannot be moved. */
+  const grab = (part: { body: number } | { rod: number }, at: Vector3): Grabbed["take"] | "clicked" | null => {
     const { grip, name } = model.ask<Grip>({ do: "grab", ...part, at: at.toArray() as Triple });
     if (name !== null) {
-      if (aim.clicked(name)) return null;
+      if (aim.clicked(name)) return "clicked";
       point(name);
     }
     return model.frame?.held?.length ? pulled(grip) : null;
@@ -73,8 +73,9 @@ export function dragging(stage: Stage, model: Model, aim: Aim, point: (name: str
     if (!found) return;
     try {
       const take = found.tip ?? (found.part && grab(found.part, found.at));
-      event.stopImmediatePropagation();
       if (!take) return;
+      event.stopImmediatePropagation();
+      if (take === "clicked") return;
       grabbed = { pointer: event.pointerId, at: found.at, take };
     } catch (error) {
       if (!(error instanceof Refused)) throw error;

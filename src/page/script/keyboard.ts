@@ -4,7 +4,9 @@ import type { Model } from "./model";
 /** Parts of a range that one press moves, alone and with Shift. */
 const [FINE, COARSE] = [1 / 360, 1 / 36];
 
-export function keyboard(canvas: HTMLCanvasElement, model: Model, zoom: (factor: number) => void, look: (view: number) => void) {
+export function keyboard(
+  canvas: HTMLCanvasElement, model: Model, say: (words: string) => void, zoom: (factor: number) => void, look: (view: number) => void,
+) {
   let chosen = 0;
   const move = (sign: number, part: number) => {
     const { frame, mechanism } = model;
@@ -19,6 +21,7 @@ export function keyboard(canvas: HTMLCanvasElement, model: Model, zoom: (factor:
     if (!held.length) return;
     chosen = (chosen + step + held.length) % held.length;
     canvas.setAttribute("aria-label", `Picture; the arrow keys move ${held[chosen]}`);
+    if (step) say(`The arrow keys move ${held[chosen]}.`);
   };
   canvas.addEventListener("keydown", (event) => {
     const part = event.shiftKey ? COARSE : FINE;

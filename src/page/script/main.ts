@@ -206,7 +206,7 @@ async function begin() {
   }, { id: "share" });
   find("export").append(" ", share);
 
-  keyboard(picture.stage.canvas, model, (factor) => picture.stage.zoom(factor), (view) => picture.look(VIEWS[view]![1]));
+  keyboard(picture.stage.canvas, model, say, (factor) => picture.stage.zoom(factor), (view) => picture.look(VIEWS[view]![1]));
   const browse = gallery(module, (file) => {
     history.replaceState(null, "", " ");
     model.load(file);
