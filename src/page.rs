@@ -14,17 +14,18 @@ mod state;
 
 use std::sync::Arc;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::analysis::assembly::AssemblySettings;
-use crate::analysis::sweep::{Row, SweepReport, SweepSettings};
+use crate::analysis::sweep::{MetKind, Row, SweepReport, SweepSettings};
 use crate::ask::{AskError, Question, Solved, Steering};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::output::JsonReport;
 use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
 use crate::output::json::render;
 use crate::output::sweep::{sentence, worded};
-use crate::output::{JsonReport, text};
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
@@ -41,6 +42,17 @@ pub struct Page {
     /// The quantities that are read.
     watched: String,
 }
+
+/// A configuration of a motion.
+#[derive(Serialize)]
+struct Shown {
+    at: State,
+    special: Option<MetKind>,
+    points: Vec<[f64; 3]>,
+}
+
+/// Of an answer that lists no configurations.
+const NONE: &[Value] = &[];
 
 /// What there is instead of an answer.
 struct Refusal(Value);
@@ -192,8 +204,8 @@ impl Page {
         };
         Ok(match what {
             Analysis::Solve => match asked.solve(&AssemblySettings::default(), watch)? {
-                Solved::Ended(report) => answered(&*report, &[]),
-                Solved::Lost(lost) => answered(&*lost, &[]),
+                Solved::Ended(report) => answered(&*report, NONE),
+                Solved::Lost(lost) => answered(&*lost, NONE),
             },
             Analysis::Assemblies => {
                 let report = asked.assemblies(Default::default(), watch)?;
@@ -204,7 +216,7 @@ impl Page {
                 });
                 answered(&report, &states.collect::<Vec<_>>())
             }
-            Analysis::Mobility => answered(&asked.mobility(watch)?, &[]),
+            Analysis::Mobility => answered(&asked.mobility(watch)?, NONE),
         })
     }
 
@@ -237,11 +249,11 @@ impl Page {
         let motions = asked.motions(&settings, watch)?;
         let mut states = Vec::new();
         let mut keep = |_: Option<usize>, row: &Row| {
-            states.push(json!({
-                "at": State::of(row.configuration),
-                "special": row.special,
-                "points": row.points,
-            }));
+            states.push(Shown {
+                at: State::of(row.configuration),
+                special: row.special.cloned(),
+                points: row.points.to_vec(),
+            });
         };
         let report = worded(motions.report(usize::MAX, &mut keep, watch));
         Ok(answered(&report, &states))
@@ -325,12 +337,11 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
         .fold(asked, |asked, (name, of)| asked.hold(name, of.of(at)))
 }
 
-/// A report as the command line prints it, as JSON and as text, with the configurations that it lists. It may be long:
-/// it is written once.
-fn answered(report: &impl JsonReport, states: &[Value]) -> String {
-    let (report, text) = (render(report), Value::from(text::render(&report.shown())));
-    let states = Value::from(states);
-    format!("{{\"report\":{report},\"text\":{text},\"states\":{states}}}")
+/// A report as the command line prints it, with the configurations that it lists. It may be long: it is written once.
+fn answered(report: &impl JsonReport, states: &[impl Serialize]) -> String {
+    let (report, states) = (render(report), serde_json::to_string(states));
+    let states = states.expect("what a page is shown can be written");
+    format!("{{\"report\":{report},\"states\":{states}}}")
 }
 
 fn configuration(state: &State, mechanism: &Mechanism) -> Result<Configuration<f64>, Refusal> {

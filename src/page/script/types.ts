@@ -176,7 +176,6 @@ export interface Assembly {
 
 export interface Modes {
   report: { sentence: string; complete?: string; real: number; assemblies: Assembly[] };
-  text: string;
   states: { at: State; scene: Scene }[];
 }
 
@@ -197,7 +196,6 @@ export interface Swept {
       met: { met: string; part: number | null; inputs: number[]; joints: number[] }[];
     }[];
   };
-  text: string;
   states: Row[];
 }
 
