@@ -92,9 +92,10 @@ pub fn complaint(
         AskError::Point { error, .. } => no_point(mechanism, error),
         AskError::Quantity { text, error, .. } => no_quantity(mechanism, text, error),
         AskError::Unmeasured { error, .. } => match error {
-            Unmeasured::NoInput => said.label("nothing moves").help(
-                "move an input, e.g. --input NAME=0deg..360deg, or report positions and angles only",
-            ),
+            Unmeasured::NoInput => said.label("nothing moves").help(match ranged {
+                Ranged::Vary => "give the rate of what moves, e.g. --rate NAME=1",
+                _ => "move an input, e.g. --input NAME=0deg..360deg, or report positions and angles only",
+            }),
             Unmeasured::NotHeld { held, .. } => said.label("not held").help(match held.is_empty() {
                 true => "forces are those of inputs and of what is held".into(),
                 false => format!("forces that can be reported are those that hold {}", listed(held)),
