@@ -6,8 +6,8 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::words::worded;
-use super::{QuestionError, report};
+use super::QuestionError;
+use super::words::{Refused, worded};
 use crate::ask::{Mode, Question, Role, Value};
 use crate::cli::{self, Ranged};
 use crate::mechanism::Mechanism;
@@ -223,7 +223,7 @@ impl Asked {
     }
 
     /// What is wrong with the question, in the words of the command line, under what says so if something does.
-    pub fn refusal(&self, error: &report::Refused) -> PyErr {
+    pub fn refusal(&self, error: &Refused) -> PyErr {
         let parts = self.parts.iter().map(|part| {
             let given = Given {
                 option: part.option,
@@ -234,11 +234,11 @@ impl Asked {
         });
         let given: Vec<(Role, Given)> = parts.collect();
         QuestionError::new_err(match error {
-            report::Refused::Asked(error) => {
+            Refused::Asked(error) => {
                 let (said, given) = cli::said(&self.question, &given, self.ranges, error);
                 worded(said, given)
             }
-            report::Refused::Said(said) => worded(said.clone(), None),
+            Refused::Said(said) => worded(said.clone(), None),
         })
     }
 }

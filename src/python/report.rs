@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use super::asked::Asked;
+use super::words::Refused;
 use crate::analysis::assemblies::Wanted;
 use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::compare::CompareSettings;
@@ -13,7 +14,7 @@ use crate::analysis::overview::overview;
 use crate::analysis::singularities::SingularitiesSettings;
 use crate::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use crate::analysis::workspace::WorkspaceSettings;
-use crate::ask::{AskError, Solved};
+use crate::ask::Solved;
 use crate::description::listed;
 use crate::mechanism::{Frame, Mechanism};
 use crate::output::complaint::Complaint;
@@ -134,18 +135,6 @@ impl Column {
             }
         };
         Ok((self.name, array))
-    }
-}
-
-/// Why there is no answer.
-pub enum Refused {
-    Asked(AskError),
-    Said(Complaint),
-}
-
-impl From<AskError> for Refused {
-    fn from(error: AskError) -> Self {
-        Refused::Asked(error)
     }
 }
 

@@ -1,7 +1,20 @@
 //! Words of the command line as Python takes them.
 
+use crate::ask::AskError;
 use crate::output::complaint::{Complaint, Given};
 use crate::output::diagnostics::Style;
+
+/// Why there is no answer.
+pub enum Refused {
+    Asked(AskError),
+    Said(Complaint),
+}
+
+impl From<AskError> for Refused {
+    fn from(error: AskError) -> Self {
+        Refused::Asked(error)
+    }
+}
 
 /// A complaint whose remedies name keywords of Python.
 pub fn worded(mut said: Complaint, given: Option<Given>) -> String {

@@ -206,8 +206,6 @@ def test_errors_say_where_and_what_and_the_remedy(four_bar):
         four_bar.solve(tetha1=1)
     with pytest.raises(TypeError, match="did you mean `steps`"):
         four_bar.sweep("theta1", 0, 1, step=4)
-    with pytest.raises(QuestionError, match='a mode is a number or "all"'):
-        four_bar.solve(mode="every")
     with pytest.raises(QuestionError, match="no law"):
         four_bar.sweep("theta1", 0, 1, law="sudden")
     assert issubclass(QuestionError, linkwork.Error) and issubclass(linkwork.Error, ValueError)

@@ -347,7 +347,7 @@ class Mechanism:
         return self._ask("compare", given, samples=samples)  # type: ignore[no-any-return]
 
     def solve_many(self, values: npt.ArrayLike, names: Names | None = None, **given: Any) -> dict[str, Any]:
-        """A configuration for each row of held values, without reports: 10⁶ rows in a second or so.
+        """A configuration for each row of held values, without reports, on all cores.
 
         ``values`` has a column for each of ``names``, which are the driven joints unless given, in m and rad. The way
         goes from the configuration of the question straight from row to row, so that neighbouring rows are on one
