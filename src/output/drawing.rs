@@ -8,7 +8,7 @@ mod camera;
 mod labels;
 mod symbols;
 
-pub(crate) use beside::movement;
+pub use beside::movement;
 pub(crate) use camera::Camera;
 pub use camera::View;
 

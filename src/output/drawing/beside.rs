@@ -113,7 +113,7 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
 }
 
 /// How a body moves about and along a screw.
-pub(crate) fn movement(screw: &Axis) -> String {
+pub fn movement(screw: &Axis) -> String {
     match screw.pitch {
         None => format!("{} slides", screw.name),
         Some(0.0) => format!("{} turns", screw.name),
