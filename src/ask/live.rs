@@ -132,6 +132,7 @@ impl Steering {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::sweep::SweepEnd;
     use crate::ask::Question;
     use crate::geometry::Vector3;
     use crate::mechanism::Mechanism;
@@ -230,7 +231,9 @@ mod tests {
         };
         let to = middle(&steering) + Vector3([0.01, 0.02, -0.02]);
         for _ in 0..40 {
-            steering.pull(&grip, to.0, None, watch);
+            let report = steering.pull(&grip, to.0, None, watch);
+            // also where there is nothing left to go
+            assert_eq!(report.ending, SweepEnd::Complete);
         }
         let missed = (middle(&steering) - to).norm();
         assert!(missed < 1e-3, "it stays {missed} away");

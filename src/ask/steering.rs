@@ -29,6 +29,9 @@ pub struct Steering {
 /// which goes by the square root, is then a thousandth away from it, where the branch is still unique.
 const BEFORE: f64 = 1e-6;
 
+/// Ways shorter than this part of where they begin, or of a rad or characteristic length, are rounding.
+const ROUNDING: f64 = 1e-13;
+
 impl Question {
     /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by what is held. Where too
     /// little is held, or something that depends on the rest, this is put right.
@@ -174,7 +177,14 @@ impl Steering {
             from: coordinate.of(&self.at),
             to,
         });
-        let inputs: Vec<Driven> = inputs.filter(|input| input.from != input.to).collect();
+        let moves = |input: &Driven| {
+            let size = input
+                .coordinate
+                .scale(&self.mechanism)
+                .max(input.from.abs());
+            (input.to - input.from).abs() > ROUNDING * size
+        };
+        let inputs: Vec<Driven> = inputs.filter(moves).collect();
         if inputs.is_empty() {
             return self.standing();
         }
