@@ -1592,3 +1592,31 @@ fn circuits_of_a_mechanism_of_platforms_are_those_of_the_same_one_with_joints() 
     let stiff = ask::Question::new(four_bar_of_platforms(lengths)).hold("crank.yaw", 1.0);
     assert!(stiff.circuits(&Watch::none()).is_err());
 }
+
+#[test]
+fn a_segment_that_ends_just_before_a_dead_point_is_completed() {
+    let chebyshev = mechanism("chebyshev");
+    // coupler and rocker in line: 16 + 25 - 40 cos(theta) = 49
+    let dead = (-0.2f64).acos();
+    let moved = |to: f64| {
+        let question = ask::Question::new(chebyshev.clone()).input("theta1", 0.7, to);
+        let motions = question
+            .motions(&SweepSettings::default(), &Watch::none())
+            .unwrap();
+        let mut report = motions.report(200, &mut |_, _| {}, &Watch::none());
+        let motion = report.motions.remove(0);
+        let column = motion.columns.iter().position(|of| of.name == "theta1");
+        let last = motion.values.last().unwrap()[column.unwrap()].unwrap();
+        (motion.sweep.ending, last)
+    };
+    for short in [1e-3, 1e-4, 1e-5, 1e-6, 1e-8] {
+        let (ending, last) = moved(dead - short);
+        assert_eq!(ending, SweepEnd::Complete, "{short:e}");
+        assert!((last - (dead - short)).abs() < 1e-12, "{short:e}: {last}");
+    }
+    for beyond in [1e-6, 1e-4, 0.1] {
+        let (ending, last) = moved(dead + beyond);
+        assert_eq!(ending, SweepEnd::Fold, "{beyond:e}");
+        assert!((last - dead).abs() < 1e-9, "{beyond:e}: {last}");
+    }
+}

@@ -233,8 +233,17 @@ impl<'m> Walk<'m> {
             for (end, outward) in [(0.0, -1.0), (1.0, 1.0)] {
                 let beyond = move |curve: &Curve, p: &At| outward * (curve.part(&p.at) - end);
                 let (a, b) = (beyond(curve, &from), beyond(curve, &to));
-                if a < -1e-12 && b >= 0.0 {
-                    let place = method.root(curve, &from, &to, &mut |c, p| beyond(c, p));
+                // the inputs may turn back just beyond the end
+                let fold = events
+                    .iter()
+                    .find(|(_, event)| matches!(event, Event::Fold));
+                let fold = fold.filter(|(place, _)| beyond(curve, place) > 1e-12);
+                let reached = match (b >= 0.0, fold) {
+                    (true, _) => Some(&to),
+                    (false, fold) => fold.map(|(place, _)| place),
+                };
+                if let Some(reached) = reached.filter(|_| a < -1e-12) {
+                    let place = method.root(curve, &from, reached, &mut |c, p| beyond(c, p));
                     events.push((place, Event::End(end == 1.0)));
                 }
             }
