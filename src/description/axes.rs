@@ -214,6 +214,11 @@ impl AxisDescription {
         given.cloned().unwrap_or_else(Entry::absent)
     }
 
+    /// Whether its value in the drawing is given: by itself, or as 0 where its bodies are drawn apart.
+    pub fn is_drawn(&self) -> bool {
+        self.drawn.is_some() || self.second.is_some()
+    }
+
     /// Whether the length of a rod is a variable of its own.
     pub fn is_driven_length(&self) -> bool {
         let said = self.role.is_some() || self.limits.is_some() || self.home.is_some();

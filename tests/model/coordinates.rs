@@ -446,6 +446,31 @@ fn gears_racks_and_screws_follow_by_their_ratio() {
 }
 
 #[test]
+fn a_constant_of_a_coupling_counts_from_the_value_in_the_drawing() {
+    let follower = |more: &str| {
+        let text = format!(
+            r#"Axes(version: 1, name: "pair", joints: {{
+                "a": Revolute(point: (0, 0, 0), direction: (0, 0, 1), role: Actuated, home: "20 deg", between: ("ground", "one")),
+                "c": Revolute(point: (0, 0, 0), direction: (0, 0, 1), value: "2*a + 10 deg"{more}, between: ("ground", "two")),
+            }}, points: {{ "tip": (body: "two", at: (1, 0, 0)) }})"#
+        );
+        Description::read(&text).and_then(|description| Mechanism::new(&description))
+    };
+    // at home it is at 50°, from where it was drawn
+    for (drawn, turned) in [("50 deg", 0.0_f64), ("10 deg", 40.0), ("0 deg", 50.0)] {
+        let pair = follower(&format!(", drawn: \"{drawn}\"")).unwrap();
+        let (sin, cos) = turned.to_radians().sin_cos();
+        let tip = at(&pair, "tip", &pair.home());
+        assert!(
+            (tip - Vector3([cos, sin, 0.0])).norm() < 1e-14,
+            "{drawn}: {tip:?}"
+        );
+    }
+    let problems = follower("").unwrap_err();
+    assert_eq!(problems.len(), 1, "{problems:?}");
+}
+
+#[test]
 fn a_scissor_lift_rises_by_the_theorem_of_pythagoras() {
     let lift = axes("scissor_lift");
     let foot = 2.0 * 30.0_f64.to_radians().cos();

@@ -3,7 +3,7 @@
 use super::AxesDescription;
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{signed_sum, zero};
-use crate::description::{AxesProblem, Entry, Problem, ProblemKind, place_of};
+use crate::description::{AxesProblem, AxisKind, Entry, Problem, ProblemKind, place_of};
 
 /// The values of joints as sums of variables.
 pub(super) struct Values {
@@ -27,6 +27,14 @@ impl Values {
                     .ok()
             })
             .collect();
+        for (joint, sum) in axes.joints.iter().zip(&sums) {
+            let drawn = joint.value.is_drawn() || joint.value.kind == AxisKind::Distance;
+            let lost = sum.as_ref().filter(|sum| !drawn && !sum.constant.is_zero());
+            if let (Some(_), Some(value)) = (lost, &joint.value.value) {
+                let joint = joint.name.value.clone();
+                problems.push(AxesProblem::ConstantLost { joint }.at(&value.span));
+            }
+        }
         let mut moved = Vec::new();
         for joint in 0..axes.joints.len() {
             let mut path = Vec::new();
@@ -84,11 +92,31 @@ fn change(
         terms.push(Entry::from(factor.times(&change.expression)));
     }
     path.pop();
-    let entry = signed_sum(terms.iter().map(|term| (1.0, term)));
+    let entry = match described.value.is_drawn() {
+        true => signed_sum([
+            (1.0, &whole(axes, sums, joint)),
+            (-1.0, &described.value.at_drawing()),
+        ]),
+        false => signed_sum(terms.iter().map(|term| (1.0, term))),
+    };
     let span = described
         .value
         .value
         .as_ref()
         .map_or(0..0, |value| value.span.clone());
     Ok(Entry { span, ..entry })
+}
+
+/// The value of a joint over variables; no joint follows itself.
+fn whole(axes: &AxesDescription, sums: &[Option<Affine<String>>], joint: usize) -> Entry {
+    let Some(sum) = &sums[joint] else {
+        return Expression::name(axes.joints[joint].name.value.clone()).into();
+    };
+    let terms = sum.terms.iter().filter_map(|(name, factor)| {
+        let leader = whole(axes, sums, place_of(&axes.joints, name)?);
+        Some(Entry::from(factor.times(&leader.expression)))
+    });
+    let constant = Entry::from(sum.constant.clone());
+    let terms: Vec<Entry> = terms.chain([constant]).collect();
+    signed_sum(terms.iter().map(|term| (1.0, term)))
 }

@@ -52,6 +52,10 @@ pub enum AxesProblem {
     /// Values of joints given by one another; the first follows the last.
     #[error("the value of a joint is given by itself: {}", cycle(joints))]
     FollowsItself { joints: Vec<String> },
+    #[error(
+        "the constant in the value of `{joint}` has no effect: how it is drawn follows from the joints it follows"
+    )]
+    ConstantLost { joint: String },
     #[error("the joint `{joint}` follows others by its {by} and has no `{field}` of its own")]
     Follows {
         joint: String,

@@ -19,6 +19,20 @@ impl Builder<'_> {
             for place in places.into_iter().flatten() {
                 self.check_place(&joint.name.value, joint.value.kind, place);
             }
+            // a home that is wrong hides what is made of it
+            let wanted = match joint.value.kind {
+                AxisKind::Revolute | AxisKind::Helical => Measure::Angle,
+                AxisKind::Prismatic | AxisKind::Distance => Measure::Length,
+                _ => continue,
+            };
+            let limits = joint
+                .value
+                .limits
+                .iter()
+                .flat_map(|(low, high)| [low, high]);
+            for limit in limits {
+                self.measured(limit, wanted);
+            }
         }
     }
 

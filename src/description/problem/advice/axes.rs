@@ -23,6 +23,9 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
         } => format!("did you mean `{meant}`?"),
         UnknownBody { .. } => "connect it with others by the `between` of a joint, or leave it out".into(),
         FollowsItself { .. } => "leave out the `value` of one of them: it is then the variable".into(),
+        ConstantLost { .. } => {
+            "leave it out, or give its value in the drawing, e.g. `drawn: \"0 deg\"`".into()
+        }
         Follows { field, by, .. } => format!("leave out `{field}`, or else `{by}`"),
         NotPerpendicular { .. } => "turn one of them, or write two revolute joints with a body between them".into(),
         NotPlaced { .. } => "`check` and all other commands take all kinds of joints".into(),
