@@ -22,7 +22,7 @@ impl Mechanism {
         let base = std::iter::once(FixedStep::TranslateBy(origin)).chain(turns);
         let slides = [("u", [0.0, 0.0]), ("v", [FRAC_PI_2, 0.0])];
         let slides = slides.map(|(name, turns)| (self.free_name(name), 0.0, turns));
-        self.with_slides(Point { frame, offset }, base.collect(), &slides)
+        self.with_slides("point", Point { frame, offset }, base.collect(), &slides)
     }
 
     /// The mechanism with the coordinates of a point in ground as joints, called after it: they are its last ones, and
@@ -39,7 +39,7 @@ impl Mechanism {
         let slides =
             slides.map(|(axis, home, turns)| (format!("{}.{axis}", point.name), home, turns));
         let base = FixedStep::Rotate(Axis::Y, Formula::number(turn));
-        self.with_slides(point.point, vec![base], &slides)
+        self.with_slides(&point.name, point.point, vec![base], &slides)
     }
 
     /// Whether a joint is a coordinate of a point ([`Mechanism::with_coordinates_of`]): no other name has a dot.
@@ -48,9 +48,10 @@ impl Mechanism {
     }
 
     /// The mechanism with a point closed by a ball to the end of a chain of slides, each with its home value and α and
-    /// θ of its row.
+    /// θ of its row; what is added is called after the point.
     fn with_slides(
         &self,
+        called: &str,
         point: Point,
         base: Vec<FixedStep>,
         slides: &[(String, f64, [f64; 2])],
@@ -84,8 +85,10 @@ impl Mechanism {
             (point.frame, offset, Vec::new()),
         ];
         let tips = chains.map(|(on, base, rows)| {
-            let name = ["slides", "point"][(cut.chains.len() - self.chains.len()).min(1)];
-            let name = cut.free_name(name);
+            let name = match cut.chains.len() == self.chains.len() {
+                true => cut.free_name(&format!("coordinates of {called}")),
+                false => cut.free_name(called),
+            };
             cut.chains.push(Chain {
                 name,
                 on,
@@ -98,7 +101,7 @@ impl Mechanism {
                 chain: cut.chains.len() - 1,
             }
         });
-        let name = cut.free_name("coordinates");
+        let name = cut.free_name(&format!("coordinates of {called}"));
         cut.closures.push(Closure {
             name,
             kind: ClosureKind::Spherical,

@@ -201,6 +201,23 @@ fn a_point_of_the_moving_centrode_has_a_cusp_at_the_pole_and_its_neighbour_has_n
         let cusp = cusp.expect("a cusp is met");
         assert!((cusp.inputs[0] - crank).abs() < 1e-8, "{cusp:?}");
         assert_eq!(report.motions[0].sweep.paths[0].cusps.len(), 1);
+        // and so does a table that goes there and back over it, once
+        let table = |x: f64| {
+            let [from, to] = [crank - 0.7, crank + 0.7];
+            let rows = format!("time (s),theta1 (rad)\n0,{from:?}\n1,{to:?}\n2,{from:?}\n");
+            let question = Question::new(mechanism("four_bar"))
+                .through_rows(&rows)
+                .unwrap()
+                .guess("phi1", 2.2)
+                .point(format!("left+{x:?},{y:?}"));
+            let motions = question.motions(&settings, &Watch::none()).unwrap();
+            let report = motions.report(200, &mut |_, _| {}, &Watch::none());
+            report.motions[0].sweep.paths[0].cusps.clone()
+        };
+        let there = table(x);
+        assert_eq!(there.len(), 1, "{there:?}");
+        assert!((there[0].joints[0][0] - crank).abs() < 1e-8, "{there:?}");
+        assert!(table(x + 0.01).is_empty());
     }
 }
 

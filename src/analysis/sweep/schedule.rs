@@ -1,7 +1,10 @@
 //! Inputs over time, through the rows of a table.
 
 use super::points::Paths;
-use super::{InputReport, MetKind, Row, Sink, SweepEnd, SweepReport, SweepSettings, sweep};
+use super::{
+    InputReport, MetKind, PathPoint, PathReport, Row, Sink, SweepEnd, SweepReport, SweepSettings,
+    sweep,
+};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Watch;
 use crate::system::{Driven, Held};
@@ -95,6 +98,7 @@ impl Schedule {
             steps: 1,
             continuation: settings.continuation.clone(),
             between: settings.between,
+            points: settings.points.clone(),
             ..SweepSettings::default()
         };
         let mut traced = Paths::new(mechanism, &settings.points);
@@ -154,12 +158,39 @@ impl Schedule {
             whole.sure_steps += report.sure_steps;
             whole.length += report.length;
             whole.interrupted = report.interrupted;
+            met_on_paths(&mut whole.paths, report.paths);
             whole.ending = report.ending;
             if last {
                 break;
             }
         }
         whole
+    }
+}
+
+/// Adds what was met on paths in one step; what was passed before is the same point. Paths that cross in different
+/// steps are not looked for.
+fn met_on_paths(all: &mut Vec<PathReport>, more: Vec<PathReport>) {
+    /// In m and rad.
+    const SAME: f64 = 1e-6;
+    if all.is_empty() {
+        *all = more;
+        return;
+    }
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME);
+    for (path, more) in all.iter_mut().zip(more) {
+        for (known, found) in [
+            (&mut path.cusps, more.cusps),
+            (&mut path.double_points, more.double_points),
+        ] {
+            for point in found {
+                let same =
+                    |of: &PathPoint| of.joints.iter().zip(&point.joints).all(|(a, b)| near(a, b));
+                if !known.iter().any(same) {
+                    known.push(point);
+                }
+            }
+        }
     }
 }
 

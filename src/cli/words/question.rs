@@ -215,7 +215,20 @@ pub fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityError) -> 
         },
         QuantityError::Point { error, .. } => return no_point(mechanism, error),
     };
-    let said = Complaint::kind(&kind);
+    let mut said = Complaint::kind(&kind);
+    if let QuantityError::Parse(_) = error {
+        // a name of several words is read as several
+        let names = mechanism
+            .frames()
+            .into_iter()
+            .map(|frame| mechanism.frame_name(frame));
+        let mut plain =
+            names.filter(|name| name.contains(' ') && !text.contains(&format!("[{name}")));
+        if let Some(name) = plain.find(|name| text.contains(name.as_str())) {
+            let bracketed = text.replace(&name, &format!("[{name}]"));
+            said = said.help(format!("put the name into brackets: `{bracketed}`"));
+        }
+    }
     match error {
         QuantityError::Unknown { name, .. } if name == text => said,
         _ => Complaint {
