@@ -74,23 +74,28 @@ impl Extremes {
         self.seen += 1;
         for (i, sides) in self.sides.iter_mut().enumerate() {
             if let Some(value) = values[i] {
-                let off = 4.0 * noise[i].max(f64::EPSILON * value.abs());
                 let [low, high] = &mut self.allowed[i];
-                (*low, *high) = (low.max(value - off), high.min(value + off));
-            }
-            for (side, sense) in sides.iter_mut().zip(SENSES) {
-                if let Some(value) = values[i] {
+                if low <= high {
+                    let off = 4.0 * noise[i].max(f64::EPSILON * value.abs());
+                    (*low, *high) = (low.max(value - off), high.min(value + off));
+                }
+                for (side, sense) in sides.iter_mut().zip(SENSES) {
                     side.reach(sense * value, at, time);
                 }
-                if let Some([a, b, c]) = heights(&self.rows, i, sense)
-                    && (b >= a && b >= c && b > a.min(c) || self.seen == 3 && a > b)
-                {
-                    side.peak(a.max(b), None, &self.rows);
-                }
             }
-            if let [a, b, c] = &self.rows[..]
-                && let Some(value) = b.values[i]
-            {
+            let [a, b, c] = &self.rows[..] else { continue };
+            let known = [a, b, c].map(|row| row.values[i]);
+            if let [Some(a), Some(b), Some(c)] = known {
+                // most rows lie between their neighbours
+                if self.seen == 3 || (b - a) * (c - b) <= 0.0 {
+                    for (side, sense) in sides.iter_mut().zip(SENSES) {
+                        let [a, b, c] = [a, b, c].map(|x| sense * x);
+                        if b >= a && b >= c && b > a.min(c) || self.seen == 3 && a > b {
+                            side.peak(a.max(b), None, &self.rows);
+                        }
+                    }
+                }
+            } else if let Some(value) = known[1] {
                 // it may grow towards a row where it is not known
                 let grows = |row: &Seen| row.values[i].is_none_or(|x| x.abs() < value.abs());
                 let side = &mut sides[usize::from(value > 0.0)];

@@ -10,9 +10,7 @@ use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
 };
 use crate::geometry::Vector3;
-use crate::mechanism::{
-    Configuration, Figure, Frame, Measured, Mechanism, Order, Point, PoseCoordinate, Quantity,
-};
+use crate::mechanism::{Configuration, Figure, Frame, Measured, Mechanism, Order, Point, Quantity};
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Motion, Neighbourhood};
 
 /// What a meter is for.
@@ -408,9 +406,9 @@ impl Found<'_> {
 
     /// Place, velocity or acceleration of a point.
     fn vector(&self, point: Point, order: Order) -> Option<Vector3<f64>> {
-        let [x, y, z] = [PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
-            .map(|c| self.known(&Measured::Place(point, c, order)));
-        Some(Vector3([x?, y?, z?]))
+        let loose = order > Order::Value && !point.is_origin() && self.loose.contains(&point.frame);
+        let known = (self.moves || order == Order::Value) && !loose;
+        known.then(|| self.places.vector(point, order))?
     }
 
     /// A derivative, if rates are determined.

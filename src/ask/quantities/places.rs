@@ -1,6 +1,6 @@
 //! Where points and joints are, with derivatives by time.
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{
     Configuration, Frame, Kinematics, Mechanism, Order, Placement, Point, PoseCoordinate,
 };
@@ -65,6 +65,21 @@ impl Places {
             Places::Values(of) => c.of(&of.pose(point)).derivative(order),
             Places::Velocities(of) => c.of(&of.pose(point)).derivative(order),
             Places::Accelerations(of) => c.of(&of.pose(point)).derivative(order),
+        }
+    }
+}
+
+impl Places {
+    /// Where a point is, or how it moves.
+    pub fn vector(&self, point: Point, order: Order) -> Option<Vector3<f64>> {
+        fn of<T: Moving>(position: Vector3<T>, order: Order) -> Option<Vector3<f64>> {
+            let [x, y, z] = position.0.map(|part| part.derivative(order));
+            Some(Vector3([x?, y?, z?]))
+        }
+        match self {
+            Places::Values(places) => of(places.pose(point).position, order),
+            Places::Velocities(places) => of(places.pose(point).position, order),
+            Places::Accelerations(places) => of(places.pose(point).position, order),
         }
     }
 }
