@@ -67,8 +67,8 @@ fn sentence(report: &AssemblyReport) -> String {
             powerless,
         } => {
             let mut text = format!(
-                "Assembled at a singular configuration: {} can still move although all inputs are \
-                 held",
+                "Assembled at a singular configuration: to first order {} can still move although all \
+                 inputs are held",
                 listed(moving)
             );
             if let Some(name) = closure {

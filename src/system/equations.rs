@@ -7,6 +7,7 @@ mod layout;
 mod parts;
 mod plan;
 mod rates;
+mod settle;
 mod spin;
 mod wrenches;
 
@@ -16,6 +17,7 @@ pub use closure_gap::Gap;
 pub use coordinate::Coordinate;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use parts::independent_parts;
+pub use settle::{settle, solve};
 pub use spin::Spin;
 pub use wrenches::ClosureWrenches;
 

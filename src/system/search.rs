@@ -12,7 +12,7 @@ pub use starts::{random_configuration, sampling_range};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::equations::{System, Work};
+use super::equations::{System, Work, solve};
 use super::question::Question;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Newton, Report, Stage, Stop, Watch};
@@ -150,10 +150,7 @@ impl<'a> Search<'a> {
     }
 
     fn from(&mut self, mut at: Configuration<f64>) -> Attempt {
-        let mut trial = at.clone();
-        let report = self
-            .newton
-            .solve(&self.system, &mut at, &mut trial, &mut self.work);
+        let report = solve(self.newton, &self.system, &mut at, &mut self.work);
         Attempt { at, report }
     }
 

@@ -1,7 +1,8 @@
 //! Rods stretched straight: at the limit of what is possible a few real assemblies are left of many complex ones.
 
 use linkwork::analysis::assemblies::{AssembliesReport, Fit, Wanted};
-use linkwork::ask::Question;
+use linkwork::analysis::assembly::AssemblySettings;
+use linkwork::ask::{Question, Solved};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::{Report, text};
@@ -79,22 +80,54 @@ fn rods_as_long_as_two_planes_are_apart_leave_a_set_of_two_dimensions() {
     assert!(!report.document().answer.contains("isolated"));
 }
 
-#[test]
-fn bodies_that_turn_about_the_line_of_stretched_rods_are_not_isolated() {
-    // the line of the rods passes beside the origins of both bodies, which may turn about it
-    let report = report(
+/// Two bodies between rods that reach 3 m; the line of the rods passes beside the origins of both
+/// bodies, which may turn about it.
+fn bodies(post: f64) -> String {
+    format!(
         r#"Mechanism(
             version: 1, name: "two bodies between rods", convention: Modified,
-            platforms: {
-                "p": Platform(home: [T(1, -0.2, 0)], frames: { "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)] }),
-                "q": Platform(home: [T(2, -0.2, 0)], frames: { "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)] }),
-            },
-            chains: { "post": Chain(base: [Tx(3)]) },
-            closures: {
+            platforms: {{
+                "p": Platform(home: [T(1, -0.2, 0)], frames: {{ "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)] }}),
+                "q": Platform(home: [T(2, -0.2, 0)], frames: {{ "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)] }}),
+            }},
+            chains: {{ "post": Chain(base: [Tx({post:?})]) }},
+            closures: {{
                 "r1": Distance("ground", "p.B", 0.9), "r2": Distance("p.A", "q.B", 0.8), "r3": Distance("q.A", "post", 0.9),
-            },
-        )"#,
-    );
+            }},
+        )"#
+    )
+}
+
+#[test]
+fn rods_that_just_reach_are_assembled_from_aside_and_shorter_ones_are_not() {
+    let solved = |post: f64| {
+        let mechanism = Mechanism::new(&Description::read(&bodies(post)).unwrap()).unwrap();
+        let guesses = [
+            ("p.roll", 0.9),
+            ("p.y", 0.1),
+            ("q.roll", -1.2),
+            ("q.z", 0.2),
+        ];
+        let question = guesses
+            .iter()
+            .fold(Question::new(mechanism), |q, (name, value)| {
+                q.guess(*name, *value)
+            });
+        match question.solve(&AssemblySettings::default(), &Watch::none()) {
+            Ok(Solved::Ended(report)) => report,
+            other => panic!("{other:?}"),
+        }
+    };
+    let report = solved(3.0);
+    assert!(report.is_assembled(), "{:?}", report.outcome);
+    // to the tolerance of a dimensionless residual, over 3 m
+    assert!(report.residual <= 1e-12, "{:e}", report.residual);
+    assert!(!solved(3.0 + 1e-6).is_assembled());
+}
+
+#[test]
+fn bodies_that_turn_about_the_line_of_stretched_rods_are_not_isolated() {
+    let report = report(&bodies(3.0));
     // with each body's turn held still, or as samples of a set of two dimensions
     for assembly in &report.assemblies {
         let place = |body: &str| assembly.platforms.get(body).unwrap();

@@ -9,6 +9,7 @@ use crate::description::{ClosureKind, Role};
 use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
+use crate::system::equations::solve;
 use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
 pub use follow::FiniteStep;
@@ -123,8 +124,7 @@ impl<'a> Neighbourhood<'a> {
         newton: &Newton,
         mut at: Configuration<f64>,
     ) -> Option<Configuration<f64>> {
-        let mut trial = at.clone();
-        let report = newton.solve(&self.system, &mut at, &mut trial, &mut self.work);
+        let report = solve(newton, &self.system, &mut at, &mut self.work);
         (report.stop == Stop::Solved).then_some(at)
     }
 

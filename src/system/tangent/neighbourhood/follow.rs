@@ -1,9 +1,10 @@
 //! Finite steps from an assembled configuration.
 
 use super::{Neighbourhood, Tangent};
-use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot, norm};
+use crate::linear::{RANK_TOLERANCE, add, dot, norm};
 use crate::mechanism::Configuration;
 use crate::solve::Equations;
+use crate::system::equations::settle;
 
 /// Where a finite step along an infinitesimal motion leads.
 #[derive(Clone, Debug)]
@@ -218,39 +219,7 @@ impl Neighbourhood<'_> {
 
     /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
     /// rounding; `None` if they go further than `reach` or do not arrive.
-    pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
-        const STEPS: usize = 60;
-        const TOLERANCE: f64 = 1e-12;
-        /// No further step improves the result once this is reached.
-        const CLOSED: f64 = 1e-15;
-        let start = at.clone();
-        let mut best: Option<(f64, Configuration<f64>)> = None;
-        let mut stale = 0;
-        for _ in 0..STEPS {
-            let size = self.system.linearise(&at, &mut self.work).largest;
-            if best.as_ref().is_none_or(|(least, _)| size < 0.5 * least) {
-                best = Some((size, at.clone()));
-                stale = 0;
-            } else {
-                stale += 1;
-            }
-            let least = best.as_ref().map_or(f64::INFINITY, |best| best.0);
-            if size == 0.0 || (stale > 2 && least <= TOLERANCE) || (stale > 0 && least <= CLOSED) {
-                break;
-            }
-            let jacobian = self.system.dense_jacobian(&mut self.work);
-            let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
-            let decomposition = Decomposition::of(rows, columns, &jacobian);
-            let mut back = decomposition.solve(self.system.residual_of(&self.work));
-            let longest = norm(&back);
-            let factor = (reach / longest).min(1.0);
-            back.iter_mut().for_each(|x| *x *= -factor);
-            at = self.system.displaced(&at, &back);
-            if norm(&self.system.difference(&start, &at)) > 10.0 * reach {
-                return None;
-            }
-        }
-        let (size, at) = best?;
-        (size <= TOLERANCE).then_some(at)
+    pub fn settle(&mut self, at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
+        settle(&self.system, &mut self.work, at, reach)
     }
 }
