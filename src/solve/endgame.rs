@@ -16,6 +16,8 @@ type C = Complex<f64>;
 pub trait Turning: Homotopy {
     /// The largest difference of two points, angles modulo a turn, and whether turns were dropped.
     fn apart(&self, x: &[C], y: &[C]) -> (f64, bool);
+    /// Whether a point is so far out that it counts as infinite.
+    fn is_far(&self, x: &[C]) -> bool;
 }
 
 /// Where a solution goes as s → 1.
@@ -43,9 +45,12 @@ const SAMPLES: usize = 8;
 const MOST_TURNS: usize = 8;
 /// A term with a negative power counts from here, beside the size of the solution.
 const GROWING: f64 = 1e-3;
-/// Circles in a row on which it must grow: one circle may hold another meeting point beside the
-/// centre, which looks the same until a smaller circle leaves it out.
+/// Circles in a row on which it must grow. A circle may hold another meeting point beside the
+/// centre, which looks the same until a smaller one leaves it out: so smaller ones follow until all of
+/// one is far out, or no more can be gone round.
 const IN_A_ROW: usize = 3;
+/// Circles gone round at most.
+const CIRCLES: usize = 12;
 
 /// From one circle to the next.
 const SHRINK: f64 = 6.0;
@@ -58,39 +63,63 @@ pub fn path_end<H: Turning>(
     mut radius: f64,
     stages: &mut Stages<'_>,
 ) -> PathEnd {
-    let mut at = x.to_vec();
+    // where on the circle, in parts of a turn
+    let (mut at, mut phase) = (x.to_vec(), 0);
     let mut before: Option<(Vec<C>, f64)> = None;
-    let mut growing = 0;
-    for _ in 0..12 {
-        if let Some((samples, turned)) = circle(h, tracker, &at, radius, stages) {
+    let (mut growing, mut outwards) = (0, false);
+    for _ in 0..CIRCLES {
+        let round = circle(h, tracker, &at, (radius, phase), stages);
+        if let Some((samples, turned)) = &round {
+            let turned = *turned;
             let winding = samples.len() / SAMPLES;
-            let mean = coefficient(&samples, winding, 0);
+            let mean = coefficient(samples, winding, 0);
             let scale = 1.0 + norm(&mean);
-            let negative = (1..=3).map(|k| norm(&coefficient(&samples, winding, k)));
+            let negative = (1..=3).map(|k| norm(&coefficient(samples, winding, k)));
             let negative = negative.fold(0.0, f64::max);
             if let Some((previous, was)) = &before {
-                let outwards = turned || (negative > GROWING * scale && negative > 1.05 * was);
-                growing = if outwards { growing + 1 } else { 0 };
+                let grows = turned || (negative > GROWING * scale && negative > 1.05 * was);
+                growing = if grows { growing + 1 } else { 0 };
                 let gap: Vec<C> = mean.iter().zip(previous).map(|(a, b)| a - b).collect();
                 let logarithmic = turned && grows_as_logarithm(&gap, winding);
-                // which no other meeting point looks like
-                if growing == IN_A_ROW || (logarithmic && growing + 1 == IN_A_ROW) {
+                outwards |= growing + usize::from(logarithmic) >= IN_A_ROW;
+                if outwards && samples.iter().all(|x| h.is_far(x)) {
                     return PathEnd::Infinite;
                 }
-                if !turned && negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale {
+                // far out a tracker may stand still in rounding, as at a finite end
+                let is_end = !outwards || h.residual(place(0.0, 0), &mean) < 1e-6 * scale * scale;
+                if !turned && negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale && is_end {
                     return PathEnd::Finite { x: mean, winding };
                 }
             }
             before = Some((mean, negative));
         }
+        // where another meeting point is in the way, from elsewhere on the circle
         let smaller = radius / SHRINK;
-        let way = (C::new(1.0 - radius, 0.0), C::new(1.0 - smaller, 0.0));
-        if tracker.track(h, way, &mut at, stages).arrival != Arrival::There {
-            break;
-        }
+        let inwards = [0, 2, 6, 4].into_iter().find_map(|part| {
+            let from = match (&round, part) {
+                (_, 0) => &at,
+                (Some((samples, _)), _) => &samples[part],
+                (None, _) => return None,
+            };
+            let mut x = from.clone();
+            let way = (place(radius, phase + part), place(smaller, phase + part));
+            let track = tracker.track(h, way, &mut x, stages);
+            (track.arrival == Arrival::There).then_some((x, phase + part))
+        });
+        let Some(inwards) = inwards else { break };
+        (at, phase) = inwards;
         radius = smaller;
     }
-    PathEnd::Undecided { x: at }
+    match outwards {
+        true => PathEnd::Infinite,
+        false => PathEnd::Undecided { x: at },
+    }
+}
+
+/// A point of the circle round s = 1, after so many parts of a turn.
+fn place(radius: f64, part: usize) -> C {
+    let phi = TAU * part as f64 / SAMPLES as f64;
+    C::new(1.0 - radius * phi.cos(), -radius * phi.sin())
 }
 
 /// Whether an angle, k/w times i ln(1 − s) and terms that vanish with 1 − s, goes to infinity: its
@@ -106,14 +135,11 @@ fn circle<H: Turning>(
     h: &mut H,
     tracker: &Tracker,
     start: &[C],
-    radius: f64,
+    (radius, phase): (f64, usize),
     stages: &mut Stages<'_>,
 ) -> Option<(Vec<Vec<C>>, bool)> {
     let mut samples = Vec::new();
-    let place = |k: usize| {
-        let phi = TAU * k as f64 / SAMPLES as f64;
-        C::new(1.0 - radius * phi.cos(), -radius * phi.sin())
-    };
+    let place = |k: usize| place(radius, phase + k);
     let mut x = start.to_vec();
     settle(h, place(0), &mut x);
     let start = x.clone();
@@ -174,28 +200,30 @@ fn norm(x: &[C]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::solve::{Progress, Stage, Watch};
 
     /// An angle x with e^{ix} (c − s) = 1: at s = c it is infinite.
     struct Exponential {
-        c: f64,
+        c: C,
     }
 
     impl Homotopy for Exponential {
         fn settle(&self, _: &mut [C]) {}
         fn velocity(&mut self, s: C, _: &[C], out: &mut [C]) -> bool {
-            out[0] = C::new(0.0, -1.0) / (C::new(self.c, 0.0) - s);
+            out[0] = C::new(0.0, -1.0) / (self.c - s);
             out[0].re.is_finite()
         }
         fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
-            let value = (C::new(0.0, 1.0) * x[0]).exp() * (C::new(self.c, 0.0) - s);
+            let value = (C::new(0.0, 1.0) * x[0]).exp() * (self.c - s);
             let step = (value - 1.0) / (value * C::new(0.0, 1.0));
             x[0] -= step;
             step.norm()
         }
         fn residual(&mut self, s: C, x: &[C]) -> f64 {
-            ((C::new(0.0, 1.0) * x[0]).exp() * (C::new(self.c, 0.0) - s) - 1.0).norm()
+            ((C::new(0.0, 1.0) * x[0]).exp() * (self.c - s) - 1.0).norm()
         }
     }
 
@@ -206,12 +234,15 @@ mod tests {
             gap.re -= turns * TAU;
             (gap.norm(), turns != 0.0)
         }
+        fn is_far(&self, x: &[C]) -> bool {
+            x[0].im.abs() > 14.0
+        }
     }
 
     /// e^{ix} (c − s) = 1 gives x = i ln(c − s).
-    fn end(c: f64) -> PathEnd {
+    fn end(c: C) -> PathEnd {
         let radius = 0.03;
-        let x = [C::new(0.0, f64::ln(c - 1.0 + radius))];
+        let x = [C::new(0.0, 1.0) * (c - 1.0 + radius).ln()];
         let watch = Watch::none();
         let mut stages = Stages::new(1, (&watch, Progress::of(Stage::Paths)));
         let tracker = Tracker::default();
@@ -220,17 +251,20 @@ mod tests {
 
     #[test]
     fn an_angle_that_goes_to_infinity_as_a_logarithm_is_infinite() {
-        assert_eq!(end(1.0), PathEnd::Infinite);
+        assert_eq!(end(C::new(1.0, 0.0)), PathEnd::Infinite);
     }
 
     #[test]
     fn an_angle_that_would_go_to_infinity_later_is_finite() {
-        for beyond in [0.5, 0.1, 0.01] {
-            match end(1.0 + beyond) {
-                PathEnd::Finite { x, winding: 1 } => {
-                    assert!((x[0] - C::new(0.0, beyond.ln())).norm() < 1e-12, "{x:?}");
-                }
-                other => panic!("{beyond}: {other:?}"),
+        for beyond in [0.5, 0.1, 0.01, 1e-3, 1e-4, 1e-5] {
+            // straight ahead, aside, and on the way itself
+            for side in [0.0, 0.3, 2.0, -2.5, PI - 1e-4, PI] {
+                let gap = C::from_polar(beyond, side);
+                let PathEnd::Finite { x, winding: 1 } = end(gap + 1.0) else {
+                    panic!("{gap}: {:?}", end(gap + 1.0));
+                };
+                let left = (C::new(0.0, 1.0) * x[0]).exp() * gap - 1.0;
+                assert!(left.norm() < 1e-9, "{gap}: {x:?}");
             }
         }
     }

@@ -25,7 +25,7 @@ use plan::ClosurePlan;
 
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, Kinematics, Placement, PoseCoordinate, needs,
+    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, PoseCoordinate, Side, needs,
     orientation_rows,
 };
 use crate::number::Field;
@@ -142,10 +142,14 @@ impl<T: Factorable> System<T> {
         self.plans.iter().map(|plan| plan.row..plan.row + plan.rows)
     }
 
-    /// For each closure the unknown joints that affect it.
+    /// For each closure the unknown joints that affect it: not those that carry both of its frames.
     pub fn joints_of_closures(&self) -> impl Iterator<Item = Vec<usize>> {
         self.plans.iter().map(|plan| {
-            let movers = plan.movers.iter().map(|(_, mover, _)| mover.joint);
+            let carries = |(side, mover, _): &(Side, Mover<T>, usize)| {
+                (plan.movers.iter()).any(|(other, same, _)| other != side && same == mover)
+            };
+            let movers = plan.movers.iter().filter(|mover| !carries(mover));
+            let movers = movers.map(|(_, mover, _)| mover.joint);
             let extensions = plan.extensions.iter().map(|(joint, _)| *joint);
             movers.chain(extensions).collect()
         })

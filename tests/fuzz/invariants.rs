@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::analysis::assemblies::{AssembliesReport, Fit, Wanted};
 use linkwork::analysis::assembly::{AssemblySettings, Outcome};
+use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts};
 use linkwork::analysis::mobility::{Character, MobilityReport};
 use linkwork::ask::{AskError, Question, Solved};
-use linkwork::description::Description;
+use linkwork::description::{Description, Role};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::Report;
 use linkwork::solve::{Progress, Watch};
@@ -134,6 +135,44 @@ fn mobility(question: &Question, budget: &Budget) -> Broken {
         key(a),
         key(b)
     );
+    Ok(())
+}
+
+/// The mechanism broken at other joints has the freedoms it has.
+pub fn other_cuts(text: &str, budget: &Budget) -> Broken {
+    let description = Description::read(text).map_err(|p| format!("not read: {p:?}"))?;
+    let count = |description: &Description| {
+        let mechanism = Mechanism::new(description).map_err(|p| format!("refused: {p:?}"))?;
+        let (answer, left) = budget.spend(|watch| Question::new(mechanism).mobility(watch));
+        let report = answer.map_err(|e| format!("mobility: {e}"))?.closed();
+        // angles of rows stand in gimbal lock where those of another cut do not
+        let whole = |r: &MobilityReport| !left && !r.interrupted && r.gimbal_locked == 0;
+        Ok::<_, String>(report.filter(whole).map(|r| (r.mobility, r.infinitesimal)))
+    };
+    let Some(freedoms) = count(&description)? else {
+        return Ok(());
+    };
+    let mechanism = Mechanism::new(&description).map_err(|p| format!("refused: {p:?}"))?;
+    // a driven link whose spin counts is no longer driven when its joint is broken
+    let passive = |name: &String| {
+        let joint = mechanism.joint(name);
+        joint.is_none_or(|joint| mechanism.joints()[joint].role == Role::Passive)
+    };
+    let mut cuts = possible_cuts(&mechanism, &description);
+    cuts.retain(passive);
+    for joint in cuts.iter().step_by(1 + cuts.len() / 2) {
+        let settings = ConvertSettings {
+            cut: Some(joint.clone()),
+            ..ConvertSettings::default()
+        };
+        let conversion = convert(&mechanism, &description, &settings);
+        let conversion = conversion.map_err(|e| format!("not cut at {joint}: {e}"))?;
+        let cut = count(&conversion.description)?;
+        hold!(
+            cut.is_none_or(|cut| cut == freedoms),
+            "freedoms, finite and infinitesimal: {freedoms:?}, and {cut:?} when cut at {joint}"
+        );
+    }
     Ok(())
 }
 

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use generator::Dice;
-use invariants::{Budget, check, read};
+use invariants::{Budget, check, other_cuts, read};
 use linkwork::mechanism::Mechanism;
 use questions::{Asked, asked};
 
@@ -46,6 +46,7 @@ fn answers_about_random_mechanisms_keep_the_invariants() {
     for seed in 0..24 {
         let (text, posed) = posed(seed, 5);
         let checked = posed.and_then(|(mechanism, asked)| check(&mechanism, &asked, &budget));
+        let checked = checked.and_then(|()| other_cuts(&text, &budget));
         if let Err(broken) = checked {
             panic!("seed {seed}: {broken}\n{text}");
         }
@@ -74,10 +75,12 @@ fn answers_about_many_random_mechanisms_keep_the_invariants() {
         // there beforehand, should it never end
         let file = (folder.as_ref()).map(|folder| folder.join(format!("{seed}.ron")));
         if let Some(file) = &file {
-            std::fs::write(file, text).unwrap();
+            std::fs::write(file, &text).unwrap();
         }
         let ended = std::panic::catch_unwind(|| {
-            posed.and_then(|(mechanism, asked)| check(&mechanism, &asked, &budget))
+            posed
+                .and_then(|(mechanism, asked)| check(&mechanism, &asked, &budget))
+                .and_then(|()| other_cuts(&text, &budget))
         });
         let said = match ended {
             Ok(checked) => checked.err(),
@@ -111,7 +114,9 @@ fn cases_found_before_keep_the_invariants() {
         let text = std::fs::read_to_string(&path).unwrap();
         let mechanism = read(&text).unwrap_or_else(|broken| panic!("{}: {broken}", path.display()));
         let asked = Asked::read(text.lines().next().unwrap());
-        let checked = check(&mechanism, &asked, &Budget { steps: 20_000 });
+        let budget = Budget { steps: 20_000 };
+        let checked = check(&mechanism, &asked, &budget);
+        let checked = checked.and_then(|()| other_cuts(&text, &budget));
         checked.unwrap_or_else(|broken| panic!("{}: {broken}", path.display()));
     }
 }

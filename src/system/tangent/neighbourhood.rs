@@ -168,11 +168,13 @@ impl<'a> Neighbourhood<'a> {
             })
             .collect();
         let outside = mechanism.joints_outside_closures();
-        // platforms on several balls can only spin about the line of these
+        // platforms on several balls can only spin about the line of these; a ball may be rows of a
+        // chain that stands on the platform
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
-            let balls = closures
-                .flat_map(|closure| closure.frames)
+            let carried = mechanism.chains().iter().map(|chain| chain.on);
+            let balls = (closures.flat_map(|closure| closure.frames))
+                .chain(carried)
                 .filter(move |frame| mechanism.body(*frame) == Body::Platform(platform));
             balls.filter_map(|frame| frames.iter().position(|f| *f == frame))
         };

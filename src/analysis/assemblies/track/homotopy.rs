@@ -294,7 +294,20 @@ impl Homotopy for ParameterHomotopy<'_> {
     }
 }
 
+/// Solutions larger than this, times the largest held length, count as infinite: rounding of the
+/// dimensions by ε brings one that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4.
+pub(super) const FAR: f64 = 1e3;
+
 impl crate::solve::Turning for ParameterHomotopy<'_> {
+    fn is_far(&self, x: &[C]) -> bool {
+        /// A rotation by φ grows as e^|Im φ|, here to 1e6.
+        const TURNED: f64 = 14.0;
+        let c = &self.family.coordinates;
+        let mut joints = c.free_joints.iter().zip(x);
+        let turned = joints.any(|(&j, z)| c.turns[j].is_some() && z.im.abs() > TURNED);
+        turned || size(x) > FAR * self.reach()
+    }
+
     fn apart(&self, x: &[C], y: &[C]) -> (f64, bool) {
         let c = &self.family.coordinates;
         let mut turned = false;

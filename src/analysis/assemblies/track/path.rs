@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::along::polish;
-use super::homotopy::ParameterHomotopy;
+use super::homotopy::{FAR, ParameterHomotopy};
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use crate::analysis::assemblies::family::{C, size};
@@ -37,22 +37,14 @@ impl End {
 
 /// Rounding beside the square of the size of a solution.
 const ROUNDING: f64 = 1e-15;
-/// Solutions larger than this, times the largest held length, count as infinite: rounding of the
-/// dimensions by ε brings one that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4.
-const FAR: f64 = 1e3;
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
-/// A path no larger than this where the endgame starts, that still seems to diverge, may meet another
-/// one inside the circle.
-const NEARBY: f64 = 10.0;
 /// Segments longer than this, in rad or characteristic lengths, are tracked in parts.
 const LONG: f64 = 10.0;
 
 /// A tracked path.
 pub(crate) struct Path {
     pub end: End,
-    /// Whether its endpoint is doubtful.
-    pub unsure: bool,
     pub steps: usize,
     pub evaluations: usize,
 }
@@ -110,17 +102,12 @@ pub(crate) fn follow(
         Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => Some(End::Infinite),
         Arrival::Stuck(_) => Some(End::Lost),
     };
-    let mut unsure = false;
     let end = found.unwrap_or_else(|| {
         // not regular: Cauchy endgame
         let mut x = corner;
         let short = C::from_f64(1.0 - NEAR_END);
         match leg(homotopy, &mut x, &mut stages, from_here, short) {
-            Arrival::There => {
-                let end = go_round(homotopy, tracker, far, &x, &mut stages);
-                unsure = end == End::Infinite && size(&x) <= NEARBY * homotopy.reach();
-                end
-            }
+            Arrival::There => go_round(homotopy, tracker, far, &x, &mut stages),
             Arrival::Diverged(_) => End::Infinite,
             Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => End::Infinite,
             Arrival::Stuck(_) => End::Lost,
@@ -128,7 +115,6 @@ pub(crate) fn follow(
     });
     Path {
         end,
-        unsure,
         steps,
         evaluations,
     }

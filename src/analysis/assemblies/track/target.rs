@@ -161,7 +161,6 @@ impl Batch<'_, '_> {
             ..Ends::default()
         };
         let mut waiting: Vec<usize> = (0..solutions.len()).collect();
-        let mut unsure: Vec<usize> = Vec::new();
         for level in 0..=2 {
             let tracker = self.tracker(level);
             let (bend, followed, watch) = (self.bend, self.followed, self.watch);
@@ -182,22 +181,13 @@ impl Batch<'_, '_> {
                 let Some(path) = path else { continue };
                 all.steps += path.steps;
                 all.evaluations += path.evaluations;
-                if path.unsure && level == 0 {
-                    unsure.push(i);
-                }
-                // a second attempt that finds nothing keeps the result of the first
-                if path.end != End::Lost || !unsure.contains(&i) || level == 0 {
-                    all.ends[i] = path.end;
-                }
+                all.ends[i] = path.end;
             }
             self.share_out(&mut all.ends);
             if level == 2 || watch.is_stopped() {
                 break;
             }
             waiting = self.doubtful(&all.ends);
-            if level == 0 {
-                waiting.extend(&unsure);
-            }
             all.retries += waiting.len();
         }
         all
