@@ -63,16 +63,21 @@ pub(crate) fn dwell(rows: usize, tolerance: f64, at: &mut At) -> Option<(f64, [f
     };
     let middle = 0.5 * (least + most);
     let found = summit(least, most, |base| Some(stay(base).0));
-    let bases = [least, most, found.map_or(middle, |(base, _)| base)];
+    let bases = [least, most, found.map_or(middle, |(base, _)| base), middle];
     let stays = bases.map(&mut stay);
-    let all_of_it = stay(middle);
-    let longest = (0..3).max_by(|&i, &j| stays[i].0.total_cmp(&stays[j].0))?;
-    // where the band does not matter its middle is that of the values
-    let (base, (_, ends)) = match stays.iter().all(|of| (of.0 - all_of_it.0).abs() < 1e-12) {
-        true => (middle, all_of_it),
-        false => (bases[longest], stays[longest]),
+    let longest = (0..4).max_by(|&i, &j| stays[i].0.total_cmp(&stays[j].0))?;
+    let (base, (_, ends)) = (bases[longest], stays[longest]);
+    // where the values do not fill the band, their middle says more than that of the band
+    let inside = samples.iter().filter(|of| ends[0] <= of.0 && of.0 <= ends[1]);
+    let inside: Vec<_> = inside.filter_map(|of| of.1).collect();
+    for [_, value] in ends.into_iter().filter_map(&mut *at).chain(inside) {
+        (low, high) = (low.min(value), high.max(value));
+    }
+    let value = match high - low < width * (1.0 - 1e-9) {
+        true => 0.5 * (low + high),
+        false => base + tolerance,
     };
-    Some((base + tolerance, ends))
+    Some((value, ends))
 }
 
 /// The rows, and between them so many places that straight lines are off by no more than a limit.
