@@ -87,7 +87,7 @@ impl Question {
         let rows = match names.len() {
             0 => 0,
             width => {
-                assert!(values.len() % width == 0, "values are whole rows");
+                assert!(values.len().is_multiple_of(width), "values are whole rows");
                 values.len() / width
             }
         };
@@ -260,7 +260,7 @@ impl Follower<'_> {
             }
             tracker.restart(&before);
             step *= 0.5;
-            if !(step >= SHORTEST * longest) {
+            if step < SHORTEST * longest {
                 return false;
             }
         }

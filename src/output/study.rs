@@ -152,7 +152,7 @@ mod tests {
         let missing = |first, last| MergeError::Missing { first, last, of: 4 };
         assert_eq!(merge(&[a.clone(), b.clone()]), Err(missing(1, 1)));
         assert_eq!(merge(&[b]), Err(missing(0, 1)));
-        assert_eq!(merge(&[a.clone()]), Err(missing(1, 3)));
+        assert_eq!(merge(std::slice::from_ref(&a)), Err(missing(1, 3)));
         let other = ("c".to_owned(), a.1.replace("l2", "l3"));
         let refused = Err(MergeError::Other("c".into(), "a".into()));
         assert_eq!(merge(&[a.clone(), other]), refused);

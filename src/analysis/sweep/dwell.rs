@@ -120,8 +120,8 @@ fn longest(samples: &[Sample], width: f64) -> Option<[usize; 2]> {
     let (mut least, mut most) = (VecDeque::new(), VecDeque::<usize>::new());
     let mut first = 0;
     let mut best: Option<(f64, [usize; 2])> = None;
-    for last in 0..samples.len() {
-        if samples[last].1.is_none() {
+    for (last, sample) in samples.iter().enumerate() {
+        if sample.1.is_none() {
             least.clear();
             most.clear();
             first = last + 1;
