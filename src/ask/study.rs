@@ -105,7 +105,9 @@ impl Study {
             Points::Sobol(_) if wanted > Points::MOST_SOBOL => {
                 return Err(StudyError::Sobol(Points::MOST_SOBOL).into());
             }
-            Points::Sobol(count) if *count >= 1 << 32 => return Err(StudyError::Count.into()),
+            Points::Sobol(count) if *count as u64 >= 1 << 32 => {
+                return Err(StudyError::Count.into());
+            }
             Points::Grid(nodes) if nodes.len() != wanted => {
                 return width(format!("{} numbers of nodes", nodes.len()));
             }

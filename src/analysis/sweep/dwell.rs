@@ -68,7 +68,9 @@ pub(crate) fn dwell(rows: usize, tolerance: f64, at: &mut At) -> Option<(f64, [f
     let longest = (0..4).max_by(|&i, &j| stays[i].0.total_cmp(&stays[j].0))?;
     let (base, (_, ends)) = (bases[longest], stays[longest]);
     // where the values do not fill the band, their middle says more than that of the band
-    let inside = samples.iter().filter(|of| ends[0] <= of.0 && of.0 <= ends[1]);
+    let inside = samples
+        .iter()
+        .filter(|of| ends[0] <= of.0 && of.0 <= ends[1]);
     let inside: Vec<_> = inside.filter_map(|of| of.1).collect();
     for [_, value] in ends.into_iter().filter_map(&mut *at).chain(inside) {
         (low, high) = (low.min(value), high.max(value));
