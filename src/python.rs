@@ -31,6 +31,9 @@ use asked::{Asked, Number};
 use report::Report;
 use watched::watched;
 
+/// Columns of a table by their names.
+type Columns<'py> = Vec<(String, Bound<'py, PyAny>)>;
+
 create_exception!(
     linkwork,
     Error,
@@ -169,7 +172,7 @@ impl Mechanism {
         what: &str,
         given: &Bound<'py, PyDict>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Report, Vec<(String, Bound<'py, PyAny>)>)> {
+    ) -> PyResult<(Report, Columns<'py>)> {
         let asked = Asked::new(self.mechanism.clone(), given)?;
         let long = what != "solve" || asked.settings.numbered;
         let answer = watched(py, progress, long, |watch| {
