@@ -51,6 +51,7 @@ fn shipped() -> Vec<(String, Question, Solver)> {
         }
     }
     found.sort_by(|a, b| a.0.cmp(&b.0));
+    assert!(found.len() >= 58, "only {} have a solver", found.len());
     found
 }
 
