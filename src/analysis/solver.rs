@@ -6,7 +6,7 @@
 mod elimination;
 mod report;
 
-pub use report::{FrameProgram, Slot, Solver};
+pub use report::{Component, FrameProgram, Solver};
 
 use crate::algebra::{Place, Recorded, SiUnit, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
@@ -64,22 +64,22 @@ pub fn solver(
     );
     let (written, operations) = record(sample, || plan.write(frames));
     let written = written?;
-    let slot = |variable: &Variable, value: &f64| Slot {
+    let component = |variable: &Variable, value: &f64| Component {
         name: variable.name(mechanism),
         unit: variable.unit(mechanism),
         value: *value,
     };
-    let slots = |variables: &[Variable], values: &[f64]| -> Vec<Slot> {
+    let components = |variables: &[Variable], values: &[f64]| -> Vec<Component> {
         variables
             .iter()
             .zip(values)
-            .map(|(v, x)| slot(v, x))
+            .map(|(v, x)| component(v, x))
             .collect()
     };
     Ok(Solver {
         mechanism: mechanism.name().into(),
-        inputs: slots(&plan.inputs, &inputs),
-        state: slots(&plan.state, &state),
+        inputs: components(&plan.inputs, &inputs),
+        state: components(&plan.state, &state),
         operations,
         ..written
     })

@@ -5,7 +5,7 @@ mod sections;
 
 pub use language::{Language, Precision};
 
-use crate::analysis::solver::{Slot, Solver};
+use crate::analysis::solver::{Component, Solver};
 use crate::ask::Example;
 use sections::Writer;
 
@@ -29,11 +29,11 @@ impl Code {
             ("heading", self.heading(solver)),
             (
                 "start_inputs",
-                self.numbers(solver.inputs.iter().map(|slot| slot.value)),
+                self.numbers(solver.inputs.iter().map(|component| component.value)),
             ),
             (
                 "start_state",
-                self.numbers(solver.state.iter().map(|slot| slot.value)),
+                self.numbers(solver.state.iter().map(|component| component.value)),
             ),
             ("fast", writer.fast()),
             ("linearise", writer.linearise()),
@@ -97,15 +97,15 @@ impl Code {
 
     /// What is solved, units and the order of arrays.
     fn heading(&self, solver: &Solver) -> String {
-        let list = |slots: &[Slot]| -> String {
-            let lines = slots.iter().enumerate().map(|(i, slot)| {
-                let unit = slot.unit.to_string();
+        let list = |components: &[Component]| -> String {
+            let lines = components.iter().enumerate().map(|(i, component)| {
+                let unit = component.unit.to_string();
                 let unit = if unit.is_empty() {
                     String::new()
                 } else {
                     format!(", {unit}")
                 };
-                format!("   {i:>3}  {}{unit}\n", plain(&slot.name))
+                format!("   {i:>3}  {}{unit}\n", plain(&component.name))
             });
             lines.collect()
         };
@@ -119,7 +119,7 @@ impl Code {
         if solver
             .state
             .iter()
-            .any(|slot| slot.unit.to_string().is_empty())
+            .any(|component| component.unit.to_string().is_empty())
         {
             lines += "qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.\n";
         }

@@ -2,9 +2,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::{Operation, Place, SiUnit};
 
-/// A number that goes in or out.
+/// A component of the arrays that go in and out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Slot {
+pub struct Component {
     /// The joint, `top.x` for a coordinate of a platform, `top.qw` for a component of its unit quaternion.
     pub name: String,
     /// The unit of its values.
@@ -31,9 +31,9 @@ pub struct Solver {
     /// Name of the mechanism.
     pub mechanism: String,
     /// What is held.
-    pub inputs: Vec<Slot>,
+    pub inputs: Vec<Component>,
     /// By which numbers a configuration is kept.
-    pub state: Vec<Slot>,
+    pub state: Vec<Component>,
     /// How many unknowns a step has: one for each free joint, six for each free platform.
     pub unknowns: usize,
     /// All operations; operands stand before what uses them.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Code, Language};
 use crate::algebra::{Operation, Place};
-use crate::analysis::solver::{Slot, Solver};
+use crate::analysis::solver::{Component, Solver};
 
 /// Writes operations in the language of the code.
 pub(super) struct Writer<'a> {
@@ -247,7 +247,7 @@ impl<'a> Writer<'a> {
     /// Unit quaternions after a small change: one step of Newton's method for 1/√(q·q).
     pub fn normalise(&self) -> String {
         let mut text = self.text(1, false);
-        let first = |(_, slot): &(usize, &Slot)| slot.name.ends_with(".qw");
+        let first = |(_, component): &(usize, &Component)| component.name.ends_with(".qw");
         for (i, _) in self.solver.state.iter().enumerate().filter(first) {
             let squares: Vec<String> = (i..i + 4).map(|i| format!("x[{i}] * x[{i}]")).collect();
             let of = |x: f64| self.code.precision.literal(x, self.language());

@@ -94,8 +94,8 @@ pub(super) fn explanation(report: &WorkspaceReport) -> Vec<String> {
     let held = report.held.iter().map(|held| held.name.clone());
     let coordinates: Vec<String> = axes.chain(held).collect();
     let mut lines: Vec<String> = Vec::new();
-    let mut sign = |column: &str, of: &[String], told: bool| {
-        if told {
+    let mut sign = |column: &str, of: &[String], known: bool| {
+        if known {
             lines.push(format!(
                 "{column}: sign of det ∂{}/∂{}",
                 names(of),
@@ -103,9 +103,9 @@ pub(super) fn explanation(report: &WorkspaceReport) -> Vec<String> {
             ));
         }
     };
-    let told = |sign: fn(&AspectReport) -> i8| report.aspects.iter().any(|a| sign(a) != 0);
-    sign("direct", &report.inputs, told(|a| a.direct));
-    sign("inverse", &report.outputs, told(|a| a.inverse));
+    let known = |sign: fn(&AspectReport) -> i8| report.aspects.iter().any(|a| sign(a) != 0);
+    sign("direct", &report.inputs, known(|a| a.direct));
+    sign("inverse", &report.outputs, known(|a| a.inverse));
     if report.outputs.is_empty() {
         lines.push(
             "inverse singularities are not reported: they need as many independent platform \

@@ -1,4 +1,4 @@
-// The mechanism in the page, what is held of it and where it is; what changes is told to all who listen.
+// The mechanism in the page, what is held of it and where it is; all listeners are notified of changes.
 import { Background } from "./background";
 import { nearest } from "./sliders";
 import type { Solver } from "./solver";

@@ -41,7 +41,7 @@ fn course(
 ) -> Option<Course> {
     /// A rate as small beside a unit tangent is rounding.
     const STILL: f64 = 1e-9;
-    /// Angles that change more in one step are not told by the pose.
+    /// Angles that change more in one step do not follow from the pose.
     const JUMP: f64 = 0.5;
     let is_angle = of.is_angle(mechanism);
     let mut values: Vec<f64> = Vec::with_capacity(found.places.len());
@@ -109,8 +109,8 @@ impl Course {
         }
     }
 
-    /// A range with its middle within (−π, π] if it is of an angle.
-    fn told(&self, low: f64, high: f64) -> (f64, f64) {
+    /// A range, that of an angle with its middle within (−π, π].
+    fn centred(&self, low: f64, high: f64) -> (f64, f64) {
         let middle = 0.5 * (low + high);
         let shift = match self.is_angle {
             true => turn_near(middle, 0.0) - middle,
@@ -123,7 +123,7 @@ impl Course {
         let all = self.values.iter().chain(&self.turnings);
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let (low, high) = all.fold(none, |(low, high), x| (low.min(*x), high.max(*x)));
-        let (low, high) = self.told(low, high);
+        let (low, high) = self.centred(low, high);
         JointMotion {
             name,
             unit: SiUnit::of_coordinate(self.is_angle),
@@ -139,7 +139,7 @@ impl Course {
             return Vec::new();
         };
         let piece = |a: f64, b: f64, turns: bool| {
-            let (low, high) = self.told(a.min(b), a.max(b));
+            let (low, high) = self.centred(a.min(b), a.max(b));
             Branch { low, high, turns }
         };
         let cuts = match (closed, self.turnings.first()) {

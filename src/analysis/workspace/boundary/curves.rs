@@ -104,12 +104,12 @@ impl Tracer<'_> {
                 }
             }
         }
-        let told = known.into_iter().map(|known| {
+        let curves = known.into_iter().map(|known| {
             let at = |p: &Place<C::Point>| C::configuration(&p.at).clone();
             let path: Vec<Configuration<f64>> = known.traced.places.iter().map(at).collect();
             self.curve(path, known.points, known.traced.ends, known.met)
         });
-        told.collect()
+        curves.collect()
     }
 
     /// The mapped coordinates.
