@@ -32,7 +32,7 @@ pub use closure_kind::*;
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;
-pub use load::{FileError, LoadError, load, load_text};
+pub use load::{FileError, LoadError, load, load_text, load_text_within};
 pub(crate) use naming::{first_free, free_variable};
 pub use naming::{names_of, place_of};
 pub use parts::*;
@@ -42,8 +42,9 @@ pub use replacement::ReplacementError;
 pub use suggestion::nearest;
 pub use words::{count, listed, quoted};
 
-/// The largest file that is read (bytes); a mechanism of a thousand chains needs a tenth of it.
-pub const MAX_BYTES: u64 = 1 << 20;
+/// The largest file that is read unless another limit is given, in bytes: it guards against devices and mistaken names,
+/// whose contents would fill the memory, and has room for a million joints.
+pub const MAX_BYTES: u64 = 1 << 28;
 
 /// The version of the file format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -63,6 +63,8 @@ pub struct Mechanism {
     closed_forms: Vec<ClosedForm>,
     outputs: Vec<Quantity>,
     dimensions: Dimensions<f64>,
+    /// For each joint whether a full turn leaves every frame where it is.
+    repeating: Vec<bool>,
     coordinates: Option<Box<Coordinates>>,
     warnings: Vec<Problem>,
 }

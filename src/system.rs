@@ -19,8 +19,8 @@ pub use curve::{
     NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
 pub use equations::{
-    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, Spin, System, Unknown, Work,
-    approach, independent_parts,
+    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, Places, Spin, System,
+    Unknown, Work, approach, independent_parts,
 };
 pub use question::{
     Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,

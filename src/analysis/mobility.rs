@@ -10,6 +10,8 @@ mod loops;
 mod redundancy;
 mod report;
 
+use std::collections::HashSet;
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
@@ -111,10 +113,11 @@ pub fn mobility(
         .collect();
     let redundancies = redundancy::find(&mut near, &tangent);
     let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &idle_beside);
+    let known: HashSet<&String> = moving_joints.iter().collect();
     let idle_joints: Vec<String> = (mechanism.joints().iter().zip(&held.joints))
         .filter(|(_, locked)| !**locked)
         .map(|(joint, _)| joint.name.clone())
-        .filter(|name| !moving_joints.contains(name))
+        .filter(|name| !known.contains(name))
         .collect();
     let spins = |name: &&String| idle_freedoms.iter().any(|freedom| freedom.moves(name));
     let mut report = MobilityReport {

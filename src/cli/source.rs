@@ -5,7 +5,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use linkwork::description::{Description, FileError, LoadError, load_text};
+use linkwork::description::{Description, FileError, LoadError, MAX_BYTES, load_text_within};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given};
 use linkwork::output::view::Viewed;
@@ -21,6 +21,9 @@ pub struct Source {
     /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
+    /// The largest file that is read, in bytes: a guard against mistaken files
+    #[arg(long, value_name = "BYTES", default_value_t = MAX_BYTES)]
+    max_bytes: u64,
 }
 
 /// `NAME=VALUE`
@@ -85,12 +88,16 @@ pub struct Loaded {
 impl Source {
     /// A file with other values of parameters.
     pub fn new(file: PathBuf, set: Vec<Assignment>) -> Self {
-        Source { file, set }
+        Source {
+            file,
+            set,
+            max_bytes: MAX_BYTES,
+        }
     }
 
     /// Reads the file, or says everything that is wrong with it or with `--set`.
     pub fn load(&self) -> Result<Loaded, Refusal> {
-        let (text, mut description) = Mechanism::read(&self.file)?;
+        let (text, mut description) = Mechanism::read_within(&self.file, self.max_bytes)?;
         once("--set", &self.set)?;
         let mut refused = Vec::new();
         for assignment in &self.set {
@@ -134,7 +141,7 @@ impl Source {
         let set = self.set.iter();
         Ok(Viewed {
             file: file.to_string_lossy().into_owned(),
-            text: load_text(&self.file)?,
+            text: load_text_within(&self.file, self.max_bytes)?,
             set: set.map(|s| (s.name.clone(), s.value.clone())).collect(),
             watch: false,
         })
@@ -151,6 +158,9 @@ impl From<LoadError> for Refusal {
     fn from(error: LoadError) -> Self {
         match error {
             LoadError::Wrong(error) => Refusal(diagnostics::render(&error, style())),
+            LoadError::TooLarge { .. } => Refusal(format!(
+                "error: {error}\n  = help: --max-bytes allows more, if it is a mechanism\n"
+            )),
             other => Refusal(format!("error: {other}\n")),
         }
     }

@@ -32,9 +32,9 @@ pub enum LoadError {
         /// The first byte that is not UTF-8.
         offset: usize,
     },
-    /// The file is larger than [`MAX_BYTES`].
+    /// The file is larger than the limit.
     #[error(
-        "{}: too large: {}, where at most {MAX_BYTES} bytes are read",
+        "{}: too large: {}, where at most {limit} bytes are read",
         path.display(),
         bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"))
     )]
@@ -43,6 +43,8 @@ pub enum LoadError {
         path: PathBuf,
         /// Its size, if it has one.
         bytes: Option<u64>,
+        /// The limit.
+        limit: u64,
     },
     /// The file is not a description of a mechanism.
     #[error("{0}")]
@@ -80,11 +82,19 @@ pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> 
     }
 }
 
-/// Reads a file as text, whatever its format.
+/// Reads a file as text, whatever its format, up to [`MAX_BYTES`].
 ///
 /// # Errors
 /// If it cannot be read, is too large or is not text.
 pub fn load_text(path: impl AsRef<Path>) -> Result<String, LoadError> {
+    load_text_within(path, MAX_BYTES)
+}
+
+/// The same with another limit, in bytes.
+///
+/// # Errors
+/// If it cannot be read, is too large or is not text.
+pub fn load_text_within(path: impl AsRef<Path>, limit: u64) -> Result<String, LoadError> {
     let path = path.as_ref();
     let unreadable = |error| LoadError::Unreadable {
         path: path.to_owned(),
@@ -93,18 +103,19 @@ pub fn load_text(path: impl AsRef<Path>) -> Result<String, LoadError> {
     let too_large = |bytes| LoadError::TooLarge {
         path: path.to_owned(),
         bytes,
+        limit,
     };
     let file = File::open(path).map_err(unreadable)?;
     let size = file.metadata().map_err(unreadable)?.len();
-    if size > MAX_BYTES {
+    if size > limit {
         return Err(too_large(Some(size)));
     }
     // A pipe has no size beforehand, and a file may grow meanwhile.
     let mut bytes = Vec::new();
-    file.take(MAX_BYTES + 1)
+    file.take(limit.saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES {
+    if bytes.len() as u64 > limit {
         return Err(too_large(None));
     }
     String::from_utf8(bytes).map_err(|error| LoadError::NotText {

@@ -10,7 +10,7 @@ pub use coordinates::AxesProblem;
 use thiserror::Error;
 
 use super::words::{count, cycle, syntax};
-use super::{Expected, Found, MAX_BYTES, Noun, Structure};
+use super::{Expected, Found, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// A problem of a mechanism file.
@@ -66,9 +66,6 @@ pub enum Scope {
 #[derive(Debug, Clone, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ProblemKind {
-    /// The text is larger than the limit.
-    #[error("the text has {bytes} bytes; the limit is {MAX_BYTES}")]
-    TooLarge { bytes: usize },
     #[error("the file is empty")]
     Empty,
     #[error("brackets are nested too deeply for a mechanism file")]

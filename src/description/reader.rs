@@ -31,8 +31,7 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<St
 /// The word that a text begins with, if it is one RON value that does.
 fn first_word(text: &str) -> Option<&str> {
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
-    let within = text.len() as u64 <= MAX_BYTES;
-    let begin = within.then(|| syntax::begin(text, start)).flatten()?;
+    let begin = syntax::begin(text, start)?;
     match Piece::new(&text[begin..], begin).shape() {
         Shape::Word { word, .. } => Some(word),
         _ => None,
@@ -64,10 +63,6 @@ fn read_with<'a, T>(
     read: impl Fn(&mut Reader, Piece<'a>) -> Option<T>,
 ) -> (Option<T>, Reader) {
     let mut reader = Reader::default();
-    if text.len() as u64 > MAX_BYTES {
-        reader.note(ProblemKind::TooLarge { bytes: text.len() }, 0..0);
-        return (None, reader);
-    }
     // Some editors begin a file with a byte order mark.
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let description = match syntax::check(text, start) {

@@ -53,6 +53,7 @@ impl<T: Factorable> Bordered<T> {
         let place = |unknown: &usize| {
             (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
         };
+        // the sparse factors have no border
         let sparse = (T::Sparse::AVAILABLE && shared.len() > DENSE_LIMIT)
             .then(|| T::Sparse::new(unknowns, &blocks, extra_rows));
         let blocks: Vec<Factor<T>> = blocks
@@ -60,7 +61,10 @@ impl<T: Factorable> Bordered<T> {
             .map(|layout| {
                 let (rows, own, carried) = (layout.rows, layout.own.len(), layout.shared.len());
                 Factor {
-                    border_places: layout.shared.iter().map(place).collect(),
+                    border_places: match sparse {
+                        Some(_) => Vec::new(),
+                        None => layout.shared.iter().map(place).collect(),
+                    },
                     matrix: vec![T::zero(); rows * (own + carried)],
                     qr: Qr::new(rows + own, own, carried),
                     rhs: vec![T::zero(); rows + own],
@@ -70,7 +74,6 @@ impl<T: Factorable> Bordered<T> {
             })
             .collect();
         let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
-        // the sparse factors have no border
         let (most, width) = match sparse {
             Some(_) => (0, 0),
             None => (rows + unknowns, shared.len()),

@@ -16,7 +16,7 @@ use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Measure;
 use crate::description::{self, Description, Displacement, Draft, Entry, Named};
-use crate::description::{LoadError, Problem, ProblemKind, Severity, load_text};
+use crate::description::{LoadError, MAX_BYTES, Problem, ProblemKind, Severity, load_text_within};
 use crate::geometry::Pose;
 
 /// A chain as far as it could be resolved.
@@ -75,7 +75,18 @@ impl Mechanism {
     /// # Errors
     /// If the file cannot be read or is not well formed; then with all its problems.
     pub fn read(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
-        let text = load_text(&path)?;
+        Mechanism::read_within(path, MAX_BYTES)
+    }
+
+    /// The same for a file of at most so many bytes.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is not well formed; then with all its problems.
+    pub fn read_within(
+        path: impl AsRef<Path>,
+        limit: u64,
+    ) -> Result<(String, Description), LoadError> {
+        let text = load_text_within(&path, limit)?;
         match Description::read(&text) {
             Ok(description) => Ok((text, description)),
             Err(_) => {
@@ -146,6 +157,7 @@ impl Mechanism {
             closed_forms,
             outputs: Vec::new(),
             dimensions: super::Dimensions::empty(),
+            repeating: Vec::new(),
             coordinates: description.coordinates.clone(),
             warnings: Vec::new(),
         };
@@ -158,7 +170,10 @@ impl Mechanism {
         }
         if !builder.problems.iter().any(refused) {
             match mechanism.dimensions_over(&builder.values) {
-                Ok(dimensions) => mechanism.dimensions = dimensions,
+                Ok(dimensions) => {
+                    mechanism.dimensions = dimensions;
+                    mechanism.infer_repeating();
+                }
                 // the parts were evaluated one by one above; only their combination can fail
                 Err(error) => builder.refuse(ProblemKind::NoValue(error.kind), &error.span),
             }

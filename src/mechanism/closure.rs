@@ -40,7 +40,8 @@ pub struct Closure<T> {
     pub(crate) platforms: [Option<usize>; 2],
     length: T,
     extension: LinearForm<T>,
-    joint_scales: Vec<f64>,
+    /// The natural sizes of the joint variables of the extension.
+    extension_scales: Vec<f64>,
     inverse_length: f64,
 }
 
@@ -105,7 +106,9 @@ impl<T: Number> Closure<T> {
             platforms,
             length: closure.length,
             extension: closure.extension.clone(),
-            joint_scales: dimensions.joint_scales.clone(),
+            extension_scales: (closure.extension.0.iter())
+                .map(|&(joint, _)| dimensions.joint_scales[joint])
+                .collect(),
             inverse_length: 1.0 / dimensions.characteristic_length,
         }
     }
@@ -114,8 +117,13 @@ impl<T: Number> Closure<T> {
     /// a unit of the scaled variable: −s cⱼ/L².
     pub(crate) fn length_column(&self, joint: usize, at: &Configuration<T>) -> T {
         let length = self.length(&at.joints);
-        let factor = self.joint_scales[joint] * self.inverse_length * self.inverse_length;
-        -(length * self.extension.coefficient(joint)).scale(factor)
+        let terms = self.extension.0.iter().zip(&self.extension_scales);
+        let mut terms = terms.filter(|((j, _), _)| *j == joint);
+        terms
+            .next()
+            .map_or(T::zero(), |(&(_, coefficient), scale)| {
+                -(length * coefficient).scale(scale * self.inverse_length * self.inverse_length)
+            })
     }
 
     /// The joints whose variables affect the closure, without repetition.

@@ -19,7 +19,7 @@ pub(crate) type Slot = usize;
 pub struct Kinematics<T> {
     platforms: usize,
     steps: Vec<Step<T>>,
-    frames: Vec<(Frame, Slot)>,
+    frames: BTreeMap<Frame, Slot>,
     /// Link frames that already have a slot, by (chain, row).
     moving: BTreeMap<(usize, usize), Slot>,
 }
@@ -88,14 +88,14 @@ impl<T: Number> Kinematics<T> {
         let mut plan = Kinematics {
             platforms: dimensions.platforms.len(),
             steps: Vec::new(),
-            frames: Vec::new(),
+            frames: BTreeMap::new(),
             moving: BTreeMap::new(),
         };
         for (frame, need) in frames {
             let slot = plan.slot(frame).unwrap_or_else(|| {
                 let (parent, fixed) = plan.resolve(dimensions, frame);
                 let slot = plan.fixed_slot(parent, fixed);
-                plan.frames.push((frame, slot));
+                plan.frames.insert(frame, slot);
                 slot
             });
             plan.demand(slot, need);
@@ -110,8 +110,7 @@ impl<T: Number> Kinematics<T> {
 
     /// The slot of a frame of the plan.
     pub(crate) fn slot(&self, frame: Frame) -> Option<Slot> {
-        let mut found = self.frames.iter().filter(|(f, _)| *f == frame);
-        found.next().map(|&(_, slot)| slot)
+        self.frames.get(&frame).copied()
     }
 
     fn fixed_slot(&mut self, parent: Slot, fixed: Pose<T>) -> Slot {

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Mechanism;
-use super::model::JointKind;
+use super::model::{Joint, JointKind};
 
 /// As much as `Joint::allows`, in rad or m.
 const ROUNDING: f64 = 1e-9;
@@ -34,10 +34,16 @@ impl Mechanism {
     /// Whether a full turn of the joint leaves every frame where it is: not if it also slides, or if
     /// its variable turns some row by a fraction.
     pub fn repeats(&self, joint: usize) -> bool {
+        self.repeating[joint]
+    }
+
+    pub(super) fn infer_repeating(&mut self) {
+        let revolute = |joint: &Joint| joint.kind == JointKind::Revolute;
+        self.repeating = self.joints.iter().map(revolute).collect();
         let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
-        let whole = |c: f64| c == c.round();
-        self.joints[joint].kind == JointKind::Revolute
-            && rows.map(|row| row.turn.coefficient(joint)).all(whole)
+        for &(joint, factor) in rows.flat_map(|row| &row.turn.0) {
+            self.repeating[joint] &= factor == factor.round();
+        }
     }
 
     /// The joints that are outside their limits.

@@ -15,7 +15,7 @@ pub use approach::approach;
 pub use axes::ClosureAxes;
 pub use closure_gap::Gap;
 pub use coordinate::Coordinate;
-pub use layout::{Held, HeldPlatform, Unknown};
+pub use layout::{Held, HeldPlatform, Places, Unknown};
 pub use parts::independent_parts;
 pub use settle::{settle, solve};
 pub use spin::Spin;

@@ -3,9 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use linkwork::description::{
-    self, Description, FileError, LoadError, MAX_BYTES, Problem, ProblemKind,
-};
+use linkwork::description::{self, Description, FileError, LoadError, Problem, ProblemKind};
 use linkwork::mechanism::Mechanism;
 #[cfg(feature = "cli")]
 use linkwork::output::diagnostics::{Style, render};
@@ -139,7 +137,7 @@ fn a_single_mistake_is_a_single_problem() {
 
 #[test]
 fn large_texts_are_answered_in_time() {
-    let size = MAX_BYTES as usize;
+    let size = 1 << 20;
     let fill = |start: &str, unit: &str, end: &str| {
         let count = (size - start.len() - end.len()) / unit.len();
         format!("{start}{}{end}", unit.repeat(count))
@@ -244,7 +242,7 @@ fn files_that_are_no_text_or_too_large_or_missing_are_refused_before_reading() {
     ));
     let large = std::fs::File::create(&path).unwrap();
     large.set_len(50 << 20).unwrap();
-    let Err(error) = description::load(&path) else {
+    let Err(error) = description::load_text_within(&path, 1 << 20) else {
         panic!("refused")
     };
     assert!(matches!(
@@ -254,7 +252,14 @@ fn files_that_are_no_text_or_too_large_or_missing_are_refused_before_reading() {
             ..
         }
     ));
-    assert!(error.to_string().contains("52428800 bytes"));
+    let said = error.to_string();
+    assert!(said.contains("52428800 bytes") && said.contains("1048576 bytes"));
+    assert!(description::load_text_within(&path, 50 << 20).is_ok());
+    large.set_len(1 << 40).unwrap();
+    assert!(matches!(
+        description::load(&path),
+        Err(LoadError::TooLarge { .. })
+    ));
     std::fs::write(&path, EVERYTHING).unwrap();
     let (text, description) = description::load(&path).unwrap();
     assert_eq!(
@@ -268,7 +273,7 @@ fn an_endless_file_is_refused() {
     let endless = Path::new("/dev/zero");
     if endless.exists() {
         assert!(matches!(
-            description::load(endless),
+            description::load_text_within(endless, 1 << 20),
             Err(LoadError::TooLarge { bytes: None, .. })
         ));
     }

@@ -56,37 +56,101 @@ pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
             }
         }
     }
-    let mut loops = Vec::new();
+    let mut joined = Joined((0..bodies.len()).collect());
+    for (body, links) in tree.iter().enumerate() {
+        links
+            .iter()
+            .for_each(|&(other, _)| joined.join(body, other));
+    }
+    let mut closing = Vec::new();
     for (i, closure) in mechanism.closures().iter().enumerate() {
         let [from, to] = closure.frames.map(|frame| index(mechanism.body(frame)));
-        match path(&tree, from, to) {
-            None => join(&mut tree, from, to, Link::Closure(i)),
-            Some(mut way) => {
-                way.push((to, Link::Closure(i)));
-                loops.push(Loop {
-                    closed_by: closure.name.clone(),
-                    steps: named(mechanism, &bodies, way),
-                });
+        match joined.root(from) == joined.root(to) {
+            true => closing.push((i, from, to)),
+            false => {
+                join(&mut tree, from, to, Link::Closure(i));
+                joined.join(from, to);
             }
         }
     }
-    loops
+    let rooted = Rooted::new(&tree);
+    let loops = closing.into_iter().map(|(i, from, to)| {
+        let mut way = rooted.way(from, to);
+        way.push((to, Link::Closure(i)));
+        Loop {
+            closed_by: mechanism.closures()[i].name.clone(),
+            steps: named(mechanism, &bodies, way),
+        }
+    });
+    loops.collect()
 }
 
-/// The way in the tree from one body to another: each body with what leads on from it.
-fn path(tree: &[Vec<(usize, Link)>], from: usize, to: usize) -> Option<Vec<(usize, Link)>> {
-    let mut waiting = vec![(from, Vec::new())];
-    while let Some((at, way)) = waiting.pop() {
-        if at == to {
-            return Some(way);
+/// Bodies that are joined, each with another one of the same tree, or itself.
+struct Joined(Vec<usize>);
+
+impl Joined {
+    fn root(&mut self, mut body: usize) -> usize {
+        while self.0[body] != body {
+            self.0[body] = self.0[self.0[body]];
+            body = self.0[body];
         }
-        for &(next, link) in &tree[at] {
-            if way.last().is_none_or(|&(before, _)| before != next) {
-                waiting.push((next, [&way[..], &[(at, link)]].concat()));
+        body
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+/// Trees of bodies, each body with its depth and the link to the body above it.
+struct Rooted {
+    depth: Vec<usize>,
+    above: Vec<Option<(usize, Link)>>,
+}
+
+impl Rooted {
+    fn new(tree: &[Vec<(usize, Link)>]) -> Self {
+        let (mut depth, mut above) = (vec![usize::MAX; tree.len()], vec![None; tree.len()]);
+        for root in 0..tree.len() {
+            if depth[root] != usize::MAX {
+                continue;
+            }
+            depth[root] = 0;
+            let mut waiting = vec![root];
+            while let Some(at) = waiting.pop() {
+                for &(next, link) in &tree[at] {
+                    if depth[next] == usize::MAX {
+                        (depth[next], above[next]) = (depth[at] + 1, Some((at, link)));
+                        waiting.push(next);
+                    }
+                }
             }
         }
+        Rooted { depth, above }
     }
-    None
+
+    /// The way from one body to another of the same tree: each body with what leads on from it.
+    fn way(&self, mut from: usize, mut to: usize) -> Vec<(usize, Link)> {
+        let (mut way, mut back) = (Vec::new(), Vec::new());
+        while from != to {
+            let climbs = self.depth[from] >= self.depth[to];
+            let lower = if climbs { from } else { to };
+            let (higher, link) = self.above[lower].expect("only the root has none above it");
+            match climbs {
+                true => {
+                    way.push((from, link));
+                    from = higher;
+                }
+                false => {
+                    back.push((higher, link));
+                    to = higher;
+                }
+            }
+        }
+        way.extend(back.into_iter().rev());
+        way
+    }
 }
 
 /// The names along a loop of bodies with what leads on from them; links between joints of one chain

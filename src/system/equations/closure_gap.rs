@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::description::AxisCondition;
 use crate::geometry::Quaternion;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Kinematics, Mechanism};
 
 /// How far a closure is open.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -17,10 +17,20 @@ pub struct Gap {
 impl Gap {
     /// The gaps of all closures at a configuration, in the order of the file.
     pub fn of(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Gap> {
+        let frames = mechanism
+            .closures()
+            .iter()
+            .flat_map(|closure| closure.frames);
+        let kinematics = Kinematics::new(mechanism.dimensions(), frames);
+        let mut placement = kinematics.placement();
+        kinematics.place(at, &mut placement);
         let closures = mechanism.closures().iter().enumerate();
         closures
             .map(|(i, closure)| {
-                let [a, b] = mechanism.poses(closure.frames, at);
+                let [a, b] = closure.frames.map(|frame| {
+                    let pose = kinematics.pose(frame, &placement);
+                    *pose.expect("the kinematics was planned for the frames of all closures")
+                });
                 let g = a.rotation.inverse_rotate(&(b.position - a.position)).0;
                 let relative = a.rotation.transpose() * b.rotation;
                 let between_axes = || {

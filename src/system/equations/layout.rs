@@ -154,6 +154,45 @@ impl Unknown {
     }
 }
 
+/// The places of unknowns in a list of them.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    joints: Vec<Option<usize>>,
+    /// Of the first twist components of the platforms.
+    twists: Vec<Option<usize>>,
+}
+
+impl Places {
+    /// In this list, where the components of a twist follow one another.
+    pub fn new(unknowns: &[Unknown]) -> Self {
+        let mut places = Places::default();
+        for (place, unknown) in unknowns.iter().enumerate() {
+            let (all, owner) = match *unknown {
+                Unknown::Joint(joint) => (&mut places.joints, joint),
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => (&mut places.twists, platform),
+                Unknown::Twist { .. } => continue,
+            };
+            all.resize(all.len().max(owner + 1), None);
+            all[owner] = Some(place);
+        }
+        places
+    }
+
+    /// The place of an unknown, if it is in the list.
+    pub fn of(&self, unknown: Unknown) -> Option<usize> {
+        match unknown {
+            Unknown::Joint(joint) => *self.joints.get(joint)?,
+            Unknown::Twist {
+                platform,
+                component,
+            } => self.twists.get(platform)?.map(|first| first + component),
+        }
+    }
+}
+
 /// A row below the blocks: a platform coordinate held at a value, or a spin.
 #[derive(Clone, Debug)]
 pub(crate) enum HoldRow<T> {
@@ -178,6 +217,7 @@ pub(crate) struct Layout {
     /// For each closure its block and its first row in it.
     pub places: Vec<(usize, usize)>,
     pub shared: Vec<usize>,
+    places_of_unknowns: Places,
 }
 
 impl Layout {
@@ -251,6 +291,7 @@ impl Layout {
         }
         Layout {
             shared: (joints..unknowns.len()).collect(),
+            places_of_unknowns: Places::new(&unknowns),
             unknowns,
             blocks,
             places,
@@ -284,13 +325,14 @@ impl Layout {
             blocks: blocks.collect(),
             places: (0..closures.len()).map(|block| (block, 0)).collect(),
             shared: (0..unknowns.len()).collect(),
+            places_of_unknowns: Places::new(&unknowns),
             unknowns,
         }
     }
 
     /// The column of an unknown in a block.
     pub fn column(&self, block: usize, unknown: Unknown) -> Option<usize> {
-        let index = self.unknowns.iter().position(|u| *u == unknown)?;
+        let index = self.places_of_unknowns.of(unknown)?;
         let Block { own, shared, .. } = &self.blocks[block];
         own.iter().chain(shared).position(|&u| u == index)
     }

@@ -1,6 +1,6 @@
 //! Parts of a mechanism that no closure couples.
 
-use super::layout::Unknown;
+use super::layout::{Places, Unknown};
 use crate::mechanism::Mechanism;
 
 /// For each independent part of a mechanism which of the unknowns are its own.
@@ -9,6 +9,7 @@ use crate::mechanism::Mechanism;
 /// product of those of its parts.
 pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..unknowns.len()).collect();
+    let all = Places::new(unknowns);
     let platforms = (0..mechanism.platforms().len()).map(|platform| (vec![], vec![platform]));
     let closures = mechanism.closures().iter().map(|closure| {
         let carriers = closure.frames.into_iter();
@@ -16,24 +17,35 @@ pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec
         (mechanism.joints_moving(closure), carriers.collect())
     });
     for (joints, platforms) in platforms.chain(closures) {
-        let own: Vec<usize> = (0..unknowns.len())
-            .filter(|&i| match unknowns[i] {
-                Unknown::Joint(joint) => joints.contains(&joint),
-                Unknown::Twist { platform, .. } => platforms.contains(&platform),
+        let joints = joints.into_iter().map(Unknown::Joint);
+        let twists = platforms.into_iter().flat_map(|platform| {
+            (0..6).map(move |component| Unknown::Twist {
+                platform,
+                component,
             })
-            .collect();
-        let Some(&first) = own.first() else { continue };
-        let to = label[first];
+        });
+        let own: Vec<usize> = joints.chain(twists).filter_map(|u| all.of(u)).collect();
+        let Some(&first) = own.iter().min() else {
+            continue;
+        };
+        let to = root(&mut label, first);
         for i in own {
-            let from = label[i];
-            label
-                .iter_mut()
-                .filter(|l| **l == from)
-                .for_each(|l| *l = to);
+            let from = root(&mut label, i);
+            label[from] = to;
         }
     }
+    let label: Vec<usize> = (0..unknowns.len()).map(|i| root(&mut label, i)).collect();
     let parts = (0..unknowns.len()).map(|root| label.iter().map(|l| *l == root).collect());
     parts
         .filter(|own: &Vec<bool>| own.contains(&true))
         .collect()
+}
+
+/// The label of the whole that an unknown has been joined to.
+fn root(label: &mut [usize], mut i: usize) -> usize {
+    while label[i] != i {
+        label[i] = label[label[i]];
+        i = label[i];
+    }
+    i
 }

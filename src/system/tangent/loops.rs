@@ -7,7 +7,7 @@ use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::Decomposition;
 use crate::mechanism::{Body, Configuration, Frame, Symbol};
-use crate::system::Unknown;
+use crate::system::{Places, Unknown};
 
 /// A loop: a closure and the two chains from it to the body where they part.
 #[derive(Clone, Debug)]
@@ -42,10 +42,17 @@ pub fn loops(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<Mechanism
     // the tree takes links first, so that closures are what completes a loop
     let mut parent: BTreeMap<Body, Option<(Body, usize)>> = BTreeMap::from([(Body::Ground, None)]);
     let mut in_tree = vec![false; edges.len()];
+    let mut of_body: BTreeMap<Body, Vec<usize>> = BTreeMap::new();
+    for (e, edge) in edges.iter().enumerate() {
+        edge.bodies
+            .iter()
+            .for_each(|&body| of_body.entry(body).or_default().push(e));
+    }
     for with_closures in [false, true] {
         let mut queue: VecDeque<Body> = parent.keys().copied().collect();
         while let Some(body) = queue.pop_front() {
-            for (e, edge) in edges.iter().enumerate() {
+            for &e in of_body.get(&body).into_iter().flatten() {
+                let edge = &edges[e];
                 if edge.closure && !with_closures || in_tree[e] {
                     continue;
                 }
@@ -103,33 +110,35 @@ fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
     let length = mechanism.characteristic_length();
     let twists = near.frames();
     let placement = twists.placed(at);
-    let frames: Vec<Frame> = twists.frames().collect();
-    let place = |frame: Frame| frames.iter().position(|f| *f == frame);
-    let unknowns = near.system().unknowns();
+    let places = twists.places();
+    let place = |frame: Frame| places.get(&frame).copied();
+    let columns = Places::new(near.system().unknowns());
+    let column = |joint: usize| columns.of(Unknown::Joint(joint));
+    let mut rates = vec![0.0; near.system().unknowns().len()];
     let mut edges = Vec::new();
     for (chain, part) in mechanism.chains().iter().enumerate() {
         for (i, row) in part.rows.iter().enumerate() {
             // a joint that is locked joins two bodies without a freedom
             let all = row.joints();
-            let is_free = |joint: &usize| unknowns.contains(&Unknown::Joint(*joint));
-            let joints: Vec<usize> = all.iter().copied().filter(is_free).collect();
+            let joints = all.iter().copied().filter(|&joint| column(joint).is_some());
+            let joints: Vec<usize> = joints.collect();
             let [before, after] = [i, i + 1].map(|row| Frame::Link { chain, row });
             let (Some(b), Some(a), false) = (place(before), place(after), all.is_empty()) else {
                 continue;
             };
-            let columns = joints.iter().map(|joint| {
-                let mut rates = vec![0.0; unknowns.len()];
-                let column = unknowns.iter().position(|u| *u == Unknown::Joint(*joint));
-                rates[column.expect("only free joints are left")] = 1.0;
+            let relative = joints.iter().filter_map(|&joint| {
+                let column = column(joint)?;
+                rates[column] = 1.0;
                 let [a, b] = [a, b].map(|frame| {
                     let twist = twists.twist(frame, &placement, &rates);
                     twist.at_ground(&twists.origin(frame, &placement), length)
                 });
-                std::array::from_fn(|k| a[k] - b[k])
+                rates[column] = 0.0;
+                Some(std::array::from_fn(|k| a[k] - b[k]))
             });
             edges.push(LoopPart {
                 bodies: [before, after].map(|frame| mechanism.body(frame)),
-                twists: columns.collect(),
+                twists: relative.collect(),
                 names: (joints.iter())
                     .map(|&joint| mechanism.joints()[joint].name.clone())
                     .collect(),
@@ -146,13 +155,13 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let wrenches = near.closure_wrenches(at);
-    let unknowns = near.system().unknowns();
+    let columns = Places::new(near.system().unknowns());
     let closures = mechanism.closures().iter().zip(wrenches);
     closures
         .map(|(closure, wrenches)| {
             // rows as columns: what is orthogonal to all of them is free
-            let columns: Vec<f64> = wrenches.rows.iter().flatten().copied().collect();
-            let free = Decomposition::of(6, wrenches.rows.len(), &columns).left_null_space();
+            let rows: Vec<f64> = wrenches.rows.iter().flatten().copied().collect();
+            let free = Decomposition::of(6, wrenches.rows.len(), &rows).left_null_space();
             let mut twists: Vec<[f64; 6]> = (free.iter())
                 .map(|twist| {
                     let twist = Twist {
@@ -166,7 +175,7 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
             // a length that a joint drives is one freedom more: that along the rod
             for (symbol, _) in closure.length.iter().flat_map(|length| &length.terms) {
                 if let Symbol::Joint(joint) = symbol
-                    && unknowns.contains(&Unknown::Joint(*joint))
+                    && columns.of(Unknown::Joint(*joint)).is_some()
                 {
                     names.push(mechanism.joints()[*joint].name.clone());
                     joints.push(*joint);

@@ -1,5 +1,7 @@
 //! Spaces of twists as screws with pitch.
 
+use std::collections::HashSet;
+
 use serde::{Deserialize, Serialize};
 
 use super::STILL;
@@ -48,9 +50,10 @@ fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
             .flat_map(|closure| closure.frames);
         let tips = (0..mechanism.chains().len()).map(|chain| Frame::Tip { chain });
         let open = tips.filter(|_| mechanism.closures().is_empty());
+        let mut known = HashSet::from([Body::Ground]);
         for frame in frames.chain(open) {
             let body = mechanism.body(frame);
-            if body != Body::Ground && !carriers.iter().any(|(known, _)| *known == body) {
+            if known.insert(body) {
                 carriers.push((body, frame));
             }
         }
@@ -71,11 +74,9 @@ impl Neighbourhood<'_> {
         let length = mechanism.characteristic_length();
         let frames = self.frames();
         let placement = frames.placed(at);
+        let places = frames.places();
         let spaces = carriers(mechanism).into_iter().map(|(body, frame)| {
-            let place = frames
-                .frames()
-                .position(|f| f == frame)
-                .expect("every frame is planned");
+            let place = *places.get(&frame).expect("every frame is planned");
             let origin = frames.origin(place, &placement);
             let at_ground = |omega: Vector3<f64>, velocity: Vector3<f64>| {
                 Twist { omega, velocity }

@@ -1,9 +1,11 @@
 //! Twists of frames from the rates of all unknowns.
 
+use std::collections::HashMap;
+
 use crate::geometry::{Axis, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Frame, Kinematics, Mover, Placement, Point};
 use crate::number::Number;
-use crate::system::Unknown;
+use crate::system::{Places, Unknown};
 
 /// The motion of a frame at an instant, in ground, at its origin or another point of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +54,8 @@ impl<T: Number> FrameTwists<T> {
     ) -> Self {
         let points: Vec<Point> = points.iter().map(|&point| point.into()).collect();
         let kinematics = Kinematics::new(dimensions, points.iter().map(|point| point.frame));
-        let column = |unknown| unknowns.iter().position(|u| *u == unknown);
+        let places = Places::new(unknowns);
+        let column = |unknown| places.of(unknown);
         let plans = points.into_iter().map(|point| {
             let slot = kinematics
                 .slot(point.frame)
@@ -77,6 +80,11 @@ impl<T: Number> FrameTwists<T> {
     /// The frames.
     pub fn frames(&self) -> impl ExactSizeIterator<Item = Frame> {
         self.plans.iter().map(|plan| plan.point.frame)
+    }
+
+    /// The places of the frames in their order.
+    pub fn places(&self) -> HashMap<Frame, usize> {
+        self.frames().zip(0..).collect()
     }
 
     /// Room for poses.
