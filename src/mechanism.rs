@@ -16,6 +16,7 @@ mod parameters;
 mod plane;
 mod point;
 mod quantity;
+mod recut;
 mod rings;
 mod section;
 mod serial_axes;
@@ -48,6 +49,7 @@ pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 pub(crate) use letters::{Formal, Letters};
+pub(crate) use recut::Recut;
 pub(crate) use turns::{principal, turn_near, turns};
 
 /// A valid mechanism. It is immutable; its existence proves that its description is meaningful.

@@ -3,6 +3,7 @@
 //! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
 //! along it ([`Equations`]), and learns where and why the iteration stopped ([`Stop`]).
 
+mod boxes;
 mod branching;
 mod continuation;
 mod endgame;
@@ -14,6 +15,7 @@ mod threads;
 mod warm;
 mod watch;
 
+pub use boxes::{Conditions, Pruned, Pruning, Sides, isolated, prune};
 pub use branching::BranchPoint;
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
 pub use endgame::{PathEnd, Turning, path_end};

@@ -7,6 +7,7 @@
 //! follows one-parameter curves of configurations.
 
 mod curve;
+mod enclosure;
 mod equations;
 mod question;
 mod record;
@@ -18,10 +19,12 @@ pub use curve::{
     ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
     NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
+pub(crate) use enclosure::Enclosure;
 pub use equations::{
     ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, Places, Spin, System,
     Unknown, Work, approach, independent_parts,
 };
+pub(crate) use equations::{HoldRow, hold_rows};
 pub use question::{
     Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,
     QuestionError, Still, Verb, actuated, check_angle, check_angles, check_count,

@@ -12,20 +12,22 @@
 mod answer;
 mod family;
 mod follow;
+mod proof;
 mod report;
 mod search;
 mod track;
 
 pub use follow::{Fold, Followed, LostMode, LostReason};
+pub use proof::prove;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
-    Named, PoseReport,
+    Named, Part, PoseReport, Proof, Range, Unfit,
 };
 pub use search::{GenericSolutions, StoredError};
 
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
-use crate::solve::Watch;
+use crate::solve::{Pruning, Watch};
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
 use family::{C, Family, KnownBound, Member};
@@ -63,7 +65,7 @@ impl Default for AssembliesSettings {
 }
 
 /// What to work out for each question besides the solutions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
     /// Interval certificates.
     pub certificates: bool,
@@ -72,6 +74,8 @@ pub struct Wanted {
     /// A look from other starts for what no path leads to: sets of infinitely many assemblies apart
     /// from all others, and assemblies that the search missed.
     pub starts: bool,
+    /// A proof that the real assemblies are all that there are.
+    pub proof: Option<Pruning>,
 }
 
 impl Default for Wanted {
@@ -80,6 +84,7 @@ impl Default for Wanted {
             certificates: true,
             all_complex: false,
             starts: true,
+            proof: None,
         }
     }
 }
@@ -262,13 +267,21 @@ impl AssemblySolver {
             ),
         };
         let starts = |which| search::solved(&self.family, &question.system, asked, which, watch);
-        question.answer(
+        let mut report = question.answer(
             &self.generic,
             fit,
             &ends.unwrap_or_default(),
             (self.family.homotopy(&member, &member), &starts),
             wanted,
-        )
+        );
+        if let (Some(settings), false) = (&wanted.proof, report.interrupted) {
+            let known = (report.assemblies.iter()).filter(|assembly| assembly.dimension == 0);
+            let known: Vec<_> = known.map(|a| (a.mode, a.configuration(asked))).collect();
+            let proof = prove(&self.mechanism, (held, asked), &known, settings, watch);
+            report.interrupted |= watch.is_stopped();
+            report.proof = Some(proof);
+        }
+        report
     }
 
     /// The member with the mechanism's own dimensions and the target inputs.
@@ -300,6 +313,7 @@ impl AssemblySolver {
                 certificates: false,
                 all_complex: false,
                 starts: true,
+                proof: None,
             },
             watch,
         );

@@ -61,6 +61,7 @@ const NUMBERED: Wanted = Wanted {
     certificates: false,
     all_complex: false,
     starts: true,
+    proof: None,
 };
 
 impl Question {

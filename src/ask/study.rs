@@ -332,6 +332,7 @@ impl Question {
                 certificates: false,
                 all_complex: false,
                 starts: true,
+                proof: None,
             };
             let report = self.all(&still, wanted, watch);
             report.ok().map(|report| report.real as f64)

@@ -179,11 +179,12 @@ impl Question {
             certificates: false,
             all_complex: true,
             starts: false,
+            proof: None,
         };
         let report = asked
             .all(&question.with_spins_still(), wanted, watch)
             .ok()?;
-        if report.may_lack_some() || report.not_isolated > 0 || report.interrupted {
+        if report.may_lack_some() || report.not_isolated > 0 {
             return None;
         }
         let real = report.assemblies.iter().map(|of| {

@@ -3,6 +3,7 @@
 use clap::Args;
 use linkwork::analysis::assemblies::Wanted;
 use linkwork::ask::AskError;
+use linkwork::solve::Pruning;
 
 use super::asked::Split;
 use super::format::{Format, readable};
@@ -31,6 +32,12 @@ pub struct Assemblies {
     /// List the complex solutions that are not real too
     #[arg(long)]
     all_complex: bool,
+    /// Prove that no other real assembly exists, by excluding boxes of joint values, or say what is left
+    #[arg(long)]
+    prove: bool,
+    /// Boxes after which the proof is given up
+    #[arg(long, value_name = "N", requires = "prove", default_value_t = Pruning::default().most_boxes)]
+    boxes: usize,
     #[command(flatten)]
     search: Search,
     /// How to write the answer; where there is none, stderr says why as text
@@ -44,6 +51,10 @@ impl Assemblies {
         self.search.pose(&mut posed)?;
         let wanted = Wanted {
             all_complex: self.all_complex,
+            proof: self.prove.then(|| Pruning {
+                most_boxes: self.boxes,
+                ..Pruning::default()
+            }),
             ..Wanted::default()
         };
         // samples answer a question that holds too little, but what is missing is said too

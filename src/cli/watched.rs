@@ -85,6 +85,7 @@ pub fn words(stage: Stage) -> String {
         Stage::Starts => "random starts",
         Stage::Paths => "paths followed",
         Stage::Certificates => "assemblies certified",
+        Stage::Boxes => "boxes proved",
         Stage::Proofs => "closed forms compared in letters",
         Stage::Samples => "samples",
         Stage::Motion => "steps of the inputs",

@@ -71,21 +71,28 @@ impl PoseCoordinate {
                 (pose.position.0[self as usize] - value).scale(1.0 / length)
             }
             _ => {
-                let ((y, dy), (x, dx)) = self.arguments(pose);
-                let (sin, cos) = value.sin_cos();
                 if !T::REAL {
-                    let (gap, d) = match self {
-                        Self::Pitch => (y - sin, dy),
-                        _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
-                    };
+                    let (gap, d) = self.entire_row(pose, value);
                     let mut slope = [T::zero(); 6];
                     slope[..3].copy_from_slice(&d.0);
                     return (gap, slope);
                 }
+                let ((y, _), (x, _)) = self.arguments(pose);
+                let (sin, cos) = value.sin_cos();
                 (y * cos - x * sin).atan2(x * cos + y * sin)
             }
         };
         (gap, self.slope(pose))
+    }
+
+    /// The row of an angle over complex numbers and over wide intervals, with its derivative along ω.
+    pub(crate) fn entire_row<T: Number>(self, pose: &Pose<T>, value: T) -> (T, Vector3<T>) {
+        let ((y, dy), (x, dx)) = self.arguments(pose);
+        let (sin, cos) = value.sin_cos();
+        match self {
+            Self::Pitch => (y - sin, dy),
+            _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
+        }
     }
 
     /// The derivative of the dimensionless coordinate along a twist (ω; v/L) of the platform about

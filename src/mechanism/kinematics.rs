@@ -269,6 +269,21 @@ impl<T: Number> Kinematics<T> {
         }
     }
 
+    /// The sum of the fixed lengths on the path to a slot in m, and the slides on it: joint and length for a unit of
+    /// its variable.
+    pub(crate) fn reach(&self, slot: Slot) -> (f64, Vec<(usize, f64)>) {
+        let (mut fixed, mut slides) = (0.0, Vec::new());
+        let mut slot = slot;
+        while slot > self.platforms {
+            let step = &self.steps[slot - 1 - self.platforms];
+            fixed += step.fixed.position.norm().real();
+            let terms = step.slide.0.iter();
+            slides.extend(terms.map(|(joint, length)| (*joint, length.real().abs())));
+            slot = step.parent;
+        }
+        (fixed, slides)
+    }
+
     /// The joints on the path to a slot, from it towards the root, and the platform that carries it.
     pub(crate) fn movers(&self, slot: Slot, scales: &[f64]) -> (Vec<Mover<T>>, Option<usize>) {
         let mut movers = Vec::new();

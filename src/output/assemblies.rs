@@ -1,6 +1,7 @@
 //! All assemblies of a mechanism as a document.
 
 mod lost;
+mod proof;
 mod tables;
 
 use super::closing;
@@ -26,13 +27,17 @@ impl Report for AssembliesReport {
 
     fn document(&self) -> Document {
         let nearest = self.closest.iter().map(|closest| nearest(self, closest));
-        let document = Document::new(&self.mechanism, sentence(self))
+        let proved = self.proof.iter().map(|of| proof::sentence(of, self.real));
+        let answer: Vec<String> = [sentence(self)].into_iter().chain(proved).collect();
+        let document = Document::new(&self.mechanism, answer.join(" "))
             .notes(meeting(self))
+            .notes(self.proof.iter().flat_map(proof::notes))
             .section(listing(self))
             .sections(joints(self))
             .sections(platforms(self))
             .section(reasons(self))
             .section(complex(self))
+            .sections(self.proof.iter().flat_map(proof::sections))
             .sections(nearest);
         accounting(self)
             .into_iter()
@@ -218,6 +223,18 @@ fn meeting(report: &AssembliesReport) -> Option<String> {
 
 /// How complete the list is and why, in a sentence.
 pub fn completeness(report: &AssembliesReport) -> String {
+    let proved = (report.proof.as_ref()).filter(|proof| proof.is_complete());
+    match (proved.map(proof::completeness), &report.fit) {
+        (None, _) => searched(report),
+        (Some(proved), Fit::Finite) => {
+            format!("{proved}; of all complex solutions, {}", searched(report))
+        }
+        (Some(proved), _) => proved,
+    }
+}
+
+/// What can be said of the search.
+fn searched(report: &AssembliesReport) -> String {
     if report.interrupted {
         return format!(
             "interrupted with {} found after {} and {}: assemblies may be missing",
@@ -370,6 +387,7 @@ fn accounting(report: &AssembliesReport) -> Vec<String> {
              lengths, in units of {length}"
         ));
     }
+    lines.extend(report.proof.iter().flat_map(proof::method));
     if let Some((used, all)) = report.independent_rows {
         lines.push(format!(
             "certificates use {used} independent equations of {all}"

@@ -45,6 +45,8 @@ pub enum Stage {
     Boundary,
     /// Kinds of boundary whose curves are followed.
     Curves,
+    /// Boxes in which assemblies are proved or excluded.
+    Boxes,
     /// Rows of a study.
     Rows,
 }

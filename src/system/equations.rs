@@ -30,7 +30,9 @@ use crate::mechanism::{
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
-use layout::{HoldRow, Layout};
+pub(crate) use layout::HoldRow;
+
+use layout::Layout;
 
 /// The closure equations of a mechanism for one choice of held coordinates.
 ///
@@ -278,7 +280,7 @@ impl<T: Factorable> System<T> {
     }
 }
 
-fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
+pub(crate) fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
     let mut rows = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {
         if let HeldPlatform::Partly {

@@ -7,6 +7,7 @@ mod conjugates;
 mod endless;
 mod large;
 mod printed_assemblies;
+mod proofs;
 mod questions;
 mod random_mechanisms;
 mod scales;

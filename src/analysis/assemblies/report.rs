@@ -223,9 +223,80 @@ pub struct AssembliesReport {
     pub independent_rows: Option<(usize, usize)>,
     /// Where there is no real assembly: the best that can be done.
     pub closest: Option<ClosestApproach>,
+    /// What branch and prune over boxes found out about all real assemblies, if it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Proof>,
     /// Whether the work was stopped before it was done: assemblies may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
+}
+
+/// The values from `low` to `high` of a joint or of a coordinate of a platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Range {
+    /// Its name.
+    pub name: String,
+    /// The unit of the values, rad or m.
+    pub unit: SiUnit,
+    /// The lowest.
+    pub low: f64,
+    /// The highest.
+    pub high: f64,
+}
+
+/// A part of what a proof covers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// The joints that tell assemblies apart, with their values in it.
+    pub ranges: Vec<Range>,
+    /// Numbers of the listed assemblies in it.
+    pub modes: Vec<usize>,
+}
+
+/// Why nothing was proved.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unfit {
+    /// A dimension has no value over intervals.
+    NoEnclosure,
+    /// The joint of that name turns and never comes back to the same place, and has no limits.
+    Endless(String),
+    /// The platform of that name spins about a line of its own.
+    Spins(String),
+}
+
+/// What interval branch and prune says of all real assemblies: of every angle, and of the `ranges` of everything else.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Proof {
+    /// Why nothing was proved.
+    pub unfit: Option<Unfit>,
+    /// How many joint variables tell assemblies apart.
+    pub unknowns: usize,
+    /// Boxes that were looked at.
+    pub boxes: usize,
+    /// Boxes that were not, when the number allowed was reached.
+    pub waiting: usize,
+    /// What is covered of joints that do not come back to the same place: their limits, or what the lengths of the
+    /// mechanism allow.
+    pub ranges: Vec<Range>,
+    /// Slides for which no bound follows from the lengths, within 1000 characteristic lengths.
+    pub unbounded: Vec<String>,
+    /// Numbers of the listed assemblies outside of these ranges, of which nothing is proved.
+    pub outside: Vec<usize>,
+    /// Parts in which assemblies were neither excluded nor shown to be one that is listed.
+    pub left: Vec<Part>,
+    /// Parts that hold an assembly which is not listed.
+    pub missing: Vec<Part>,
+    /// Numbers of listed assemblies that were excluded: the program contradicts itself.
+    pub excluded: Vec<usize>,
+}
+
+impl Proof {
+    /// Whether it shows that no real assembly is missing.
+    pub fn is_complete(&self) -> bool {
+        let parts = self.left.is_empty() && self.missing.is_empty() && self.excluded.is_empty();
+        self.unfit.is_none() && self.waiting == 0 && parts
+    }
 }
 
 /// A complex solution that is not real.
@@ -249,8 +320,13 @@ fn is_zero(count: &usize) -> bool {
 impl AssembliesReport {
     /// Whether an isolated assembly may be missing.
     pub fn may_lack_some(&self) -> bool {
+        match &self.proof {
+            Some(proof) if !proof.is_complete() => return true,
+            Some(proof) if proof.ranges.is_empty() => return false,
+            _ => {}
+        }
         let missed = [self.lost, self.unexpected, self.multiple, self.conjugates];
         let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
-        !listed || missed != [0; 4] || self.exhausted && self.fit == Fit::Finite
+        self.interrupted || !listed || missed != [0; 4] || self.exhausted && self.fit == Fit::Finite
     }
 }

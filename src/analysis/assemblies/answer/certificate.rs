@@ -9,10 +9,20 @@ use nalgebra::DMatrix;
 
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::{INDEPENDENT, norm, remove};
-use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Dimensions, Mechanism, PlatformPose};
 use crate::number::{Interval, Number};
 use crate::solve::Equations;
 use crate::system::{Held, System, Unknown, Work};
+
+/// Enclosures of all dimensions; `None` if one has none.
+pub(crate) fn enclosed(mechanism: &Mechanism) -> Option<Dimensions<Interval>> {
+    let parameters = mechanism.parameters_from::<Interval>(&[]).ok()?;
+    let mut dimensions = mechanism.dimensions_over(&parameters).ok()?;
+    let real = mechanism.dimensions();
+    dimensions.characteristic_length = real.characteristic_length;
+    dimensions.joint_scales.clone_from(&real.joint_scales);
+    Some(dimensions)
+}
 
 /// The interval version of a question.
 pub(crate) struct Certifier {
@@ -27,11 +37,8 @@ impl Certifier {
     /// For the target inputs and a choice of as many rows as unknowns. `None` if a dimension has no
     /// enclosure.
     pub fn new(mechanism: &Mechanism, held: &Held<f64>, rows: &[usize]) -> Option<Self> {
-        let parameters = mechanism.parameters_from::<Interval>(&[]).ok()?;
-        let mut dimensions = mechanism.dimensions_over(&parameters).ok()?;
+        let dimensions = enclosed(mechanism)?;
         let real = mechanism.dimensions();
-        dimensions.characteristic_length = real.characteristic_length;
-        dimensions.joint_scales.clone_from(&real.joint_scales);
         let held = held.map(Interval::point);
         let system = System::new(&dimensions, &held);
         if rows.len() != system.unknowns().len() {

@@ -1,0 +1,326 @@
+//! Whether the assemblies listed are all real ones: interval branch and prune over the joint variables that tell them
+//! apart.
+//!
+//! Round each listed assembly a box is made that holds one at most; everything outside of these boxes is excluded
+//! piece by piece, or what is left is said. Angles go all the way round, so that limits exclude nothing; slides go as
+//! far as their limits or, without any, as the lengths of the mechanism allow.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::answer::enclosed;
+use super::family::Coordinates;
+use super::report::{Part, Proof, Range, Unfit};
+use crate::algebra::SiUnit;
+use crate::geometry::{Pose, Quaternion};
+use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, PoseCoordinate, Recut};
+use crate::number::{Interval, Number};
+use crate::solve::{Pruning, Sides, Watch, isolated, prune as prune_boxes};
+use crate::system::{Enclosure, Held, HeldPlatform, HoldRow, hold_rows};
+
+/// How far slides go for which no bound follows, in characteristic lengths.
+const FAR: f64 = 1000.0;
+
+/// Looks for real assemblies beside those given with their numbers. What is held without an equation is where `asked`
+/// has it.
+pub fn prove(
+    mechanism: &Mechanism,
+    (held, asked): (&Held<f64>, &Configuration<f64>),
+    known: &[(usize, Configuration<f64>)],
+    settings: &Pruning,
+    watch: &Watch,
+) -> Proof {
+    let space = match Space::new(mechanism, held, asked) {
+        Ok(space) => space,
+        Err(unfit) => {
+            return Proof {
+                unfit: Some(unfit),
+                ..Proof::default()
+            };
+        }
+    };
+    let within = |x: f64, side: Interval| side.low <= x && x <= side.high;
+    let mut proof = Proof {
+        unknowns: space.sides.len(),
+        ranges: space.ranges(),
+        unbounded: space.unbounded.clone(),
+        ..Proof::default()
+    };
+    let mut modes: Vec<(usize, Vec<f64>)> = Vec::new();
+    for (mode, at) in known {
+        let x = space.of(mechanism, at);
+        match x
+            .iter()
+            .zip(&space.sides)
+            .all(|(x, side)| within(*x, *side))
+        {
+            true => modes.push((*mode, x)),
+            false => proof.outside.push(*mode),
+        }
+    }
+    let found: Vec<Option<Sides>> = modes
+        .iter()
+        .map(|(_, x)| isolated(&space.enclosure, x))
+        .collect();
+    let regions: Vec<Sides> = found.iter().flatten().cloned().collect();
+    let pruned = prune_boxes(
+        &space.enclosure,
+        space.sides.clone(),
+        &space.periods,
+        &regions,
+        settings,
+        watch,
+    );
+    proof.boxes = pruned.boxes;
+    proof.waiting = pruned.waiting.len();
+    let near = |sides: &Sides, x: &[f64]| {
+        let wide = |side: &Interval| *side + Interval::around(0.0, 1e-4);
+        sides.iter().zip(x).all(|(side, x)| within(*x, wide(side)))
+    };
+    let part = |sides: &Sides| Part {
+        ranges: space.named(sides),
+        modes: (modes.iter().filter(|(_, x)| near(sides, x)))
+            .map(|(mode, _)| *mode)
+            .collect(),
+    };
+    proof.left = joined(pruned.left).iter().map(part).collect();
+    proof.missing = pruned.found.iter().map(part).collect();
+    let mut met = pruned.met.iter();
+    for ((mode, _), region) in modes.iter().zip(&found) {
+        let kept = match region {
+            Some(_) => met.next().is_some_and(|boxes| *boxes > 0),
+            None => proof.left.iter().any(|part| part.modes.contains(mode)),
+        };
+        if !kept && proof.waiting == 0 {
+            proof.excluded.push(*mode);
+        }
+    }
+    proof
+}
+
+/// The variables that tell assemblies apart, and where they are sought.
+struct Space {
+    recut: Recut<Interval>,
+    enclosure: Enclosure,
+    sides: Sides,
+    periods: Vec<Option<Interval>>,
+    names: Vec<Option<(String, SiUnit)>>,
+    unbounded: Vec<String>,
+}
+
+impl Space {
+    fn new(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        asked: &Configuration<f64>,
+    ) -> Result<Self, Unfit> {
+        let dimensions = enclosed(mechanism).ok_or(Unfit::NoEnclosure)?;
+        let parts = || held.platforms.iter().enumerate();
+        if let Some((p, _)) = parts().find(|(_, part)| !part.spins().is_empty()) {
+            return Err(Unfit::Spins(mechanism.platforms()[p].name.clone()));
+        }
+        let poses = parts().map(|(p, part)| {
+            let pose = asked.platforms[p];
+            let Quaternion(parts) = pose.orientation;
+            (*part == HeldPlatform::Pose).then(|| Pose {
+                rotation: Quaternion(parts.map(Interval::point))
+                    .normalised()
+                    .rotation(),
+                position: pose.position.map(Interval::point),
+            })
+        });
+        let poses: Vec<Option<Pose<Interval>>> = poses.collect();
+        let watched: Vec<bool> = parts()
+            .map(|(_, part)| matches!(part, HeldPlatform::Partly { .. }))
+            .collect();
+        let free: Vec<bool> = held.joints.iter().map(|held| !held).collect();
+        let recut = dimensions.recut(&poses, &watched, &free);
+        let holds = hold_rows(&held.map(Interval::point)).into_iter();
+        let holds = holds.filter_map(|hold| {
+            let (HoldRow::Coordinate(p, ..) | HoldRow::Orientation(p, _)) = hold else {
+                return None;
+            };
+            Some((recut.platforms[p]?, hold))
+        });
+        let holds: Vec<(Frame, HoldRow<Interval>)> = holds.collect();
+        let values = free.iter().zip(&asked.joints);
+        let values: Vec<Option<f64>> = values.map(|(free, x)| (!free).then_some(*x)).collect();
+        let enclosure = Enclosure::new(&recut.dimensions, &holds, &values);
+        let mut space = Space {
+            names: Vec::new(),
+            unbounded: Vec::new(),
+            sides: Vec::new(),
+            periods: Vec::new(),
+            enclosure,
+            recut,
+        };
+        space.bound(mechanism, held, asked)?;
+        Ok(space)
+    }
+
+    /// The ranges of all unknowns.
+    fn bound(
+        &mut self,
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        asked: &Configuration<f64>,
+    ) -> Result<(), Unfit> {
+        let turns = Coordinates::new(mechanism, held).turns;
+        let joints = mechanism.joints();
+        let pi: Interval = Number::pi();
+        // from −x to x, in rad or m
+        let mut bounds: Vec<Option<Interval>> =
+            vec![None; self.recut.dimensions.joint_scales.len()];
+        let mut periods = vec![None; bounds.len()];
+        let mut names: Vec<Option<(String, SiUnit)>> = vec![None; bounds.len()];
+        // slides of one platform are perpendicular to each other: one of them is as long as all
+        let mut groups: Vec<usize> = (0..bounds.len()).collect();
+        let both_ways = |x: f64| Interval { low: -x, high: x };
+        for (j, joint) in joints.iter().enumerate() {
+            names[j] = Some((
+                joint.name.clone(),
+                SiUnit::of_coordinate(joint.kind.is_angle()),
+            ));
+            bounds[j] = match (turns[j], joint.limits) {
+                _ if held.joints[j] => Some(Interval::point(asked.joints[j])),
+                (Some(turns), _) => {
+                    let half = pi * Interval::point(turns);
+                    periods[j] = Some(half + half);
+                    Some(both_ways(half.high))
+                }
+                (None, Some((low, high))) => Some(Interval { low, high }),
+                (None, None) => None,
+            };
+        }
+        for carried in &self.recut.carried {
+            for (i, coordinate) in carried.freedoms().iter().enumerate() {
+                let j = carried.first + i;
+                let half = *coordinate == PoseCoordinate::Pitch && carried.halves_pitch();
+                if carried.kind.is_none() {
+                    let platform = &mechanism.platforms()[carried.platform].name;
+                    let unit = SiUnit::of_coordinate(coordinate.is_angle());
+                    names[j] = Some((format!("{platform}.{}", coordinate.word()), unit));
+                }
+                match (coordinate.is_angle(), half) {
+                    (true, true) => bounds[j] = Some(both_ways(FRAC_PI_2.next_up())),
+                    (true, false) => {
+                        bounds[j] = Some(both_ways(pi.high));
+                        periods[j] = Some(pi + pi);
+                    }
+                    (false, _) => groups[j] = carried.first,
+                }
+            }
+        }
+        for _ in 0..bounds.len() {
+            for (fixed, slides) in self.enclosure.reaches() {
+                let open = slides.iter().filter(|(j, _)| bounds[*j].is_none());
+                let mut group: Vec<usize> = open.clone().map(|(j, _)| groups[*j]).collect();
+                group.dedup();
+                if group.len() != 1 || open.clone().any(|(_, length)| *length == 0.0) {
+                    continue;
+                }
+                let others = slides
+                    .iter()
+                    .filter_map(|(j, length)| Some(bounds[*j]?.magnitude() * length));
+                // rounding of a few sums is far less than this
+                let longest = (fixed + others.sum::<f64>()) * (1.0 + 1e-9);
+                let open: Vec<(usize, f64)> = open.copied().collect();
+                for (j, length) in open {
+                    bounds[j] = Some(both_ways(longest / length));
+                }
+            }
+        }
+        for (&j, &scale) in self
+            .enclosure
+            .unknowns()
+            .iter()
+            .zip(self.enclosure.scales())
+        {
+            let angle = joints.get(j).is_some_and(|joint| joint.kind.is_angle());
+            let bound = match (bounds[j], angle) {
+                (Some(bound), _) => bound,
+                (None, true) => return Err(Unfit::Endless(joints[j].name.clone())),
+                (None, false) => {
+                    self.unbounded
+                        .extend(names[j].iter().map(|(name, _)| name.clone()));
+                    both_ways(FAR * mechanism.characteristic_length())
+                }
+            };
+            self.sides.push(bound / Interval::point(scale));
+            self.periods.push(periods[j]);
+            self.names.push(names[j].clone());
+        }
+        Ok(())
+    }
+
+    /// The variables of a configuration.
+    fn of(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
+        let mut joints = at.joints.clone();
+        for carried in &self.recut.carried {
+            let kinematics = Kinematics::new(mechanism.dimensions(), carried.frames);
+            let mut placement = kinematics.placement();
+            kinematics.place(at, &mut placement);
+            let poses = carried
+                .frames
+                .map(|frame| kinematics.pose(frame, &placement).copied());
+            let [from, to] = poses.map(|pose| pose.unwrap_or(Pose::identity()));
+            joints.extend(carried.values([&from, &to]));
+        }
+        let unknowns = self.enclosure.unknowns().iter().enumerate();
+        unknowns
+            .map(|(i, &j)| {
+                let x = joints[j] / self.enclosure.scales()[i];
+                match &self.periods[i] {
+                    Some(period) => x - (x / period.real()).round() * period.real(),
+                    None => x,
+                }
+            })
+            .collect()
+    }
+
+    fn named(&self, sides: &Sides) -> Vec<Range> {
+        let scaled = sides.iter().zip(self.enclosure.scales()).zip(&self.names);
+        let ranges = scaled.filter_map(|((side, scale), name)| {
+            let (name, unit) = name.clone()?;
+            Some(Range {
+                name,
+                unit,
+                low: side.low * scale,
+                high: side.high * scale,
+            })
+        });
+        ranges.collect()
+    }
+
+    /// What is sought in of joints without a period.
+    fn ranges(&self) -> Vec<Range> {
+        let all = self.named(&self.sides).into_iter();
+        let named = self.names.iter().zip(&self.periods);
+        let periods = named.filter_map(|(name, period)| name.as_ref().map(|_| period));
+        let half = |range: &Range| range.unit == SiUnit::RADIAN && range.high < 0.6 * PI;
+        all.zip(periods)
+            .filter(|(range, period)| period.is_none() && !half(range))
+            .map(|(range, _)| range)
+            .collect()
+    }
+}
+
+/// Hulls of boxes that touch.
+fn joined(boxes: Vec<Sides>) -> Vec<Sides> {
+    let mut parts: Vec<Sides> = Vec::new();
+    for mut part in boxes {
+        while let Some(place) = parts.iter().position(|other| {
+            other
+                .iter()
+                .zip(&part)
+                .all(|(a, b)| a.low <= b.high + 1e-9 && b.low <= a.high + 1e-9)
+        }) {
+            let other = parts.swap_remove(place);
+            for (side, other) in part.iter_mut().zip(&other) {
+                side.low = side.low.min(other.low);
+                side.high = side.high.max(other.high);
+            }
+        }
+        parts.push(part);
+    }
+    parts
+}

@@ -1,0 +1,124 @@
+//! What branch and prune over boxes says.
+
+use super::super::document::Section;
+use super::super::quantity::quantity;
+use crate::analysis::assemblies::{Part, Proof, Range, Unfit};
+use crate::description::{count, listed};
+
+/// Of which values of what does not come back to the same place the proof speaks.
+fn within(proof: &Proof) -> String {
+    let ranges: Vec<String> = proof.ranges.iter().map(range).collect();
+    match ranges.is_empty() {
+        true => String::new(),
+        false => format!(" with {}", listed(&ranges)),
+    }
+}
+
+/// How complete the list is where that is proved.
+pub(super) fn completeness(proof: &Proof) -> String {
+    format!(
+        "it is proved that no real assembly{} is missing",
+        within(proof)
+    )
+}
+
+/// The answer in a sentence.
+pub(super) fn sentence(proof: &Proof, real: usize) -> String {
+    let within = within(proof);
+    if proof.is_complete() {
+        return match real - proof.outside.len().min(real) {
+            0 => format!("There is no real assembly{within}: proved."),
+            1 => format!("This is the only real assembly{within}: proved."),
+            _ => format!("These are all real assemblies{within}: proved."),
+        };
+    }
+    if !proof.missing.is_empty() {
+        return format!(
+            "The proof found {} not in the list.",
+            count(proof.missing.len(), "assembly")
+        );
+    }
+    "It is not proved that these are all real assemblies.".into()
+}
+
+fn range(range: &Range) -> String {
+    let of = |value| quantity(value, range.unit);
+    format!(
+        "{} from {} to {}",
+        range.name,
+        of(range.low),
+        of(range.high)
+    )
+}
+
+fn modes(modes: &[usize]) -> String {
+    let numbers: Vec<String> = modes.iter().map(usize::to_string).collect();
+    match modes {
+        [_] => format!("mode {}", numbers[0]),
+        _ => format!("modes {}", listed(&numbers)),
+    }
+}
+
+/// What the sentence does not say.
+pub(super) fn notes(proof: &Proof) -> Vec<String> {
+    let mut notes = Vec::new();
+    notes.extend(proof.unfit.as_ref().map(|unfit| match unfit {
+        Unfit::NoEnclosure => "nothing is proved: a dimension has no value over intervals".into(),
+        Unfit::Endless(joint) => format!(
+            "nothing is proved: {joint} does not come back to the same place, and has no limits to search between"
+        ),
+        Unfit::Spins(platform) => format!(
+            "nothing is proved: {platform} spins about a line of its own; write it as a Distance closure"
+        ),
+    }));
+    if !proof.unbounded.is_empty() {
+        notes.push(format!(
+            "no bound follows from the lengths for {}: limits in the file would make the search shorter",
+            listed(&proof.unbounded)
+        ));
+    }
+    if !proof.outside.is_empty() {
+        notes.push(format!(
+            "the proof does not cover {}, outside of these ranges",
+            modes(&proof.outside)
+        ));
+    }
+    if !proof.excluded.is_empty() {
+        notes.push(format!(
+            "the proof excludes {}: one of the two is wrong, please report it",
+            modes(&proof.excluded)
+        ));
+    }
+    if proof.waiting > 0 {
+        notes.push(format!(
+            "the search ended with {} not looked at; --boxes allows more",
+            count(proof.waiting, "box")
+        ));
+    }
+    notes
+}
+
+pub(super) fn sections(proof: &Proof) -> Vec<Section> {
+    let part = |part: &Part| {
+        let ranges: Vec<String> = part.ranges.iter().map(range).collect();
+        match part.modes.as_slice() {
+            [] => ranges.join(", "),
+            listed => format!("round {}: {}", modes(listed), ranges.join(", ")),
+        }
+    };
+    vec![
+        Section::new("Assemblies that are not listed").list(proof.missing.iter().map(part)),
+        Section::new("Neither excluded nor told apart").list(proof.left.iter().map(part)),
+    ]
+}
+
+/// How it was found.
+pub(super) fn method(proof: &Proof) -> Option<String> {
+    proof.unfit.is_none().then(|| {
+        format!(
+            "{} of {} excluded or joined to what is listed (interval branch and prune, outward rounding)",
+            count(proof.boxes, "box"),
+            count(proof.unknowns, "joint variable")
+        )
+    })
+}
