@@ -120,6 +120,7 @@ fn stored(criterion: &mut Criterion) {
         for (what, certificates) in [("certified", true), ("not certified", false)] {
             let wanted = Wanted {
                 starts: false,
+                proof: None,
                 certificates,
                 all_complex: false,
             };

@@ -74,10 +74,10 @@ impl Pruned {
     }
 }
 
-/// A box round a point that holds one zero at most. Its sides are 2·10⁻⁶ to 1; none where no such box is found.
+/// A box round a point that holds one zero at most. Its sides are 2·10⁻⁸ to 1; none where no such box is found.
 pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> {
     const WIDEST: f64 = 0.5;
-    const NARROWEST: f64 = 1e-6;
+    const NARROWEST: f64 = 1e-8;
     let mut work = conditions.work();
     let mut radius = WIDEST;
     while radius > NARROWEST {
@@ -264,7 +264,8 @@ fn contracted<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) 
     let slopes = conditions.slopes(work).to_vec();
     let mut step = Step {
         sides: sides.clone(),
-        unique: false,
+        // nothing to choose
+        unique: n == 0,
         one: false,
         longest: 0,
     };

@@ -224,6 +224,7 @@ fn known_bounds_are_recognised_by_structure() {
         certificates: false,
         all_complex: false,
         starts: false,
+        proof: None,
     };
     assert_eq!(
         solver.at(&question.start(), one, &Watch::none()).bound,
@@ -244,6 +245,7 @@ fn legs_that_close_apart_are_combined() {
             certificates: false,
             all_complex: false,
             starts: false,
+            proof: None,
         },
         &Watch::none(),
     );
@@ -274,6 +276,7 @@ fn legs_that_close_apart_are_combined() {
             certificates: false,
             all_complex: false,
             starts: false,
+            proof: None,
         },
         &Watch::none(),
     );

@@ -18,6 +18,7 @@ fn report(name: &str, settings: &AssembliesSettings) -> AssembliesReport {
         certificates: false,
         all_complex: true,
         starts: false,
+        proof: None,
     };
     solver.at(&question.start(), wanted, &Watch::none())
 }

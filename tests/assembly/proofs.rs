@@ -176,20 +176,33 @@ fn where_assemblies_meet_a_part_is_left() {
 }
 
 #[test]
-fn a_slide_is_covered_as_far_as_the_lengths_reach() {
-    let (report, proof) = proved(&Question::new(shipped("slider_crank")), Pruning::default());
-    assert_eq!(report.real, 2);
-    assert!(
-        proof.is_complete() && proof.unbounded.is_empty(),
-        "{proof:?}"
+fn a_slide_is_covered_within_its_limits_or_as_far_as_the_lengths_reach() {
+    let text = std::fs::read_to_string(path("slider_crank")).unwrap();
+    let proof = all(&Question::new(shipped("slider_crank")), 2);
+    assert!(proof.ranges.is_empty() && proof.unbounded.is_empty());
+    let limited = text.replace(
+        "Passive(home: 3.87)",
+        "Passive(home: 3.87, limits: (0, 10))",
     );
+    assert_ne!(limited, text);
+    let limited = Mechanism::new(&Description::read(&limited).unwrap()).unwrap();
+    let (report, proof) = proved(&Question::new(limited), Pruning::default());
     let [range] = proof.ranges.as_slice() else {
         panic!("{proof:?}")
     };
-    for assembly in &report.assemblies {
-        let travel = *assembly.joints.get(&range.name).unwrap();
-        assert!(range.low < travel && travel < range.high);
-    }
+    assert_eq!((range.low, range.high), (0.0, 10.0));
+    assert!(proof.is_complete() && report.real == 2);
+    // the other one is listed, and not covered
+    assert_eq!(proof.outside.len(), 1);
+    let answer = report.document().answer;
+    let end = "These are all real assemblies with s from 0 m to 10 m: proved.";
+    assert!(answer.ends_with(end), "{answer}");
+}
+
+#[test]
+fn an_arm_whose_joints_are_all_held_has_one_pose() {
+    let proof = all(&Question::new(shipped("planar_2r")), 1);
+    assert_eq!(proof.unknowns, 0);
 }
 
 #[test]

@@ -281,6 +281,7 @@ fn what_is_written_as_mjcf_and_read_again_has_as_many_assemblies() {
             certificates: false,
             all_complex: false,
             starts: false,
+            proof: None,
         };
         let report = solver.at_targets(&question.start(), &question.held(), wanted, &Watch::none());
         (report.real, report.complex, report.lost)

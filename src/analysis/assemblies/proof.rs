@@ -5,7 +5,7 @@
 //! piece by piece, or what is left is said. Angles go all the way round, so that limits exclude nothing; slides go as
 //! far as their limits or, without any, as the lengths of the mechanism allow.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use super::answer::enclosed;
 use super::family::Coordinates;
@@ -72,28 +72,38 @@ pub fn prove(
     );
     proof.boxes = pruned.boxes;
     proof.waiting = pruned.waiting.len();
-    let near = |sides: &Sides, x: &[f64]| {
-        let wide = |side: &Interval| *side + Interval::around(0.0, 1e-4);
+    // how exactly the listed assemblies are where they are said to be
+    let near = |sides: &Sides, x: &[f64], margin: f64| {
+        let wide = |side: &Interval| *side + Interval::around(0.0, margin);
         sides.iter().zip(x).all(|(side, x)| within(*x, wide(side)))
     };
     let part = |sides: &Sides| Part {
         ranges: space.named(sides),
-        modes: (modes.iter().filter(|(_, x)| near(sides, x)))
+        modes: (modes.iter().filter(|(_, x)| near(sides, x, 1e-4)))
             .map(|(mode, _)| *mode)
             .collect(),
     };
     proof.left = joined(pruned.left).iter().map(part).collect();
-    proof.missing = pruned.found.iter().map(part).collect();
+    // an assembly round which no box was found may be one that a box was found round on the way
+    let mut missing = pruned.found;
     let mut met = pruned.met.iter();
-    for ((mode, _), region) in modes.iter().zip(&found) {
+    for ((mode, x), region) in modes.iter().zip(&found) {
         let kept = match region {
             Some(_) => met.next().is_some_and(|boxes| *boxes > 0),
-            None => proof.left.iter().any(|part| part.modes.contains(mode)),
+            None => {
+                let known = missing.len();
+                let own = missing.iter().position(|sides| near(sides, x, 1e-7));
+                if let Some(place) = own {
+                    missing.remove(place);
+                }
+                missing.len() < known || proof.left.iter().any(|part| part.modes.contains(mode))
+            }
         };
         if !kept && proof.waiting == 0 {
             proof.excluded.push(*mode);
         }
     }
+    proof.missing = missing.iter().map(part).collect();
     proof
 }
 
@@ -104,6 +114,8 @@ struct Space {
     sides: Sides,
     periods: Vec<Option<Interval>>,
     names: Vec<Option<(String, SiUnit)>>,
+    /// Whether an unknown may have values beyond its side.
+    cut: Vec<bool>,
     unbounded: Vec<String>,
 }
 
@@ -147,6 +159,7 @@ impl Space {
         let enclosure = Enclosure::new(&recut.dimensions, &holds, &values);
         let mut space = Space {
             names: Vec::new(),
+            cut: Vec::new(),
             unbounded: Vec::new(),
             sides: Vec::new(),
             periods: Vec::new(),
@@ -246,6 +259,9 @@ impl Space {
                 }
             };
             self.sides.push(bound / Interval::point(scale));
+            let limited = joints.get(j).is_some_and(|joint| joint.limits.is_some());
+            self.cut
+                .push(bounds[j].is_none() || limited && periods[j].is_none());
             self.periods.push(periods[j]);
             self.names.push(names[j].clone());
         }
@@ -291,16 +307,16 @@ impl Space {
         ranges.collect()
     }
 
-    /// What is sought in of joints without a period.
+    /// Where assemblies are sought of joints that may go beyond.
     fn ranges(&self) -> Vec<Range> {
-        let all = self.named(&self.sides).into_iter();
-        let named = self.names.iter().zip(&self.periods);
-        let periods = named.filter_map(|(name, period)| name.as_ref().map(|_| period));
-        let half = |range: &Range| range.unit == SiUnit::RADIAN && range.high < 0.6 * PI;
-        all.zip(periods)
-            .filter(|(range, period)| period.is_none() && !half(range))
-            .map(|(range, _)| range)
-            .collect()
+        let mut all = self.named(&self.sides).into_iter();
+        let named = self
+            .names
+            .iter()
+            .zip(&self.cut)
+            .filter(|(name, _)| name.is_some());
+        let ranges = named.filter_map(|(_, cut)| all.next().filter(|_| *cut));
+        ranges.collect()
     }
 }
 

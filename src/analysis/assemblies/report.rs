@@ -276,10 +276,9 @@ pub struct Proof {
     pub boxes: usize,
     /// Boxes that were not, when the number allowed was reached.
     pub waiting: usize,
-    /// What is covered of joints that do not come back to the same place: their limits, or what the lengths of the
-    /// mechanism allow.
+    /// What is covered of joints that may go beyond it: the limits of those that do not come back to the same place.
     pub ranges: Vec<Range>,
-    /// Slides for which no bound follows from the lengths, within 1000 characteristic lengths.
+    /// Those of them without limits, for which no bound follows from the lengths: within 1000 characteristic lengths.
     pub unbounded: Vec<String>,
     /// Numbers of the listed assemblies outside of these ranges, of which nothing is proved.
     pub outside: Vec<usize>,

@@ -27,6 +27,7 @@ pub(super) fn sentence(proof: &Proof, real: usize) -> String {
     let within = within(proof);
     if proof.is_complete() {
         return match real - proof.outside.len().min(real) {
+            1 if real > 1 => format!("These are all real assemblies{within}: proved."),
             0 => format!("There is no real assembly{within}: proved."),
             1 => format!("This is the only real assembly{within}: proved."),
             _ => format!("These are all real assemblies{within}: proved."),
