@@ -350,12 +350,14 @@ impl<T: Number> Recut<T> {
             terms.filter(|(j, _)| *j == joint).count() == 1
         };
         let rows = &dims.chains[chain].rows;
-        let single = |row: &RowDimensions<T>| match (row.turn.0.as_slice(), row.slide.0.as_slice())
-        {
-            ([(joint, _)], []) | ([], [(joint, _)]) => {
-                free.get(*joint).copied().unwrap_or(true) && alone(*joint)
-            }
-            _ => false,
+        // an angle that turns the link twice as far would have two values for one pose
+        let single = |row: &RowDimensions<T>| {
+            let joint = match (row.turn.0.as_slice(), row.slide.0.as_slice()) {
+                ([(joint, factor)], []) if factor.real().abs() == 1.0 => *joint,
+                ([], [(joint, _)]) => *joint,
+                _ => return false,
+            };
+            free.get(joint).copied().unwrap_or(true) && alone(joint)
         };
         let places = (0..rows.len()).filter(|&k| single(&rows[k]));
         places.min_by_key(|k| (2 * k + 1).abs_diff(rows.len()))
