@@ -38,6 +38,8 @@ struct Follower<'a> {
     wide: System<Lanes>,
     start: Configuration<f64>,
     values: &'a [f64],
+    /// The rows in the order in which they are followed; empty for the order in which they are given.
+    order: Vec<u32>,
     /// What makes each coordinate dimensionless.
     scales: Vec<f64>,
 }
@@ -48,8 +50,9 @@ impl Question {
     ///
     /// The way begins at the configuration of the question, in its mode, and goes straight from row to row, so that no
     /// row is on another branch than the row before it unless a way between them is lost; every 256th row is come to
-    /// from the beginning. Eight ways are followed side by side in the lanes of a vector register, on all cores, with the
-    /// same results on any number of them. A row that no way leads to, as beyond a dead point, is not reached.
+    /// from the beginning. Rows in no order, most of them far from the one before, are followed through their box from
+    /// neighbour to neighbour. Eight ways are followed side by side in the lanes of a vector register, on all cores, with
+    /// the same results on any number of them. A row that no way leads to, as beyond a dead point, is not reached.
     ///
     /// # Errors
     /// If the question or a name is wrong, or the mechanism does not assemble where the way begins.
@@ -76,12 +79,13 @@ impl Question {
         let question = begins.resolved()?;
         check_count(&question).map_err(AskError::Question)?;
         let question = question.with_spins_still();
-        let follower = Follower {
+        let mut follower = Follower {
             coordinates: &coordinates,
             system: question.system(),
             wide: question.system_over(),
             start: begins.start(&question, watch)?,
             values,
+            order: Vec::new(),
             scales: coordinates.iter().map(|c| c.scale(mechanism)).collect(),
         };
         let rows = match names.len() {
@@ -91,6 +95,7 @@ impl Question {
                 values.len() / width
             }
         };
+        follower.order = follower.order(rows);
         let block = LANES * ROWS;
         let blocks = rows.div_ceil(block);
         let done = AtomicUsize::new(0);
@@ -117,7 +122,25 @@ impl Question {
             many.values.extend(block.values);
             many.reached.extend(block.reached);
         }
+        many.put_back(&follower.order);
         Ok(many)
+    }
+}
+
+impl Many {
+    /// Gives rows that were followed in another order their places.
+    fn put_back(&mut self, order: &[u32]) {
+        if order.is_empty() {
+            return;
+        }
+        let width = self.names.len();
+        let (values, reached) = (self.values.clone(), self.reached.clone());
+        for (from, &to) in order.iter().enumerate() {
+            let to = to as usize;
+            self.reached[to] = reached[from];
+            let row = &values[from * width..(from + 1) * width];
+            self.values[to * width..(to + 1) * width].copy_from_slice(row);
+        }
     }
 }
 
@@ -148,9 +171,52 @@ impl<'a> Found<'a> {
 }
 
 impl Follower<'_> {
-    fn row(&self, row: usize) -> &[f64] {
+    fn row(&self, place: usize) -> &[f64] {
+        let row = (self.order.get(place)).map_or(place, |row| *row as usize);
         let width = self.coordinates.len();
         &self.values[row * width..(row + 1) * width]
+    }
+
+    /// A way through rows in no order: to and fro along the last coordinate, from one strip to the next along those
+    /// before it. Empty where most rows are near the one before, as on a path.
+    fn order(&self, rows: usize) -> Vec<u32> {
+        let far = |row: &usize| self.distance(self.row(row - 1), self.row(*row)) > LONGEST;
+        let Ok(count) = u32::try_from(rows) else {
+            return Vec::new();
+        };
+        if 2 * (1..rows).filter(far).count() <= rows {
+            return Vec::new();
+        }
+        let width = self.coordinates.len();
+        let ends: Vec<(f64, f64)> = (0..width)
+            .map(|i| {
+                let column = self.values.iter().skip(i).step_by(width);
+                column.fold((f64::MAX, f64::MIN), |(least, most), x| {
+                    (least.min(*x), most.max(*x))
+                })
+            })
+            .collect();
+        // as many strips as give each of them as many rows along as there are strips across
+        let strips = (rows as f64).powf(1.0 / width as f64).ceil();
+        let key = |row: u32| {
+            let values = self.row(row as usize).iter().zip(&ends);
+            let parts = values.map(|(x, (least, most))| ((x - least) / (most - least)).max(0.0));
+            let (mut strip, mut along) = (0_u64, 0.0);
+            for (i, part) in parts.enumerate() {
+                // every other strip is gone back
+                along = if strip % 2 == 1 { 1.0 - part } else { part };
+                if i + 1 < width {
+                    let cell = (along * strips).min(strips - 1.0) as u64;
+                    strip = strip.wrapping_mul(strips as u64).wrapping_add(cell);
+                }
+            }
+            (strip, along)
+        };
+        let mut keyed: Vec<((u64, f64), u32)> = (0..count).map(|row| (key(row), row)).collect();
+        keyed.sort_unstable_by(|((a, x), i), ((b, y), j)| {
+            a.cmp(b).then(x.total_cmp(y)).then(i.cmp(j))
+        });
+        keyed.into_iter().map(|(_, row)| row).collect()
     }
 
     /// Solves for other held values.
@@ -194,17 +260,22 @@ impl Follower<'_> {
             MotionTracker::new(self.wide.clone(), Configuration::beside(|_| &self.start));
         let mut standing = [true; LANES];
         for k in 0..length {
-            let near = |lane| {
+            let near = |lane: usize| {
                 let [before, now] = [k - 1, k].map(|k| self.row(row(lane, k)));
                 standing[lane] && self.distance(before, now) <= LONGEST
             };
-            let side_by_side = k > 0
-                && (0..LANES).all(near)
+            // a lane that is lost or goes far stands still meanwhile
+            let goes: [bool; LANES] = std::array::from_fn(|lane| k > 0 && near(lane));
+            let side_by_side = goes.contains(&true)
                 && self.solve(&mut wide, |i| {
-                    Lanes::of_parts(|lane| self.row(row(lane, k))[i])
+                    Lanes::of_parts(|lane| match goes[lane] {
+                        true => self.row(row(lane, k))[i],
+                        false => self.coordinates[i].of(&at[lane]),
+                    })
                 });
+            let mut moved = !side_by_side;
             for (lane, at) in at.iter_mut().enumerate() {
-                let reached = match side_by_side {
+                let reached = match side_by_side && goes[lane] {
                     true => {
                         wide.configuration().copy_lane(lane, at);
                         true
@@ -212,7 +283,10 @@ impl Follower<'_> {
                     // one by one, each from where its lane was last, or else from the beginning
                     false => {
                         let to = self.row(row(lane, k));
-                        self.goes(&mut single, at, to) || self.goes_from_start(&mut single, at, to)
+                        let reached = self.goes(&mut single, at, to)
+                            || self.goes_from_start(&mut single, at, to);
+                        moved |= reached;
+                        reached
                     }
                 };
                 standing[lane] = reached;
@@ -220,7 +294,7 @@ impl Follower<'_> {
                     found.put(row, at);
                 }
             }
-            if !side_by_side {
+            if moved {
                 wide.restart(&Configuration::beside(|lane| &at[lane]));
             }
         }

@@ -312,3 +312,24 @@ def test_the_pages_run(page, monkeypatch, tmp_path):
             expression, _, comment = line.partition("  # ")
             if comment.startswith("→ "):
                 assert repr(eval(expression, names)).splitlines()[0] == comment[2:], line
+
+
+def test_rows_in_no_order_are_found_where_rows_in_order_are():
+    """The crank turns round, so each of its angles is on the branch of home; a platform's rows close on their legs."""
+    m = linkwork.load(SHIPPED / "four_bar.ron")
+    angles = np.linspace(0, 2 * np.pi, 5001)
+    mixed = np.random.default_rng(7).permutation(len(angles))
+    path, found = m.solve_many(angles), m.solve_many(angles[mixed])
+    assert path["reached"].all() and found["reached"].all()
+    for name in ("theta1", "phi1", "phi2"):
+        np.testing.assert_allclose(found[name], path[name][mixed], atol=1e-9)
+    m = linkwork.load(SHIPPED / "planar_3rpr.ron")
+    names = [name for name, joint in m.joints.items() if joint.driven]
+    home = np.array([m.joints[name].home for name in names])
+    rows = home + np.random.default_rng(8).uniform(-0.5, 0.5, (3000, len(names)))
+    found = m.solve_many(rows)
+    assert found["reached"].mean() > 0.9
+    for i, name in enumerate(names):
+        np.testing.assert_array_equal(found[name][found["reached"]], rows[found["reached"], i])
+    again = m.solve_many(rows)
+    assert all(found[name].tobytes() == again[name].tobytes() for name in found)
