@@ -11,7 +11,7 @@ mod words;
 use std::ffi::OsString;
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -22,7 +22,9 @@ use crate::ask::{AskError, Points, Study};
 use crate::description::{Description, FileError, Problem, Role};
 use crate::mechanism;
 use crate::output::complaint::Given;
+use crate::output::csv::Csv;
 use crate::output::diagnostics::{self, Style};
+use crate::output::document::Cell;
 use crate::output::drawing::{DrawingSettings, Panel, sheet};
 use crate::output::view::{Viewed, page};
 use crate::scene::Scene;
@@ -237,6 +239,7 @@ impl Mechanism {
         py: Python<'py>,
         given: &Bound<'py, PyDict>,
         vary: Vec<(String, (Number, Number))>,
+        deviate: Vec<(String, Number)>,
         kind: &str,
         counts: Vec<usize>,
         rows: Option<PyReadonlyArray2<'py, f64>>,
@@ -260,7 +263,16 @@ impl Mechanism {
         let vary: Vec<(String, Value, Value)> = (vary.iter())
             .map(|(name, (from, to))| (name.clone(), from.into(), to.into()))
             .collect();
-        let study = Study::new(self.description.clone(), &asked.question, &vary, points);
+        let deviate: Vec<(String, Value)> = (deviate.iter())
+            .map(|(name, deviation)| (name.clone(), deviation.into()))
+            .collect();
+        let study = Study::new(
+            self.description.clone(),
+            &asked.question,
+            &vary,
+            &deviate,
+            points,
+        );
         let study = study.map_err(|error| asked.refusal(&error.into()))?;
         let range = study.shard(part.0, part.1);
         let range = range.map_err(|error| asked.refusal(&AskError::from(error).into()))?;
@@ -271,6 +283,31 @@ impl Mechanism {
         });
         Ok(columns.collect())
     }
+}
+
+/// Columns as comma-separated values, as the command line writes them.
+#[pyfunction]
+fn csv(titles: Vec<String>, columns: Vec<PyReadonlyArray1<'_, f64>>) -> PyResult<String> {
+    let columns: Vec<_> = columns.iter().map(|column| column.as_array()).collect();
+    let rows = columns.first().map_or(0, |column| column.len());
+    let mut written = Csv::new(Vec::new(), titles)?;
+    for row in 0..rows {
+        written.row(columns.iter().map(|column| Cell::from(Some(column[row]))))?;
+    }
+    Ok(String::from_utf8(written.finish()?)?)
+}
+
+/// The regions of a grid, as `linkwork merge --regions` numbers them.
+#[pyfunction]
+fn regions<'py>(
+    py: Python<'py>,
+    grid: Vec<usize>,
+    within: Vec<bool>,
+) -> PyResult<Bound<'py, PyArray1<u32>>> {
+    let found = crate::ask::regions(&grid, &within);
+    let found =
+        found.ok_or_else(|| PyValueError::new_err("the rows are not those of this grid"))?;
+    Ok(PyArray1::from_vec(py, found))
 }
 
 /// The command line.
@@ -289,5 +326,7 @@ fn _linkwork(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<Mechanism>()?;
     module.add_class::<Report>()?;
+    module.add_function(wrap_pyfunction!(self::csv, module)?)?;
+    module.add_function(wrap_pyfunction!(regions, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)
 }

@@ -4,11 +4,13 @@
 //! worked out changes no byte of it, so that shards put together in their order are the study.
 
 mod points;
+mod regions;
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-pub use points::Points;
+pub use points::{Points, Spread};
+pub use regions::regions;
 
 use super::quantities::{Meter, Metered};
 use super::study_error::StudyError;
@@ -17,7 +19,7 @@ use crate::algebra::{Measure, SiUnit};
 use crate::analysis::assemblies::Wanted;
 use crate::analysis::sweep::Pace;
 use crate::description::{Description, ReplacementError, nearest};
-use crate::mechanism::{Measured, Mechanism, Order, Quantity, Variable};
+use crate::mechanism::{Measured, Mechanism, Order, Parameter, Quantity, Variable};
 use crate::solve::{Progress, Stage, Watch, each};
 use crate::system::{self, Coordinate, Driven, QuestionError, check_count};
 
@@ -31,7 +33,7 @@ pub struct Study {
     description: Description,
     points: Points,
     varied: Vec<Varied>,
-    ranges: Vec<(f64, f64)>,
+    ranges: Vec<Spread>,
     /// Whether assemblies are counted.
     counted: bool,
     columns: Vec<Variable>,
@@ -55,10 +57,52 @@ pub struct StudyRows {
     pub interrupted: bool,
 }
 
+impl Varied {
+    fn name(&self) -> &str {
+        match self {
+            Varied::Parameter(name, _) | Varied::Coordinate(name) => name,
+        }
+    }
+}
+
+/// The parameter of a name; none if it is the name of a coordinate.
+fn parameter<'m>(
+    mechanism: &'m Mechanism,
+    name: &str,
+) -> Result<Option<&'m Parameter>, StudyError> {
+    let found = mechanism.parameters().iter().find(|of| of.name == name);
+    if found.is_none()
+        && let Err(QuestionError::UnknownName { suggestion, .. }) =
+            system::Question::new(mechanism).value(name, "home")
+    {
+        let parameters = mechanism.parameters().iter();
+        let parameter = nearest(name, parameters.map(|of| of.name.as_str()));
+        return Err(StudyError::Unknown {
+            name: name.into(),
+            suggestion: parameter.map(str::to_owned).or(suggestion),
+        });
+    }
+    Ok(found)
+}
+
+/// A value that a parameter is given.
+fn number(
+    mechanism: &Mechanism,
+    parameter: &Parameter,
+    value: &system::Value,
+) -> Result<f64, StudyError> {
+    let number = value.number(mechanism, parameter.measure);
+    number.map_err(|error| StudyError::Value {
+        name: parameter.name.clone(),
+        text: value.to_string(),
+        why: error.to_string(),
+    })
+}
+
 impl Study {
     /// A study of a question about the mechanism of a description: what it reports
     /// ([`Question::report`], and `assemblies`, the number of real ones), at points of what it moves ([`Question::input`]),
-    /// which may be parameters too.
+    /// which may be parameters too. What has a `deviation` varies normally about its value, with this standard deviation.
     ///
     /// # Errors
     /// If the question or the points are wrong.
@@ -66,37 +110,47 @@ impl Study {
         description: Description,
         question: &Question,
         vary: &[(String, system::Value, system::Value)],
+        deviations: &[(String, system::Value)],
         points: Points,
     ) -> Result<Self, AskError> {
         let mechanism = question.mechanism().clone();
         let plain = system::Question::new(&mechanism);
         let (mut varied, mut ranges) = (Vec::new(), Vec::new());
         for (index, (name, from, to)) in vary.iter().enumerate() {
-            let mut parameters = mechanism.parameters().iter();
-            if let Some(parameter) = parameters.find(|parameter| parameter.name == *name) {
-                let number = |value: &system::Value| {
-                    let number = value.number(&mechanism, parameter.measure);
-                    number.map_err(|error| StudyError::Value {
-                        name: name.clone(),
-                        text: value.to_string(),
-                        why: error.to_string(),
-                    })
-                };
-                ranges.push((number(from)?, number(to)?));
+            if let Some(parameter) = parameter(&mechanism, name)? {
+                let number = |value| number(&mechanism, parameter, value);
+                ranges.push(Spread::Even(number(from)?, number(to)?));
                 varied.push(Varied::Parameter(name.clone(), parameter.measure));
                 continue;
             }
-            if let Err(QuestionError::UnknownName { suggestion, .. }) = plain.value(name, "home") {
-                let parameters = mechanism.parameters().iter();
-                let parameter = nearest(name, parameters.map(|of| of.name.as_str()));
-                let suggestion = parameter.map(str::to_owned).or(suggestion);
-                let name = name.clone();
-                return Err(StudyError::Unknown { name, suggestion }.into());
-            }
             let (_, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
             let (_, to) = (plain.value(name, to)).map_err(Role::To.named(index))?;
-            ranges.push((from, to));
+            ranges.push(Spread::Even(from, to));
             varied.push(Varied::Coordinate(name.clone()));
+        }
+        for (name, deviation) in deviations {
+            if varied.iter().any(|of| of.name() == name) {
+                return Err(StudyError::Twice(name.clone()).into());
+            }
+            let (value, deviation) = match parameter(&mechanism, name)? {
+                Some(parameter) => {
+                    varied.push(Varied::Parameter(name.clone(), parameter.measure));
+                    (parameter.value, number(&mechanism, parameter, deviation)?)
+                }
+                None => {
+                    varied.push(Varied::Coordinate(name.clone()));
+                    let held = question.hold.iter().rfind(|(held, _)| held == name);
+                    let home = "home".into();
+                    let value = held.map_or(&home, |(_, value)| value);
+                    let of = |value| plain.value(name, value).map(|(_, value)| value);
+                    let both = of(value).and_then(|value| Ok((value, of(deviation)?)));
+                    both.map_err(AskError::Question)?
+                }
+            };
+            if deviation.is_nan() || deviation < 0.0 {
+                return Err(StudyError::Deviation(name.clone()).into());
+            }
+            ranges.push(Spread::Normal(value, deviation));
         }
         let wanted = varied.len();
         let width = |given| Err(StudyError::Width { given, wanted }.into());
@@ -108,6 +162,7 @@ impl Study {
             Points::Sobol(count) if *count as u64 >= 1 << 32 => {
                 return Err(StudyError::Count.into());
             }
+            Points::Grid(_) if !deviations.is_empty() => return Err(StudyError::Grid.into()),
             Points::Grid(nodes) if nodes.len() != wanted => {
                 return width(format!("{} numbers of nodes", nodes.len()));
             }

@@ -27,6 +27,15 @@ pub enum StudyError {
         /// Why it is none.
         why: String,
     },
+    /// A name with two ranges.
+    #[error("`{0}` is varied twice")]
+    Twice(String),
+    /// No standard deviation.
+    #[error("the standard deviation of `{0}` is a number from 0")]
+    Deviation(String),
+    /// A grid of deviations.
+    #[error("deviations have no ends for a grid: give a number of samples")]
+    Grid,
     /// Other points than there are ranges.
     #[error("{given} are given for {wanted} varied names")]
     Width {

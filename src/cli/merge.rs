@@ -3,20 +3,31 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::output::study::merge;
+use linkwork::output::study::{mapped, merge, spread};
 
 use super::{Answer, Refusal};
 
 /// Put the shards of a study together.
 ///
 /// Files may be given in any order, and shards that were worked out twice count once. What is written is what `study`
-/// writes without --shard, to the byte.
+/// writes without --shard, to the byte; with --regions there is a column more.
 #[derive(Args)]
 #[command(after_help = "Example: linkwork merge part-*.csv > study.csv")]
 pub struct Merge {
     /// What `linkwork study --shard` wrote
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    /// Write mean, standard deviation and extremes of each column instead of the rows
+    #[arg(long)]
+    spread: bool,
+    /// For a study on this --grid: number the regions of nodes beside each other where the mechanism assembles
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        value_delimiter = ',',
+        conflicts_with = "spread"
+    )]
+    regions: Vec<usize>,
 }
 
 impl Merge {
@@ -29,7 +40,14 @@ impl Merge {
             }
         });
         let files: Vec<(String, String)> = read.collect::<Result<_, _>>()?;
-        let merged = merge(&files).map_err(|error| Refusal(format!("error: {error}\n")))?;
+        let mut merged = merge(&files).map_err(|error| Refusal(format!("error: {error}\n")))?;
+        if !self.regions.is_empty() {
+            merged = mapped(&merged, &self.regions)
+                .map_err(|error| Refusal(format!("error: {error}\n")))?;
+        }
+        if self.spread {
+            merged = spread(&merged).map_err(|error| Refusal(format!("error: {error}\n")))?;
+        }
         Ok(Answer {
             data: merged,
             remarks: String::new(),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use linkwork::ask::{self, Points, Question, Role};
-use linkwork::output::study::csv;
+use linkwork::output::study::{csv, spread};
 use linkwork::system::Value;
 
 use super::asked::{Asked, Forces, Ranges};
@@ -22,13 +22,22 @@ use super::{Answer, Refusal, lines};
 #[command(after_help = "Examples:\n  \
     linkwork study mechanisms/four_bar.ron --vary l2=3..5 --vary theta1=0deg..360deg --grid 20,36 --quantity transmission\n  \
     linkwork study mechanisms/three_rps.ron --vary a=0.3..0.6 --vary b=0.8..1.2 --samples 1000 --quantity condition,assemblies\n  \
+    linkwork study mechanisms/four_bar.ron --deviate l2=0.001 --deviate theta1=0.1deg --samples 1000 --quantity phi1 --spread\n  \
     linkwork study mechanisms/four_bar.ron --vary l2=3..5 --samples 1000000 --quantity phi1 --shard 3/200 > part-3.csv")]
 pub struct Study {
     #[command(flatten)]
     source: Source,
     /// Vary a parameter or a coordinate, which then is held, e.g. --vary l2=3..5 or --vary theta1=0deg..360deg
-    #[arg(long, value_name = "NAME=FROM..TO", required = true)]
+    #[arg(
+        long,
+        value_name = "NAME=FROM..TO",
+        required_unless_present = "deviate"
+    )]
     vary: Vec<Assignment>,
+    /// Let a parameter or a held coordinate deviate normally from its value, by this standard deviation, as a tolerance
+    /// does, e.g. --deviate l2=0.001
+    #[arg(long, value_name = "NAME=DEVIATION", conflicts_with = "grid")]
+    deviate: Vec<Assignment>,
     /// So many points of Sobol's sequence, spread evenly over the ranges
     #[arg(long, value_name = "NUMBER", required_unless_present = "grid")]
     samples: Option<usize>,
@@ -59,6 +68,9 @@ pub struct Study {
     /// Work out only this part of so many, e.g. --shard 3/200
     #[arg(long, value_name = "PART/OF", value_parser = shard, default_value = "1/1")]
     shard: (usize, usize),
+    /// Write mean, standard deviation and extremes of each column instead of the rows
+    #[arg(long, conflicts_with = "shard")]
+    spread: bool,
     /// Write to a file, whole or not at all
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -88,6 +100,11 @@ impl Study {
             .into_iter()
             .map(|(name, from, to)| (name, from.into(), to.into()))
             .collect();
+        once("--deviate", &self.deviate)?;
+        let deviate = self.deviate.iter();
+        let deviate: Vec<(String, Value)> = deviate
+            .map(|of| (of.name.clone(), of.value.as_str().into()))
+            .collect();
         let points = match self.samples {
             Some(samples) if self.latin => Points::LatinHypercube(samples),
             Some(samples) => Points::Sobol(samples),
@@ -95,8 +112,9 @@ impl Study {
             None => Points::Grid(self.grid.clone()),
         };
         let description = &posed.loaded.description;
-        let study = posed
-            .ask(|question, _| ask::Study::new(description.clone(), question, &vary, points))?;
+        let study = posed.ask(|question, _| {
+            ask::Study::new(description.clone(), question, &vary, &deviate, points)
+        })?;
         let (part, of) = self.shard;
         let range = study.shard(part, of);
         let range = range.map_err(|error| Refusal(format!("error: {error}\n")))?;
@@ -104,6 +122,9 @@ impl Study {
         let whole = !rows.interrupted;
         let note = (!whole).then(|| "interrupted: rows are missing at the end".to_owned());
         let mut data = csv(&study, &rows);
+        if self.spread {
+            data = spread(&data).map_err(|error| Refusal(format!("error: {error}\n")))?;
+        }
         if let Some(path) = &self.output {
             // a part of a shard is none
             if whole {

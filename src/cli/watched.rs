@@ -63,7 +63,7 @@ pub fn read_no_more() {
 
 fn show(bar: &ProgressBar, now: Progress) {
     let template = match now.of {
-        Some(_) => "{msg}: {human_pos} of {human_len} {wide_bar}",
+        Some(_) => "{msg}: {human_pos} of {human_len}, {eta} left {wide_bar}",
         None => "{msg}: {human_pos}",
     };
     if let Ok(style) = ProgressStyle::with_template(template) {

@@ -2,11 +2,14 @@
 
 use super::csv::Csv;
 use super::document::Cell;
-use crate::ask::{Study, StudyRows};
+use crate::ask::{Study, StudyRows, regions};
 use crate::mechanism::Variable;
 
 /// What the first column is called: with the number of all rows, so that a missing shard is noticed.
 const ROW: &str = "row of ";
+
+/// The column that says whether the mechanism assembles.
+const ASSEMBLED: &str = "assembled";
 
 /// Rows as comma-separated values.
 pub fn csv(study: &Study, rows: &StudyRows) -> String {
@@ -20,6 +23,46 @@ pub fn csv(study: &Study, rows: &StudyRows) -> String {
     });
     let bytes = written.expect("writing to memory cannot fail");
     String::from_utf8(bytes).expect("what was written is text")
+}
+
+/// How the columns of a study are spread over its rows, as comma-separated values.
+///
+/// # Errors
+/// If the rows are not those of a study.
+pub fn spread(rows: &str) -> std::io::Result<String> {
+    let mut reader = csv::Reader::from_reader(rows.as_bytes());
+    let names: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
+    let mut columns = vec![Vec::new(); names.len()];
+    for row in reader.records() {
+        for (column, field) in columns.iter_mut().zip(&row?) {
+            column.extend(field.parse::<f64>());
+        }
+    }
+    let titles = [
+        "quantity",
+        "rows",
+        "mean",
+        "standard deviation",
+        "least",
+        "greatest",
+    ];
+    let mut written = Csv::new(Vec::new(), titles)?;
+    for (name, values) in names.into_iter().zip(columns).skip(1) {
+        let count = values.len();
+        let cells = [Cell::Text(name), Cell::Count(count as i64)];
+        let mean = values.iter().sum::<f64>() / count as f64;
+        let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+        let figures = [
+            mean,
+            (squares / count.saturating_sub(1) as f64).sqrt(),
+            values.iter().copied().fold(f64::NAN, f64::min),
+            values.iter().copied().fold(f64::NAN, f64::max),
+        ];
+        let figures = figures.map(|x| Cell::from(Some(x)));
+        written.row(cells.into_iter().chain(figures))?;
+    }
+    let bytes = written.finish()?;
+    Ok(String::from_utf8(bytes).expect("what was written is text"))
 }
 
 /// Why files are not the shards of one study.
@@ -47,6 +90,14 @@ pub enum MergeError {
         /// The files.
         files: [String; 2],
     },
+    /// Rows that are no grid.
+    #[error("{rows} rows are no grid of {grid} nodes", grid = .grid.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
+    Grid {
+        /// How many rows there are.
+        rows: usize,
+        /// The nodes along each coordinate.
+        grid: Vec<usize>,
+    },
     /// Missing rows.
     #[error("rows {first} to {last} of {of} are missing: work out their shard")]
     Missing {
@@ -57,6 +108,34 @@ pub enum MergeError {
         /// How many there are in all.
         of: usize,
     },
+}
+
+/// The rows of a whole grid with the number of the region to which each belongs: nodes beside each other where the mechanism
+/// assembles; empty where it does not.
+///
+/// # Errors
+/// If they are not the rows of that grid.
+pub fn mapped(rows: &str, grid: &[usize]) -> Result<String, MergeError> {
+    let mut reader = csv::Reader::from_reader(rows.as_bytes());
+    let names = reader.headers().cloned().unwrap_or_default();
+    let column = names.iter().position(|name| name == ASSEMBLED);
+    let within: Vec<bool> = (reader.records())
+        .map(|row| row.is_ok_and(|row| column.and_then(|i| row.get(i)) == Some("1")))
+        .collect();
+    let found = regions(grid, &within).ok_or_else(|| MergeError::Grid {
+        rows: within.len(),
+        grid: grid.to_vec(),
+    })?;
+    let mut lines = rows.lines();
+    let mut text = format!("{},region\n", lines.next().unwrap_or_default());
+    for (line, region) in lines.zip(found) {
+        text += line;
+        text += &match region {
+            0 => ",\n".to_owned(),
+            region => format!(",{region}\n"),
+        };
+    }
+    Ok(text)
 }
 
 /// The study of which files are all the shards, in any order; a shard that was worked out twice counts once.
@@ -144,6 +223,40 @@ mod tests {
             let files: Vec<_> = order.into_iter().cloned().collect();
             assert_eq!(merge(&files).as_deref(), Ok(whole));
         }
+    }
+
+    /// The sample standard deviation of 2, 4, 4, 4, 5, 5, 7, 9 is √(32/7).
+    #[test]
+    fn the_spread_of_each_column_leaves_out_what_is_empty() {
+        let values = ["2", "4", "4", "", "4", "5", "5", "7", "9"];
+        let rows: Vec<String> = (values.iter().enumerate())
+            .map(|(i, x)| format!("{i},{x},1\n"))
+            .collect();
+        let text = format!("row of 9,\"f(a, b) (m)\",assembled\n{}", rows.concat());
+        let expected = format!(
+            "quantity,rows,mean,standard deviation,least,greatest\n\
+             \"f(a, b) (m)\",8,5,{},2,9\nassembled,9,1,0,1,1\n",
+            (32.0_f64 / 7.0).sqrt()
+        );
+        assert_eq!(spread(&text).ok(), Some(expected));
+    }
+
+    #[test]
+    fn shards_of_a_map_are_joined_across_their_seams() {
+        let shards = [
+            file("a", &["0,1,1", "1,2,0"]),
+            file("b", &["2,1,1", "3,2,1"]),
+        ];
+        let whole = merge(&shards).expect("a whole study");
+        let expected = "row of 4,l2 (m),assembled,region\n0,1,1,1\n1,2,0,\n2,1,1,1\n3,2,1,1\n";
+        assert_eq!(mapped(&whole, &[2, 2]).as_deref(), Ok(expected));
+        let row = "row of 4,l2 (m),assembled,region\n0,1,1,1\n1,2,0,\n2,1,1,2\n3,2,1,2\n";
+        assert_eq!(mapped(&whole, &[4]).as_deref(), Ok(row));
+        let (rows, grid) = (4, vec![2, 3]);
+        assert_eq!(
+            mapped(&whole, &[2, 3]),
+            Err(MergeError::Grid { rows, grid })
+        );
     }
 
     #[test]

@@ -3,8 +3,10 @@
 import concurrent.futures
 import multiprocessing
 import os
+import shutil
 import signal
 import subprocess
+import sys
 import time
 from math import pi
 from pathlib import Path
@@ -13,6 +15,7 @@ import numpy as np
 import pytest
 
 import linkwork
+from linkwork import executors
 
 SHIPPED = Path(__file__).parents[2] / "mechanisms"
 VARY = {"l2": (1.5, 5), "theta1": ("0 deg", "360 deg")}
@@ -143,30 +146,238 @@ def test_what_is_wrong_is_said(four_bar):
         linkwork.study(four_bar, {"l2": (0, 1)}, "phi1")
 
 
+def test_rows_in_a_file_are_those_in_memory(four_bar, tmp_path):
+    asked = (four_bar, VARY, "phi1, velocity:left.x", 200)
+    whole = linkwork.study(*asked[:3], samples=asked[3], rate={"theta1": 1.0})
+    assert np.isnan(whole["phi1"]).any()
+    assert [whole.units[name] for name in ("theta1", "phi1", "velocity:left.x")] == ["rad", "rad", "m/s"]
+    written = {}
+    for shards in (1, 3, 9):
+        file = tmp_path / f"{shards}.csv"
+        linkwork.study_into(file, *asked[:3], samples=asked[3], rate={"theta1": 1.0}, shards=shards)
+        written[shards] = file.read_bytes()
+    options = ["--vary", "l2=1.5..5", "--vary", f"theta1=0..{2 * pi!r}", "--samples", "200", "--rate", "theta1=1"]
+    command = ["linkwork", "study", str(SHIPPED / "four_bar.ron"), *options, "--quantity", "phi1, velocity:left.x"]
+    assert set(written.values()) == {subprocess.run(command, capture_output=True, check=True).stdout}
+    whole.write(tmp_path / "again.csv")
+    assert (tmp_path / "again.csv").read_bytes() == written[1]
+    with pytest.raises(ValueError, match="does not say how"):
+        whole.write(tmp_path / "rows.xls")
+    assert sorted(path.suffix for path in tmp_path.iterdir()) == [".csv"] * 4
+
+
+@pytest.mark.parametrize("suffix", [".parquet", ".arrow"])
+def test_rows_go_to_parquet_and_arrow(four_bar, tmp_path, suffix):
+    pa = pytest.importorskip("pyarrow")
+    pq = pytest.importorskip("pyarrow.parquet")
+    whole = linkwork.study(four_bar, VARY, "phi1", samples=100)
+    file = tmp_path / f"rows{suffix}"
+    linkwork.study_into(file, four_bar, VARY, "phi1", samples=100, shards=7)
+    table = pq.read_table(file) if suffix == ".parquet" else pa.ipc.open_file(file).read_all()
+    assert table.column_names == list(whole) and table.schema.field("phi1").metadata == {b"unit": b"rad"}
+    same(whole, {name: table[name].to_numpy().astype(float) for name in whole})
+    assert table["phi1"].null_count == np.isnan(whole["phi1"]).sum() > 0
+    before = file.read_bytes()
+    linkwork.study_into(file, four_bar, VARY, "phi1", samples=100, shards=7)
+    assert file.read_bytes() == before
+
+
+def test_tolerances_spread_as_the_derivatives_say(four_bar):
+    """Small independent deviations: the variance of the answer is the sum of the squares of derivative times deviation
+    (first-order law of error propagation)."""
+    deviations = {"l1": 1e-4, "l2": 2e-4, "l3": 1e-4, "theta1": 1e-4}
+    held = {"theta1": 1.0}
+    for latin in (False, True):
+        rows = linkwork.study(four_bar, (), "phi1", deviate=deviations, samples=4096, latin=latin, **held)
+        spread = rows.spread()
+        assert spread["l2"].mean == pytest.approx(four_bar.parameters["l2"], abs=1e-5)
+        assert spread["l2"].deviation == pytest.approx(2e-4, rel=0.02)
+        nominal = four_bar.solve(theta1=1.0).joints.phi1
+        variance, step = 0.0, 1e-6
+        for name, deviation in deviations.items():
+            ends = []
+            for sign in (-1, 1):
+                if name == "theta1":
+                    ends.append(four_bar.solve(theta1=1.0 + sign * step).joints.phi1)
+                else:
+                    changed = four_bar.with_parameters(**{name: four_bar.parameters[name] + sign * step})
+                    ends.append(changed.solve(theta1=1.0).joints.phi1)
+            variance += ((ends[1] - ends[0]) / (2 * step) * deviation) ** 2
+        assert spread["phi1"].deviation == pytest.approx(variance**0.5, rel=0.03)
+        assert spread["phi1"].mean == pytest.approx(nominal, abs=1e-5)
+        assert spread["assembled"].mean == 1.0 and spread["phi1"].rows == 4096
+    with pytest.raises(linkwork.QuestionError, match="no ends for a grid"):
+        linkwork.study(four_bar, {"l1": (1, 2)}, "phi1", deviate={"l2": 1e-3}, grid=[3, 3])
+    with pytest.raises(linkwork.QuestionError, match="varied twice"):
+        linkwork.study(four_bar, {"l2": (1, 2)}, "phi1", deviate={"l2": 1e-3}, samples=3)
+
+
+def test_the_command_line_says_how_rows_are_spread(four_bar, tmp_path):
+    options = ["--deviate", "l2=0.001", "--deviate", "theta1=0.1deg", "--samples", "100", "--quantity", "phi1"]
+    command = ["linkwork", "study", str(SHIPPED / "four_bar.ron"), *options]
+    lines = subprocess.run([*command, "--spread"], capture_output=True, text=True, check=True).stdout.splitlines()
+    rows = linkwork.study(four_bar, (), "phi1", deviate={"l2": 0.001, "theta1": "0.1 deg"}, samples=100)
+    figures = {line.split(",")[0]: list(map(float, line.split(",")[1:])) for line in lines[1:]}
+    for name, spread in rows.spread().items():
+        unit = f" ({rows.units[name]})" if rows.units[name] else ""
+        assert figures[name + unit] == pytest.approx(list(spread.to_dict().values()), rel=1e-12, abs=1e-15)
+    parts = [str(tmp_path / f"{i}.csv") for i in (1, 2)]
+    for i, part in enumerate(parts):
+        subprocess.run([*command, "--shard", f"{i + 1}/2", "-o", part], check=True)
+    merged = subprocess.run(["linkwork", "merge", "--spread", *parts], capture_output=True, text=True, check=True)
+    assert merged.stdout.splitlines() == lines
+
+
+def test_maps_are_joined_across_the_seams_of_shards(four_bar, tmp_path):
+    """Where l2 + l3 and |l2 - l3| bound the diagonal of the crank: of a row the lengths that close are an interval."""
+    grid = [9, 40]
+    command = [
+        "linkwork",
+        "study",
+        str(SHIPPED / "four_bar.ron"),
+        "--vary",
+        "theta1=0deg..180deg",
+        "--vary",
+        "l2=0..12",
+    ]
+    parts = [str(tmp_path / f"{i}.csv") for i in range(1, 6)]
+    for i, part in enumerate(parts):
+        subprocess.run([*command, "--grid", "9,40", "--shard", f"{i + 1}/5", "-o", part], check=True)
+    merge = ["linkwork", "merge", "--regions", "9,40", *parts]
+    lines = subprocess.run(merge, capture_output=True, text=True, check=True).stdout.splitlines()
+    found = np.array([int(line.split(",")[-1] or 0) for line in lines[1:]])
+    rows = linkwork.study(four_bar, {"theta1": (0, "180 deg"), "l2": (0, 12)}, grid=grid)
+    np.testing.assert_array_equal(rows.regions(grid), found)
+    assert set(found) == {0, 1} and ((found > 0) == rows["assembled"]).all()
+    # the seam between two halves of the turn, left open
+    there = rows["assembled"].reshape(grid).copy()
+    there[4] = 0
+    apart = linkwork.Study({**rows, "assembled": there.ravel()})
+    assert set(apart.regions(grid)) == {0, 1, 2}
+    with pytest.raises(ValueError, match="not those of this grid"):
+        rows.regions([9, 41])
+
+
+def test_progress_counts_shards_also_those_that_are_kept(four_bar, tmp_path):
+    counts = []
+    options = {"keep": tmp_path, "progress": lambda _, done, of: counts.append((done, of))}
+    for _ in range(2):
+        counts.clear()
+        linkwork.study(four_bar, VARY, "phi1", samples=20, shards=4, **options)
+        assert counts == [(1, 4), (2, 4), (3, 4), (4, 4)]
+
+
+QUESTION = "phi1, transmission, assemblies"
+
+
+def works_out_the_same(four_bar, executor, kill, **shards):
+    """The rows of a serial run, and again while a worker is killed in the middle."""
+    whole = linkwork.study(four_bar, VARY, QUESTION, samples=900)
+    same(whole, linkwork.study(four_bar, VARY, QUESTION, executor=executor, samples=900, **shards))
+    with concurrent.futures.ThreadPoolExecutor(1) as aside:
+        # another question about it, so that the cluster has no results of it yet
+        more = f"{QUESTION}, phi2"
+        asked = aside.submit(linkwork.study, four_bar, VARY, more, executor=executor, samples=900, **shards)
+        time.sleep(0.3)
+        assert not asked.done()
+        kill()
+        again = asked.result(timeout=300)
+    again.pop("phi2")
+    same(whole, again)
+
+
 def test_a_cluster_of_dask_works_out_the_same_also_when_a_worker_dies(four_bar):
     distributed = pytest.importorskip("distributed")
-    points = {"samples": 900}
-    whole = linkwork.study(four_bar, VARY, "phi1, transmission, assemblies", **points)
     with (
         distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
-        executor = client.get_executor()
-        same(whole, linkwork.study(four_bar, VARY, "phi1, transmission, assemblies", executor=executor, **points))
         worker = next(iter(client.run(os.getpid).values()))
-        with concurrent.futures.ThreadPoolExecutor(1) as aside:
-            # another question about it, so that the cluster has no results of it yet
-            asked = aside.submit(
-                linkwork.study,
-                four_bar,
-                VARY,
-                "phi1, transmission, assemblies, phi2",
-                executor=executor,
-                **points,
-            )
-            time.sleep(0.2)
-            assert not asked.done()
-            os.kill(worker, signal.SIGKILL)
-            again = asked.result(timeout=120)
-        again.pop("phi2")
-        same(whole, again)
+        works_out_the_same(four_bar, client.get_executor(), lambda: os.kill(worker, signal.SIGKILL))
+
+
+def children(named):
+    """Processes below this one whose command has this name in it."""
+    found = subprocess.run(["ps", "-e", "-o", "pid=,ppid=,args="], capture_output=True, text=True, check=True).stdout
+    listed = [line.split(None, 2) for line in found.splitlines()]
+    below = {os.getpid()}
+    for _ in range(8):
+        below |= {int(pid) for pid, parent, *_ in listed if int(parent) in below}
+    return [int(pid) for pid, _, *args in listed if int(pid) in below and args and named in args[0]]
+
+
+def test_ray_works_out_the_same_also_when_a_worker_dies(four_bar):
+    ray = pytest.importorskip("ray")
+    ray.init(num_cpus=2, include_dashboard=False, configure_logging=False)
+    try:
+
+        def kill():
+            workers = children("ray::_shard")
+            assert workers
+            os.kill(workers[0], signal.SIGKILL)
+
+        works_out_the_same(four_bar, executors.Ray(), kill)
+    finally:
+        ray.shutdown()
+
+
+def test_spark_works_out_the_same_also_when_a_worker_dies(four_bar):
+    pyspark = pytest.importorskip("pyspark")
+    if shutil.which("java") is None:
+        pytest.skip("Spark needs Java")
+    settings = pyspark.SparkConf().set("spark.ui.enabled", "false")
+    context = pyspark.SparkContext("local[2,4]", conf=settings)
+    try:
+
+        def kill():
+            workers = children("pyspark.daemon")
+            # the last begun is a worker, the first is what begins them
+            os.kill(max(workers), signal.SIGKILL)
+
+        with executors.Spark(context) as executor:
+            # a job begins slowly
+            works_out_the_same(four_bar, executor, kill, shards=12)
+    finally:
+        context.stop()
+
+
+def test_processes_go_on_where_a_worker_died(four_bar, tmp_path):
+    """A pool of processes ends with a worker: what is kept is not worked out again."""
+    spawn = multiprocessing.get_context("spawn")
+    whole = linkwork.study(four_bar, VARY, QUESTION, samples=900)
+    options = {"samples": 900, "keep": tmp_path}
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=spawn) as pool:
+
+        def progress(_, done, __):
+            if done == 8:
+                os.kill(next(iter(pool._processes)), signal.SIGKILL)
+
+        with pytest.raises(concurrent.futures.process.BrokenProcessPool):
+            linkwork.study(four_bar, VARY, QUESTION, executor=pool, progress=progress, **options)
+    finished = len(list(tmp_path.iterdir()))
+    assert 8 <= finished < 64
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=spawn) as pool:
+        same(whole, linkwork.study(four_bar, VARY, QUESTION, executor=pool, **options))
+
+
+def test_mpi_works_out_the_same(four_bar, tmp_path):
+    pytest.importorskip("mpi4py")
+    if shutil.which("mpiexec") is None:
+        pytest.skip("mpi4py needs an MPI, such as openmpi-bin")
+    script = tmp_path / "study.py"
+    script.write_text(
+        "import sys, linkwork\n"
+        "from mpi4py.futures import MPICommExecutor\n"
+        "with MPICommExecutor() as executor:\n"
+        "    if executor is not None:\n"
+        "        m = linkwork.load(sys.argv[1])\n"
+        f"        linkwork.study_into(sys.argv[2], m, {VARY!r}, {QUESTION!r}, samples=300, executor=executor)\n"
+    )
+    # what Open MPI asks for in a container with few cores; others do not look at it
+    allowed = dict.fromkeys(("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe"), "1")
+    environment = {**os.environ, **{f"OMPI_{name}": value for name, value in allowed.items()}}
+    command = ["mpiexec", "-n", "3", sys.executable, "-m", "mpi4py", script]
+    command += [SHIPPED / "four_bar.ron", tmp_path / "mpi.csv"]
+    subprocess.run(command, check=True, timeout=300, env=environment)
+    linkwork.study_into(tmp_path / "serial.csv", four_bar, VARY, QUESTION, samples=300)
+    assert (tmp_path / "mpi.csv").read_bytes() == (tmp_path / "serial.csv").read_bytes()

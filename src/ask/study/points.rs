@@ -1,5 +1,7 @@
 //! Points of a study: each by its number alone, so that any machine finds any of them.
 
+use std::f64::consts::SQRT_2;
+
 /// Where quantities are asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Points {
@@ -13,6 +15,30 @@ pub enum Points {
     Sobol(usize),
     /// The values themselves.
     Given(Vec<Vec<f64>>),
+}
+
+/// How what is varied is spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spread {
+    /// Evenly from one value to another.
+    Even(f64, f64),
+    /// Normally about a value, with a standard deviation.
+    Normal(f64, f64),
+}
+
+impl Spread {
+    /// The value below which this part of all lies.
+    fn at(self, part: f64) -> f64 {
+        match self {
+            Spread::Even(_, to) if part == 1.0 => to,
+            Spread::Even(from, to) => from + part * (to - from),
+            // Φ⁻¹(p) = -√2 erfc⁻¹(2p); a hypercube may begin in its corner
+            Spread::Normal(mean, deviation) => {
+                let part = part.max(2.0_f64.powi(-54));
+                mean - deviation * SQRT_2 * pxfm::f_erfcinv(2.0 * part)
+            }
+        }
+    }
 }
 
 /// Primitive polynomials (degree, inner coefficients) and first direction numbers of the dimensions after the first, from
@@ -45,11 +71,7 @@ impl Points {
     }
 
     /// The point of a number, with a coordinate in each range.
-    pub fn at(&self, index: usize, ranges: &[(f64, f64)], seed: u64) -> Vec<f64> {
-        let among = |(from, to): (f64, f64), part: f64| match part {
-            1.0 => to,
-            _ => from + part * (to - from),
-        };
+    pub fn at(&self, index: usize, ranges: &[Spread], seed: u64) -> Vec<f64> {
         let ranges = ranges.iter().copied().enumerate();
         match self {
             Points::Given(rows) => rows[index].clone(),
@@ -61,8 +83,8 @@ impl Points {
                         let node = rest % nodes[axis];
                         rest /= nodes[axis];
                         match nodes[axis] {
-                            1 => among(range, 0.5),
-                            n => among(range, node as f64 / (n - 1) as f64),
+                            1 => range.at(0.5),
+                            n => range.at(node as f64 / (n - 1) as f64),
                         }
                     })
                     .collect();
@@ -74,14 +96,11 @@ impl Points {
                     let key = mixed(seed ^ mixed(axis as u64 + 1));
                     let cell = permuted(index as u64, *count as u64, key) as f64;
                     let within = mixed(key ^ mixed(index as u64)) >> 11;
-                    among(
-                        range,
-                        (cell + within as f64 * 2.0_f64.powi(-53)) / *count as f64,
-                    )
+                    range.at((cell + within as f64 * 2.0_f64.powi(-53)) / *count as f64)
                 })
                 .collect(),
             Points::Sobol(_) => ranges
-                .map(|(axis, range)| among(range, sobol(axis, index as u64 + 1)))
+                .map(|(axis, range)| range.at(sobol(axis, index as u64 + 1)))
                 .collect(),
         }
     }
@@ -150,7 +169,7 @@ fn permuted(index: u64, count: u64, key: u64) -> u64 {
 mod tests {
     use super::*;
 
-    const UNIT: [(f64, f64); 10] = [(0.0, 1.0); 10];
+    const UNIT: [Spread; 10] = [Spread::Even(0.0, 1.0); 10];
 
     #[test]
     fn each_part_of_each_range_has_one_point_of_a_latin_hypercube() {
@@ -214,7 +233,7 @@ mod tests {
     #[test]
     fn a_grid_has_every_combination_with_the_ends() {
         let points = Points::Grid(vec![3, 1, 2]);
-        let ranges = [(0.0, 0.3), (1.0, 3.0), (-1.0, 1.0)];
+        let ranges = [(0.0, 0.3), (1.0, 3.0), (-1.0, 1.0)].map(|(from, to)| Spread::Even(from, to));
         let all: Vec<Vec<f64>> = (0..6).map(|i| points.at(i, &ranges, 1)).collect();
         let (middle, end) = (0.5 * 0.3, 0.3);
         let expected = [
@@ -227,5 +246,24 @@ mod tests {
         ];
         assert_eq!(all, expected);
         assert_eq!(Points::Grid(vec![usize::MAX, 3]).count(), None);
+    }
+
+    /// Quantiles of the standard normal distribution: Abramowitz and Stegun, table 26.5, and its symmetry.
+    #[test]
+    fn normal_deviations_have_the_quantiles_of_the_tables() {
+        let normal = Spread::Normal(0.0, 1.0);
+        for (part, expected) in [
+            (0.5, 0.0),
+            (0.25, -0.674_489_750_196_08),
+            (0.975, 1.959_963_984_540_05),
+            (0.999, 3.090_232_306_167_81),
+        ] {
+            assert!((normal.at(part) - expected).abs() < 1e-13, "{part}");
+        }
+        assert!(normal.at(0.0) < -8.0 && normal.at(0.0).is_finite());
+        assert_eq!(Spread::Normal(3.0, 0.0).at(0.1), 3.0);
+        let count = 4096;
+        let squares = (0..count).map(|i| Points::Sobol(count).at(i, &[normal], 1)[0].powi(2));
+        assert!((squares.sum::<f64>() / count as f64 - 1.0).abs() < 0.01);
     }
 }

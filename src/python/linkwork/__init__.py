@@ -35,11 +35,11 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _linkwork, parts
+from . import _linkwork, executors, parts
 from ._linkwork import Error, MechanismError, QuestionError, __version__
 from ._progress import Bar, Progress, bar
 from ._reports import Fields, Report, Rows
-from ._study import Value, Wrench, study, wrenches
+from ._study import Study, Value, Wrench, study, study_into, wrenches
 
 __all__ = [
     "Error",
@@ -50,11 +50,14 @@ __all__ = [
     "QuestionError",
     "Report",
     "Rows",
+    "Study",
     "__version__",
+    "executors",
     "load",
     "parse",
     "parts",
     "study",
+    "study_into",
 ]
 
 Values = Mapping[str, Value]
@@ -186,7 +189,7 @@ class Mechanism:
 
     def _given(self, what: str, given: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
         """What is given to a question, in the order in which it is put."""
-        put = {key: given.pop(key) for key in _ALWAYS if given.get(key) is not None}
+        put = {key: value for key in _ALWAYS if key in given and (value := given.pop(key)) is not None}
         if given:
             hold = dict(put.pop("hold", None) or {})
             for name, value in given.items():
@@ -198,16 +201,16 @@ class Mechanism:
                 hold[name] = value
             free = put.pop("free", None)
             put = {"hold": hold, **put} if free is None else {"free": free, "hold": hold, **put}
-        put.update((key, value) for key, value in options.items() if value is not None)
+        if options:
+            put.update((key, value) for key, value in options.items() if value is not None)
         return put
 
     def _ask(self, what: str, given: dict[str, Any], **options: Any) -> Any:
         wanted = given.pop("progress", None)
-        method = {"along": "singularities", "loci": "singularities"}.get(what, what)
+        method = "singularities" if what in ("along", "loci") else what
         put = self._given(method, given, options)
         if what == "solve" and wanted is None and "mode" not in put:
-            core, _ = self._core.ask(what, put, None)
-            return Report(core)
+            return Report(self._core.ask(what, put, None)[0])
         progress = bar(wanted)
         try:
             core, columns = self._core.ask(what, put, progress)

@@ -43,6 +43,7 @@ class Mechanism:
         self,
         given: Mapping[str, Any],
         vary: list[tuple[str, tuple[float | str, ...]]],
+        deviate: _Set,
         kind: str,
         counts: list[int],
         rows: npt.NDArray[np.float64] | None,
@@ -50,4 +51,6 @@ class Mechanism:
         progress: _Progress,
     ) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
 
+def csv(titles: list[str], columns: list[npt.NDArray[np.float64]]) -> str: ...
+def regions(grid: list[int], within: list[bool]) -> npt.NDArray[np.uint32]: ...
 def run(arguments: list[str]) -> int: ...

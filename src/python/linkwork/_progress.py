@@ -20,6 +20,8 @@ class Bar:
         self._since = time.monotonic()
         self._bar: Any = None
         self._shown = shown
+        #: What was done before, and says nothing about how fast the rest is.
+        self.known = 0
 
     def __call__(self, stage: str, done: int, of: int | None) -> None:
         if not self._shown or time.monotonic() < self._since + PATIENCE:
@@ -30,8 +32,10 @@ class Bar:
             except ImportError:
                 self._shown = False
                 return
-            self._bar = tqdm(leave=False)
+            self._bar = tqdm(leave=False, initial=self.known)
+            self._bar.start_t -= time.monotonic() - self._since
         self._bar.set_description(stage, refresh=False)
+        self._bar.initial = self.known
         self._bar.total = of
         self._bar.n = done
         self._bar.refresh()
