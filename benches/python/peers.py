@@ -5,13 +5,14 @@
 
 Each package follows the same driven values of the shipped files from the same start, and must come to the same places.
 Pinocchio and MuJoCo have the closures as constraints; the user's part is Newton's method on the residual and Jacobian
-that they give. scipy solves the fewest equations one would write by hand. Rounds take all packages in turn; what is
-printed is the median over the rounds. Only `solve_many` uses more than one core.
+that they give. scipy solves the fewest equations one would write by hand. Rounds take all packages in turn, on one
+thread; what is printed is the median over the rounds of the time on the processor.
 """
 
 from __future__ import annotations
 
 import importlib
+import importlib.metadata
 import os
 import platform
 import statistics
@@ -20,9 +21,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "RAYON_NUM_THREADS"):
+    os.environ[threads] = "1"
 
-import linkwork
+import numpy as np  # noqa: E402
+
+import linkwork  # noqa: E402
 
 SHIPPED = Path(__file__).parents[2] / "mechanisms"
 ROUNDS = 7
@@ -365,9 +369,9 @@ def main() -> None:
     print(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
     for name in ("linkwork", "pin", "mujoco", "scipy", "pylinkage", "numpy"):
         try:
-            print(f"{name} {importlib.metadata.version(name)}", end="  ")
+            print(name, importlib.metadata.version(name), end="  ")
         except importlib.metadata.PackageNotFoundError:
-            print(f"{name} {'here' if name == 'linkwork' else 'missing'}", end="  ")
+            print(name, "is not installed", end="  ")
     print("\n")
     table: dict[str, list[str]] = {package: [] for package in PACKAGES}
     for work in works():
@@ -388,9 +392,9 @@ def main() -> None:
         times: dict[str, list[float]] = {package: [] for package in runs}
         for _ in range(ROUNDS):
             for package, (run, rows) in runs.items():
-                begun = time.perf_counter()
+                begun = time.process_time()
                 run(rows)
-                times[package].append((time.perf_counter() - begun) / len(rows))
+                times[package].append((time.process_time() - begun) / len(rows))
         for package, cells in table.items():
             found = times.get(package)
             cells.append(f"{1e6 * statistics.median(found):.3g} µs" if found else "–")
@@ -400,6 +404,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    import importlib.metadata
-
     main()
