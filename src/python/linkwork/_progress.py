@@ -35,7 +35,7 @@ class Bar:
             self._bar = tqdm(leave=False, initial=self.known)
             self._bar.start_t -= time.monotonic() - self._since
         self._bar.set_description(stage, refresh=False)
-        self._bar.initial = self.known
+        self._bar.initial = min(self.known, done)
         self._bar.total = of
         self._bar.n = done
         self._bar.refresh()
