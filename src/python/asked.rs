@@ -51,6 +51,7 @@ pub struct Settings {
     /// Whether a mode is meant by its number, for which all assemblies are searched.
     pub numbered: bool,
     pub all_complex: bool,
+    pub prove: bool,
     pub follow: bool,
     pub straight: bool,
     pub steps: Option<usize>,
@@ -189,6 +190,7 @@ impl Asked {
                 self.change(|question| question.seed(seed));
             }
             "all_complex" => settings.all_complex = given.extract()?,
+            "prove" => settings.prove = given.extract()?,
             "follow" => settings.follow = given.extract()?,
             "straight" => settings.straight = given.extract()?,
             "steps" => settings.steps = Some(given.extract()?),

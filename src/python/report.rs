@@ -21,7 +21,7 @@ use crate::output::complaint::Complaint;
 use crate::output::document::{Cell, Document};
 use crate::output::sweep::{row_columns, row_values, worded};
 use crate::output::{JsonReport, Rows, html, json, markdown, text};
-use crate::solve::Watch;
+use crate::solve::{Pruning, Watch};
 
 /// A report, shown in the way that is asked for.
 trait Shown: Send + Sync {
@@ -168,6 +168,7 @@ pub fn answer(
         "assemblies" => {
             let wanted = Wanted {
                 all_complex: settings.all_complex,
+                proof: settings.prove.then(Pruning::default),
                 ..Wanted::default()
             };
             report(question.assemblies(wanted, watch)?)

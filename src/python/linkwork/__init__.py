@@ -230,12 +230,13 @@ class Mechanism:
         """
         return self._ask("solve", given)  # type: ignore[no-any-return]
 
-    def assemblies(self, *, all_complex: bool | None = None, **given: Any) -> Report:
+    def assemblies(self, *, all_complex: bool | None = None, prove: bool | None = None, **given: Any) -> Report:
         """All assembled configurations with certificates: iterable, ``.real``, ``.complex_count``, ``.complete``.
 
-        ``all_complex=True`` lists those that are not real too.
+        ``all_complex=True`` lists those that are not real too; ``prove=True`` proves that no real one is missing, or
+        says in ``.proof`` what is left.
         """
-        return self._ask("assemblies", given, all_complex=all_complex)  # type: ignore[no-any-return]
+        return self._ask("assemblies", given, all_complex=all_complex, prove=prove)  # type: ignore[no-any-return]
 
     def sweep(
         self,
