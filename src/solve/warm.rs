@@ -18,7 +18,7 @@ pub struct Warm {
     /// The longest step in any unknown, in rad or characteristic lengths. A longer one means that
     /// the guess was not nearly right, and that another branch may be nearer than the one followed.
     pub longest_step: f64,
-    /// The highest order of extrapolation, at most 3; 0 starts from the last solution.
+    /// The highest order of extrapolation, at most 5; 0 starts from the last solution.
     pub extrapolation: usize,
 }
 
@@ -47,19 +47,29 @@ pub struct WarmReport {
     pub residual: f64,
 }
 
-/// Orders of extrapolation: none, constant moves, moves that change linearly, quadratically.
-const ORDERS: usize = 4;
+/// Orders of extrapolation: none, constant moves, moves that change linearly, quadratically and so on.
+const ORDERS: usize = 6;
 
-/// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, ∇²m,
-/// ∇³m of the latest moves m from solution to solution.
+/// A step that reaches the tolerance but gains no more than this was made with a Jacobian too old to say what is
+/// left to the solution.
+const STALE: f64 = 1e-2;
+
+/// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, …,
+/// ∇⁵m of the latest moves m from solution to solution.
 ///
 /// Extrapolation of order p adds the first p of them and would have missed the latest move by ∇ᵖm, so
 /// the order with the smallest ∇ᵖm is used.
+///
+/// Extrapolation multiplies errors, at order 3 up to fifteen times, and a point within the tolerance may be
+/// off by all of it. The step that would still lead from the point to the solution is therefore kept beside it, and
+/// moves are those between solutions: along a fine trajectory the extrapolated points then need no correction.
 #[derive(Clone, Debug)]
 pub struct Trail<P, T> {
     next: P,
     spare: P,
     moved: Vec<T>,
+    /// What is left from the latest point to the solution, to first order.
+    rest: Vec<T>,
     differences: Vec<[T; ORDERS]>,
     order: usize,
     factorised: bool,
@@ -72,6 +82,7 @@ impl<P: Clone, T: Field> Trail<P, T> {
             next: point.clone(),
             spare: point.clone(),
             moved: vec![T::zero(); unknowns],
+            rest: vec![T::zero(); unknowns],
             differences: vec![[T::zero(); ORDERS]; unknowns],
             order: 0,
             factorised: false,
@@ -83,15 +94,20 @@ impl<P, T: Field> Trail<P, T> {
     /// Forgets the past, as before a jump.
     pub fn forget(&mut self) {
         self.differences.fill([T::zero(); ORDERS]);
+        self.rest.fill(T::zero());
         self.order = 0;
         self.factorised = false;
     }
 
-    /// Takes in the latest move.
-    fn learn(&mut self) {
+    /// Takes in the latest move, and what is left of it.
+    fn learn(&mut self, left: Option<&[T]>) {
         let mut errors = [0.0; ORDERS];
-        for (differences, &moved) in self.differences.iter_mut().zip(&self.moved) {
-            let mut latest = moved;
+        let known = self.moved.iter().zip(&mut self.rest);
+        let mut left = left.into_iter().flatten();
+        for (differences, (&moved, rest)) in self.differences.iter_mut().zip(known) {
+            let before = *rest;
+            *rest = left.next().map_or(T::zero(), |left| *left);
+            let mut latest = moved + (*rest - before);
             for (difference, error) in differences.iter_mut().zip(&mut errors) {
                 *error += latest.norm_squared().greatest();
                 (*difference, latest) = (latest, latest - *difference);
@@ -134,7 +150,9 @@ impl Warm {
         }
         if report.solved {
             std::mem::swap(point, &mut trail.next);
-            trail.learn();
+            let known = self.extrapolation > 0 && trail.factorised;
+            let small = known && equations.step(work) <= self.longest_step;
+            trail.learn(small.then(|| &*equations.step_mut(work)));
         } else {
             trail.forget();
         }
@@ -152,18 +170,22 @@ impl Warm {
     ) -> WarmReport {
         // a guess worth having leaves less to do than it did
         let mut longest_step = self.longest_step;
+        let steps = equations.step_mut(work);
         if order > 0 {
             let mut longest = 0.0f64;
-            for (moved, differences) in trail.moved.iter_mut().zip(&trail.differences) {
+            let past = trail.differences.iter().zip(&trail.rest);
+            let moves = trail.moved.iter_mut().zip(steps);
+            for ((moved, step), (differences, &rest)) in moves.zip(past) {
                 let terms = differences[..order].iter();
-                *moved = terms.fold(E::Number::zero(), |sum, &d| sum + d);
-                longest = longest.max(moved.norm_squared().greatest());
+                *step = terms.fold(rest, |sum, &d| sum + d);
+                *moved = *step;
+                longest = longest.max(step.norm_squared().greatest());
             }
             longest_step = longest_step.min(longest.sqrt());
         } else {
             trail.moved.fill(E::Number::zero());
+            steps.fill(E::Number::zero());
         }
-        equations.step_mut(work).copy_from_slice(&trail.moved);
         equations.advance(point, 1.0, work, &mut trail.next);
         let mut report = WarmReport {
             solved: false,
@@ -189,7 +211,11 @@ impl Warm {
             equations.advance(&trail.next, 1.0, work, &mut trail.spare);
             let residual = equations.residual(&trail.spare, work).largest;
             let acceptable = longest <= longest_step && residual < report.residual;
-            let gained = residual <= (self.contraction * report.residual).max(self.tolerance);
+            let enough = match residual <= self.tolerance {
+                true => STALE.max(self.contraction),
+                false => self.contraction,
+            };
+            let gained = residual <= enough * report.residual;
             trail.factorised = acceptable && gained;
             if acceptable {
                 std::mem::swap(&mut trail.next, &mut trail.spare);

@@ -180,6 +180,13 @@ mod tests {
     }
 
     #[test]
+    fn the_points_of_a_fine_motion_need_no_correction() {
+        // moves of 6e-5: their fourth differences are below rounding
+        let steps = steps_of_a_turn(&mut four_bar(), 100_000);
+        assert!(steps < 1000, "{steps} steps");
+    }
+
+    #[test]
     fn a_motion_without_pattern_is_followed_without_extrapolation() {
         let mut tracker = four_bar();
         for k in 0..1000 {
