@@ -22,6 +22,7 @@ mod section;
 mod serial_axes;
 mod turns;
 mod value;
+mod vanishing;
 mod variable;
 
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
@@ -45,7 +46,7 @@ pub use model::{
 
 use crate::description::{Coordinates, Problem};
 
-pub(crate) use closure::{Closure, Side, needs};
+pub(crate) use closure::{Closure, EVERY_ROW, Kept, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 pub(crate) use letters::{Formal, Letters};
@@ -67,6 +68,8 @@ pub struct Mechanism {
     dimensions: Dimensions<f64>,
     /// For each joint whether a full turn leaves every frame where it is.
     repeating: Vec<bool>,
+    /// For each closure the rows that do not vanish in every configuration.
+    rows_that_vary: Vec<Kept>,
     coordinates: Option<Box<Coordinates>>,
     warnings: Vec<Problem>,
 }

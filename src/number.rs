@@ -6,6 +6,7 @@
 
 mod complex;
 mod dual;
+mod folded;
 mod interval;
 mod lanes;
 mod real;
@@ -15,6 +16,7 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 pub use dual::Dual;
+pub(crate) use folded::Folded;
 pub use interval::Interval;
 pub use lanes::{LANES, Lanes};
 pub use num_complex::Complex;

@@ -158,6 +158,7 @@ impl Mechanism {
             outputs: Vec::new(),
             dimensions: super::Dimensions::empty(),
             repeating: Vec::new(),
+            rows_that_vary: Vec::new(),
             coordinates: description.coordinates.clone(),
             warnings: Vec::new(),
         };
@@ -170,10 +171,7 @@ impl Mechanism {
         }
         if !builder.problems.iter().any(refused) {
             match mechanism.dimensions_over(&builder.values) {
-                Ok(dimensions) => {
-                    mechanism.dimensions = dimensions;
-                    mechanism.infer_repeating();
-                }
+                Ok(dimensions) => mechanism.set_dimensions(dimensions),
                 // the parts were evaluated one by one above; only their combination can fail
                 Err(error) => builder.refuse(ProblemKind::NoValue(error.kind), &error.span),
             }

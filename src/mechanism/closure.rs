@@ -17,22 +17,24 @@
 //! alone would admit, lies at infinity. A side-A motion counts with the opposite sign; taking its
 //! velocity at p_B accounts for the turning of A's axes.
 
+mod rows;
+
 use super::ClosureKind;
 use super::configuration::Configuration;
 use super::dimensions::{ClosureDimensions, Dimensions, LinearForm};
 use super::kinematics::{Kinematics, Mover, Need, Placement, Slot};
 use crate::description::AxisCondition;
-use crate::geometry::{Pose, Vector3};
+use crate::geometry::Pose;
 use crate::number::Number;
-
-/// The most rows a closure has.
-pub(crate) const MOST_ROWS: usize = 6;
+pub(crate) use rows::{EVERY_ROW, Kept, MOST_ROWS, Rows, Side};
+use rows::{disorientation, misalignment};
 
 /// A closure ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct Closure<T> {
     /// The joint that it restores.
     pub kind: ClosureKind,
+    kept: Kept,
     slots: [Slot; 2],
     /// The joints that move side A and side B.
     pub(crate) movers: [Vec<Mover<T>>; 2],
@@ -45,41 +47,12 @@ pub struct Closure<T> {
     inverse_length: f64,
 }
 
-/// A side of a closure: the first or the second frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Side {
-    A,
-    B,
-}
-
-impl Side {
-    #[inline(always)]
-    fn sign(self) -> f64 {
-        match self {
-            Side::A => -1.0,
-            Side::B => 1.0,
-        }
-    }
-}
-
-/// The rows of a closure at a configuration: residuals and the wrenches that measure twists.
-#[derive(Clone, Debug)]
-pub(crate) struct Rows<T> {
-    /// Residuals, in the order point, moments, forces.
-    pub residual: [T; MOST_ROWS],
-    point: bool,
-    moments: [Vector3<T>; 3],
-    moment_count: usize,
-    forces: [Vector3<T>; 2],
-    force_count: usize,
-    /// Where the velocity of side A and side B is taken.
-    points: [Vector3<T>; 2],
-    inverse_length: f64,
-}
-
 /// How much of the poses of its two frames the rows of a closure use.
-pub(crate) fn needs(kind: ClosureKind) -> [Need; 2] {
-    match kind.conditions().axes {
+pub(crate) fn needs(kind: ClosureKind, kept: &Kept) -> [Need; 2] {
+    let conditions = kind.conditions();
+    let only_points = conditions.origins && !kept[3..kind.equations()].contains(&true);
+    match conditions.axes {
+        _ if only_points => [Need::Position; 2],
         AxisCondition::Free => [Need::Position; 2],
         AxisCondition::Perpendicular => [Need::Axis; 2],
         AxisCondition::Aligned => [Need::Pose, Need::Axis],
@@ -92,6 +65,7 @@ impl<T: Number> Closure<T> {
         dimensions: &Dimensions<T>,
         closure: &ClosureDimensions<T>,
         kinematics: &Kinematics<T>,
+        kept: Kept,
     ) -> Self {
         let slots = closure.frames.map(|frame| {
             (kinematics.slot(frame))
@@ -101,6 +75,7 @@ impl<T: Number> Closure<T> {
         let platforms = [sides[0].1, sides[1].1];
         Closure {
             kind: closure.kind,
+            kept,
             slots,
             movers: sides.map(|(movers, _)| movers),
             platforms,
@@ -111,6 +86,12 @@ impl<T: Number> Closure<T> {
                 .collect(),
             inverse_length: 1.0 / dimensions.characteristic_length,
         }
+    }
+
+    /// The number of rows that are evaluated.
+    pub(crate) fn equations(&self) -> usize {
+        let all = &self.kept[..self.kind.equations()];
+        all.iter().filter(|kept| **kept).count()
     }
 
     /// The joint variables that occur in the length of a `Distance`, with the derivative of its residual for
@@ -158,15 +139,15 @@ impl<T: Number> Closure<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
         match self.kind {
-            ClosureKind::Spherical => {
+            ClosureKind::Spherical if out.len() == 3 => {
                 for (out, gap) in out.iter_mut().zip(gap.0) {
                     *out = gap.scale(self.inverse_length);
                 }
             }
             ClosureKind::Distance => {
-                let mut rows = Rows::new(self.inverse_length, [a.position, b.position]);
+                let mut rows = self.no_rows(a, b);
                 rows.distance(&gap, self.length(&at.joints));
-                out[0] = rows.residual[0];
+                out.copy_from_slice(&rows.residual[..out.len()]);
             }
             _ => {
                 // extracted as a whole, so that unused wrenches are not computed
@@ -201,12 +182,17 @@ impl<T: Number> Closure<T> {
         all
     }
 
+    #[inline(always)]
+    fn no_rows(&self, a: &Pose<T>, b: &Pose<T>) -> Rows<T> {
+        Rows::new(self.inverse_length, [a.position, b.position], self.kept)
+    }
+
     /// Residuals and wrenches.
     #[inline(always)]
     pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> Rows<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
-        let mut rows = Rows::new(self.inverse_length, [a.position, b.position]);
+        let mut rows = self.no_rows(a, b);
         match self.kind {
             ClosureKind::Spherical => rows.point(&gap),
             ClosureKind::Revolute => {
@@ -239,176 +225,10 @@ impl<T: Number> Closure<T> {
     }
 }
 
-/// a_x·b_z, a_y·b_z and 1 + a_z·b_z: sine and one plus cosine of the angle between the axes.
-#[inline(always)]
-fn misalignment<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 2], T) {
-    let ([ax, ay, az], bz) = (a.rotation.0, b.rotation.0[2]);
-    ([ax.dot(&bz), ay.dot(&bz)], T::one() + az.dot(&bz))
-}
-
-/// s = vee(Rᵀ_A R_B − ·ᵀ) and t = 1 + tr(Rᵀ_A R_B): 2 n sin θ and 2 + 2 cos θ.
-#[inline(always)]
-fn disorientation<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 3], T) {
-    let (a, b) = (&a.rotation.0, &b.rotation.0);
-    let trace = a[0].dot(&b[0]) + a[1].dot(&b[1]) + a[2].dot(&b[2]);
-    let s = |(i, j): (usize, usize)| a[j].dot(&b[i]) - a[i].dot(&b[j]);
-    let [x, y, z] = CYCLIC;
-    ([s(x), s(y), s(z)], T::one() + trace)
-}
-
-const CYCLIC: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
-
-impl<T: Number> Rows<T> {
-    #[inline(always)]
-    fn new(inverse_length: f64, points: [Vector3<T>; 2]) -> Self {
-        Rows {
-            residual: [T::zero(); MOST_ROWS],
-            point: false,
-            moments: [Vector3::zero(); 3],
-            moment_count: 0,
-            forces: [Vector3::zero(); 2],
-            force_count: 0,
-            points,
-            inverse_length,
-        }
-    }
-
-    #[inline(always)]
-    fn next_row(&self) -> usize {
-        3 * usize::from(self.point) + self.moment_count + self.force_count
-    }
-
-    #[inline(always)]
-    fn point(&mut self, gap: &Vector3<T>) {
-        for (row, gap) in self.residual.iter_mut().zip(gap.0) {
-            *row = gap.scale(self.inverse_length);
-        }
-        self.point = true;
-    }
-
-    #[inline(always)]
-    fn moment(&mut self, residual: T, moment: Vector3<T>) {
-        let row = self.next_row();
-        self.residual[row] = residual;
-        self.moments[self.moment_count] = moment;
-        self.moment_count += 1;
-    }
-
-    #[inline(always)]
-    fn perpendicular(&mut self, a: &Pose<T>, b: &Pose<T>) {
-        let (az, bz) = (a.rotation.0[2], b.rotation.0[2]);
-        self.moment(az.dot(&bz), bz.cross(&az));
-    }
-
-    #[inline(always)]
-    fn alignment(&mut self, a: &Pose<T>, b: &Pose<T>) {
-        let ([ax, ay, az], bz) = (a.rotation.0, b.rotation.0[2]);
-        let (sines, bottom) = misalignment(a, b);
-        let inverse = T::one() / bottom;
-        let slope = bz.cross(&az);
-        for (axis, sine) in [ax, ay].into_iter().zip(sines) {
-            let u = sine.scale(2.0) * inverse;
-            let twice = bz.cross(&axis).times(T::from_f64(2.0));
-            self.moment(u, (twice - slope.times(u)).times(inverse));
-        }
-    }
-
-    #[inline(always)]
-    fn orientation(&mut self, a: &Pose<T>, b: &Pose<T>) {
-        let (sines, bottom) = disorientation(a, b);
-        let inverse = T::one() / bottom;
-        let (a, b) = (&a.rotation.0, &b.rotation.0);
-        let slope = b[0].cross(&a[0]) + b[1].cross(&a[1]) + b[2].cross(&a[2]);
-        for ((i, j), s) in CYCLIC.into_iter().zip(sines) {
-            let w = s.scale(2.0) * inverse;
-            let twice = (b[i].cross(&a[j]) - b[j].cross(&a[i])).times(T::from_f64(2.0));
-            self.moment(w, (twice - slope.times(w)).times(inverse));
-        }
-    }
-
-    #[inline(always)]
-    fn offsets(&mut self, gap: &Vector3<T>, axes: &[Vector3<T>]) {
-        for axis in axes {
-            let row = self.next_row();
-            self.residual[row] = axis.dot(gap).scale(self.inverse_length);
-            self.forces[self.force_count] = axis.times(T::from_f64(self.inverse_length));
-            self.force_count += 1;
-        }
-        self.points[0] = self.points[1];
-    }
-
-    #[inline(always)]
-    fn distance(&mut self, gap: &Vector3<T>, length: T) {
-        let factor = self.inverse_length * self.inverse_length;
-        self.residual[0] = (gap.dot(gap) - length * length).scale(0.5 * factor);
-        self.forces[0] = gap.times(T::from_f64(factor));
-        self.force_count = 1;
-    }
-
-    /// The rate of every row along a motion of one side, given as rotation rate and the velocity
-    /// at that side's [`Rows::velocity_point`].
-    #[inline(always)]
-    pub(crate) fn rates(&self, side: Side, omega: &Vector3<T>, v: &Vector3<T>, out: &mut [T]) {
-        let sign = side.sign();
-        let mut out = out.iter_mut();
-        if self.point {
-            let factor = sign * self.inverse_length;
-            for (out, v) in out.by_ref().take(3).zip(v.0) {
-                *out += v.scale(factor);
-            }
-        }
-        for (moment, out) in self.moments[..self.moment_count].iter().zip(out.by_ref()) {
-            *out += moment.dot(omega).scale(sign);
-        }
-        for (force, out) in self.forces[..self.force_count].iter().zip(out) {
-            *out += force.dot(v).scale(sign);
-        }
-    }
-
-    /// The derivatives of every row along a platform's twist (ω; v/L) about its origin, from which
-    /// `arm` leads to the side's velocity point: a force f there has the moment arm × f. `put` is
-    /// given the number of each row with its six derivatives.
-    #[inline(always)]
-    pub(crate) fn twist_rows(
-        &self,
-        side: Side,
-        arm: &Vector3<T>,
-        length: f64,
-        mut put: impl FnMut(usize, [T; 6]),
-    ) {
-        let sign = side.sign();
-        let force_row = |force: &Vector3<T>| {
-            let [a, b, c] = arm.cross(force).scaled(sign).0;
-            let [x, y, z] = force.scaled(sign * length).0;
-            [a, b, c, x, y, z]
-        };
-        let mut next = 0..MOST_ROWS;
-        if self.point {
-            for (i, row) in next.by_ref().take(3).enumerate() {
-                let force = Vector3::unit(i).times(T::from_f64(self.inverse_length));
-                put(row, force_row(&force));
-            }
-        }
-        for (moment, row) in self.moments[..self.moment_count].iter().zip(next.by_ref()) {
-            let [a, b, c] = moment.scaled(sign).0;
-            put(row, [a, b, c, T::zero(), T::zero(), T::zero()]);
-        }
-        for (force, row) in self.forces[..self.force_count].iter().zip(next) {
-            put(row, force_row(force));
-        }
-    }
-
-    /// Where the velocity of a side is to be taken.
-    #[inline(always)]
-    pub(crate) fn velocity_point(&self, side: Side) -> &Vector3<T> {
-        &self.points[side as usize]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Axis, Quaternion};
+    use crate::geometry::{Axis, Quaternion, Vector3};
     use crate::mechanism::{ChainDimensions, Frame, PlatformPose, RowDimensions};
 
     #[test]
@@ -455,7 +275,8 @@ mod tests {
                     extension: LinearForm(vec![]),
                 }];
                 let evaluate = |kinematics: Kinematics<f64>| {
-                    let closure = Closure::new(&dimensions, &dimensions.closures[0], &kinematics);
+                    let closure =
+                        Closure::new(&dimensions, &dimensions.closures[0], &kinematics, EVERY_ROW);
                     let mut placement = kinematics.placement();
                     kinematics.place(&at, &mut placement);
                     let rows = closure.rows(&placement, &at);
@@ -473,7 +294,7 @@ mod tests {
                     assert_eq!(residual, rows.residual);
                     columns
                 };
-                let needs = frames.into_iter().zip(needs(kind));
+                let needs = frames.into_iter().zip(needs(kind, &EVERY_ROW));
                 assert_eq!(
                     evaluate(Kinematics::needing(&dimensions, needs)),
                     evaluate(Kinematics::new(&dimensions, frames)),

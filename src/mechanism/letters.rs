@@ -1,6 +1,6 @@
 //! A mechanism in letters: the same kinematics over symbolic numbers.
 
-use super::closure::Closure;
+use super::closure::{Closure, EVERY_ROW};
 use super::dimensions::Dimensions;
 use super::kinematics::Kinematics;
 use super::{Frame, Mechanism};
@@ -211,7 +211,7 @@ impl<'a> Formal<'a> {
         let kinematics = Kinematics::new(&self.dimensions, own.frames);
         let mut placement = kinematics.placement();
         kinematics.place_on(&self.platforms, &self.joints, &mut placement);
-        let closure = Closure::new(&self.dimensions, own, &kinematics);
+        let closure = Closure::new(&self.dimensions, own, &kinematics, EVERY_ROW);
         let [a, b] = closure.frames(&placement);
         ClosureInLetters {
             gap: b.position - a.position,

@@ -110,7 +110,8 @@ impl Mechanism {
         });
         let values: Vec<f64> = self.parameters.iter().map(|of| of.value).collect();
         let dimensions = cut.dimensions_over(&values);
-        cut.dimensions = dimensions.expect("expressions had values before, and these are numbers");
+        let dimensions = dimensions.expect("expressions had values before, and these are numbers");
+        cut.set_dimensions(dimensions);
         cut.measured(self.characteristic_length())
     }
 

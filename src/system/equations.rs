@@ -25,8 +25,8 @@ use plan::ClosurePlan;
 
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, PoseCoordinate, Side, needs,
-    orientation_rows,
+    Closure, Configuration, Dimensions, EVERY_ROW, Kept, Kinematics, Mechanism, Mover, Placement,
+    PoseCoordinate, Side, needs, orientation_rows,
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
@@ -44,6 +44,10 @@ pub struct System<T: Factorable> {
     closures: Vec<Closure<T>>,
     plans: Vec<ClosurePlan<T>>,
     unknowns: Vec<Unknown>,
+    /// Which unknown each joint is, if it is one.
+    joint_unknowns: Vec<Option<usize>>,
+    /// The unknown that is the first component of each platform's twist.
+    first_twists: Vec<Option<usize>>,
     joint_scales: Vec<f64>,
     length: f64,
     holds: Vec<HoldRow<T>>,
@@ -63,13 +67,23 @@ pub struct Work<T: Factorable> {
 impl<T: Factorable> System<T> {
     /// The equations for a choice of what is held.
     pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
-        let frames = dimensions
-            .closures
-            .iter()
-            .flat_map(|closure| closure.frames.into_iter().zip(needs(closure.kind)));
+        let all = vec![EVERY_ROW; dimensions.closures.len()];
+        System::keeping(dimensions, held, &all)
+    }
+
+    /// The same without the rows that vanish in every configuration of the mechanism, as those across the plane of a
+    /// planar loop: all that iterations need. What counts rows or assigns forces to them needs all.
+    pub fn reduced(mechanism: &Mechanism, dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
+        System::keeping(dimensions, held, mechanism.rows_that_vary())
+    }
+
+    fn keeping(dimensions: &Dimensions<T>, held: &Held<T>, kept: &[Kept]) -> Self {
+        let parts = || dimensions.closures.iter().zip(kept);
+        let frames = parts()
+            .flat_map(|(closure, kept)| closure.frames.into_iter().zip(needs(closure.kind, kept)));
         let kinematics = Kinematics::needing(dimensions, frames);
-        let closures: Vec<Closure<T>> = (dimensions.closures.iter())
-            .map(|closure| Closure::new(dimensions, closure, &kinematics))
+        let closures: Vec<Closure<T>> = parts()
+            .map(|(closure, &kept)| Closure::new(dimensions, closure, &kinematics, kept))
             .collect();
         let layout = Layout::new(&closures, held);
         let holds = hold_rows(held);
@@ -96,6 +110,8 @@ impl<T: Factorable> System<T> {
                 layout.shared,
             ),
             unknowns: layout.unknowns,
+            joint_unknowns: layout.joint_unknowns,
+            first_twists: layout.first_twists,
             holds,
         }
     }
@@ -350,8 +366,76 @@ impl<T: Factorable> Equations for System<T> {
         work: &Work<T>,
         to: &mut Configuration<T>,
     ) {
-        to.joints.copy_from_slice(&from.joints);
-        to.platforms.copy_from_slice(&from.platforms);
-        self.displace_part(to, &work.step, fraction);
+        let step = &work.step;
+        let joints = to.joints.iter_mut().zip(&from.joints).enumerate();
+        for (joint, (to, from)) in joints {
+            *to = self.moved_joint(joint, *from, step, fraction);
+        }
+        let platforms = to.platforms.iter_mut().zip(&from.platforms).enumerate();
+        for (platform, (to, from)) in platforms {
+            *to = self.moved_platform(platform, from, step, fraction);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::random_configuration;
+    use rand::SeedableRng;
+
+    #[test]
+    fn rows_left_out_are_exactly_zero_everywhere_and_the_others_the_same_bit_for_bit() {
+        let mut rng = rand_pcg::Pcg64Mcg::seed_from_u64(7);
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let mut left_out = 0;
+        for file in std::fs::read_dir(folder).unwrap() {
+            let path = file.unwrap().path();
+            let Ok(mechanism) = Mechanism::load(&path) else {
+                continue;
+            };
+            let dimensions = mechanism.dimensions();
+            let held = Held::nothing(&mechanism);
+            let all = System::new(dimensions, &held);
+            let few = System::reduced(&mechanism, dimensions, &held);
+            if all.unknowns().len() > 100 {
+                continue;
+            }
+            let kept = mechanism.rows_that_vary().iter().zip(mechanism.closures());
+            let kept: Vec<bool> = kept
+                .flat_map(|(kept, closure)| kept[..closure.kind.equations()].to_vec())
+                .collect();
+            left_out += kept.iter().filter(|kept| !**kept).count();
+            // the rows of the closures, in the order of the file
+            let rows = |system: &System<f64>, numbers: &[f64]| -> Vec<f64> {
+                system
+                    .closure_rows()
+                    .flat_map(|rows| numbers[rows].to_vec())
+                    .collect()
+            };
+            let evaluated = |system: &System<f64>, at: &Configuration<f64>| {
+                let mut work = system.work();
+                system.linearise(at, &mut work);
+                let mut all = vec![rows(system, system.residual_of(&work))];
+                let jacobian = system.dense_jacobian(&mut work);
+                all.extend(
+                    jacobian
+                        .chunks_exact(system.rows().max(1))
+                        .map(|column| rows(system, column)),
+                );
+                all
+            };
+            for _ in 0..3 {
+                let at = random_configuration(&mechanism, &mechanism.home(), &mut rng);
+                for (all, few) in evaluated(&all, &at).iter().zip(evaluated(&few, &at)) {
+                    let (some, none): (Vec<_>, Vec<_>) =
+                        all.iter().zip(&kept).partition(|(_, kept)| **kept);
+                    assert!(none.iter().all(|(x, _)| **x == 0.0), "{path:?} {none:?}");
+                    let some: Vec<f64> = some.into_iter().map(|(x, _)| *x).collect();
+                    assert_eq!(some, few, "{path:?}");
+                }
+            }
+        }
+        assert!(left_out > 50, "{left_out}");
     }
 }

@@ -268,13 +268,13 @@ impl<'a> Question<'a> {
 
     /// The equations of the question.
     pub fn system(&self) -> System<f64> {
-        self.system_over()
+        System::reduced(self.mechanism, self.mechanism.dimensions(), &self.held())
     }
 
     /// The equations over another number, as [`Lanes`](crate::number::Lanes).
     pub fn system_over<T: Factorable>(&self) -> System<T> {
         let dimensions = self.mechanism.dimensions().map(&mut T::from_f64);
-        System::new(&dimensions, &self.held().map(T::from_f64))
+        System::reduced(self.mechanism, &dimensions, &self.held().map(T::from_f64))
     }
 
     /// Where the search starts: guesses, held values and for the rest the home configuration.

@@ -62,7 +62,7 @@ impl Between {
             _ => return None,
         };
         let held = holding(held, &moved)?;
-        let system = System::new(mechanism.dimensions(), &held);
+        let system = System::reduced(mechanism, mechanism.dimensions(), &held);
         let mut between = Between {
             tracker: MotionTracker::new(system, middle.clone()),
             moved,

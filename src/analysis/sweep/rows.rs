@@ -36,7 +36,10 @@ impl Rows {
         settings: &SweepSettings,
     ) -> Self {
         let tracker = holding(held, inputs).map(|held| {
-            MotionTracker::new(System::new(mechanism.dimensions(), &held), start.at.clone())
+            MotionTracker::new(
+                System::reduced(mechanism, mechanism.dimensions(), &held),
+                start.at.clone(),
+            )
         });
         let way =
             |input: &Driven| (input.to - input.from).abs() / input.coordinate.scale(mechanism);

@@ -21,21 +21,40 @@ impl<T: Factorable> System<T> {
     /// By a fraction of steps.
     #[inline]
     pub(super) fn displace_part(&self, at: &mut Configuration<T>, step: &[T], fraction: f64) {
-        let mut i = 0;
-        while let Some(unknown) = self.unknowns().get(i) {
-            match *unknown {
-                Unknown::Joint(joint) => {
-                    at.joints[joint] += step[i].scale(fraction * self.joint_scale(joint));
-                    i += 1;
-                }
-                Unknown::Twist { platform, .. } => {
-                    let omega = Vector3([step[i], step[i + 1], step[i + 2]]).scaled(fraction);
-                    let length = fraction * self.characteristic_length();
-                    let shift = Vector3([step[i + 3], step[i + 4], step[i + 5]]).scaled(length);
-                    at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
-                    i += 6;
-                }
+        for (joint, value) in at.joints.iter_mut().enumerate() {
+            *value = self.moved_joint(joint, *value, step, fraction);
+        }
+        for (platform, pose) in at.platforms.iter_mut().enumerate() {
+            *pose = self.moved_platform(platform, pose, step, fraction);
+        }
+    }
+
+    /// The value of a joint moved by a fraction of its step; the same if it is held.
+    #[inline(always)]
+    pub(super) fn moved_joint(&self, joint: usize, value: T, step: &[T], fraction: f64) -> T {
+        match self.joint_unknowns[joint] {
+            Some(i) => value + step[i].scale(fraction * self.joint_scales[joint]),
+            None => value,
+        }
+    }
+
+    /// The pose of a platform moved by a fraction of its step; the same if it is held.
+    #[inline(always)]
+    pub(super) fn moved_platform(
+        &self,
+        platform: usize,
+        pose: &PlatformPose<T>,
+        step: &[T],
+        fraction: f64,
+    ) -> PlatformPose<T> {
+        match self.first_twists[platform] {
+            Some(i) => {
+                let omega = Vector3([step[i], step[i + 1], step[i + 2]]).scaled(fraction);
+                let length = fraction * self.length;
+                let shift = Vector3([step[i + 3], step[i + 4], step[i + 5]]).scaled(length);
+                pose.moved_by(&omega, shift)
             }
+            None => *pose,
         }
     }
 

@@ -213,6 +213,10 @@ impl<T> HoldRow<T> {
 /// The unknowns, the blocks they make of the closures, and the place of each closure.
 pub(crate) struct Layout {
     pub unknowns: Vec<Unknown>,
+    /// Which unknown each joint is, if it is one.
+    pub joint_unknowns: Vec<Option<usize>>,
+    /// The unknown that is the first component of each platform's twist.
+    pub first_twists: Vec<Option<usize>>,
     pub blocks: Vec<Block>,
     /// For each closure its block and its first row in it.
     pub places: Vec<(usize, usize)>,
@@ -224,16 +228,16 @@ impl Layout {
     /// Closures that share a free joint variable form a block; platforms tie the blocks together.
     pub fn new<T: Factorable>(closures: &[Closure<T>], held: &Held<T>) -> Self {
         let mut unknowns: Vec<Unknown> = Vec::new();
-        let mut joint_unknown = vec![None; held.joints.len()];
+        let mut joint_unknowns = vec![None; held.joints.len()];
         for (joint, _) in held.joints.iter().enumerate().filter(|(_, held)| !**held) {
-            joint_unknown[joint] = Some(unknowns.len());
+            joint_unknowns[joint] = Some(unknowns.len());
             unknowns.push(Unknown::Joint(joint));
         }
         let joints = unknowns.len();
-        let mut first_twist = vec![None; held.platforms.len()];
+        let mut first_twists = vec![None; held.platforms.len()];
         for (platform, held) in held.platforms.iter().enumerate() {
             if *held != HeldPlatform::Pose {
-                first_twist[platform] = Some(unknowns.len());
+                first_twists[platform] = Some(unknowns.len());
                 let twist = (0..6).map(|component| Unknown::Twist {
                     platform,
                     component,
@@ -243,13 +247,13 @@ impl Layout {
         }
 
         if T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT {
-            return Layout::of_single_closures(closures, unknowns, &joint_unknown, &first_twist);
+            return Layout::of_single_closures(closures, unknowns, joint_unknowns, first_twists);
         }
         let mut owner: Vec<usize> = (0..closures.len()).collect();
         let mut closure_of: Vec<Option<usize>> = vec![None; joints];
         for (c, closure) in closures.iter().enumerate() {
             for joint in closure.joints() {
-                let Some(unknown) = joint_unknown[joint] else {
+                let Some(unknown) = joint_unknowns[joint] else {
                     continue;
                 };
                 match closure_of[unknown] {
@@ -271,9 +275,9 @@ impl Layout {
                 blocks.len() - 1
             });
             places.push((block, blocks[block].rows));
-            blocks[block].rows += closure.kind.equations();
+            blocks[block].rows += closure.equations();
             for platform in closure.platforms.iter().flatten() {
-                if let Some(first) = first_twist[*platform]
+                if let Some(first) = first_twists[*platform]
                     && !blocks[block].shared.contains(&first)
                 {
                     blocks[block].shared.extend(first..first + 6);
@@ -293,6 +297,8 @@ impl Layout {
             shared: (joints..unknowns.len()).collect(),
             places_of_unknowns: Places::new(&unknowns),
             unknowns,
+            joint_unknowns,
+            first_twists,
             blocks,
             places,
         }
@@ -302,21 +308,21 @@ impl Layout {
     fn of_single_closures<T: Number>(
         closures: &[Closure<T>],
         unknowns: Vec<Unknown>,
-        joint_unknown: &[Option<usize>],
-        first_twist: &[Option<usize>],
+        joint_unknowns: Vec<Option<usize>>,
+        first_twists: Vec<Option<usize>>,
     ) -> Self {
         let blocks = closures.iter().map(|closure| {
             let joints = closure.joints().into_iter();
-            let mut shared: Vec<usize> = joints.filter_map(|joint| joint_unknown[joint]).collect();
+            let mut shared: Vec<usize> = joints.filter_map(|joint| joint_unknowns[joint]).collect();
             for platform in closure.platforms.iter().flatten() {
-                if let Some(first) = first_twist[*platform]
+                if let Some(first) = first_twists[*platform]
                     && !shared.contains(&first)
                 {
                     shared.extend(first..first + 6);
                 }
             }
             Block {
-                rows: closure.kind.equations(),
+                rows: closure.equations(),
                 own: Vec::new(),
                 shared,
             }
@@ -327,6 +333,8 @@ impl Layout {
             shared: (0..unknowns.len()).collect(),
             places_of_unknowns: Places::new(&unknowns),
             unknowns,
+            joint_unknowns,
+            first_twists,
         }
     }
 

@@ -45,7 +45,7 @@ impl<T: Factorable> ClosurePlan<T> {
         sums.dedup();
         ClosurePlan {
             row: starts[block] + block_row,
-            rows: closure.kind.equations(),
+            rows: closure.equations(),
             block,
             block_row,
             block_rows: layout.blocks[block].rows,

@@ -80,7 +80,8 @@ impl<T: Factorable + Packed> Rates<T> {
     pub fn new(problem: &MapProblem, system: &System<T>) -> Self {
         let mechanism = problem.mechanism;
         let dimensions = mechanism.dimensions().map(&mut T::from_f64);
-        let free = System::new(&dimensions, &Held::nothing(mechanism).map(T::from_f64));
+        let nothing = Held::nothing(mechanism).map(T::from_f64);
+        let free = System::reduced(mechanism, &dimensions, &nothing);
         let place = |unknown: Unknown| {
             let place = free.unknowns().iter().position(|u| *u == unknown);
             place.expect("nothing is held")
