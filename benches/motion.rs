@@ -1,5 +1,6 @@
 //! What a row of a sweep costs beside a warm solve of the kernel: the same inputs, once by a bare tracker, which says
-//! nothing of branches, and once by a sweep, which keeps to one. The limit is 1.3.
+//! nothing of branches, and once by a sweep, which keeps to one. The limit is 1.3. Then what a whole question costs, asked
+//! once and from nothing, beside the iteration in it.
 
 // a bench prints its ratios
 #![allow(clippy::print_stdout)]
@@ -8,6 +9,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
+use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::analysis::sweep::{SweepEnd, SweepSettings, sweep};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Watch;
@@ -25,6 +27,46 @@ fn main() {
     );
     measure("jansen_leg", &[("theta", 1.5, 1.5 + std::f64::consts::TAU)]);
     measure("three_rps", &[("l1", 0.6, 0.66), ("l2", 0.6, 0.62)]);
+    ask("four_bar", "theta1", "1.1");
+    ask("three_rps", "l1", "0.68");
+    ask("stewart_gough_6sps", "l1", "1.05");
+    ask("jansen_leg", "theta", "1.6");
+}
+
+/// One question, from the mechanism to the report, and Newton's method alone.
+fn ask(name: &str, joint: &str, value: &str) {
+    const QUESTIONS: usize = 500;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"));
+    let mechanism = Mechanism::load(path).expect("it is shipped");
+    let whole = || {
+        let question = Question::new(&mechanism);
+        let question = question.hold(joint, value).expect("it has that joint");
+        assemble(&question, &AssemblySettings::default(), &Watch::none()).expect("it is determined")
+    };
+    assert_eq!(whole().outcome, Outcome::Converged);
+    let question = Question::new(&mechanism);
+    let question = question.hold(joint, value).expect("it has that joint");
+    let (system, newton) = (question.system(), Newton::default());
+    let (mut work, start) = (system.work(), question.start());
+    let (mut at, mut trial) = (start.clone(), start.clone());
+    let mut iteration = || {
+        at.clone_from(&start);
+        newton.solve(&system, &mut at, &mut trial, &mut work)
+    };
+    // each question by itself: the least of many is what nothing disturbed
+    let (mut asked, mut iterated) = (f64::MAX, f64::MAX);
+    for _ in 0..QUESTIONS {
+        let begun = Instant::now();
+        black_box(whole());
+        asked = asked.min(begun.elapsed().as_secs_f64() * 1e6);
+        let begun = Instant::now();
+        black_box(iteration());
+        iterated = iterated.min(begun.elapsed().as_secs_f64() * 1e6);
+    }
+    println!(
+        "{name}: question {asked:.1} µs, iteration {iterated:.1} µs, ratio {:.1}",
+        asked / iterated
+    );
 }
 
 fn measure(name: &str, moved: &[(&str, f64, f64)]) {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::description::Role;
-use crate::geometry::{Quaternion, Vector3};
+use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose, turn_near};
 use crate::solve::{Equations, Newton, Report, Stop, Watch};
 use crate::system::{
@@ -209,7 +209,11 @@ pub fn assemble(
     settings: &AssemblySettings,
     watch: &Watch,
 ) -> Result<AssemblyReport, QuestionError> {
-    let (count, left) = match check_count(question) {
+    let mut search = Search::new(question, &settings.newton);
+    let first = search.first();
+    // a regular answer says how many freedoms there are; otherwise the mechanism is examined
+    let counted = search.counted(&first);
+    let (count, left) = match counted.map_or_else(|| check_count(question), Ok) {
         Ok(count) => (count, None),
         Err(QuestionError::TooFew {
             mobility,
@@ -229,11 +233,11 @@ pub fn assemble(
         }
         Err(error) => return Err(error),
     };
-    let mut search = Search::new(question, &settings.newton);
-    let mut found = search.run(settings.restarts, settings.seed, watch);
+    let mut found = search.go_on(first, settings.restarts, settings.seed, watch);
     if left.is_some() && found.assembles() {
         found.attempt.at = nearest(question, &search, found.attempt.at);
     }
+    let freedoms = (found.assembles()).then(|| search.freedoms(&found.attempt.at));
     let reporter = Reporter {
         question,
         mechanism: question.mechanism(),
@@ -244,10 +248,9 @@ pub fn assemble(
         restarts: found.restarts,
         interrupted: watch.is_stopped(),
     };
-    Ok(if found.assembles() {
-        reporter.assembled(found.attempt)
-    } else {
-        reporter.unassembled(found.attempt)
+    Ok(match freedoms {
+        Some(freedoms) => reporter.assembled(found.attempt, &freedoms),
+        None => reporter.unassembled(found.attempt),
     })
 }
 
@@ -281,20 +284,19 @@ struct Reporter<'a> {
 }
 
 impl Reporter<'_> {
-    fn report(&self, attempt: Attempt, outcome: Outcome) -> AssemblyReport {
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
-        let condition = freedoms.condition();
+    fn report(&self, attempt: Attempt, outcome: Outcome, condition: f64) -> AssemblyReport {
         let mechanism = self.mechanism;
         let gaps = Gap::of(mechanism, &attempt.at);
         let at = self.by_limits(attempt.at);
         let joints = mechanism.joints().iter().zip(&at.joints);
         let platforms = mechanism.platforms().iter().zip(&at.platforms);
-        let frames = mechanism.chains().iter().enumerate();
-        let frames = frames.filter(|(_, part)| mechanism.is_given(&part.name));
-        let frames = frames.map(|(chain, part)| {
-            let pose = mechanism.transform(Frame::Ground, Frame::Tip { chain }, &at);
-            (part.name.clone(), FrameRecord::of(&pose))
-        });
+        let tips = (0..mechanism.chains().len()).map(|chain| Frame::Tip { chain });
+        let tips = mechanism.placed(&tips.collect::<Vec<_>>(), &at);
+        let frames = mechanism.chains().iter().zip(&tips);
+        let frames = frames.filter(|(part, _)| mechanism.is_given(&part.name));
+        let ground = Pose::identity().inverse();
+        let frames =
+            frames.map(|(part, pose)| (part.name.clone(), FrameRecord::of(&(ground * *pose))));
         let held = &self.search.held().joints;
         AssemblyReport {
             mechanism: mechanism.name().into(),
@@ -351,23 +353,22 @@ impl Reporter<'_> {
         at
     }
 
-    fn assembled(&self, attempt: Attempt) -> AssemblyReport {
+    fn assembled(&self, attempt: Attempt, freedoms: &Freedoms) -> AssemblyReport {
         let outside: Vec<usize> = (self.mechanism.outside_limits(&attempt.at.joints)).collect();
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let idle = if freedoms.are_local(self.mechanism, &attempt.at) {
             freedoms.motions.len()
         } else {
             0
         };
         if let Some(left) = &self.left {
-            return self.with_freedoms(attempt, &outside, left);
+            return self.with_freedoms(attempt, freedoms, &outside, left);
         }
         let outcome = if freedoms.motions.len() > idle {
-            singular::blame(self.mechanism, self.search.held(), &attempt.at, &freedoms)
+            singular::blame(self.mechanism, self.search.held(), &attempt.at, freedoms)
         } else {
             self.converged(&outside)
         };
-        let mut report = self.report(attempt, outcome);
+        let mut report = self.report(attempt, outcome, freedoms.condition());
         if idle > 0 {
             // unknowns that nothing determines have no part in the conditioning of the others
             report.condition = freedoms.condition_of_determined();
@@ -388,8 +389,13 @@ impl Reporter<'_> {
     }
 
     /// Where freedoms are left, they are no singularity.
-    fn with_freedoms(&self, attempt: Attempt, outside: &[usize], left: &Left) -> AssemblyReport {
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
+    fn with_freedoms(
+        &self,
+        attempt: Attempt,
+        freedoms: &Freedoms,
+        outside: &[usize],
+        left: &Left,
+    ) -> AssemblyReport {
         let mut near = Neighbourhood::holding(self.mechanism, self.search.held());
         let residual = near.residual(&attempt.at);
         let tangent = near.tangent(attempt.at.clone());
@@ -403,7 +409,7 @@ impl Reporter<'_> {
                 singular: tangent.motions.len().saturating_sub(left.freedoms),
                 ..left.clone()
             }),
-            ..self.report(attempt, self.converged(outside))
+            ..self.report(attempt, self.converged(outside), condition)
         };
         report.warnings.extend(report.warning());
         report
@@ -424,6 +430,8 @@ impl Reporter<'_> {
                 ..attempt.report
             },
         };
+        let held = self.search.held();
+        let condition = Freedoms::at(self.mechanism.dimensions(), held, &attempt.at).condition();
         let gaps = Gap::of(self.mechanism, &attempt.at);
         let width = |gap: &Gap| gap.size(self.mechanism);
         let worst = (0..gaps.len()).fold(0, |worst, i| {
@@ -446,7 +454,7 @@ impl Reporter<'_> {
         AssemblyReport {
             squared_lengths: self.mechanism.has_rods(),
             left: None,
-            ..self.report(attempt, outcome)
+            ..self.report(attempt, outcome, condition)
         }
     }
 }

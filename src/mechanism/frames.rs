@@ -205,14 +205,21 @@ impl Mechanism {
         frames: [Frame; N],
         at: &Configuration<f64>,
     ) -> [Pose<f64>; N] {
-        let kinematics = Kinematics::new(&self.dimensions, frames);
+        let poses = self.placed(&frames, at);
+        poses.try_into().expect("one for each frame")
+    }
+
+    /// The same for any number of frames.
+    pub fn placed(&self, frames: &[Frame], at: &Configuration<f64>) -> Vec<Pose<f64>> {
+        let kinematics = Kinematics::new(&self.dimensions, frames.iter().copied());
         let mut placement = kinematics.placement();
         kinematics.place(at, &mut placement);
-        frames.map(|frame| {
+        let pose = |&frame| {
             *kinematics
                 .pose(frame, &placement)
                 .expect("the kinematics was planned for these frames")
-        })
+        };
+        frames.iter().map(pose).collect()
     }
 
     /// The body that a frame is fixed to.
@@ -227,7 +234,7 @@ impl Mechanism {
             let Chain {
                 rows: table, on, ..
             } = &self.chains[chain];
-            let moves = |row: &Row| !row.joints().is_empty();
+            let moves = |row: &Row| row.moves();
             if let Some(before) = table[..rows].iter().rposition(moves) {
                 let row = before + 1;
                 return Body::Link { chain, row };
@@ -352,6 +359,14 @@ pub(super) fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> 
 }
 
 impl Row {
+    /// Whether a joint variable occurs in the row.
+    pub(crate) fn moves(&self) -> bool {
+        joints_of(&self.theta)
+            .chain(joints_of(&self.d))
+            .next()
+            .is_some()
+    }
+
     /// The joints whose variables occur in the row.
     pub fn joints(&self) -> Vec<usize> {
         let joints: BTreeSet<usize> = joints_of(&self.theta).chain(joints_of(&self.d)).collect();

@@ -13,10 +13,12 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::equations::{System, Work, solve};
-use super::question::Question;
+use super::question::{Count, Question};
+use crate::description::Role;
+use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::solve::{Newton, Report, Stage, Stop, Watch};
-use crate::system::{Held, HeldPlatform};
+use crate::solve::{Equations, Newton, Report, Stage, Stop, Watch};
+use crate::system::{Freedoms, Held, HeldPlatform};
 
 /// One start and where it led.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +61,7 @@ impl<'a> Search<'a> {
     pub fn new(question: &'a Question<'a>, newton: &'a Newton) -> Self {
         let mechanism = question.mechanism();
         let held = question.held();
-        let system = System::new(mechanism.dimensions(), &held);
+        let system = System::reduced(mechanism, mechanism.dimensions(), &held);
         Search {
             question,
             mechanism,
@@ -83,7 +85,12 @@ impl<'a> Search<'a> {
     /// Moves the mechanism from home to what is held, unless there is a guess. If that fails or ends
     /// outside limits, starts from the guess, then from seeded random starts within the limits.
     pub fn run(&mut self, restarts: usize, seed: u64, watch: &Watch) -> Searched {
-        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let first = self.first();
+        self.go_on(first, restarts, seed, watch)
+    }
+
+    /// The attempt without random starts.
+    pub fn first(&mut self) -> Attempt {
         let guesses = [
             self.question.guessed_joints(),
             self.question.guessed_platforms(),
@@ -93,13 +100,19 @@ impl<'a> Search<'a> {
             true => self.moved_from_home(),
             false => None,
         };
-        let mut best = match moved.filter(|attempt| self.settles(attempt)) {
+        match moved.filter(|attempt| self.settles(attempt)) {
             Some(attempt) => attempt,
             None => {
                 let guess = self.guess();
                 self.from(guess)
             }
-        };
+        }
+    }
+
+    /// The search after the [`first`](Self::first) attempt.
+    pub fn go_on(&mut self, first: Attempt, restarts: usize, seed: u64, watch: &Watch) -> Searched {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let mut best = first;
         if self.settles(&best) {
             let attempt = self.normalised(best);
             return Searched {
@@ -134,6 +147,34 @@ impl<'a> Search<'a> {
             attempt,
             restarts: made,
         }
+    }
+
+    /// The count of a question that an attempt answers at a regular configuration: with as many independent equations
+    /// as unknowns, the mechanism has as many freedoms as are held, nowhere fewer, and all of them are driven.
+    /// `None` where that cannot be said without examining the mechanism.
+    pub fn counted(&mut self, attempt: &Attempt) -> Option<Count> {
+        let joints = self.mechanism.joints().iter().zip(&self.held.joints);
+        let driven = (joints.clone()).all(|(joint, held)| !held || joint.role == Role::Actuated);
+        let free = (self.held.platforms.iter()).all(|held| *held == HeldPlatform::Free);
+        let unknowns = self.system.unknowns().len();
+        let square = self.system.rows() == unknowns && unknowns <= SPECTRUM_LIMIT;
+        if !(driven && free && square && self.settles(attempt)) {
+            return None;
+        }
+        self.system.linearise(&attempt.at, &mut self.work);
+        if self.system.nullity(RANK_TOLERANCE, &mut self.work) > 0 {
+            return None;
+        }
+        let held = joints.filter(|(_, held)| **held).count();
+        Some(Count {
+            mobility: Some(held),
+            held,
+        })
+    }
+
+    /// The motions that closures and held coordinates leave at a configuration.
+    pub fn freedoms(&mut self, at: &Configuration<f64>) -> Freedoms {
+        Freedoms::of(&self.system, at, &mut self.work)
     }
 
     /// Whether another start cannot do better: it cannot change where a held joint is.
@@ -189,7 +230,7 @@ impl<'a> Search<'a> {
                 })
                 .collect(),
         };
-        let system = System::new(self.mechanism.dimensions(), &held);
+        let system = System::reduced(self.mechanism, self.mechanism.dimensions(), &held);
         if system.unknowns().is_empty() {
             return start;
         }
@@ -224,5 +265,59 @@ impl<'a> Search<'a> {
                 .map_or(guessed, |(low, high)| 0.5 * (low + high));
             at.joints[i] = turn_near(at.joints[i], middle);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::check_count;
+
+    fn load(name: &str) -> Mechanism {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        Mechanism::load(format!("{folder}/{name}.ron")).unwrap()
+    }
+
+    fn counted(question: &Question) -> Option<Count> {
+        let newton = Newton::default();
+        let mut search = Search::new(question, &newton);
+        let first = search.first();
+        search.counted(&first)
+    }
+
+    #[test]
+    fn a_regular_answer_counts_freedoms_as_an_examination_of_the_mechanism_does() {
+        // freedoms by Grübler's formula, of planar mechanisms in the plane
+        for (name, freedoms) in [
+            ("four_bar", 1),
+            ("five_bar", 2),
+            ("three_rps", 3),
+            ("stewart_gough_6sps", 6),
+        ] {
+            let mechanism = load(name);
+            let question = Question::new(&mechanism);
+            let count = counted(&question);
+            assert_eq!(
+                count.and_then(|count| count.mobility),
+                Some(freedoms),
+                "{name}"
+            );
+            assert_eq!(count, check_count(&question).ok(), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_held_too_much_or_too_little_or_by_passive_joints_is_examined() {
+        let mechanism = load("four_bar");
+        let question = Question::new(&mechanism);
+        assert!(counted(&question).is_some());
+        let more = question.clone().hold("phi1", "80 deg").unwrap();
+        let less = question.clone().free("theta1").unwrap();
+        let other = less.clone().hold("phi1", "80 deg").unwrap();
+        for question in [more, less, other] {
+            assert_eq!(counted(&question), None);
+        }
+        // closes by special lengths alone
+        assert_eq!(counted(&Question::new(&load("bennett"))), None);
     }
 }

@@ -17,20 +17,13 @@ pub struct Gap {
 impl Gap {
     /// The gaps of all closures at a configuration, in the order of the file.
     pub fn of(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Gap> {
-        let frames = mechanism
-            .closures()
-            .iter()
-            .flat_map(|closure| closure.frames);
-        let kinematics = Kinematics::new(mechanism.dimensions(), frames);
-        let mut placement = kinematics.placement();
-        kinematics.place(at, &mut placement);
         let closures = mechanism.closures().iter().enumerate();
+        let frames = closures.clone().flat_map(|(_, closure)| closure.frames);
+        let poses = mechanism.placed(&frames.collect::<Vec<_>>(), at);
         closures
-            .map(|(i, closure)| {
-                let [a, b] = closure.frames.map(|frame| {
-                    let pose = kinematics.pose(frame, &placement);
-                    *pose.expect("the kinematics was planned for the frames of all closures")
-                });
+            .zip(poses.chunks_exact(2))
+            .map(|((i, closure), ends)| {
+                let (a, b) = (&ends[0], &ends[1]);
                 let g = a.rotation.inverse_rotate(&(b.position - a.position)).0;
                 let relative = a.rotation.transpose() * b.rotation;
                 let between_axes = || {

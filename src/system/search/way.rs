@@ -1,5 +1,7 @@
 //! The way from home to what a question holds, in small steps.
 
+use std::borrow::Cow;
+
 use super::{Attempt, Search};
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, PlatformPose, PoseCoordinate};
@@ -15,15 +17,16 @@ const MOST: f64 = 64.0;
 impl Search<'_> {
     /// Where the mechanism arrives, in the assembly mode of home, when what is held moves from home to its
     /// values in small steps. `None` if home does not assemble, the way is long or a step fails.
-    pub(crate) fn moved_from_home(&self) -> Option<Attempt> {
+    pub(crate) fn moved_from_home(&mut self) -> Option<Attempt> {
         let home = self.mechanism.home();
         let to = self.question.start();
         let steps = (self.longest_change(&home, &to) / STEP).ceil().max(1.0);
         if steps > MOST {
             return None;
         }
-        let mut system = self.system.clone();
-        let (mut at, mut work) = (home.clone(), system.work());
+        // copied only where targets move
+        let mut system = Cow::Borrowed(&self.system);
+        let mut at = home.clone();
         let mut taken = 0;
         for k in 0..=steps as usize {
             let share = k as f64 / steps;
@@ -37,11 +40,11 @@ impl Search<'_> {
                 }
                 for &(coordinate, value) in coordinates(held) {
                     let value = between(coordinate.of(&home.pose()), value, share);
-                    system.set_target(i, coordinate, value);
+                    system.to_mut().set_target(i, coordinate, value);
                 }
             }
             let mut trial = at.clone();
-            let report = (self.newton).solve(&system, &mut at, &mut trial, &mut work);
+            let report = (self.newton).solve(&*system, &mut at, &mut trial, &mut self.work);
             taken += report.steps;
             if report.stop != Stop::Solved {
                 return None;

@@ -4,7 +4,7 @@ use crate::geometry::RollPitchYaw;
 use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Svd, norm, rank, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
-use crate::system::{Coordinate, Held, System, Unknown};
+use crate::system::{Coordinate, Held, System, Unknown, Work};
 
 /// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
 #[derive(Clone, Debug)]
@@ -22,12 +22,16 @@ impl Freedoms {
     /// [`SPECTRUM_LIMIT`] unknowns nothing is computed, and the condition number is NaN.
     pub fn at(dimensions: &Dimensions<f64>, held: &Held<f64>, at: &Configuration<f64>) -> Self {
         let system = System::new(dimensions, held);
+        Freedoms::of(&system, at, &mut system.work())
+    }
+
+    /// The same for equations that are at hand.
+    pub fn of(system: &System<f64>, at: &Configuration<f64>, work: &mut Work<f64>) -> Self {
         let unknowns = system.unknowns().to_vec();
         let (mut motions, mut singular_values) = (Vec::new(), Vec::new());
         if unknowns.len() <= SPECTRUM_LIMIT {
-            let mut work = system.work();
-            system.linearise(at, &mut work);
-            let jacobian = system.dense_jacobian(&mut work);
+            system.linearise(at, work);
+            let jacobian = system.dense_jacobian(work);
             let svd = Svd::of(system.rows(), unknowns.len(), &jacobian);
             (motions, singular_values) = (svd.null_space().to_vec(), svd.values);
         }
@@ -139,25 +143,34 @@ impl Mobility {
         start: &Configuration<f64>,
         shakes: std::ops::Range<u8>,
     ) -> Option<Self> {
-        let dimensions = mechanism.dimensions();
-        let all_free = Held::nothing(mechanism);
-        let system = System::new(dimensions, &all_free);
-        if system.unknowns().len() > SPECTRUM_LIMIT {
+        let mut near = Neighbourhood::new(mechanism);
+        let columns = near.system().unknowns().len();
+        if columns > SPECTRUM_LIMIT {
             return None;
         }
-        let mut work = system.work();
+        let fewest = columns.saturating_sub(mechanism.equations_that_vary());
+        let mut work = near.system().work();
         let mut found: Vec<(Freedoms, Configuration<f64>)> = Vec::new();
         // the start itself, and three points nearby in directions without symmetry
         for k in shakes {
             let mut at = shaken(mechanism, start, k);
             let mut trial = at.clone();
-            let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
-            if report.stop == Stop::Solved {
-                found.push((Freedoms::at(dimensions, &all_free, &at), at));
+            let report = Newton::default().solve(near.system(), &mut at, &mut trial, &mut work);
+            if report.stop != Stop::Solved {
+                continue;
             }
+            let freedoms = Freedoms::of(near.system(), &at, &mut work);
+            // no other configuration has fewer
+            if freedoms.motions.len() == fewest && near.tangent(at.clone()).idle.is_empty() {
+                return Some(Mobility {
+                    freedoms,
+                    at,
+                    idle: 0,
+                });
+            }
+            found.push((freedoms, at));
         }
         let fewest = found.iter().map(|(f, _)| f.motions.len()).min()?;
-        let mut near = Neighbourhood::new(mechanism);
         let mut best: Option<(Freedoms, Configuration<f64>, usize)> = None;
         for (freedoms, at) in found.into_iter().filter(|(f, _)| f.motions.len() == fewest) {
             let idle = near.tangent(at.clone()).idle.len();

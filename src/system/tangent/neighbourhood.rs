@@ -147,14 +147,16 @@ impl<'a> Neighbourhood<'a> {
         self.frames.place(at, &mut placement);
         let scale = 1.0 / mechanism.characteristic_length();
         let frames: Vec<Frame> = self.frames.frames().collect();
+        let bodies: Vec<Body> = frames.iter().map(|&frame| mechanism.body(frame)).collect();
         let apart = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
             (a - b).norm() > 1e-6 / scale
         };
         // what leaves two points of a link at rest turns it about the line of these, and a link that
         // is cut in two turns as one
-        let has_line = |frame: Frame, place: usize| {
-            let on_it = |k: &usize| mechanism.body(frames[*k]) == mechanism.body(frame);
+        let bodies = &bodies;
+        let has_line = |place: usize| {
+            let on_it = |k: &usize| bodies[*k] == bodies[place];
             let mut others = (0..frames.len()).filter(on_it);
             others.any(|other| apart(place, other))
         };
@@ -163,7 +165,7 @@ impl<'a> Neighbourhood<'a> {
             .flat_map(|closure| closure.frames.map(|frame| (closure.kind, frame)))
             .filter_map(|(kind, frame)| {
                 let place = frames.iter().position(|f| *f == frame)?;
-                let cut = kind == ClosureKind::Rigid && has_line(frame, place);
+                let cut = kind == ClosureKind::Rigid && has_line(place);
                 (!cut).then_some((place, kind.leaves_turn()))
             })
             .collect();
@@ -173,10 +175,9 @@ impl<'a> Neighbourhood<'a> {
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
             let carried = mechanism.chains().iter().map(|chain| chain.on);
-            let balls = (closures.flat_map(|closure| closure.frames))
-                .chain(carried)
-                .filter(move |frame| mechanism.body(*frame) == Body::Platform(platform));
-            balls.filter_map(|frame| frames.iter().position(|f| *f == frame))
+            let balls = (closures.flat_map(|closure| closure.frames)).chain(carried);
+            let places = balls.filter_map(|frame| frames.iter().position(|f| *f == frame));
+            places.filter(move |&place| bodies[place] == Body::Platform(platform))
         };
         let rods: Vec<usize> = (0..mechanism.platforms().len())
             .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
