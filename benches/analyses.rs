@@ -57,18 +57,18 @@ fn main() {
             close(&question, &Newton::default(), (40, 1), &Watch::none()).expect("it closes");
         let at = closed.configuration;
         let drive = Drive::still(&question);
-        let mut motion = Motion::new(mechanism, &drive.coordinates);
         let frames = mechanism.frames();
-        let mut motions = FrameMotions::new(mechanism, &motion, &frames);
+        let mut motion = Motion::placing(mechanism, &drive.coordinates, &frames, |held| held);
+        let motions = FrameMotions::new(mechanism, &motion, &frames);
         let rates = vec![0.1; drive.coordinates.len()];
         group.bench_function(name, |b| {
             b.iter(|| {
                 motion.at(black_box(&at));
                 motion.rates(&rates);
-                motion.accelerations(&at, &rates, &rates);
-                motions.place(&mut motion, &at);
+                motion.accelerations(&rates);
+                let changes = motion.changes();
                 (0..frames.len())
-                    .map(|i| motions.motion(i).change.velocity.0[0])
+                    .map(|i| motions.motion(i, changes).change.velocity.0[0])
                     .sum::<f64>()
             })
         });

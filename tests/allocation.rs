@@ -133,18 +133,18 @@ fn rates_and_accelerations_of_everything_allocate_nothing() {
             .configuration;
         let held: Vec<Coordinate> = question.held_coordinates();
         let frames = mechanism.frames();
-        let mut motion = Motion::new(&mechanism, &held);
-        let mut motions = FrameMotions::new(&mechanism, &motion, &frames);
+        let mut motion = Motion::placing(&mechanism, &held, &frames, |held| held);
+        let motions = FrameMotions::new(&mechanism, &motion, &frames);
         let (rates, changes) = (vec![0.3; held.len()], vec![-0.1; held.len()]);
         let before = ALLOCATIONS.load(Ordering::Relaxed);
         let mut sum = 0.0;
         for _ in 0..100 {
             motion.at(&at);
             sum += motion.rates(&rates)[0];
-            sum += motion.accelerations(&at, &rates, &changes)[0];
-            motions.place(&mut motion, &at);
+            sum += motion.accelerations(&changes)[0];
+            let changes = motion.changes();
             for i in 0..frames.len() {
-                sum += motions.motion(i).change.velocity.norm();
+                sum += motions.motion(i, changes).change.velocity.norm();
             }
         }
         assert_eq!(ALLOCATIONS.load(Ordering::Relaxed), before, "{name}");

@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Mechanism, Point};
+use crate::mechanism::{Frame, Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Drive, Motion, Moved, Neighbourhood, Question, QuestionError,
-    Tangent, Unknown, WidestGap, check_angles, free_outputs, moving,
+    Analysed, Closing, Coordinate, Drive, Lock, Motion, Moved, Neighbourhood, Question,
+    QuestionError, Tangent, Unknown, WidestGap, check_angles, free_outputs, moving,
 };
 
 pub(crate) use frames::Spins;
@@ -207,22 +207,26 @@ pub fn velocity(
     };
     let at = &closed.configuration;
     check_angles(question, at)?;
-    let mut motion = Motion::new(mechanism, &drive.coordinates);
     let mut near = Neighbourhood::new(mechanism);
     let mut held = Neighbourhood::holding(mechanism, &question.held());
     let rest = held.tangent(at.clone());
+    let (spins, spinning) = (Spins::of(&held, &rest), spinning(&held, &rest));
+    let mut outputs = free_outputs(mechanism, &drive.coordinates, &spinning);
+    outputs.extend(jacobian::followed(&outputs, &settings.points));
+    let points = frames::followed(mechanism, &settings.points);
+    let mut frames: Vec<Frame> = points.iter().map(|point| point.frame).collect();
+    frames.extend(Outputs::frames(&outputs).chain(TransmissionAngles::frames(mechanism)));
+    let mut motion = Motion::placing(mechanism, &drive.coordinates, &frames, |held| held);
     let gain = gain(mechanism, &mut held, &rest);
     let accuracy = accuracy::of(&mut motion, &mut held, &rest, drive);
     let determined = gain.is_none() && accuracy.determines_rates();
 
     motion.at(at);
-    let spins = Spins::of(&held, &rest);
-    let spinning = spinning(&held, &rest);
-    let jacobian = determined.then(|| {
-        let mut outputs = free_outputs(mechanism, &drive.coordinates, &spinning);
-        outputs.extend(jacobian::followed(&outputs, &settings.points));
-        Outputs::new(mechanism, &motion, outputs).report(&mut motion, at, &spins)
-    });
+    let transmission =
+        TransmissionAngles::new(&mut near, at, &drive.coordinates, motion.kinematics());
+    let transmission = transmission.table(motion.placement());
+    let jacobian = determined
+        .then(|| Outputs::new(mechanism, &motion, outputs).report(&mut motion, at, &spins));
     let centres = match determined {
         true => planar::centres(mechanism, &mut motion, at, drive),
         false => Vec::new(),
@@ -232,13 +236,16 @@ pub fn velocity(
         false => None,
     };
     let rates = motion.rates(&drive.rates).to_vec();
-    let mismatch = determined.then(|| motion.mismatch(at));
-    let changes = motion.accelerations(at, &drive.rates, &drive.accelerations);
+    let mismatch = determined.then(|| motion.mismatch());
+    let changes = motion.accelerations(&drive.accelerations);
     let exist = first_order_only.is_none() && accuracy.determines_accelerations();
     let scales = &mechanism.dimensions().joint_scales;
     let joints = mechanism.joints().iter().enumerate();
-    let joints = joints.map(|(i, joint)| {
-        let is_held = drive.coordinates.contains(&Coordinate::Joint(i));
+    let is_held = |i: usize| drive.coordinates.contains(&Coordinate::Joint(i));
+    // of the coordinates of points those that are asked for
+    let listed = joints.filter(|(i, _)| is_held(*i) || !mechanism.is_of_point(*i));
+    let joints = listed.map(|(i, joint)| {
+        let is_held = is_held(i);
         let known = determined && !spinning.contains(&i);
         JointRate {
             name: joint.name.clone(),
@@ -251,7 +258,7 @@ pub fn velocity(
     });
     let joints = joints.collect();
     let frames = match determined {
-        true => frames::rates(mechanism, &mut motion, at, &settings.points, &spins, exist),
+        true => frames::rates(mechanism, &mut motion, at, &points, &spins, exist),
         false => Vec::new(),
     };
     let inputs = drive.coordinates.iter().enumerate();
@@ -270,7 +277,7 @@ pub fn velocity(
         gain,
         first_order_only,
         accuracy,
-        transmission: TransmissionAngles::new(&mut near, at, &drive.coordinates).table(at),
+        transmission,
         centres,
         normalising_length: mechanism.characteristic_length(),
         mismatch,
@@ -281,15 +288,14 @@ pub fn velocity(
     }))
 }
 
-/// The input–output Jacobian of the outputs that are free where nothing else is asked for; `held` holds what drives it.
-pub(crate) fn outputs<'m>(
-    mechanism: &'m Mechanism,
-    motion: &Motion,
+/// The outputs that are free where nothing else is asked for; `held` holds what drives them.
+pub(crate) fn outputs(
+    mechanism: &Mechanism,
+    inputs: &[Coordinate],
     held: &Neighbourhood,
     rest: &Tangent,
-) -> Outputs<'m> {
-    let outputs = free_outputs(mechanism, motion.coordinates(), &spinning(held, rest));
-    Outputs::new(mechanism, motion, outputs)
+) -> Vec<Lock> {
+    free_outputs(mechanism, inputs, &spinning(held, rest))
 }
 
 /// What is free although everything held stands still.

@@ -155,7 +155,8 @@ impl Motions<'_> {
     ) -> (SweepReport, Located) {
         let wanted = self.settings.straightness || !self.dwells.is_empty();
         if self.quantities.is_empty() && !wanted {
-            return (self.moved(start, sink, watch), Located::default());
+            let moved = self.moved(start, &self.settings, sink, watch);
+            return (moved, Located::default());
         }
         let metered = Metered {
             quantities: &self.quantities,
@@ -167,6 +168,10 @@ impl Motions<'_> {
             outputs: &self.outputs,
         };
         let mut meter = Meter::new(metered, start);
+        let settings = SweepSettings {
+            frames: meter.frames().to_vec(),
+            ..self.settings.clone()
+        };
         let mut extremes = Extremes::new(self.quantities.len());
         let timed = !self.inputs.is_empty() && !self.quantities.is_empty();
         let mut values = Vec::new();
@@ -179,7 +184,7 @@ impl Motions<'_> {
             let time = row
                 .step
                 .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
-            meter.read(at, time);
+            meter.read_placed(at, row.placement, time);
             let found = meter.values();
             if !row.between {
                 extremes.take(at, time, found, meter.noise());
@@ -199,7 +204,7 @@ impl Motions<'_> {
                 ..*row
             });
         };
-        let report = self.moved(start, &mut measured, watch);
+        let report = self.moved(start, &settings, &mut measured, watch);
         let passage = Passage {
             mechanism: self.mechanism,
             held: &self.held,
@@ -247,11 +252,16 @@ impl Motions<'_> {
         (report, located)
     }
 
-    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
+    fn moved(
+        &self,
+        start: &Configuration<f64>,
+        settings: &SweepSettings,
+        sink: &mut Sink,
+        watch: &Watch,
+    ) -> SweepReport {
         let Motions {
             mechanism,
             held,
-            settings,
             inputs,
             ..
         } = self;

@@ -1,6 +1,7 @@
 //! Quantities over a motion: what is asked for, and what of it can be known.
 
 mod extremes;
+mod found;
 mod meter;
 mod passage;
 mod places;

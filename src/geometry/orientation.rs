@@ -119,14 +119,24 @@ pub struct RollPitchYaw<T> {
 impl<T: Number> RollPitchYaw<T> {
     /// The angles of a rotation. At pitch ±90° only roll ∓ yaw is determined, and roll is zero.
     pub fn from_rotation(rotation: &Rotation<T>) -> Self {
-        let r = rotation.rows();
-        let cos_pitch = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
-        let pitch = (-r[2][0]).atan2(cos_pitch);
-        let (roll, yaw) = match cos_pitch.real().abs() < 1e-12 {
-            true => (T::zero(), (-r[0][1]).atan2(r[1][1])),
-            false => (r[2][1].atan2(r[2][2]), r[1][0].atan2(r[0][0])),
-        };
+        let [roll, pitch, yaw] =
+            [Axis::X, Axis::Y, Axis::Z].map(|axis| RollPitchYaw::angle(rotation, axis));
         RollPitchYaw { roll, pitch, yaw }
+    }
+
+    /// One of the [angles](Self::from_rotation) alone, about a fixed axis.
+    #[inline]
+    pub fn angle(rotation: &Rotation<T>, axis: Axis) -> T {
+        let [n, s, a] = &rotation.0;
+        let cos_pitch = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
+        let locked = cos_pitch.real().abs() < 1e-12;
+        match (axis, locked) {
+            (Axis::X, true) => T::zero(),
+            (Axis::X, false) => s.0[2].atan2(a.0[2]),
+            (Axis::Y, _) => (-n.0[2]).atan2(cos_pitch),
+            (Axis::Z, true) => (-s.0[0]).atan2(s.0[1]),
+            (Axis::Z, false) => n.0[1].atan2(n.0[0]),
+        }
     }
 
     /// Whether the pitch is ±90° but for rounding, where roll and yaw turn about the same line.

@@ -1,5 +1,6 @@
 use nalgebra::DMatrix;
 
+use super::decomposition::{orthogonalise, rotate};
 use super::rank;
 
 /// A = U·Σ·Vᵀ.
@@ -61,36 +62,17 @@ impl Svd {
     }
 
     fn by_rotations(matrix: &DMatrix<f64>) -> Self {
-        const SWEEPS: usize = 40;
         let columns = matrix.ncols();
-        let (mut u, mut v) = (matrix.clone(), DMatrix::identity(columns, columns));
-        for _ in 0..SWEEPS {
-            let mut turned = false;
-            for p in 0..columns {
-                for q in p + 1..columns {
-                    let (a, b) = (u.column(p).norm_squared(), u.column(q).norm_squared());
-                    let along = u.column(p).dot(&u.column(q));
-                    if along.is_nan() || along.abs() <= f64::EPSILON * (a * b).sqrt() {
-                        continue;
-                    }
-                    turned = true;
-                    let zeta = (b - a) / (2.0 * along);
-                    let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
-                    let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-                    let sine = cosine * tangent;
-                    for matrix in [&mut u, &mut v] {
-                        for i in 0..matrix.nrows() {
-                            let (x, y) = (matrix[(i, p)], matrix[(i, q)]);
-                            matrix[(i, p)] = cosine * x - sine * y;
-                            matrix[(i, q)] = sine * x + cosine * y;
-                        }
-                    }
-                }
-            }
-            if !turned {
-                break;
-            }
-        }
+        let (mut u, mut v) = (matrix.clone(), DMatrix::<f64>::identity(columns, columns));
+        orthogonalise(matrix.nrows(), u.as_mut_slice(), |[p, q], cosine, sine| {
+            let (before, after) = v.as_mut_slice().split_at_mut(q * columns);
+            rotate(
+                &mut before[p * columns..][..columns],
+                &mut after[..columns],
+                cosine,
+                sine,
+            );
+        });
         let sizes: Vec<f64> = u.column_iter().map(|column| column.norm()).collect();
         let mut order: Vec<usize> = (0..columns).collect();
         order.sort_by(|&i, &j| sizes[j].total_cmp(&sizes[i]));

@@ -42,13 +42,25 @@ impl<T: Number> PlatformPose<T> {
 /// A configuration: a value for every joint variable and a pose for every platform.
 ///
 /// It need not be assembled.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Configuration<T> {
     /// Joint values in the order of the mechanism's joints: rad for revolute and helical joints,
     /// m for prismatic ones.
     pub joints: Vec<T>,
     /// Platform poses in the order of the mechanism's platforms.
     pub platforms: Vec<PlatformPose<T>>,
+}
+
+impl<T: Clone> Clone for Configuration<T> {
+    fn clone(&self) -> Self {
+        self.view().owned()
+    }
+
+    // in storage that is there
+    fn clone_from(&mut self, of: &Self) {
+        self.joints.clone_from(&of.joints);
+        self.platforms.clone_from(&of.platforms);
+    }
 }
 
 /// A borrowed configuration.

@@ -32,7 +32,9 @@ impl PoseCoordinate {
     pub fn of<T: Number>(self, pose: &Pose<T>) -> T {
         match self {
             Self::X | Self::Y | Self::Z => pose.position.0[self as usize],
-            _ => Self::all_of(pose)[self as usize],
+            Self::Roll => RollPitchYaw::angle(&pose.rotation, Axis::X),
+            Self::Pitch => RollPitchYaw::angle(&pose.rotation, Axis::Y),
+            Self::Yaw => RollPitchYaw::angle(&pose.rotation, Axis::Z),
         }
     }
 
@@ -108,6 +110,12 @@ impl PoseCoordinate {
             }
         }
         slope
+    }
+
+    /// The rate of an angle of a frame that turns so.
+    pub(crate) fn turned<T: Number>(self, pose: &Pose<T>, omega: &Vector3<T>) -> T {
+        let [x, y, z, ..] = self.slope(pose);
+        omega.dot(&Vector3([x, y, z]))
     }
 
     /// The two arguments of an angle's arc tangent, (y, dy) and (x, dx): an entry r of column n along e

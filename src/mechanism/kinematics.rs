@@ -325,6 +325,36 @@ impl<T: Number> Placement<T> {
     }
 }
 
+impl<T: Number> Placement<T> {
+    /// Rotation rate and velocity at a point that joints and a platform carry, for the rates of their dimensionless
+    /// variables: ω = Σ z q̇ and v = Σ z × (p − o) q̇, or z q̇ for a slide, beside the platform's own twist (ω; v/L).
+    #[inline(always)]
+    pub(crate) fn carried<'a>(
+        &self,
+        movers: impl Iterator<Item = (&'a Mover<T>, T)>,
+        platform: Option<(usize, &[T])>,
+        point: &Vector3<T>,
+        length: f64,
+    ) -> (Vector3<T>, Vector3<T>)
+    where
+        T: 'a,
+    {
+        let (mut omega, mut velocity) = (Vector3::zero(), Vector3::zero());
+        for (mover, rate) in movers {
+            let (turn, shift) = self.twist(mover, point);
+            omega += turn.times(rate);
+            velocity += shift.times(rate);
+        }
+        if let Some((platform, &[a, b, c, x, y, z])) = platform {
+            let turn = Vector3([a, b, c]);
+            let arm = *point - self.pose(1 + platform).position;
+            omega += turn;
+            velocity += Vector3([x, y, z]).scaled(length) + turn.cross(&arm);
+        }
+        (omega, velocity)
+    }
+}
+
 impl Shape {
     fn of<T: Number>(pose: &Pose<T>) -> Self {
         if pose.rotation != Rotation::identity() {

@@ -25,8 +25,8 @@ use plan::ClosurePlan;
 
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, EVERY_ROW, Kept, Kinematics, Mechanism, Mover, Placement,
-    PoseCoordinate, Side, needs, orientation_rows,
+    Closure, Configuration, Dimensions, EVERY_ROW, Frame, Kept, Kinematics, Mechanism, Mover, Need,
+    Placement, PoseCoordinate, Side, needs, orientation_rows,
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
@@ -68,20 +68,36 @@ impl<T: Factorable> System<T> {
     /// The equations for a choice of what is held.
     pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
         let all = vec![EVERY_ROW; dimensions.closures.len()];
-        System::keeping(dimensions, held, &all)
+        System::keeping(dimensions, held, &all, &[])
     }
 
     /// The same without the rows that vanish in every configuration of the mechanism, as those across the plane of a
     /// planar loop: all that iterations need. What counts rows or assigns forces to them needs all.
     pub fn reduced(mechanism: &Mechanism, dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
-        System::keeping(dimensions, held, mechanism.rows_that_vary())
+        System::placing(mechanism, dimensions, held, &[])
     }
 
-    fn keeping(dimensions: &Dimensions<T>, held: &Held<T>, kept: &[Kept]) -> Self {
+    /// The same, whose work holds the poses of more frames than the closures need.
+    pub fn placing(
+        mechanism: &Mechanism,
+        dimensions: &Dimensions<T>,
+        held: &Held<T>,
+        frames: &[Frame],
+    ) -> Self {
+        System::keeping(dimensions, held, mechanism.rows_that_vary(), frames)
+    }
+
+    fn keeping(
+        dimensions: &Dimensions<T>,
+        held: &Held<T>,
+        kept: &[Kept],
+        frames: &[Frame],
+    ) -> Self {
         let parts = || dimensions.closures.iter().zip(kept);
-        let frames = parts()
+        let needed = parts()
             .flat_map(|(closure, kept)| closure.frames.into_iter().zip(needs(closure.kind, kept)));
-        let kinematics = Kinematics::needing(dimensions, frames);
+        let more = frames.iter().map(|&frame| (frame, Need::Pose));
+        let kinematics = Kinematics::needing(dimensions, needed.chain(more));
         let closures: Vec<Closure<T>> = parts()
             .map(|(closure, &kept)| Closure::new(dimensions, closure, &kinematics, kept))
             .collect();
@@ -125,6 +141,41 @@ impl<T: Factorable> System<T> {
             hold_rows: vec![T::zero(); self.empty.extra_rows() * self.empty.shared().len()],
             step: vec![T::zero(); self.unknowns.len()],
         }
+    }
+
+    /// The order in which its frames are placed.
+    pub fn kinematics(&self) -> &Kinematics<T> {
+        &self.kinematics
+    }
+
+    /// Places its frames, and evaluates nothing.
+    pub fn place<'a>(&self, at: &Configuration<T>, work: &'a mut Work<T>) -> &'a Placement<T> {
+        self.kinematics.place(at, &mut work.placement);
+        &work.placement
+    }
+
+    /// The frames as they were last placed.
+    pub fn placement<'a>(&self, work: &'a Work<T>) -> &'a Placement<T> {
+        &work.placement
+    }
+
+    /// Linearises where frames were placed by equations of the same closures and frames.
+    pub fn linearise_at(
+        &self,
+        at: &Configuration<T>,
+        placement: &Placement<T>,
+        work: &mut Work<T>,
+    ) -> Size {
+        work.placement.0.copy_from_slice(&placement.0);
+        self.linearise_placed(at, work)
+    }
+
+    fn linearise_placed(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
+        self.jacobian_columns(at, work);
+        if !self.holds.is_empty() {
+            self.hold_residuals(at, work);
+        }
+        Size::of(&work.residual)
     }
 
     /// Adapts storage of a system that differs in its dimensions only; its factors stay as they are.
@@ -335,11 +386,7 @@ impl<T: Factorable> Equations for System<T> {
     #[inline]
     fn linearise(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
         self.kinematics.place(at, &mut work.placement);
-        self.jacobian_columns(at, work);
-        if !self.holds.is_empty() {
-            self.hold_residuals(at, work);
-        }
-        Size::of(&work.residual)
+        self.linearise_placed(at, work)
     }
 
     #[inline]

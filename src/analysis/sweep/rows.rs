@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::points::Paths;
 use super::{Flow, Law, MetKind, Row, SweepSettings};
-use crate::mechanism::{Configuration, Mechanism, NamedPoint};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement};
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
 
@@ -36,10 +36,9 @@ impl Rows {
         settings: &SweepSettings,
     ) -> Self {
         let tracker = holding(held, inputs).map(|held| {
-            MotionTracker::new(
-                System::reduced(mechanism, mechanism.dimensions(), &held),
-                start.at.clone(),
-            )
+            let dimensions = mechanism.dimensions();
+            let system = System::placing(mechanism, dimensions, &held, &settings.frames);
+            MotionTracker::new(system, start.at.clone())
         });
         let way =
             |input: &Driven| (input.to - input.from).abs() / input.coordinate.scale(mechanism);
@@ -117,7 +116,8 @@ impl Rows {
             self.next += if self.forward { 1 } else { -1 };
             if self.track(curve, from, &reach, part) {
                 if let Some(tracker) = &self.tracker {
-                    (self.sent).row(tracker.configuration(), step, None, sink)?;
+                    let (at, placement) = (tracker.configuration(), tracker.placement());
+                    self.sent.placed(at, placement, step, sink)?;
                 }
                 continue;
             }
@@ -198,17 +198,32 @@ impl Sent {
     ) -> ControlFlow<()> {
         let number = self.count;
         self.count += 1;
-        self.send(at, (number, step), special, false, sink)
+        self.send(at, None, (number, step), special, false, sink)
+    }
+
+    /// A row whose frames are placed.
+    #[inline]
+    pub fn placed(
+        &mut self,
+        at: &Configuration<f64>,
+        placement: &Placement<f64>,
+        step: Option<usize>,
+        sink: &mut Flow,
+    ) -> ControlFlow<()> {
+        let number = self.count;
+        self.count += 1;
+        self.send(at, Some(placement), (number, step), None, false, sink)
     }
 
     pub fn passed(&mut self, at: &Configuration<f64>, sink: &mut Flow) -> ControlFlow<()> {
-        self.send(at, (self.count, None), None, true, sink)
+        self.send(at, None, (self.count, None), None, true, sink)
     }
 
     #[inline]
     fn send(
         &mut self,
         at: &Configuration<f64>,
+        placement: Option<&Placement<f64>>,
         (number, step): (usize, Option<usize>),
         special: Option<&MetKind>,
         between: bool,
@@ -219,6 +234,7 @@ impl Sent {
             number,
             step,
             configuration: at,
+            placement,
             points: &self.paths.at,
             quantities: &[],
             special,

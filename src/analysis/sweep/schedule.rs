@@ -99,6 +99,7 @@ impl Schedule {
             continuation: settings.continuation.clone(),
             between: settings.between,
             points: settings.points.clone(),
+            frames: settings.frames.clone(),
             ..SweepSettings::default()
         };
         let mut traced = Paths::new(mechanism, &settings.points);
@@ -142,6 +143,7 @@ impl Schedule {
                         number: 0,
                         step: Some(step),
                         configuration: &begin,
+                        placement: None,
                         points: &[],
                         quantities: &[],
                         special: None,

@@ -46,7 +46,7 @@ pub(super) fn of(
     let mut at = |place: &Configuration<f64>| {
         motion.at(place);
         let rates = motion.rates(&given).to_vec();
-        (rates, motion.accelerations(place, &given, changes).to_vec())
+        (rates, motion.accelerations(changes).to_vec())
     };
     let (rates, accelerations) = at(&rest.at);
     let (mut by_rates, mut by_accelerations) = (0.0_f64, 0.0_f64);
@@ -95,8 +95,8 @@ pub(super) fn first_order_only(
         false => drive.accelerations.clone(),
     };
     let rates = motion.rates(&given).to_vec();
-    let strongest = largest(motion.accelerations(at, &given, &changes));
-    let mismatch = motion.mismatch_of_accelerations(at);
+    let strongest = largest(motion.accelerations(&changes));
+    let mismatch = motion.mismatch_of_accelerations();
     let fastest = largest(&rates);
     let opens = mismatch > ROUNDING * strongest.max(fastest * fastest);
     let tangent = near.tangent(at.clone());

@@ -41,15 +41,8 @@ impl Spins {
     }
 }
 
-/// How platforms, then the points followed, move.
-pub(super) fn rates(
-    mechanism: &Mechanism,
-    motion: &mut Motion,
-    at: &Configuration<f64>,
-    points: &[Point],
-    spins: &Spins,
-    accelerations: bool,
-) -> Vec<FrameRate> {
+/// The platforms, then the points followed.
+pub(super) fn followed(mechanism: &Mechanism, points: &[Point]) -> Vec<Point> {
     let platforms = 0..mechanism.platforms().len();
     let platforms = platforms.map(|platform| Frame::Platform { platform }.into());
     let mut all: Vec<Point> = platforms.collect();
@@ -59,9 +52,21 @@ pub(super) fn rates(
             all.push(*point);
         }
     }
-    let mut motions = FrameMotions::new(mechanism, motion, &all);
-    motions.place(motion, at);
-    let named = all.iter().enumerate();
+    all
+}
+
+/// How these points move, that the motion places.
+pub(super) fn rates(
+    mechanism: &Mechanism,
+    motion: &mut Motion,
+    at: &Configuration<f64>,
+    points: &[Point],
+    spins: &Spins,
+    accelerations: bool,
+) -> Vec<FrameRate> {
+    let motions = FrameMotions::new(mechanism, motion, points);
+    let changes = motion.changes();
+    let named = points.iter().enumerate();
     named
         .map(|(i, point)| {
             let lines = spins.lines_of(point.frame);
@@ -69,7 +74,7 @@ pub(super) fn rates(
                 position,
                 twist,
                 change,
-            } = motions.motion(i);
+            } = motions.motion(i, changes);
             let (omega, turning) = unspun(&twist.omega, &change.omega, lines);
             let (mut velocity, mut acceleration) = (twist.velocity, change.velocity);
             if !lines.is_empty() {

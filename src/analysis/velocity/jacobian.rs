@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::frames::Spins;
 use crate::algebra::SiUnit;
 use crate::linear::{rank, singular_values};
-use crate::mechanism::{Configuration, Mechanism, Placement, Point};
+use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
@@ -115,7 +115,6 @@ pub(crate) struct Outputs<'m> {
     mechanism: &'m Mechanism,
     outputs: Vec<Lock>,
     twists: FrameTwists<f64>,
-    placement: Placement<f64>,
     /// Scales of the rows, then of the columns.
     scales: [Vec<f64>; 2],
     /// How many rows at the end belong to points followed.
@@ -123,9 +122,12 @@ pub(crate) struct Outputs<'m> {
 }
 
 /// The dimensionless Jacobian without the rows of points followed, unless there are no others.
+#[derive(Default)]
 pub(crate) struct Normalised {
     rows: usize,
     columns: usize,
+    /// With units and all rows, column by column.
+    given: Vec<f64>,
     /// Column by column.
     entries: Vec<f64>,
 }
@@ -149,9 +151,16 @@ pub(crate) fn condition(values: &[f64]) -> Option<f64> {
 }
 
 impl<'m> Outputs<'m> {
+    /// Frames that must be placed.
+    pub fn frames(outputs: &[Lock]) -> impl Iterator<Item = Frame> {
+        let points = outputs.iter().filter_map(|output| output.point());
+        points.map(|point| point.frame)
+    }
+
     pub fn new(mechanism: &'m Mechanism, motion: &Motion, outputs: Vec<Lock>) -> Self {
         let points: Vec<Point> = outputs.iter().filter_map(|output| output.point()).collect();
-        let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &points);
+        let (dimensions, unknowns) = (mechanism.dimensions(), motion.unknowns());
+        let twists = FrameTwists::sharing(motion.kinematics(), dimensions, unknowns, &points);
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
         let rows = outputs
@@ -163,7 +172,6 @@ impl<'m> Outputs<'m> {
                 rows.map(|(_, is_angle)| scale(is_angle)).collect(),
                 columns.map(|of| scale(of.is_angle(mechanism))).collect(),
             ],
-            placement: twists.placement(),
             followed: 3 * outputs
                 .iter()
                 .filter(|output| matches!(output, Lock::Point(_)))
@@ -174,20 +182,21 @@ impl<'m> Outputs<'m> {
         }
     }
 
-    /// Goes to a configuration.
-    pub fn place(&mut self, at: &Configuration<f64>) {
-        self.twists.place(at, &mut self.placement);
-    }
-
-    /// The rates of the outputs for rates of all unknowns, in m/s and rad/s.
-    fn of(&self, at: &Configuration<f64>, rates: &[f64], spins: &Spins) -> Vec<f64> {
+    /// Adds the rates of the outputs for rates of all unknowns, in m/s and rad/s.
+    fn add(
+        &self,
+        column: &mut Vec<f64>,
+        at: &Configuration<f64>,
+        placement: &Placement<f64>,
+        rates: &[f64],
+        spins: &Spins,
+    ) {
         let mechanism = self.mechanism;
         let length = mechanism.characteristic_length();
-        let mut column = Vec::with_capacity(self.scales[0].len());
         let mut next = 0..;
         for output in &self.outputs {
             let twist = output.point().and_then(|_| next.next());
-            let twist = twist.map(|i| self.twists.twist(i, &self.placement, rates));
+            let twist = twist.map(|i| self.twists.twist(i, placement, rates));
             match (*output, twist) {
                 (Lock::Frame(of), Some(Twist { omega, velocity })) => {
                     column.extend(without(&omega, spins.lines_of(of)).0);
@@ -215,57 +224,49 @@ impl<'m> Outputs<'m> {
                 (_, None) => unreachable!("only joints have no frame"),
             }
         }
-        column
     }
 
-    /// Column by column for unit rates of the inputs, one at a time, which give `rates`.
-    fn columns(&self, at: &Configuration<f64>, rates: &[Vec<f64>], spins: &Spins) -> Vec<Vec<f64>> {
-        let columns = rates.iter().map(|rates| self.of(at, rates, spins));
-        columns.collect()
-    }
-
-    fn normalised_of(&self, columns: &[Vec<f64>]) -> Normalised {
+    /// The dimensionless Jacobian for what unit rates of the inputs give, the columns with their units before it.
+    pub fn normalised_into(
+        &self,
+        known: &mut Normalised,
+        at: &Configuration<f64>,
+        placement: &Placement<f64>,
+        rates: &[Vec<f64>],
+        spins: &Spins,
+    ) {
         let [rows, inputs] = &self.scales;
-        let counted = match rows.len() - self.followed {
+        known.rows = match rows.len() - self.followed {
             0 => rows.len(),
             others => others,
         };
-        let entries = columns.iter().zip(inputs).flat_map(|(column, input)| {
-            let entries = column[..counted].iter().zip(rows);
-            entries.map(move |(entry, row)| entry * input / row)
-        });
-        Normalised {
-            rows: counted,
-            columns: columns.len(),
-            entries: entries.collect(),
+        known.columns = rates.len();
+        known.given.clear();
+        known.entries.clear();
+        for (rates, input) in rates.iter().zip(inputs) {
+            let first = known.given.len();
+            self.add(&mut known.given, at, placement, rates, spins);
+            let entries = known.given[first..].iter().zip(rows).take(known.rows);
+            (known.entries).extend(entries.map(|(entry, row)| entry * input / row));
         }
-    }
-
-    /// The dimensionless Jacobian for what unit rates of the inputs give.
-    pub fn normalised(
-        &self,
-        at: &Configuration<f64>,
-        rates: &[Vec<f64>],
-        spins: &Spins,
-    ) -> Normalised {
-        self.normalised_of(&self.columns(at, rates, spins))
     }
 
     /// The whole report; `motion` is factorised at the configuration.
     pub(super) fn report(
-        &mut self,
+        &self,
         motion: &mut Motion,
         at: &Configuration<f64>,
         spins: &Spins,
     ) -> InputOutput {
-        self.place(at);
-        let columns = self.columns(at, &motion.responses(), spins);
-        let normalised = self.normalised_of(&columns);
+        let (responses, mut normalised) = (motion.responses(), Normalised::default());
+        self.normalised_into(&mut normalised, at, motion.placement(), &responses, spins);
         let values = normalised.singular_values();
         let mechanism = self.mechanism;
         let rows = (self.outputs.iter()).flat_map(|&output| rows_of(mechanism, output));
         let inputs = motion.coordinates().iter();
-        let entries = (0..self.scales[0].len()).map(|row| columns.iter().map(|c| c[row]).collect());
+        let count = self.scales[0].len();
+        let columns = normalised.given.chunks_exact(count.max(1));
+        let entries = (0..count).map(|row| columns.clone().map(|column| column[row]).collect());
         InputOutput {
             followed: self.followed,
             rank: rank(&values),

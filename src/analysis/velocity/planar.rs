@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::plane::{ZERO, normal, split};
 use super::rods::with_rods;
-use crate::geometry::{Pose, Vector3};
+use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Body, Configuration, Frame, Kinematics, Mechanism, Placement, Point};
 use crate::system::{
@@ -52,10 +52,11 @@ const MANY_BODIES: usize = 12;
 /// loops settle, are given: the dyads of which planar linkages are built up. Planned once.
 pub(crate) struct TransmissionAngles {
     dyads: Vec<Dyad>,
-    kinematics: Kinematics<f64>,
-    placement: Placement<f64>,
     length: f64,
 }
+
+/// A point and the slot of its frame in a placement.
+type Spot = (usize, Point);
 
 /// Three joints of a loop in a plane: between driven link and coupler, coupler and output link, and what holds that.
 struct Dyad {
@@ -63,26 +64,37 @@ struct Dyad {
     driven: String,
     output: String,
     between: String,
-    first: Point,
-    second: Point,
+    first: Spot,
+    second: Spot,
     post: Post,
-    /// The normal of the plane in frames of all bodies of the loop.
-    normals: Vec<(Frame, Vector3<f64>)>,
+    /// The normal of the plane in frames of all bodies of the loop, by their slots.
+    normals: Vec<(usize, Vector3<f64>)>,
 }
 
 /// What holds an output link.
 enum Post {
     /// A hinge.
-    Hinge(Point),
+    Hinge(Spot),
     /// A slide along a direction of a frame.
-    Slide(Frame, Vector3<f64>),
+    Slide(usize, Vector3<f64>),
     /// A slide along the line through two points.
-    Along(Point, Point),
+    Along(Spot, Spot),
 }
 
 impl TransmissionAngles {
+    /// Frames that must be placed.
+    pub fn frames(mechanism: &Mechanism) -> impl Iterator<Item = Frame> {
+        let bodies = mechanism.bodies().into_iter();
+        bodies.map(|body| mechanism.body_frame(body))
+    }
+
     /// For what is held; which loops move in a plane is decided at an assembled configuration.
-    pub fn new(near: &mut Neighbourhood, at: &Configuration<f64>, held: &[Coordinate]) -> Self {
+    pub fn new(
+        near: &mut Neighbourhood,
+        at: &Configuration<f64>,
+        held: &[Coordinate],
+        kinematics: &Kinematics<f64>,
+    ) -> Self {
         let mechanism = near.mechanism();
         let ends = near
             .closure_wrenches(at)
@@ -106,7 +118,7 @@ impl TransmissionAngles {
         while let Some(i) =
             (0..found.len()).find(|&i| dyads[i].is_none() && dyad(&found[i], &known))
         {
-            dyads[i] = Some(dyads_of(mechanism, &found[i], &known, at));
+            dyads[i] = Some(dyads_of(mechanism, &found[i], &known, at, kinematics));
             for part in &found[i].all.parts {
                 part.joints
                     .iter()
@@ -116,32 +128,29 @@ impl TransmissionAngles {
                     .extend(part.closure.then(|| part.names[0].clone()));
             }
         }
-        let dyads: Vec<Dyad> = dyads.into_iter().flatten().flatten().collect();
-        let frames = dyads.iter().flat_map(|dyad| dyad.normals.iter());
-        let kinematics = Kinematics::new(mechanism.dimensions(), frames.map(|(frame, _)| *frame));
         TransmissionAngles {
-            placement: kinematics.placement(),
             length: mechanism.characteristic_length(),
-            dyads,
-            kinematics,
+            dyads: dyads.into_iter().flatten().flatten().collect(),
         }
     }
 
-    /// The closure of each loop with its angle from 0 to π/2; none where it does not move in a plane. Nothing allocates.
-    pub fn angles(&mut self, at: &Configuration<f64>) -> impl Iterator<Item = (&str, Option<f64>)> {
-        self.kinematics.place(at, &mut self.placement);
-        let this = &*self;
-        this.dyads.iter().map(move |dyad| {
-            let pressure = this.pressure(dyad);
-            (&*dyad.closure, pressure.map(|angle| FRAC_PI_2 - angle))
+    /// The angle of each loop, from 0 to π/2; none where it does not move in a plane. Nothing allocates.
+    pub fn angles(&self, placement: &Placement<f64>) -> impl Iterator<Item = Option<f64>> {
+        self.dyads.iter().map(|dyad| {
+            let pressure = self.pressure(dyad, placement);
+            pressure.map(|angle| FRAC_PI_2 - angle)
         })
     }
 
+    /// The closures of the loops, in the order of their angles.
+    pub fn loops(&self) -> impl Iterator<Item = &str> {
+        self.dyads.iter().map(|dyad| &*dyad.closure)
+    }
+
     /// All of them with their names.
-    pub fn table(&mut self, at: &Configuration<f64>) -> Vec<Transmission> {
-        self.kinematics.place(at, &mut self.placement);
+    pub fn table(&self, placement: &Placement<f64>) -> Vec<Transmission> {
         let found = self.dyads.iter().filter_map(|dyad| {
-            let pressure_angle = self.pressure(dyad)?;
+            let pressure_angle = self.pressure(dyad, placement)?;
             Some(Transmission {
                 closure: dyad.closure.clone(),
                 driven: dyad.driven.clone(),
@@ -154,25 +163,21 @@ impl TransmissionAngles {
         found.collect()
     }
 
-    fn pose(&self, frame: Frame) -> &Pose<f64> {
-        let pose = self.kinematics.pose(frame, &self.placement);
-        pose.expect("the kinematics was planned for all bodies of the loops")
-    }
-
-    fn pressure(&self, dyad: &Dyad) -> Option<f64> {
+    fn pressure(&self, dyad: &Dyad, placement: &Placement<f64>) -> Option<f64> {
+        let turned = |slot: usize, v: &Vector3<f64>| placement.pose(slot).rotation * *v;
         let normals = dyad.normals.iter();
-        let mut ground = normals.map(|(frame, normal)| self.pose(*frame).rotation * *normal);
+        let mut ground = normals.map(|(slot, normal)| turned(*slot, normal));
         let normal = ground.next()?;
         if !ground.all(|other| other.cross(&normal).norm() <= ZERO) {
             return None;
         }
-        let place = |point: &Point| point.placed(self.pose(point.frame));
+        let place = |(slot, point): &Spot| point.placed(placement.pose(*slot));
         let in_plane = |v: Vector3<f64>| v - normal.times(normal.dot(&v));
         let second = place(&dyad.second);
         let force = in_plane(second - place(&dyad.first));
         let motion = match &dyad.post {
             Post::Hinge(post) => normal.cross(&(second - place(post))),
-            Post::Slide(frame, along) => self.pose(*frame).rotation * *along,
+            Post::Slide(slot, along) => turned(*slot, along),
             Post::Along(from, to) => place(to) - place(from),
         };
         let sizes = force.norm() * motion.norm();
@@ -298,6 +303,7 @@ fn dyads_of(
     found: &HingedLoop,
     known: &Known,
     at: &Configuration<f64>,
+    kinematics: &Kinematics<f64>,
 ) -> Vec<Dyad> {
     let given = known.parts(found);
     let HingedLoop {
@@ -315,6 +321,10 @@ fn dyads_of(
         Body::Platform(platform) if platform >= mechanism.platforms().len() => None,
         body => Some(mechanism.body_frame(body)),
     };
+    let slot = |frame: Frame| {
+        let slot = kinematics.slot(frame);
+        slot.expect("the frames of all bodies are placed")
+    };
     let in_frame = |frame: Frame, v: Vector3<f64>| {
         let pose = mechanism.poses([frame], at)[0];
         pose.rotation.inverse_rotate(&v)
@@ -328,20 +338,20 @@ fn dyads_of(
         let place = omega.cross(&velocity).times(length / speed);
         let frame = parts[k % count].bodies.iter().find_map(frame)?;
         let offset = in_frame(frame, place - mechanism.poses([frame], at)[0].position).0;
-        Some(Point { frame, offset })
+        Some((slot(frame), Point { frame, offset }))
     };
     let post = |k: usize| match (pivot(k), parts[k].bodies.iter().find_map(frame)) {
         (Some(post), _) => Some(Post::Hinge(post)),
         (None, Some(frame)) => {
             let (_, along) = split(&hinges[k]?);
-            Some(Post::Slide(frame, in_frame(frame, along)))
+            Some(Post::Slide(slot(frame), in_frame(frame, along)))
         }
         // the length of a rod between its ends
         (None, None) => Some(Post::Along(pivot(k + count - 1)?, pivot(k + 1)?)),
     };
     let bodies = all.bodies.iter().filter_map(frame);
-    let normals = bodies.map(|frame| (frame, in_frame(frame, *normal)));
-    let normals: Vec<(Frame, Vector3<f64>)> = normals.collect();
+    let normals = bodies.map(|frame| (slot(frame), in_frame(frame, *normal)));
+    let normals: Vec<(usize, Vector3<f64>)> = normals.collect();
     let driven = drivers(all, &given)
         .into_iter()
         .filter_map(|(i, forwards)| {

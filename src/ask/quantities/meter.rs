@@ -2,15 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::places::Places;
+use super::found::Found;
+use super::places::{Placed, Places, PlacesAt};
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::singularities::SingularityMeter;
 use crate::analysis::sweep::{Pace, Schedule};
 use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
 };
-use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Figure, Frame, Measured, Mechanism, Order, Point, Quantity};
+use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Placement, Point, Quantity};
+use crate::number::Dual;
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Motion, Neighbourhood};
 
 /// What a meter is for.
@@ -33,15 +34,22 @@ pub(in super::super) struct Meter<'q> {
     ways: Vec<Option<(usize, f64)>>,
     turns: Vec<bool>,
     places: Places,
+    /// Its frames beside those of the closures, and where these are, if no rates are wanted.
+    frames: Vec<Frame>,
+    placed: Placed,
     /// Frames of links that spin about a line of their own: rates beside it are not determined.
     loose: Vec<Frame>,
     motion: Option<Motion>,
     loaded: Option<Loaded>,
-    /// What everything does for a unit rate of each held coordinate, and what holds these against the load.
+    /// What everything does for a unit rate of each held coordinate for which that is wanted, and what holds these against
+    /// the load.
+    wanted: Vec<bool>,
     responses: Vec<Vec<f64>>,
     forces: Vec<f64>,
     outputs: Option<(Outputs<'q>, Spinning<'q>)>,
+    jacobian: Normalised,
     transmission: Option<TransmissionAngles>,
+    angles: Vec<Option<f64>>,
     /// With the distances that are asked for.
     distances: Option<(SingularityMeter<'q>, Vec<Figure>)>,
     wants: Wants,
@@ -49,8 +57,9 @@ pub(in super::super) struct Meter<'q> {
     driven: [Vec<f64>; 2],
     before: Vec<Option<f64>>,
     values: Vec<Option<f64>>,
-    /// What the names in the quantities stand for, each once.
-    names: Vec<Measured>,
+    figures: Vec<(Figure, Option<f64>)>,
+    /// What the names in the quantities stand for, each once, with the number of the point, if it is of one.
+    names: Vec<(Measured, usize)>,
     /// The quantities over the numbers of these names.
     programs: Vec<Expression<usize>>,
     /// The values of the names, and how far each may be off.
@@ -111,36 +120,22 @@ impl Wants {
     }
 }
 
-/// What the engines tell of one configuration.
-struct Found<'a> {
-    mechanism: &'a Mechanism,
-    places: &'a Places,
-    loose: &'a [Frame],
-    /// Whether rates are determined there.
-    moves: bool,
-    /// The largest rate and acceleration, in rad and characteristic lengths.
-    rates: [f64; 2],
-    coordinates: &'a [Coordinate],
-    forces: &'a [f64],
-    transmission: Vec<(&'a str, Option<f64>)>,
-    jacobian: Option<Normalised>,
-    singular_values: Vec<f64>,
-    distances: Vec<(Figure, Option<f64>)>,
-}
-
 impl<'q> Meter<'q> {
     pub fn new(of: Metered<'q>, start: &Configuration<f64>) -> Self {
         let question = of.question;
         let mechanism = question.mechanism();
         let all = || of.quantities.iter().flat_map(Quantity::measured);
         let wants = Wants::of(all());
-        let frames = all().filter_map(|measured| match measured {
-            Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
-                Some(point.frame)
+        let mut points: Vec<Point> = Vec::new();
+        for measured in all() {
+            if let Measured::Place(point, ..)
+            | Measured::Size(point, _)
+            | Measured::Curvature(point) = measured
+                && !points.contains(point)
+            {
+                points.push(*point);
             }
-            _ => None,
-        });
-        let frames: Vec<Frame> = frames.collect();
+        }
         let mut names: Vec<Measured> = Vec::new();
         let mut number = |name: &Measured| {
             let known = names.iter().position(|of| of == name);
@@ -153,18 +148,59 @@ impl<'q> Meter<'q> {
             let program = (quantity.expression).try_resolve(|name, _| Ok::<_, ()>(number(name)));
             program.expect("every name has a number")
         });
-        let programs = programs.collect();
+        let programs: Vec<Expression<usize>> = programs.collect();
         let coordinates = question.driven_coordinates();
         let moves = wants.order > Order::Value || wants.responses();
         let still = question.clone().with_spins_still();
         let hold = |held| still.with_still(held);
-        let motion = moves.then(|| Motion::with(mechanism, &coordinates, hold));
         let mut held = Neighbourhood::holding(mechanism, &question.held());
         let rest = held.tangent(start.clone());
         let spins = Spins::of(&held, &rest);
+        let outputs = match wants.jacobian {
+            true => outputs(mechanism, &coordinates, &held, &rest),
+            false => Vec::new(),
+        };
+        let mut frames: Vec<Frame> = points.iter().map(|point| point.frame).collect();
         let loose = frames
             .iter()
             .filter(|frame| !spins.lines_of(**frame).is_empty());
+        let loose = loose.copied().collect();
+        frames.extend(Outputs::frames(&outputs).chain(Loaded::frames(of.load)));
+        if wants.transmission {
+            frames.extend(TransmissionAngles::frames(mechanism));
+        }
+        let motion = moves.then(|| Motion::placing(mechanism, &coordinates, &frames, hold));
+        let placed = Placed::new(mechanism, &frames);
+        let kinematics = motion
+            .as_ref()
+            .map_or(placed.kinematics(), Motion::kinematics);
+        let loaded = (motion.as_ref().filter(|_| wants.forces))
+            .map(|motion| Loaded::new(mechanism, motion.unknowns(), of.load, kinematics));
+        let transmission = wants.transmission.then(|| {
+            let mut near = Neighbourhood::new(mechanism);
+            TransmissionAngles::new(&mut near, start, &coordinates, kinematics)
+        });
+        let moving = motion.as_ref().map(|motion| (motion, wants.order));
+        let places = Places::new(mechanism, points, kinematics, moving);
+        let numbered = names.iter().map(|name| match name {
+            Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
+                (*name, places.number(*point).unwrap_or(0))
+            }
+            _ => (*name, 0),
+        });
+        let names: Vec<(Measured, usize)> = numbered.collect();
+        let held_by = |coordinate: &Coordinate| {
+            names.iter().any(|(name, _)| match *name {
+                Measured::Force(joint) => *coordinate == Coordinate::Joint(joint),
+                Measured::PlatformForce(platform, c) => {
+                    *coordinate == Coordinate::Pose(platform, c)
+                }
+                _ => false,
+            })
+        };
+        let wanted = coordinates
+            .iter()
+            .map(|of_it| wants.jacobian || held_by(of_it));
         let way = |of_it: &Coordinate| {
             let mut inputs = of.inputs.iter();
             let place = inputs.position(|input| input.coordinate == *of_it)?;
@@ -173,23 +209,25 @@ impl<'q> Meter<'q> {
         Meter {
             ways: coordinates.iter().map(way).collect(),
             turns: of.quantities.iter().map(turns).collect(),
-            places: Places::new(mechanism, &frames, wants.order),
-            loaded: (motion.as_ref().filter(|_| wants.forces))
-                .map(|motion| Loaded::new(mechanism, motion.unknowns(), of.load)),
-            responses: Vec::new(),
+            responses: vec![Vec::new(); coordinates.len()],
             forces: Vec::new(),
-            loose: loose.copied().collect(),
             outputs: (motion.as_ref().filter(|_| wants.jacobian)).map(|motion| {
-                let outputs = outputs(mechanism, motion, &held, &rest);
+                let outputs = Outputs::new(mechanism, motion, outputs);
                 match spins.is_empty() {
                     true => (outputs, Spinning::Nothing(spins)),
                     false => (outputs, Spinning::Something(Box::new(held))),
                 }
             }),
-            transmission: wants.transmission.then(|| {
-                let mut near = Neighbourhood::new(mechanism);
-                TransmissionAngles::new(&mut near, start, &coordinates)
-            }),
+            jacobian: Normalised::default(),
+            wanted: wanted.collect(),
+            angles: Vec::new(),
+            figures: Vec::new(),
+            places,
+            frames,
+            placed,
+            loose,
+            loaded,
+            transmission,
             distances: wants.distances.then(|| {
                 let inputs = system::inputs_of(question);
                 let distances = Figure::ALL.into_iter().filter(|figure| {
@@ -213,6 +251,16 @@ impl<'q> Meter<'q> {
 
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
+        self.read_placed(at, None, time)
+    }
+
+    /// The same where the [frames](Self::frames) may have been placed already.
+    pub fn read_placed(
+        &mut self,
+        at: &Configuration<f64>,
+        placement: Option<&Placement<f64>>,
+        time: f64,
+    ) -> &[Option<f64>] {
         let [_, rate, change] = self.of.pace.at(time);
         let [rates, changes] = &mut self.driven;
         for (i, way) in self.ways.iter().enumerate() {
@@ -226,64 +274,91 @@ impl<'q> Meter<'q> {
             };
         }
         let (mut moves, responses) = (false, &mut self.responses);
-        if let Some(motion) = &mut self.motion {
-            motion.at(at);
-            moves = motion.is_determined();
-            if self.wants.responses() {
-                motion.responses_into(responses);
-                motion.set_rates(responses, rates);
-            } else {
-                motion.rates(rates);
+        match &mut self.motion {
+            None if placement.is_some() => {}
+            None => self.placed.place(at),
+            Some(motion) => {
+                motion.placed_at(at, placement);
+                moves = motion.is_determined();
+                for (i, response) in responses.iter_mut().enumerate() {
+                    if self.wanted[i] {
+                        response.clear();
+                        response.extend_from_slice(motion.response(i));
+                    }
+                }
+                let known = self.wanted.iter().zip(&*rates);
+                match known.clone().all(|(known, rate)| *known || *rate == 0.0) {
+                    true => motion.set_rates(responses, rates),
+                    false => _ = motion.rates(rates),
+                }
+                if self.wants.order == Order::Acceleration {
+                    motion.accelerations(changes);
+                }
             }
         }
-        match (&mut self.places, &mut self.motion) {
-            (Places::Values(places), _) => places.place(at),
-            (Places::Velocities(places), Some(motion)) => places.place(motion.first_path(at)),
-            (Places::Accelerations(places), Some(motion)) => {
-                motion.accelerations(at, rates, changes);
-                places.place(motion.path(at));
-            }
-            (_, None) => unreachable!("rates are those of a motion"),
-        }
+        let motion = self.motion.as_ref();
+        let known = placement.unwrap_or(self.placed.placement());
+        let placement = motion.map_or(known, Motion::placement);
         self.forces.clear();
         if let Some(loaded) = self.loaded.as_mut().filter(|_| moves) {
             // τ δh + g δx = 0: what holds a coordinate does the work of the load
-            loaded.place(at);
-            let forces = responses.iter().map(|rates| -loaded.power(rates));
-            self.forces.extend(forces);
+            let forces = responses.iter().zip(&self.wanted);
+            self.forces
+                .extend(forces.map(|(rates, wanted)| match wanted {
+                    true => -loaded.power(rates, placement),
+                    false => f64::NAN,
+                }));
         }
-        let jacobian = self.outputs.as_mut().filter(|_| moves);
-        let jacobian = jacobian.map(|(outputs, spinning)| {
-            outputs.place(at);
+        self.figures.clear();
+        if let Some((outputs, spinning)) = self.outputs.as_mut().filter(|_| moves) {
+            let jacobian = &mut self.jacobian;
             match spinning {
-                Spinning::Nothing(spins) => outputs.normalised(at, responses, spins),
+                Spinning::Nothing(spins) => {
+                    outputs.normalised_into(jacobian, at, placement, responses, spins);
+                }
                 Spinning::Something(held) => {
                     let rest = held.tangent(at.clone());
-                    outputs.normalised(at, responses, &Spins::of(held, &rest))
+                    let spins = Spins::of(held, &rest);
+                    outputs.normalised_into(jacobian, at, placement, responses, &spins);
                 }
             }
-        });
-        let transmission = self.transmission.as_mut().map(|angles| angles.angles(at));
-        let distances = self.distances.iter_mut().flat_map(|(meter, figures)| {
-            let figures = figures.iter();
-            figures.map(move |figure| (*figure, meter.at(*figure, at)))
-        });
-        let values = jacobian.as_ref().filter(|_| self.wants.singular_values);
+            (self.figures).push((Figure::Determinant, jacobian.determinant()));
+            if self.wants.singular_values {
+                let values = jacobian.singular_values();
+                let product = values.iter().product();
+                (self.figures).push((Figure::Condition, condition(&values)));
+                (self.figures).push((Figure::Manipulability, Some(product)));
+            }
+        }
+        if let Some((meter, figures)) = &mut self.distances {
+            let figures = figures
+                .iter()
+                .map(|figure| (*figure, meter.at(*figure, at)));
+            self.figures.extend(figures);
+        }
+        self.angles.clear();
+        if let Some(transmission) = &self.transmission {
+            self.angles.extend(transmission.angles(placement));
+        }
         let found = Found {
             mechanism: self.of.question.mechanism(),
-            places: &self.places,
+            places: PlacesAt {
+                places: &self.places,
+                at,
+                placement,
+                motion,
+            },
             loose: &self.loose,
             moves,
-            rates: self.motion.as_ref().map_or([0.0; 2], Motion::largest),
-            coordinates: self.motion.as_ref().map_or(&[], Motion::coordinates),
+            rates: motion.map_or([0.0; 2], Motion::largest),
+            coordinates: motion.map_or(&[], Motion::coordinates),
             forces: &self.forces,
-            transmission: transmission.into_iter().flatten().collect(),
-            singular_values: values.map_or_else(Vec::new, Normalised::singular_values),
-            jacobian,
-            distances: distances.collect(),
+            transmission: self.transmission.as_ref(),
+            angles: &self.angles,
+            figures: &self.figures,
         };
-        for (known, name) in self.known.iter_mut().zip(&self.names) {
-            *known = found.value(name);
+        for (known, (name, number)) in self.known.iter_mut().zip(&self.names) {
+            *known = found.value(name, *number);
         }
         for (i, program) in self.programs.iter().enumerate() {
             let (value, noise) = evaluated(program, &self.known);
@@ -299,6 +374,11 @@ impl<'q> Meter<'q> {
             self.before[i] = value.or(self.before[i]);
         }
         &self.values
+    }
+
+    /// The frames that it places with those of the closures.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
     }
 
     /// The values last read.
@@ -317,111 +397,6 @@ impl<'q> Meter<'q> {
     }
 }
 
-impl Found<'_> {
-    /// The value of a name, not a number where it is not determined, and how far it may be off.
-    fn value(&self, of: &Measured) -> [f64; 2] {
-        [self.known(of).unwrap_or(f64::NAN), self.noise(of)]
-    }
-
-    /// How far the value of a name may be off: configurations are closed to 1e-12.
-    fn noise(&self, of: &Measured) -> f64 {
-        const ROUNDING: f64 = 1e-12;
-        let [rate, change] = self.rates;
-        let most = |order: Order| match order {
-            Order::Value => 1.0,
-            Order::Velocity => rate,
-            Order::Acceleration => change.max(rate * rate),
-        };
-        let length = self.mechanism.characteristic_length();
-        let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
-        let size = match *of {
-            Measured::Parameter(_) => 0.0,
-            Measured::Joint(joint, order) => {
-                self.mechanism.dimensions().joint_scales[joint] * most(order)
-            }
-            Measured::Place(_, c, order) => scale(c.is_angle()) * most(order),
-            Measured::Size(_, order) => length * most(order),
-            Measured::Transmission(_) => 10.0,
-            Measured::Force(_) | Measured::PlatformForce(..) => self
-                .forces
-                .iter()
-                .fold(0.0, |most: f64, x| most.max(x.abs())),
-            // κ = |v × a| / |v|³ by δv and δa
-            Measured::Curvature(point) => {
-                let [v, a] = [Order::Velocity, Order::Acceleration]
-                    .map(|order| self.vector(point, order).map_or(0.0, |v| v.norm()));
-                length * (change.max(rate * rate) + rate * a / v) / (v * v)
-            }
-            Measured::Figure(_) => self.known(of).map_or(0.0, f64::abs),
-        };
-        ROUNDING * size
-    }
-
-    fn known(&self, of: &Measured) -> Option<f64> {
-        match *of {
-            Measured::Parameter(parameter) => Some(self.mechanism.parameters()[parameter].value),
-            Measured::Joint(joint, order) => self.moving(self.places.joint(joint, order), order),
-            Measured::Place(point, coordinate, order) => {
-                let loose = self.loose.contains(&point.frame)
-                    && order > Order::Value
-                    && (coordinate.is_angle() || !point.is_origin());
-                self.moving(self.places.coordinate(point, coordinate, order), order)
-                    .filter(|_| !loose)
-            }
-            Measured::Size(point, order) => Some(self.vector(point, order)?.norm()),
-            // κ = |v × a| / |v|³
-            Measured::Curvature(point) => {
-                let velocity = self.vector(point, Order::Velocity)?;
-                if velocity.norm() <= self.noise(&Measured::Size(point, Order::Velocity)) {
-                    return None;
-                }
-                let across = velocity.cross(&self.vector(point, Order::Acceleration)?);
-                Some(across.norm() / velocity.norm().powi(3))
-            }
-            Measured::Force(joint) => self.force(Coordinate::Joint(joint)),
-            Measured::PlatformForce(platform, c) => self.force(Coordinate::Pose(platform, c)),
-            Measured::Transmission(closure) => {
-                let name = closure.map(|closure| &*self.mechanism.closures()[closure].name);
-                let angles = self.transmission.iter();
-                let of_it = angles.filter(|(closure, _)| name.is_none_or(|name| name == *closure));
-                of_it.filter_map(|(_, angle)| *angle).reduce(f64::min)
-            }
-            Measured::Figure(figure) => match figure {
-                Figure::Condition => {
-                    self.jacobian.as_ref()?;
-                    condition(&self.singular_values)
-                }
-                Figure::Determinant => self.jacobian.as_ref()?.determinant(),
-                Figure::Manipulability => {
-                    self.jacobian.as_ref()?;
-                    Some(self.singular_values.iter().product())
-                }
-                distance => {
-                    let mut known = self.distances.iter();
-                    known.find(|(of, _)| *of == distance)?.1
-                }
-            },
-        }
-    }
-
-    /// Place, velocity or acceleration of a point.
-    fn vector(&self, point: Point, order: Order) -> Option<Vector3<f64>> {
-        let loose = order > Order::Value && !point.is_origin() && self.loose.contains(&point.frame);
-        let known = (self.moves || order == Order::Value) && !loose;
-        known.then(|| self.places.vector(point, order))?
-    }
-
-    /// A derivative, if rates are determined.
-    fn moving(&self, value: Option<f64>, order: Order) -> Option<f64> {
-        value.filter(|_| self.moves || order == Order::Value)
-    }
-
-    fn force(&self, of: Coordinate) -> Option<f64> {
-        let place = self.coordinates.iter().position(|known| *known == of)?;
-        self.forces.get(place).copied()
-    }
-}
-
 /// The value of a quantity, if it has one, and how far it may be off, over values of names that may be. A value that
 /// only rounding keeps finite, as that of 1/x where x is nothing but rounding, is none: away from it, it shrinks.
 fn evaluated(program: &Expression<usize>, known: &[[f64; 2]]) -> (Option<f64>, f64) {
@@ -429,13 +404,22 @@ fn evaluated(program: &Expression<usize>, known: &[[f64; 2]]) -> (Option<f64>, f
         let [value, noise] = known[name];
         return (value.is_finite().then_some(value), noise);
     }
+    // uneven, so that differences of names are off too
+    let off = |name: usize| [1.0, -0.73, 0.87, -0.61][name % 4] * known[name][1];
+    let along = program.evaluate(&|&name| Dual {
+        value: known[name][0],
+        slope: off(name),
+    });
+    if let Ok(Dual { value, slope }) = along
+        && 4.0 * slope.abs() <= value.abs()
+    {
+        return (Some(value), slope.abs());
+    }
     let Ok(value) = program.evaluate(&|&name| known[name][0]) else {
         return (None, 0.0);
     };
-    // uneven, so that differences of names are off too
     let beside = [1.0, -1.0].map(|side| {
-        let off = |name: usize| side * [1.0, -0.73, 0.87, -0.61][name % 4];
-        let value = program.evaluate(&|&name| known[name][0] + off(name) * known[name][1]);
+        let value = program.evaluate(&|&name| known[name][0] + side * off(name));
         value.ok()
     });
     let shrinks = |of: &Option<f64>| of.is_some_and(|x| 2.0 * x.abs() < value.abs());

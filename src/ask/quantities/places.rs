@@ -4,38 +4,39 @@ use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{
     Configuration, Frame, Kinematics, Mechanism, Order, Placement, Point, PoseCoordinate,
 };
-use crate::number::{Dual, Number};
+use crate::system::{FrameMotions, FrameTwists, Held, Motion, System, Unknown};
 
-/// Points and joints with as many derivatives by time as are asked for.
-pub(super) enum Places {
-    Values(Placed<f64>),
-    Velocities(Placed<Dual<f64>>),
-    Accelerations(Placed<Dual<Dual<f64>>>),
+/// Frames at a configuration.
+pub(in super::super) struct Placed {
+    kinematics: Kinematics<f64>,
+    placement: Placement<f64>,
 }
 
-pub(in super::super) struct Placed<T> {
-    kinematics: Kinematics<T>,
-    placement: Placement<T>,
-    joints: Vec<T>,
-}
-
-impl<T: Number> Placed<T> {
+impl Placed {
+    /// The frames of the closures and more.
     pub fn new(mechanism: &Mechanism, frames: &[Frame]) -> Self {
-        let dimensions = mechanism.dimensions().map(&mut { T::from_f64 });
-        let kinematics = Kinematics::new(&dimensions, frames.iter().copied());
+        let nothing = Held::nothing(mechanism);
+        let system = System::placing(mechanism, mechanism.dimensions(), &nothing, frames);
+        let kinematics = system.kinematics().clone();
         Placed {
             placement: kinematics.placement(),
             kinematics,
-            joints: vec![T::zero(); mechanism.joints().len()],
         }
     }
 
-    pub fn place(&mut self, at: &Configuration<T>) {
-        self.kinematics.place(at, &mut self.placement);
-        self.joints.copy_from_slice(&at.joints);
+    pub fn kinematics(&self) -> &Kinematics<f64> {
+        &self.kinematics
     }
 
-    pub fn pose(&self, point: Point) -> Pose<T> {
+    pub fn place(&mut self, at: &Configuration<f64>) {
+        self.kinematics.place(at, &mut self.placement);
+    }
+
+    pub fn placement(&self) -> &Placement<f64> {
+        &self.placement
+    }
+
+    pub fn pose(&self, point: Point) -> Pose<f64> {
         let pose = self.kinematics.pose(point.frame, &self.placement);
         let mut pose = *pose.expect("the kinematics was planned for the frames of all points");
         pose.position = point.placed(&pose);
@@ -43,74 +44,96 @@ impl<T: Number> Placed<T> {
     }
 }
 
+/// Points, how they move, and how that changes.
+pub(super) struct Places {
+    points: Vec<Point>,
+    twists: FrameTwists<f64>,
+    motions: Option<FrameMotions>,
+    scales: Vec<f64>,
+}
+
+/// Points and joints at a configuration.
+pub(super) struct PlacesAt<'a> {
+    pub places: &'a Places,
+    pub at: &'a Configuration<f64>,
+    pub placement: &'a Placement<f64>,
+    pub motion: Option<&'a Motion>,
+}
+
 impl Places {
-    pub fn new(mechanism: &Mechanism, frames: &[Frame], order: Order) -> Self {
-        match order {
-            Order::Value => Places::Values(Placed::new(mechanism, frames)),
-            Order::Velocity => Places::Velocities(Placed::new(mechanism, frames)),
-            Order::Acceleration => Places::Accelerations(Placed::new(mechanism, frames)),
+    /// `kinematics` and `motion` place the frames of all points.
+    pub fn new(
+        mechanism: &Mechanism,
+        points: Vec<Point>,
+        kinematics: &Kinematics<f64>,
+        motion: Option<(&Motion, Order)>,
+    ) -> Self {
+        let unknowns: &[Unknown] = motion.map_or(&[], |(motion, _)| motion.unknowns());
+        let changing = motion.filter(|(_, order)| *order == Order::Acceleration);
+        let dimensions = mechanism.dimensions();
+        Places {
+            twists: FrameTwists::sharing(kinematics, dimensions, unknowns, &points),
+            motions: changing.map(|(motion, _)| FrameMotions::new(mechanism, motion, &points)),
+            scales: dimensions.joint_scales.clone(),
+            points,
         }
     }
 
+    /// The number of a point.
+    pub fn number(&self, point: Point) -> Option<usize> {
+        self.points.iter().position(|known| *known == point)
+    }
+}
+
+impl PlacesAt<'_> {
     pub fn joint(&self, joint: usize, order: Order) -> Option<f64> {
-        match self {
-            Places::Values(of) => of.joints[joint].derivative(order),
-            Places::Velocities(of) => of.joints[joint].derivative(order),
-            Places::Accelerations(of) => of.joints[joint].derivative(order),
-        }
+        let known = match order {
+            Order::Value => return Some(self.at.joints[joint]),
+            Order::Velocity => self.motion?.known()[0],
+            Order::Acceleration => self.motion?.known()[1],
+        };
+        Some(known[joint] * self.places.scales[joint])
     }
 
-    pub fn coordinate(&self, point: Point, c: PoseCoordinate, order: Order) -> Option<f64> {
-        match self {
-            Places::Values(of) => c.of(&of.pose(point)).derivative(order),
-            Places::Velocities(of) => c.of(&of.pose(point)).derivative(order),
-            Places::Accelerations(of) => c.of(&of.pose(point)).derivative(order),
+    /// A coordinate of the point of that number, or of the orientation of its frame.
+    pub fn coordinate(&self, i: usize, c: PoseCoordinate, order: Order) -> Option<f64> {
+        if !c.is_angle() {
+            return Some(self.vector(i, order)?.0[c as usize]);
         }
-    }
-}
-
-impl Places {
-    /// Where a point is, or how it moves.
-    pub fn vector(&self, point: Point, order: Order) -> Option<Vector3<f64>> {
-        fn of<T: Moving>(position: Vector3<T>, order: Order) -> Option<Vector3<f64>> {
-            let [x, y, z] = position.0.map(|part| part.derivative(order));
-            Some(Vector3([x?, y?, z?]))
-        }
-        match self {
-            Places::Values(places) => of(places.pose(point).position, order),
-            Places::Velocities(places) => of(places.pose(point).position, order),
-            Places::Accelerations(places) => of(places.pose(point).position, order),
-        }
-    }
-}
-
-/// A number that may have derivatives by time.
-trait Moving {
-    fn derivative(self, order: Order) -> Option<f64>;
-}
-
-impl Moving for f64 {
-    fn derivative(self, order: Order) -> Option<f64> {
-        (order == Order::Value).then_some(self)
-    }
-}
-
-impl Moving for Dual<f64> {
-    fn derivative(self, order: Order) -> Option<f64> {
+        let Places {
+            twists, motions, ..
+        } = self.places;
         match order {
-            Order::Value => Some(self.value),
-            Order::Velocity => Some(self.slope),
-            Order::Acceleration => None,
+            Order::Value => Some(c.of(twists.frame(i, self.placement))),
+            Order::Velocity => {
+                let turn = twists
+                    .twist(i, self.placement, self.motion?.known()[0])
+                    .omega;
+                Some(c.turned(twists.frame(i, self.placement), &turn))
+            }
+            Order::Acceleration => {
+                let (motions, changes) = (motions.as_ref()?, self.motion?.changes());
+                let turn = motions.twist(i, changes).omega;
+                Some(c.turned(motions.frame(i, changes.1), &turn).slope)
+            }
         }
     }
-}
 
-impl Moving for Dual<Dual<f64>> {
-    fn derivative(self, order: Order) -> Option<f64> {
-        Some(match order {
-            Order::Value => self.value.value,
-            Order::Velocity => self.slope.value,
-            Order::Acceleration => self.slope.slope,
-        })
+    /// Where the point of that number is, or how it moves.
+    pub fn vector(&self, i: usize, order: Order) -> Option<Vector3<f64>> {
+        let Places {
+            twists, motions, ..
+        } = self.places;
+        match order {
+            Order::Value => Some(twists.origin(i, self.placement)),
+            Order::Velocity => {
+                let twist = twists.twist(i, self.placement, self.motion?.known()[0]);
+                Some(twist.velocity)
+            }
+            Order::Acceleration => {
+                let twist = motions.as_ref()?.twist(i, self.motion?.changes());
+                Some(Vector3(twist.velocity.0.map(|part| part.slope)))
+            }
+        }
     }
 }

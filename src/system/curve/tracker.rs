@@ -1,5 +1,5 @@
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, PoseCoordinate};
+use crate::mechanism::{Configuration, Placement, PoseCoordinate};
 use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 use crate::system::{System, Work};
 
@@ -48,6 +48,11 @@ impl<T: Factorable> MotionTracker<T> {
     /// were asked for.
     pub fn configuration(&self) -> &Configuration<T> {
         &self.configuration
+    }
+
+    /// The frames of the equations at a solution, until something else is asked for.
+    pub fn placement(&self) -> &Placement<T> {
+        self.system.placement(&self.work)
     }
 
     /// Asks for another value, in m or rad, of a platform coordinate held alone.

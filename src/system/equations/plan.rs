@@ -14,6 +14,9 @@ pub(super) struct ClosurePlan<T> {
     pub block_row: usize,
     pub block_rows: usize,
     pub movers: Vec<(Side, Mover<T>, usize)>,
+    /// Joints that change the length of a rod, held ones too.
+    pub extending: Vec<usize>,
+    /// The free ones of these with their columns.
     pub extensions: Vec<(usize, usize)>,
     /// Columns of movers and extensions, each once: sums are made there.
     pub sums: Vec<usize>,
@@ -35,9 +38,10 @@ impl<T: Factorable> ClosurePlan<T> {
             .flat_map(|(&side, movers)| movers.iter().map(move |m| (side, *m)))
             .filter_map(|(side, m)| Some((side, m, column(Unknown::Joint(m.joint))?)))
             .collect();
-        let extensions: Vec<(usize, usize)> = (closure.joints().into_iter())
-            .filter(|&joint| closure.extends_with(joint))
-            .filter_map(|joint| Some((joint, column(Unknown::Joint(joint))?)))
+        let extending = closure.joints().into_iter();
+        let extending: Vec<usize> = extending.filter(|&j| closure.extends_with(j)).collect();
+        let extensions: Vec<(usize, usize)> = (extending.iter())
+            .filter_map(|&joint| Some((joint, column(Unknown::Joint(joint))?)))
             .collect();
         let moved = movers.iter().map(|(_, _, column)| *column);
         let mut sums: Vec<usize> = moved.chain(extensions.iter().map(|e| e.1)).collect();
@@ -50,6 +54,7 @@ impl<T: Factorable> ClosurePlan<T> {
             block_row,
             block_rows: layout.blocks[block].rows,
             movers,
+            extending,
             extensions,
             sums,
             platforms: (sides.into_iter().zip(closure.platforms))

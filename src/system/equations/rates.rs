@@ -5,10 +5,70 @@ use super::{System, Work};
 use crate::geometry::Rotation;
 use crate::linear::{CANCELLED, Factorable, Qr};
 use crate::mechanism::PoseCoordinate;
+use crate::mechanism::{Configuration, Side};
 use crate::number::Extent;
 use crate::solve::Equations;
 
 impl<T: Factorable> System<T> {
+    /// The rates of all rows, where its frames were last placed, for rates of all joints, then of the six twist
+    /// components of each platform, held ones too; what platform coordinates are held at stands still. They take the
+    /// place of the residual.
+    pub fn row_rates<'a>(
+        &self,
+        at: &Configuration<T>,
+        rates: &[T],
+        work: &'a mut Work<T>,
+    ) -> &'a mut [T] {
+        let twist = |platform: usize| {
+            let first = self.joint_scales.len() + 6 * platform;
+            &rates[first..first + 6]
+        };
+        for (plan, closure) in self.plans.iter().zip(&self.closures) {
+            let rows = closure.rows(&work.placement, at);
+            let out = &mut work.residual[plan.row..plan.row + plan.rows];
+            out.fill(T::zero());
+            let sides = closure.movers.iter().zip(closure.platforms);
+            for (side, (movers, platform)) in [Side::A, Side::B].into_iter().zip(sides) {
+                let moving = movers.iter().map(|mover| (mover, rates[mover.joint]));
+                let moving = moving.filter(|(_, rate)| *rate != T::zero());
+                let platform = platform.map(|platform| (platform, twist(platform)));
+                let point = rows.velocity_point(side);
+                let (omega, v) = (work.placement).carried(moving, platform, point, self.length);
+                rows.rates(side, &omega, &v, out);
+            }
+            for &joint in &plan.extending {
+                out[0] += closure.length_column(joint, at) * rates[joint];
+            }
+        }
+        let mut row = self.hold_rows().start;
+        for hold in &self.holds {
+            let out = &mut work.residual[row..row + hold.rows()];
+            let along = |slope: &[T], twist: &[T]| {
+                let products = slope.iter().zip(twist).map(|(s, t)| *s * *t);
+                products.fold(T::zero(), |sum, x| sum + x)
+            };
+            match hold {
+                HoldRow::Coordinate(platform, coordinate, _) => {
+                    let slope = coordinate.slope(work.placement.pose(1 + platform));
+                    out[0] = along(&slope, twist(*platform));
+                }
+                HoldRow::Spin(spin) => {
+                    let (_, slope) = spin.row(&at.platforms[spin.platform].orientation);
+                    out[0] = along(&slope, twist(spin.platform));
+                }
+                // the deviation from where it is at this instant
+                HoldRow::Orientation(platform, _) => out.copy_from_slice(&twist(*platform)[..3]),
+            }
+            row += hold.rows();
+        }
+        &mut work.residual
+    }
+
+    /// The residual as it stands, to be replaced.
+    pub fn residual_mut<'a>(&self, work: &'a mut Work<T>) -> &'a mut [T] {
+        &mut work.residual
+    }
+
     /// The step last computed, in the order of the unknowns, dimensionless.
     pub fn step_of<'a>(&self, work: &'a Work<T>) -> &'a [T] {
         &work.step

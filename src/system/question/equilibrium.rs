@@ -2,7 +2,7 @@
 
 use super::Load;
 use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot};
-use crate::mechanism::{Configuration, Mechanism, Placement, Point};
+use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, Point};
 use crate::system::{Coordinate, FrameTwists, Neighbourhood, Tangent, Unknown};
 
 /// Forces that balance a load: g + Jᵀλ + Sᵀτ = 0 with the generalised forces g of the load, the closure Jacobian J
@@ -63,12 +63,14 @@ impl Equilibrium {
 /// The work of a load for a unit of each unknown, in N·m.
 fn generalised(near: &Neighbourhood, at: &Configuration<f64>, load: &Load) -> Vec<f64> {
     let unknowns = near.system().unknowns();
-    let mut loaded = Loaded::new(near.mechanism(), unknowns, load);
-    loaded.place(at);
+    let kinematics = Kinematics::new(near.mechanism().dimensions(), Loaded::frames(load));
+    let loaded = Loaded::new(near.mechanism(), unknowns, load, &kinematics);
+    let mut placement = kinematics.placement();
+    kinematics.place(at, &mut placement);
     let mut rates = vec![0.0; unknowns.len()];
     let powers = (0..unknowns.len()).map(|k| {
         rates[k] = 1.0;
-        let power = loaded.power(&rates);
+        let power = loaded.power(&rates, &placement);
         rates[k] = 0.0;
         power
     });
@@ -79,7 +81,6 @@ fn generalised(near: &Neighbourhood, at: &Configuration<f64>, load: &Load) -> Ve
 #[derive(Clone, Debug)]
 pub struct Loaded {
     twists: FrameTwists<f64>,
-    placement: Placement<f64>,
     /// Force and moment at each of the points.
     wrenches: Vec<([f64; 3], [f64; 3])>,
     /// Unknowns with the loads along them, in N·m.
@@ -87,17 +88,27 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// Frames that must be placed.
+    pub fn frames(load: &Load) -> impl Iterator<Item = Frame> {
+        load.wrenches.iter().map(|(point, ..)| point.frame)
+    }
+
     /// For rates of these unknowns.
-    pub fn new(mechanism: &Mechanism, unknowns: &[Unknown], load: &Load) -> Self {
+    pub fn new(
+        mechanism: &Mechanism,
+        unknowns: &[Unknown],
+        load: &Load,
+        kinematics: &Kinematics<f64>,
+    ) -> Self {
         let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
-        let twists = FrameTwists::new(mechanism.dimensions(), unknowns, &points);
+        let dimensions = mechanism.dimensions();
+        let twists = FrameTwists::sharing(kinematics, dimensions, unknowns, &points);
         let scales = &mechanism.dimensions().joint_scales;
         let joints = load.joints.iter().filter_map(|&(joint, force)| {
             let column = unknowns.iter().position(|u| *u == Unknown::Joint(joint))?;
             Some((column, force * scales[joint]))
         });
         Loaded {
-            placement: twists.placement(),
             wrenches: (load.wrenches.iter())
                 .map(|&(_, force, moment)| (force, moment))
                 .collect(),
@@ -106,16 +117,11 @@ impl Loaded {
         }
     }
 
-    /// Goes to a configuration.
-    pub fn place(&mut self, at: &Configuration<f64>) {
-        self.twists.place(at, &mut self.placement);
-    }
-
     /// The power for rates of the unknowns, which are dimensionless per s: in W.
-    pub fn power(&self, rates: &[f64]) -> f64 {
+    pub fn power(&self, rates: &[f64], placement: &Placement<f64>) -> f64 {
         let wrenches = self.wrenches.iter().enumerate();
         let wrenches = wrenches.map(|(i, (force, moment))| {
-            let twist = self.twists.twist(i, &self.placement, rates);
+            let twist = self.twists.twist(i, placement, rates);
             dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0)
         });
         let joints = self.joints.iter().map(|&(k, force)| force * rates[k]);

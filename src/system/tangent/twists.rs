@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::{Axis, Vector3};
+use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Frame, Kinematics, Mover, Placement, Point};
 use crate::number::Number;
 use crate::system::{Places, Unknown};
@@ -39,6 +39,7 @@ pub struct FrameTwists<T> {
 #[derive(Clone, Debug)]
 struct Plan<T> {
     point: Point,
+    slot: usize,
     /// Joints on the way with the columns of their rates.
     movers: Vec<(Mover<T>, usize)>,
     /// The platform that carries it and the column of its first twist component.
@@ -52,17 +53,33 @@ impl<T: Number> FrameTwists<T> {
         unknowns: &[Unknown],
         points: &[impl Copy + Into<Point>],
     ) -> Self {
-        let points: Vec<Point> = points.iter().map(|&point| point.into()).collect();
-        let kinematics = Kinematics::new(dimensions, points.iter().map(|point| point.frame));
+        let frames = points.iter().map(|&point| point.into().frame);
+        FrameTwists::sharing(
+            &Kinematics::new(dimensions, frames),
+            dimensions,
+            unknowns,
+            points,
+        )
+    }
+
+    /// The same for frames that are placed together with others.
+    pub fn sharing(
+        kinematics: &Kinematics<T>,
+        dimensions: &Dimensions<T>,
+        unknowns: &[Unknown],
+        points: &[impl Copy + Into<Point>],
+    ) -> Self {
+        let points = points.iter().map(|&point| -> Point { point.into() });
         let places = Places::new(unknowns);
         let column = |unknown| places.of(unknown);
-        let plans = points.into_iter().map(|point| {
+        let plans = points.map(|point| {
             let slot = kinematics
                 .slot(point.frame)
                 .expect("the plan was made for it");
             let (movers, platform) = kinematics.movers(slot, &dimensions.joint_scales);
             Plan {
                 point,
+                slot,
                 movers: (movers.into_iter())
                     .filter_map(|mover| Some((mover, column(Unknown::Joint(mover.joint))?)))
                     .collect(),
@@ -73,7 +90,7 @@ impl<T: Number> FrameTwists<T> {
         FrameTwists {
             plans: plans.collect(),
             length: dimensions.characteristic_length,
-            kinematics,
+            kinematics: kinematics.clone(),
         }
     }
 
@@ -104,19 +121,19 @@ impl<T: Number> FrameTwists<T> {
         placement
     }
 
+    /// The pose of the frame of point `i`, in ground.
+    pub fn frame<'a>(&self, i: usize, placement: &'a Placement<T>) -> &'a Pose<T> {
+        placement.pose(self.plans[i].slot)
+    }
+
     /// Point `i`, in ground, in m.
     pub fn origin(&self, i: usize, placement: &Placement<T>) -> Vector3<T> {
-        let point = &self.plans[i].point;
-        let pose = self.kinematics.pose(point.frame, placement);
-        point.placed(pose.expect("the plan was made for it"))
+        self.plans[i].point.placed(self.frame(i, placement))
     }
 
     /// The z axis of the frame of point `i`, in ground.
     pub fn axis(&self, i: usize, placement: &Placement<T>) -> Vector3<T> {
-        let pose = self.kinematics.pose(self.plans[i].point.frame, placement);
-        pose.expect("the plan was made for it")
-            .rotation
-            .column(Axis::Z)
+        self.frame(i, placement).rotation.column(Axis::Z)
     }
 
     /// The twist at point `i`. Nothing allocates.
@@ -125,22 +142,9 @@ impl<T: Number> FrameTwists<T> {
             movers, platform, ..
         } = &self.plans[i];
         let point = self.origin(i, placement);
-        let mut twist = Twist {
-            omega: Vector3::zero(),
-            velocity: Vector3::zero(),
-        };
-        for (mover, column) in movers {
-            let (omega, velocity) = placement.twist(mover, &point);
-            twist.omega += omega.times(rates[*column]);
-            twist.velocity += velocity.times(rates[*column]);
-        }
-        if let Some((platform, first)) = *platform {
-            let omega = Vector3([rates[first], rates[first + 1], rates[first + 2]]);
-            let shift = [3, 4, 5].map(|k| rates[first + k].scale(self.length));
-            let arm = point - placement.pose(1 + platform).position;
-            twist.omega += omega;
-            twist.velocity += Vector3(shift) + omega.cross(&arm);
-        }
-        twist
+        let movers = movers.iter().map(|(mover, column)| (mover, rates[*column]));
+        let platform = platform.map(|(platform, first)| (platform, &rates[first..first + 6]));
+        let (omega, velocity) = placement.carried(movers, platform, &point, self.length);
+        Twist { omega, velocity }
     }
 }

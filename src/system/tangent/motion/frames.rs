@@ -2,16 +2,14 @@
 
 use super::super::twists::{FrameTwists, Twist};
 use super::Motion;
-use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Mechanism, Placement, Point};
+use crate::geometry::{Pose, Vector3};
+use crate::mechanism::{Mechanism, Placement, Point};
 use crate::number::Dual;
 
 /// How frames move: positions, twists and their rates of change.
 #[derive(Clone, Debug)]
 pub struct FrameMotions {
     twists: FrameTwists<Dual<f64>>,
-    placement: Placement<Dual<f64>>,
-    rates: Vec<Dual<f64>>,
 }
 
 /// The motion of a frame in ground, to second order.
@@ -26,34 +24,36 @@ pub struct FrameMotion {
 }
 
 impl FrameMotions {
-    /// For points, or origins of frames, of a mechanism.
+    /// For points, or origins of frames, that a motion places.
     pub fn new(mechanism: &Mechanism, motion: &Motion, points: &[impl Copy + Into<Point>]) -> Self {
         let dimensions = mechanism.dimensions().map(&mut Dual::constant);
-        let twists = FrameTwists::new(&dimensions, motion.unknowns(), points);
+        let kinematics = motion.changing.system.kinematics();
         FrameMotions {
-            placement: twists.placement(),
-            rates: vec![Dual::constant(0.0); motion.unknowns().len()],
-            twists,
+            twists: FrameTwists::sharing(kinematics, &dimensions, motion.unknowns(), points),
         }
     }
 
-    /// Places the frames for the rates and accelerations last computed. Nothing allocates.
-    pub fn place(&mut self, motion: &mut Motion, at: &Configuration<f64>) {
-        motion.follow_rates(at);
-        self.twists.place(&motion.first_path, &mut self.placement);
-        let both = motion.rates.iter().zip(&motion.accelerations);
-        for (rate, (&value, &slope)) in self.rates.iter_mut().zip(both) {
-            *rate = Dual { value, slope };
-        }
+    /// The pose of the frame of point `i`, as it changes.
+    pub fn frame<'a>(&self, i: usize, placement: &'a Placement<Dual<f64>>) -> &'a Pose<Dual<f64>> {
+        self.twists.frame(i, placement)
     }
 
-    /// The motion at point `i`. Nothing allocates.
-    pub fn motion(&self, i: usize) -> FrameMotion {
-        let twist = self.twists.twist(i, &self.placement, &self.rates);
+    /// The twist at point `i`, as it [changes](Motion::changes). Nothing allocates.
+    pub fn twist(
+        &self,
+        i: usize,
+        (rates, placement): (&[Dual<f64>], &Placement<Dual<f64>>),
+    ) -> Twist<Dual<f64>> {
+        self.twists.twist(i, placement, rates)
+    }
+
+    /// The motion at point `i`, as it [changes](Motion::changes). Nothing allocates.
+    pub fn motion(&self, i: usize, changes: (&[Dual<f64>], &Placement<Dual<f64>>)) -> FrameMotion {
+        let twist = self.twist(i, changes);
         let value = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.value));
         let slope = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.slope));
         FrameMotion {
-            position: value(self.twists.origin(i, &self.placement)),
+            position: value(self.twists.origin(i, changes.1)),
             twist: Twist {
                 omega: value(twist.omega),
                 velocity: value(twist.velocity),

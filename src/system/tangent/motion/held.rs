@@ -60,21 +60,3 @@ fn partly(
         HeldPlatform::Free | HeldPlatform::Pose => unreachable!("made so above"),
     }
 }
-
-/// The angular velocity (or acceleration) given to the orientation of a platform, if that is held
-/// by turns.
-pub(super) fn turning(
-    coordinates: &[Coordinate],
-    given: &[f64],
-    platform: usize,
-) -> Option<[f64; 3]> {
-    let mut turns = None;
-    for (coordinate, &value) in coordinates.iter().zip(given) {
-        if let Coordinate::Turn(of, axis) = *coordinate
-            && of == platform
-        {
-            turns.get_or_insert([0.0; 3])[axis as usize] = value;
-        }
-    }
-    turns
-}
