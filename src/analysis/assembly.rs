@@ -288,16 +288,22 @@ impl Reporter<'_> {
         let mechanism = self.mechanism;
         let gaps = Gap::of(mechanism, &attempt.at);
         let at = self.by_limits(attempt.at);
-        let joints = mechanism.joints().iter().zip(&at.joints);
+        let held = &self.search.held().joints;
+        // of the coordinates of points those that are asked for
+        let listed = |joint: &usize| held[*joint] || !mechanism.is_of_point(*joint);
+        let listed: Vec<usize> = (0..held.len()).filter(listed).collect();
+        let joints = listed
+            .iter()
+            .map(|&i| (i, &mechanism.joints()[i], at.joints[i]));
         let platforms = mechanism.platforms().iter().zip(&at.platforms);
-        let tips = (0..mechanism.chains().len()).map(|chain| Frame::Tip { chain });
+        let [own_chains, _] = mechanism.own_parts();
+        let tips = (0..own_chains).map(|chain| Frame::Tip { chain });
         let tips = mechanism.placed(&tips.collect::<Vec<_>>(), &at);
         let frames = mechanism.chains().iter().zip(&tips);
         let frames = frames.filter(|(part, _)| mechanism.is_given(&part.name));
         let ground = Pose::identity().inverse();
         let frames =
             frames.map(|(part, pose)| (part.name.clone(), FrameRecord::of(&(ground * *pose))));
-        let held = &self.search.held().joints;
         AssemblyReport {
             mechanism: mechanism.name().into(),
             near_singular: attempt.report.stop == Stop::Solved
@@ -319,18 +325,19 @@ impl Reporter<'_> {
             gaps: (mechanism.closures().iter().zip(gaps))
                 .map(|(closure, gap)| (closure.name.clone(), gap))
                 .collect(),
-            variables: joints
-                .zip(held)
-                .map(|((joint, &value), &held)| JointVariable {
+            variables: (joints.clone())
+                .map(|(i, joint, value)| JointVariable {
                     name: joint.name.clone(),
                     unit: SiUnit::of_coordinate(joint.kind.is_angle()),
                     role: joint.role,
-                    held,
+                    held: held[i],
                     limits: joint.limits,
                     within_limits: joint.allows(value),
                 })
                 .collect(),
-            joints: mechanism.named_joints(&at.joints),
+            joints: joints
+                .map(|(_, joint, value)| (joint.name.clone(), value))
+                .collect(),
             squared_lengths: false,
             warnings: (mechanism.warnings().iter())
                 .map(|problem| problem.kind.title())

@@ -92,7 +92,9 @@ pub fn mobility(
         let unknowns = near.system().unknowns().iter().zip(moved);
         unknowns
             .filter_map(|(unknown, &moved)| match *unknown {
-                Unknown::Joint(_) if moved => Some(unknown.owner(mechanism).to_owned()),
+                Unknown::Joint(joint) if moved && !mechanism.is_of_point(joint) => {
+                    Some(unknown.owner(mechanism).to_owned())
+                }
                 _ => None,
             })
             .collect()
@@ -114,19 +116,20 @@ pub fn mobility(
     let redundancies = redundancy::find(&mut near, &tangent);
     let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &idle_beside);
     let known: HashSet<&String> = moving_joints.iter().collect();
-    let idle_joints: Vec<String> = (mechanism.joints().iter().zip(&held.joints))
-        .filter(|(_, locked)| !**locked)
-        .map(|(joint, _)| joint.name.clone())
+    let idle_joints: Vec<String> = (mechanism.joints().iter().enumerate())
+        .filter(|(joint, _)| !held.joints[*joint] && !mechanism.is_of_point(*joint))
+        .map(|(_, joint)| joint.name.clone())
         .filter(|name| !known.contains(name))
         .collect();
     let spins = |name: &&String| idle_freedoms.iter().any(|freedom| freedom.moves(name));
+    let slides = mechanism.slides_of_points();
     let mut report = MobilityReport {
         mechanism: mechanism.name().into(),
         variables: Variable::joints(mechanism),
         locked: names(mechanism, &held, &locking),
         mobility: found.freedoms,
         kutzbach: unknowns as i64 - rows as i64,
-        rank: tangent.decomposition.rank(),
+        rank: tangent.decomposition.rank() - slides,
         infinitesimal: tangent.motions.len(),
         redundant: rows - tangent.decomposition.rank(),
         spinning_joints: idle_joints.iter().filter(spins).cloned().collect(),
@@ -145,8 +148,8 @@ pub fn mobility(
             true => 0,
             false => settings.elsewhere,
         },
-        unknowns,
-        equations: rows,
+        unknowns: unknowns - slides,
+        equations: rows - slides,
         locking: near.system().hold_rows().len(),
         idle_freedoms,
         loops: loops::count(&mut near, &closed.configuration),
@@ -187,6 +190,7 @@ fn elsewhere(
     // always the same starts: whether the mobility depends on the assembly is a property of the mechanism
     let rng = &mut Pcg64Mcg::seed_from_u64(1);
     let mechanism = near.mechanism();
+    let slides = mechanism.slides_of_points();
     let mut found: Vec<Elsewhere> = Vec::new();
     for start in 0..here.elsewhere_starts {
         if watch.stops(Stage::Starts, start, Some(here.elsewhere_starts)) {
@@ -197,7 +201,7 @@ fn elsewhere(
         let Some(at) = near.solve(&Newton::default(), start) else {
             continue;
         };
-        if here.character == Character::Regular && near.rank(&at) == here.rank {
+        if here.character == Character::Regular && near.rank(&at) == here.rank + slides {
             continue;
         }
         let tangent = near.tangent(at).lasting(near).tangent;

@@ -138,7 +138,16 @@ pub fn statics(
         unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
     });
     let actuators = actuators.collect();
-    let (closures, joints) = found.marked(&changes, length);
+    let (mut closures, mut joints) = found.marked(&changes, length);
+    // what makes coordinates of points joints carries only what holds these
+    closures.truncate(mechanism.own_parts()[1]);
+    joints.retain(|joint| {
+        !mechanism
+            .joints()
+            .iter()
+            .enumerate()
+            .any(|(i, of)| mechanism.is_of_point(i) && joint.variables.contains(&of.name))
+    });
     let unbalanced = unbalanced(mechanism, &unknowns, &left, norm(&generalised));
     Ok(Analysed::Closed(StaticsReport {
         mechanism: mechanism.name().to_owned(),

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Row, Symbol};
-use super::{ClosureKind, Convention, Frame, Mechanism, NamedPoint, Point, Role};
+use super::{Body, ClosureKind, Convention, Frame, Mechanism, NamedPoint, Point, Role};
 use crate::algebra::Affine;
 use crate::description::first_free;
 use crate::geometry::Axis;
@@ -47,6 +47,28 @@ impl Mechanism {
         self.joints[joint].name.contains('.')
     }
 
+    /// How many points have coordinates among the joints.
+    fn points_as_joints(&self) -> usize {
+        let joints = 0..self.joints.len();
+        joints.filter(|&joint| self.is_of_point(joint)).count() / 3
+    }
+
+    /// How many chains and closures there are but for those that make coordinates of points joints, which come last.
+    pub fn own_parts(&self) -> [usize; 2] {
+        let points = self.points_as_joints();
+        [self.chains.len() - 2 * points, self.closures.len() - points]
+    }
+
+    /// How many unknowns and equations, of equal number and independent, make coordinates of points joints.
+    pub fn slides_of_points(&self) -> usize {
+        3 * self.points_as_joints()
+    }
+
+    /// Whether a body is one of the slides that make coordinates of a point joints.
+    pub fn is_slide_of_point(&self, body: Body) -> bool {
+        matches!(body, Body::Link { chain, .. } if chain >= self.own_parts()[0])
+    }
+
     /// The mechanism with a point closed by a ball to the end of a chain of slides, each with its home value and α and
     /// θ of its row; what is added is called after the point.
     fn with_slides(
@@ -86,7 +108,7 @@ impl Mechanism {
         ];
         let tips = chains.map(|(on, base, rows)| {
             let name = match cut.chains.len() == self.chains.len() {
-                true => cut.free_name(&format!("coordinates of {called}")),
+                true => cut.free_name(&format!("slides of {called}")),
                 false => cut.free_name(called),
             };
             cut.chains.push(Chain {

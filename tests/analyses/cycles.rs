@@ -200,6 +200,31 @@ fn a_coordinate_of_a_point_is_held_as_a_joint_is() {
     let x = question.mechanism().joint("left.2+1.2,0.8.x").unwrap();
     assert!((found.configuration.joints[x] - wanted[0]).abs() < 1e-10);
     assert_eq!(question.count().unwrap().mobility, Some(1));
+    // reports list what was asked for, not the slides that make it a joint
+    let mobility = question.mobility(&Watch::none()).unwrap();
+    let mobility = mobility.report().unwrap();
+    let plain = Question::new(load("four_bar")).mobility(&Watch::none());
+    let plain = plain.unwrap();
+    let plain = plain.report().unwrap();
+    assert_eq!(mobility.moving_joints, plain.moving_joints);
+    assert_eq!(mobility.idle_joints, plain.idle_joints);
+    assert_eq!(
+        (mobility.unknowns, mobility.equations, mobility.rank),
+        (plain.unknowns, plain.equations, plain.rank)
+    );
+    assert_eq!(
+        (mobility.loops.len(), mobility.twists.len()),
+        (1, plain.twists.len())
+    );
+    let velocity = question.velocity(&Watch::none()).unwrap();
+    let joints = velocity.report().unwrap().joints.iter();
+    let joints: Vec<&str> = joints.map(|joint| &*joint.name).collect();
+    assert_eq!(joints, ["theta1", "phi2", "phi1", "left.2+1.2,0.8.y"]);
+    let statics = question.clone().load("phi1", 1.0).statics(&Watch::none());
+    let statics = statics.unwrap();
+    let statics = statics.report().unwrap();
+    assert_eq!((statics.closures.len(), statics.joints.len()), (1, 3));
+    assert_eq!(statics.actuators[0].name, "left.2+1.2,0.8.y");
     // crank and coupler together reach no farther
     let far = Question::new(load("four_bar"))
         .free("theta1")

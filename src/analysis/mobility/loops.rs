@@ -30,7 +30,9 @@ pub struct LoopCount {
 
 pub(super) fn count(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopCount> {
     let mechanism = near.mechanism();
+    let own = &mechanism.closures()[..mechanism.own_parts()[1]];
     let loops = loops(near, at).into_iter();
+    let loops = loops.filter(|found| own.iter().any(|closure| closure.name == found.closure));
     loops
         .map(|found| {
             let twists = twists(&found).concat();
