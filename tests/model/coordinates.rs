@@ -204,6 +204,29 @@ fn the_same_questions_have_the_same_answers() {
 }
 
 #[test]
+fn shipped_mechanisms_have_the_same_freedoms_when_written_by_coordinates() {
+    for path in shipped() {
+        let (mechanism, made) = by_coordinates(&path);
+        let found = [mechanism, made].map(|mechanism| {
+            let question = Question::new(mechanism);
+            let report = question.mobility(&Watch::none()).unwrap();
+            let report = report.report().map(|report| {
+                let idle = (report.idle_joints.len(), report.spinning_joints.len());
+                (
+                    report.mobility,
+                    report.kutzbach,
+                    report.rank,
+                    report.infinitesimal,
+                    idle,
+                )
+            });
+            report.unwrap_or_else(|| panic!("{path:?} is not assembled"))
+        });
+        assert_eq!(found[0], found[1], "{path:?}");
+    }
+}
+
+#[test]
 fn converted_closed_forms_are_tried() {
     let settings = CompareSettings {
         samples: 12,
