@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::description::AxisCondition;
 use crate::geometry::Quaternion;
-use crate::mechanism::{Configuration, Kinematics, Mechanism};
+use crate::mechanism::{Configuration, Mechanism};
 
 /// How far a closure is open.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
