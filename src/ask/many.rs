@@ -50,8 +50,8 @@ impl Question {
     ///
     /// The way begins at the configuration of the question, in its mode, and goes straight from row to row, so that no
     /// row is on another branch than the row before it unless a way between them is lost; every 256th row is come to
-    /// from the beginning. Rows in no order, most of them far from the one before, are followed through their box from
-    /// neighbour to neighbour. Eight ways are followed side by side in the lanes of a vector register, on all cores, with
+    /// from the beginning. Values of one coordinate in no order, most of them far from the one before, are followed from the
+    /// least to the greatest. Eight ways are followed side by side in the lanes of a vector register, on all cores, with
     /// the same results on any number of them. A row that no way leads to, as beyond a dead point, is not reached.
     ///
     /// # Errors
@@ -177,46 +177,20 @@ impl Follower<'_> {
         &self.values[row * width..(row + 1) * width]
     }
 
-    /// A way through rows in no order: to and fro along the last coordinate, from one strip to the next along those
-    /// before it. Empty where most rows are near the one before, as on a path.
+    /// The order of the values of one coordinate, where most rows are far from the one before; else that of the rows. In
+    /// several coordinates rows beside each other may lie on two sides of a fold, and no order is better than another.
     fn order(&self, rows: usize) -> Vec<u32> {
         let far = |row: &usize| self.distance(self.row(row - 1), self.row(*row)) > LONGEST;
-        let Ok(count) = u32::try_from(rows) else {
+        let (1, Ok(count)) = (self.coordinates.len(), u32::try_from(rows)) else {
             return Vec::new();
         };
         if 2 * (1..rows).filter(far).count() <= rows {
             return Vec::new();
         }
-        let width = self.coordinates.len();
-        let ends: Vec<(f64, f64)> = (0..width)
-            .map(|i| {
-                let column = self.values.iter().skip(i).step_by(width);
-                column.fold((f64::MAX, f64::MIN), |(least, most), x| {
-                    (least.min(*x), most.max(*x))
-                })
-            })
-            .collect();
-        // as many strips as give each of them as many rows along as there are strips across
-        let strips = (rows as f64).powf(1.0 / width as f64).ceil();
-        let key = |row: u32| {
-            let values = self.row(row as usize).iter().zip(&ends);
-            let parts = values.map(|(x, (least, most))| ((x - least) / (most - least)).max(0.0));
-            let (mut strip, mut along) = (0_u64, 0.0);
-            for (i, part) in parts.enumerate() {
-                // every other strip is gone back
-                along = if strip % 2 == 1 { 1.0 - part } else { part };
-                if i + 1 < width {
-                    let cell = (along * strips).min(strips - 1.0) as u64;
-                    strip = strip.wrapping_mul(strips as u64).wrapping_add(cell);
-                }
-            }
-            (strip, along)
-        };
-        let mut keyed: Vec<((u64, f64), u32)> = (0..count).map(|row| (key(row), row)).collect();
-        keyed.sort_unstable_by(|((a, x), i), ((b, y), j)| {
-            a.cmp(b).then(x.total_cmp(y)).then(i.cmp(j))
-        });
-        keyed.into_iter().map(|(_, row)| row).collect()
+        let mut order: Vec<u32> = (0..count).collect();
+        let value = |row: u32| self.values[row as usize];
+        order.sort_by(|a, b| value(*a).total_cmp(&value(*b)));
+        order
     }
 
     /// Solves for other held values.
