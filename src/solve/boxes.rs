@@ -67,13 +67,6 @@ pub struct Pruned {
     pub waiting: Vec<Sides>,
 }
 
-impl Pruned {
-    /// Whether every zero is in one of the regions given.
-    pub fn is_complete(&self) -> bool {
-        self.found.is_empty() && self.left.is_empty() && self.waiting.is_empty()
-    }
-}
-
 /// A box round a point that holds one zero at most. Its sides are 2·10⁻⁸ to 1; none where no such box is found.
 pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> {
     const WIDEST: f64 = 0.5;
@@ -125,12 +118,14 @@ pub fn prune<C: Conditions>(
         }
         let first = all.waiting.len().saturating_sub(BATCH);
         let batch = all.waiting.split_off(first);
+        let allowed = settings.most_boxes - all.boxes;
+        let most = PIECE.min(allowed.div_ceil(batch.len()));
         let pieces = pool.each(batch.len(), |work, i| {
             piece(
                 conditions,
                 &batch[i],
                 (periods, &regions),
-                PIECE,
+                most,
                 settings.least_side,
                 work,
             )

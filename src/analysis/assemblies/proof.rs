@@ -74,8 +74,13 @@ pub fn prove(
     proof.waiting = pruned.waiting.len();
     // how exactly the listed assemblies are where they are said to be
     let near = |sides: &Sides, x: &[f64], margin: f64| {
-        let wide = |side: &Interval| *side + Interval::around(0.0, margin);
-        sides.iter().zip(x).all(|(side, x)| within(*x, wide(side)))
+        let periods = space.periods.iter();
+        sides.iter().zip(x).zip(periods).all(|((side, x), period)| {
+            let period = period.map_or(f64::INFINITY, |period| period.real());
+            let turns = ((x - side.real()) / period).round();
+            let x = if turns == 0.0 { *x } else { x - turns * period };
+            within(x, *side + Interval::around(0.0, margin))
+        })
     };
     let part = |sides: &Sides| Part {
         ranges: space.named(sides),
