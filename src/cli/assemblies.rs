@@ -18,7 +18,7 @@ use super::{Answer, Refusal, style};
 /// whether a bound is known. Where infinitely many assemblies are connected, their dimension is given and samples stand
 /// for them. Where assemblies share poses of the platforms, or differ in nothing but the angles of ball joints written
 /// as three rows, the list has one row for each pose. Exit code 1 means that there is no real assembly, or that one
-/// that is isolated may be missing.
+/// that is isolated may be missing; with --prove, also that it is not proved that none is.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork assemblies mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
