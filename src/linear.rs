@@ -26,18 +26,18 @@ mod qr;
 #[cfg(feature = "sparse")]
 mod sparse;
 mod svd;
+mod vectors;
 
 pub use aligned::axis_aligned;
 pub use block::{Block, DenseOnly, SparseStep};
 pub use bordered::Bordered;
-pub use decomposition::{
-    Decomposition, add, complement, dot, norm, orthonormal, product, remove, singular_values,
-};
+pub use decomposition::Decomposition;
 pub use factorable::Factorable;
 pub use qr::Qr;
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
-pub use svd::Svd;
+pub use svd::{Svd, singular_values};
+pub use vectors::{add, complement, dot, norm, orthonormal, product, remove};
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside
 /// the largest one.

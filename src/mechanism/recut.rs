@@ -314,8 +314,8 @@ impl<T: Number> Recut<T> {
         if kind != ClosureKind::Rigid {
             return;
         }
-        for side in 0..2 {
-            if let Frame::Tip { chain } = frames[side]
+        for (side, frame) in frames.into_iter().enumerate() {
+            if let Frame::Tip { chain } = frame
                 && self.uses(chain) == 1
                 && let Some(middle) = self.middle(chain, free)
             {
