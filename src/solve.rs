@@ -15,7 +15,7 @@ mod threads;
 mod warm;
 mod watch;
 
-pub use boxes::{Conditions, Pruned, Pruning, Sides, isolated, prune};
+pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
 pub use branching::BranchPoint;
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
 pub use endgame::{PathEnd, Turning, path_end};

@@ -9,6 +9,7 @@
 mod curve;
 mod enclosure;
 mod equations;
+mod joint_space;
 mod question;
 mod record;
 mod search;
@@ -24,7 +25,8 @@ pub use equations::{
     ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, Places, Spin, System,
     Unknown, Work, approach, independent_parts,
 };
-pub(crate) use equations::{HoldRow, hold_rows};
+pub use joint_space::Unfit;
+pub(crate) use joint_space::{JointSpace, enclosed};
 pub use question::{
     Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,
     QuestionError, Still, Verb, actuated, check_angle, check_angles, check_count,

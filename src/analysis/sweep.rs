@@ -6,6 +6,7 @@
 //! its branch ends, or where branches cross, and never goes on elsewhere.
 
 mod between;
+mod certified;
 mod circuits;
 mod dwell;
 mod follow;
@@ -19,6 +20,8 @@ mod schedule;
 mod straightness;
 
 pub(crate) use between::Between;
+use certified::Certifier;
+pub use certified::{Certificate, Uncertified};
 pub use circuits::{
     Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, JointMotion, circuits,
 };
@@ -44,7 +47,7 @@ use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
 use paths::Trail;
-use rows::Rows;
+use rows::{Rows, holding};
 
 type At = Place<Configuration<f64>>;
 
@@ -67,6 +70,8 @@ pub struct SweepSettings {
     pub frames: Vec<Frame>,
     /// Whether to say how straight these paths are.
     pub straightness: bool,
+    /// Whether interval arithmetic is to show that all rows lie on one branch; only where inputs go through their ranges.
+    pub certify: bool,
     /// Whether rows are also wanted so near to one another, whatever the steps, that a line through them looks smooth.
     pub between: bool,
 }
@@ -82,6 +87,7 @@ impl Default for SweepSettings {
             points: Vec::new(),
             frames: Vec::new(),
             straightness: false,
+            certify: false,
             between: false,
         }
     }
@@ -198,6 +204,9 @@ pub struct SweepReport {
     /// Cusps and double points of the paths that were traced.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub paths: Vec<PathReport>,
+    /// What interval arithmetic says of the branch between the rows, if that is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Certificate>,
     /// Whether the work was stopped before the motion ended.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
@@ -222,7 +231,12 @@ pub fn sweep(
     }
     let steps = Some(settings.steps);
     let mut reached = 0;
+    let mut certifier =
+        (settings.certify).then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start));
     let sink: &mut Flow = &mut |row| {
+        if let Some(certifier) = &mut certifier {
+            certifier.row(row.configuration);
+        }
         sink(row);
         reached = row.step.unwrap_or(reached);
         watch.at(Progress {
@@ -307,7 +321,9 @@ pub fn sweep(
         }
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
+    let certificate = certifier.map(Certifier::certificate);
     interrupted(SweepReport {
+        certificate,
         paths: trail.reports(&mut curve, ending == SweepEnd::Closed),
         ..record.report(ending, rows.count(), length)
     })

@@ -302,6 +302,7 @@ impl Steering {
             length: 0.0,
             characteristic_length: self.mechanism.characteristic_length(),
             paths: Vec::new(),
+            certificate: None,
             interrupted: false,
         }
     }

@@ -66,6 +66,9 @@ pub struct Sweep {
     /// Go round dead points and straight through crossings; without --input the whole curve
     #[arg(long)]
     follow: bool,
+    /// Show by interval arithmetic that all rows lie on one branch; exit code 1 where that fails
+    #[arg(long, requires = "input", conflicts_with_all = ["follow", "circuits", "motion"])]
+    certify: bool,
     /// List all circuits and branches of a mechanism with one freedom; a coordinate of a platform is the input where no
     /// joint moves
     #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "guess", "animate", "glb"])]
@@ -218,6 +221,7 @@ impl Sweep {
                 duration: self.duration,
             },
             straightness: self.straight,
+            certify: self.certify,
             ..SweepSettings::default()
         };
         let all = posed.ask(|question, watch| question.motions(&settings, watch))?;

@@ -2,6 +2,8 @@
 
 mod lost;
 mod proof;
+
+pub(crate) use proof::reason;
 mod tables;
 
 use super::closing;

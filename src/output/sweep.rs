@@ -14,7 +14,7 @@ use super::quantity::quantity;
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
-    Columns, Extreme, Extremum, MetKind, MotionReport, MotionsReport, Row,
+    Certificate, Columns, Extreme, Extremum, MetKind, MotionReport, MotionsReport, Row, SweepReport,
 };
 use crate::mechanism::Variable;
 
@@ -28,6 +28,7 @@ impl Report for MotionsReport {
             [one] => {
                 let (mode, sentence) = (mode(one), sentence(&one.sweep));
                 let document = Document::new(&self.mechanism, mode + &sentence);
+                let document = document.notes(words::certified(&one.sweep));
                 let document = document.notes(words::paced(one));
                 let document = document.notes(words::poles(one));
                 let document = document.notes(words::shapes(one));
@@ -47,6 +48,7 @@ impl Report for MotionsReport {
                     let section = Section::new(mode(motion).trim_end_matches(": "));
                     let section = section.text(sentence(&motion.sweep));
                     let section = section
+                        .list(words::certified(&motion.sweep))
                         .list(words::paced(motion))
                         .list(words::poles(motion))
                         .list(words::shapes(motion));
@@ -65,7 +67,11 @@ impl Report for MotionsReport {
     }
 
     fn is_yes(&self) -> bool {
-        self.motions.iter().all(|m| m.sweep.ending.is_whole())
+        let certified = |sweep: &SweepReport| {
+            let certificate = sweep.certificate.as_ref();
+            certificate.is_none_or(Certificate::is_whole)
+        };
+        (self.motions.iter()).all(|m| m.sweep.ending.is_whole() && certified(&m.sweep))
     }
 }
 

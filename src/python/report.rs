@@ -237,6 +237,7 @@ fn motions(asked: &Asked, watch: &Watch) -> Result<(Report, Vec<Column>), Refuse
             duration: settings.duration.unwrap_or(default.pace.duration),
         },
         straightness: settings.straight,
+        certify: settings.certify,
         ..default
     };
     let all = question.motions(&settings, watch)?;

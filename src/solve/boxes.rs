@@ -5,7 +5,7 @@
 //! A box lies round one zero at most where the preconditioned matrix is strictly diagonally dominant for all points of
 //! the box, columns weighted by its sides: then no matrix of mean slopes has a kernel.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::threads::Pool;
 use super::{Stage, Watch};
@@ -84,6 +84,36 @@ pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> 
             return Some(sides);
         }
         radius *= 0.7;
+    }
+    None
+}
+
+/// Whether a box holds exactly one zero of the preconditioned rows; where constants of the rows are intervals, for each
+/// value in them.
+pub fn holds_one<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) -> bool {
+    contracted(conditions, sides, work).is_some_and(|step| step.one)
+}
+
+/// A zero near a point, by Newton steps without control of rounding.
+pub fn nearest<C: Conditions>(
+    conditions: &C,
+    start: &[f64],
+    work: &mut C::Work,
+) -> Option<Vec<f64>> {
+    const STEPS: usize = 20;
+    let mut x = start.to_vec();
+    for _ in 0..STEPS {
+        let point: Vec<Interval> = x.iter().map(|&x| Interval::point(x)).collect();
+        conditions.evaluate(&point, true, work);
+        let values = conditions.values(work).iter().map(|f| f.real());
+        let values = DVector::from_iterator(conditions.values(work).len(), values);
+        let slopes = conditions.slopes(work).iter().map(|f| f.real());
+        let slopes = DMatrix::from_iterator(values.len(), x.len(), slopes);
+        let step = nearly_inverse(&slopes)? * values;
+        x.iter_mut().zip(&step).for_each(|(x, step)| *x -= step);
+        if step.amax() < 1e-13 {
+            return Some(x);
+        }
     }
     None
 }

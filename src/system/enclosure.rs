@@ -151,6 +151,19 @@ impl Enclosure {
         }
     }
 
+    /// Holds a coordinate of a frame, already held, between two values, in rad or m.
+    pub fn hold_coordinate(&mut self, frame: Frame, coordinate: PoseCoordinate, value: Interval) {
+        let slot = self.kinematics.slot(frame);
+        for condition in &mut self.conditions {
+            if let What::Coordinate(held, known) = &mut condition.what
+                && *held == coordinate
+                && Some(condition.slots[1]) == slot
+            {
+                *known = value;
+            }
+        }
+    }
+
     /// The unknown joints.
     pub fn unknowns(&self) -> &[usize] {
         &self.unknowns

@@ -1620,3 +1620,101 @@ fn a_segment_that_ends_just_before_a_dead_point_is_completed() {
         assert!((last - dead).abs() < 1e-9, "{beyond:e}: {last}");
     }
 }
+
+fn certified(steps: usize) -> SweepSettings {
+    SweepSettings {
+        certify: true,
+        ..self::steps(steps)
+    }
+}
+
+#[test]
+fn both_branches_of_a_crank_rocker_are_certified_all_round() {
+    let lengths = [5.0, 1.0, 3.0, 4.0];
+    let mechanism = four_bar(lengths);
+    for side in [1.0, -1.0] {
+        let inputs = [joint(&mechanism, "theta1", 1.0, 1.0 + TAU)];
+        let guess = four_bar_guess(lengths, 1.0, side);
+        let certificate = run(&mechanism, &inputs, &guess, &certified(8))
+            .report
+            .certificate;
+        let certificate = certificate.unwrap();
+        assert!(certificate.is_whole() && certificate.boxes >= 8);
+        assert_eq!(
+            run(&mechanism, &inputs, &guess, &steps(8))
+                .report
+                .certificate,
+            None
+        );
+    }
+}
+
+#[test]
+fn a_branch_is_certified_up_to_its_dead_point_and_no_further() {
+    let lengths = [3.0, 2.5, 2.0, 1.0];
+    let mechanism = four_bar(lengths);
+    let [wide, narrow] = limits(lengths);
+    let end = [wide, narrow]
+        .into_iter()
+        .find(|end| end.is_finite())
+        .unwrap();
+    let inputs = [joint(&mechanism, "theta1", 0.6, 3.0)];
+    let guess = four_bar_guess(lengths, 0.6, 1.0);
+    let swept = run(&mechanism, &inputs, &guess, &certified(40));
+    assert_eq!(swept.ending(), SweepEnd::Fold);
+    let certificate = swept.report.certificate.unwrap();
+    let [open] = &certificate.uncertified[..] else {
+        panic!("{certificate:?}")
+    };
+    assert!((open.to[0] - end).abs() < 1e-12);
+    assert!((0.0..1e-4).contains(&(end - open.from[0])), "{open:?}");
+    assert!(!certificate.is_whole());
+}
+
+#[test]
+fn a_branch_is_certified_up_to_a_crossing_and_past_one_that_is_just_missed() {
+    let crossing = mechanism("parallelogram");
+    let inputs = [joint(&crossing, "theta1", 0.5, 0.5 + TAU)];
+    let guess = [("phi2", -0.5), ("phi1", 0.5)];
+    let certificate = run(&crossing, &inputs, &guess, &certified(40))
+        .report
+        .certificate;
+    let open = &certificate.unwrap().uncertified;
+    assert!(
+        open.len() == 1 && (open[0].to[0] - PI).abs() < 1e-9,
+        "{open:?}"
+    );
+    assert!(PI - open[0].from[0] < 1e-3, "{open:?}");
+
+    // with a slightly shorter crank it goes round, and nearly meets the other branch
+    let lengths = [2.0, 0.999, 2.0, 1.0];
+    let missed = four_bar(lengths);
+    let inputs = [joint(&missed, "theta1", 0.5, 0.5 + TAU)];
+    let guess = four_bar_guess(lengths, 0.5, 1.0);
+    let swept = run(&missed, &inputs, &guess, &certified(40));
+    assert_eq!(swept.ending(), SweepEnd::Complete);
+    let certificate = swept.report.certificate.unwrap();
+    assert!(certificate.is_whole(), "{certificate:?}");
+    // narrower boxes are needed there
+    assert!(certificate.boxes > 60, "{certificate:?}");
+}
+
+#[test]
+fn motions_of_platforms_are_certified() {
+    let platform = mechanism("three_rps");
+    let raised = ask::Question::new(platform.clone()).free("actuated");
+    let raised = raised.hold("top.roll", 0.1).hold("top.pitch", 0.0);
+    let raised = raised.input("top.z", 0.5, 0.8);
+    let legs = ask::Question::new(platform).hold("l3", 0.7);
+    let legs = legs.input("l1", 0.6, 0.8).input("l2", 0.7, 0.75);
+    for question in [raised, legs] {
+        let motions = question.motions(&certified(10), &Watch::none()).unwrap();
+        let report = motions.run(&motions.starts[0].1, &mut |_| {}, &Watch::none());
+        assert_eq!(report.ending, SweepEnd::Complete);
+        let certificate = report.certificate.unwrap();
+        assert!(
+            certificate.is_whole() && certificate.boxes >= 10,
+            "{certificate:?}"
+        );
+    }
+}

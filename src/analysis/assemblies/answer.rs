@@ -7,7 +7,6 @@ mod elsewhere;
 mod paired;
 mod real;
 
-pub(super) use certificate::enclosed;
 pub(super) use real::{named_joints, real_solution};
 
 use std::ops::Range;

@@ -7,15 +7,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::answer::enclosed;
 use super::family::Coordinates;
-use super::report::{Part, Proof, Range, Unfit};
+use super::report::{Part, Proof, Range};
 use crate::algebra::SiUnit;
-use crate::geometry::{Pose, Quaternion};
-use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, PoseCoordinate, Recut};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::number::{Interval, Number};
 use crate::solve::{Pruning, Sides, Watch, isolated, prune as prune_boxes};
-use crate::system::{Enclosure, Held, HeldPlatform, HoldRow, hold_rows};
+use crate::system::{Held, JointSpace, Unfit};
 
 /// How far slides go for which no bound follows, in characteristic lengths.
 const FAR: f64 = 1000.0;
@@ -59,11 +57,11 @@ pub fn prove(
     }
     let found: Vec<Option<Sides>> = modes
         .iter()
-        .map(|(_, x)| isolated(&space.enclosure, x))
+        .map(|(_, x)| isolated(&space.variables.enclosure, x))
         .collect();
     let regions: Vec<Sides> = found.iter().flatten().cloned().collect();
     let pruned = prune_boxes(
-        &space.enclosure,
+        &space.variables.enclosure,
         space.sides.clone(),
         &space.periods,
         &regions,
@@ -114,8 +112,7 @@ pub fn prove(
 
 /// The variables that tell assemblies apart, and where they are sought.
 struct Space {
-    recut: Recut<Interval>,
-    enclosure: Enclosure,
+    variables: JointSpace,
     sides: Sides,
     periods: Vec<Option<Interval>>,
     names: Vec<Option<(String, SiUnit)>>,
@@ -130,46 +127,14 @@ impl Space {
         held: &Held<f64>,
         asked: &Configuration<f64>,
     ) -> Result<Self, Unfit> {
-        let dimensions = enclosed(mechanism).ok_or(Unfit::NoEnclosure)?;
-        let parts = || held.platforms.iter().enumerate();
-        if let Some((p, _)) = parts().find(|(_, part)| !part.spins().is_empty()) {
-            return Err(Unfit::Spins(mechanism.platforms()[p].name.clone()));
-        }
-        let poses = parts().map(|(p, part)| {
-            let pose = asked.platforms[p];
-            let Quaternion(parts) = pose.orientation;
-            (*part == HeldPlatform::Pose).then(|| Pose {
-                rotation: Quaternion(parts.map(Interval::point))
-                    .normalised()
-                    .rotation(),
-                position: pose.position.map(Interval::point),
-            })
-        });
-        let poses: Vec<Option<Pose<Interval>>> = poses.collect();
-        let watched: Vec<bool> = parts()
-            .map(|(_, part)| matches!(part, HeldPlatform::Partly { .. }))
-            .collect();
-        let free: Vec<bool> = held.joints.iter().map(|held| !held).collect();
-        let recut = dimensions.recut(&poses, &watched, &free);
-        let holds = hold_rows(&held.map(Interval::point)).into_iter();
-        let holds = holds.filter_map(|hold| {
-            let (HoldRow::Coordinate(p, ..) | HoldRow::Orientation(p, _)) = hold else {
-                return None;
-            };
-            Some((recut.platforms[p]?, hold))
-        });
-        let holds: Vec<(Frame, HoldRow<Interval>)> = holds.collect();
-        let values = free.iter().zip(&asked.joints);
-        let values: Vec<Option<f64>> = values.map(|(free, x)| (!free).then_some(*x)).collect();
-        let enclosure = Enclosure::new(&recut.dimensions, &holds, &values);
+        let variables = JointSpace::new(mechanism, held, &[], asked)?;
         let mut space = Space {
             names: Vec::new(),
             cut: Vec::new(),
             unbounded: Vec::new(),
             sides: Vec::new(),
             periods: Vec::new(),
-            enclosure,
-            recut,
+            variables,
         };
         space.bound(mechanism, held, asked)?;
         Ok(space)
@@ -187,7 +152,7 @@ impl Space {
         let pi: Interval = Number::pi();
         // from −x to x, in rad or m
         let mut bounds: Vec<Option<Interval>> =
-            vec![None; self.recut.dimensions.joint_scales.len()];
+            vec![None; self.variables.recut.dimensions.joint_scales.len()];
         let mut periods = vec![None; bounds.len()];
         let mut names: Vec<Option<(String, SiUnit)>> = vec![None; bounds.len()];
         // slides of one platform are perpendicular to each other: one of them is as long as all
@@ -209,7 +174,7 @@ impl Space {
                 (None, None) => None,
             };
         }
-        for carried in &self.recut.carried {
+        for carried in &self.variables.recut.carried {
             for (i, coordinate) in carried.freedoms().iter().enumerate() {
                 let j = carried.first + i;
                 let half = *coordinate == PoseCoordinate::Pitch && carried.halves_pitch();
@@ -229,7 +194,7 @@ impl Space {
             }
         }
         for _ in 0..bounds.len() {
-            for (fixed, slides) in self.enclosure.reaches() {
+            for (fixed, slides) in self.variables.enclosure.reaches() {
                 let open = slides.iter().filter(|(j, _)| bounds[*j].is_none());
                 let mut group: Vec<usize> = open.clone().map(|(j, _)| groups[*j]).collect();
                 group.dedup();
@@ -247,12 +212,8 @@ impl Space {
                 }
             }
         }
-        for (&j, &scale) in self
-            .enclosure
-            .unknowns()
-            .iter()
-            .zip(self.enclosure.scales())
-        {
+        let enclosure = &self.variables.enclosure;
+        for (&j, &scale) in enclosure.unknowns().iter().zip(enclosure.scales()) {
             let angle = joints.get(j).is_some_and(|joint| joint.kind.is_angle());
             let bound = match (bounds[j], angle) {
                 (Some(bound), _) => bound,
@@ -275,31 +236,20 @@ impl Space {
 
     /// The variables of a configuration.
     fn of(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
-        let mut joints = at.joints.clone();
-        for carried in &self.recut.carried {
-            let kinematics = Kinematics::new(mechanism.dimensions(), carried.frames);
-            let mut placement = kinematics.placement();
-            kinematics.place(at, &mut placement);
-            let poses = carried
-                .frames
-                .map(|frame| kinematics.pose(frame, &placement).copied());
-            let [from, to] = poses.map(|pose| pose.unwrap_or(Pose::identity()));
-            joints.extend(carried.values([&from, &to]));
-        }
-        let unknowns = self.enclosure.unknowns().iter().enumerate();
-        unknowns
-            .map(|(i, &j)| {
-                let x = joints[j] / self.enclosure.scales()[i];
-                match &self.periods[i] {
-                    Some(period) => x - (x / period.real()).round() * period.real(),
-                    None => x,
-                }
+        let values = self.variables.of(mechanism, at).into_iter();
+        (values.zip(&self.periods))
+            .map(|(x, period)| match period {
+                Some(period) => x - (x / period.real()).round() * period.real(),
+                None => x,
             })
             .collect()
     }
 
     fn named(&self, sides: &Sides) -> Vec<Range> {
-        let scaled = sides.iter().zip(self.enclosure.scales()).zip(&self.names);
+        let scaled = sides
+            .iter()
+            .zip(self.variables.enclosure.scales())
+            .zip(&self.names);
         let ranges = scaled.filter_map(|((side, scale), name)| {
             let (name, unit) = name.clone()?;
             Some(Range {

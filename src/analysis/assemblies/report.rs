@@ -6,7 +6,7 @@ use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::Configuration;
 use crate::system::Gap;
-pub use crate::system::Named;
+pub use crate::system::{Named, Unfit};
 
 /// The pose of a platform in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -251,18 +251,6 @@ pub struct Part {
     pub ranges: Vec<Range>,
     /// Numbers of the listed assemblies in it.
     pub modes: Vec<usize>,
-}
-
-/// Why nothing was proved.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Unfit {
-    /// A dimension has no value over intervals.
-    NoEnclosure,
-    /// The joint of that name turns and never comes back to the same place, and has no limits.
-    Endless(String),
-    /// The platform of that name spins about a line of its own.
-    Spins(String),
 }
 
 /// What interval branch and prune says of all real assemblies: of every angle, and of the `ranges` of everything else.

@@ -254,6 +254,7 @@ impl<'m> Record<'m> {
             length,
             characteristic_length: mechanism.characteristic_length(),
             paths: Vec::new(),
+            certificate: None,
             interrupted: false,
         }
     }

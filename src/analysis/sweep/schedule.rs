@@ -115,6 +115,7 @@ impl Schedule {
             length: 0.0,
             characteristic_length: mechanism.characteristic_length(),
             paths: Vec::new(),
+            certificate: None,
             interrupted: false,
         };
         for step in 0..settings.steps {

@@ -52,6 +52,20 @@ fn range(range: &Range) -> String {
     )
 }
 
+/// Why interval arithmetic says nothing.
+pub(crate) fn reason(unfit: &Unfit) -> String {
+    match unfit {
+        Unfit::NoEnclosure => "a dimension has no value over intervals".into(),
+        Unfit::Endless(joint) => format!(
+            "{joint} does not come back to the same place, and has no limits to search between"
+        ),
+        Unfit::Spins(platform) => {
+            format!("{platform} spins about a line of its own; write it as a Distance closure")
+        }
+        Unfit::Turns => "an input is an angle of a platform that is held whole".into(),
+    }
+}
+
 fn modes(modes: &[usize]) -> String {
     let numbers: Vec<String> = modes.iter().map(usize::to_string).collect();
     match modes {
@@ -63,15 +77,8 @@ fn modes(modes: &[usize]) -> String {
 /// What the sentence does not say.
 pub(super) fn notes(proof: &Proof) -> Vec<String> {
     let mut notes = Vec::new();
-    notes.extend(proof.unfit.as_ref().map(|unfit| match unfit {
-        Unfit::NoEnclosure => "nothing is proved: a dimension has no value over intervals".into(),
-        Unfit::Endless(joint) => format!(
-            "nothing is proved: {joint} does not come back to the same place, and has no limits to search between"
-        ),
-        Unfit::Spins(platform) => format!(
-            "nothing is proved: {platform} spins about a line of its own; write it as a Distance closure"
-        ),
-    }));
+    let unfit = proof.unfit.as_ref();
+    notes.extend(unfit.map(|unfit| format!("nothing is proved: {}", reason(unfit))));
     if !proof.unbounded.is_empty() {
         notes.push(format!(
             "no bound follows from the lengths for {}: limits in the file would make the search shorter",

@@ -5,6 +5,7 @@ use crate::analysis::sweep::{
     Law, Met, MetKind, Missing, MotionReport, Pole, SweepEnd, SweepReport,
 };
 use crate::description::{count, listed};
+use crate::output::assemblies::reason;
 use crate::output::document::{Cell, Section, Table};
 use crate::output::quantity::{at, form, metres, number, quantity, range};
 
@@ -133,6 +134,44 @@ pub fn sentence(report: &SweepReport) -> String {
             }
         ),
     }
+}
+
+/// What interval arithmetic says of the branch.
+pub(super) fn certified(report: &SweepReport) -> Vec<String> {
+    /// Parts that are listed.
+    const SHOWN: usize = 8;
+    let Some(certificate) = &report.certificate else {
+        return Vec::new();
+    };
+    if let Some(unfit) = &certificate.unfit {
+        return vec![format!("the branch is not certified: {}", reason(unfit))];
+    }
+    let boxes = count(certificate.boxes, "box");
+    if certificate.is_whole() {
+        return vec![format!(
+            "certified: all rows lie on one branch, on which the inputs do not turn back ({boxes}, interval arithmetic)"
+        )];
+    }
+    let parts = certificate.uncertified.iter().take(SHOWN).map(|part| {
+        let inputs = report.inputs.iter().zip(part.from.iter().zip(&part.to));
+        let ranges = inputs.map(|(of, (from, to))| {
+            let [one, other] = [from, to].map(|x| quantity(*x, of.unit));
+            match one == other {
+                true => format!("round {} = {one}", of.name),
+                false => range(&of.name, *from, *to, of.unit),
+            }
+        });
+        listed(&ranges.collect::<Vec<_>>())
+    });
+    let parts: Vec<String> = parts.collect();
+    let more = match certificate.uncertified.len() > SHOWN {
+        true => ", and elsewhere",
+        false => "",
+    };
+    vec![format!(
+        "the branch is certified but for {}{more} ({boxes}, interval arithmetic)",
+        listed(&parts)
+    )]
 }
 
 /// How the inputs went through their ranges in time, where quantities depend on it.

@@ -252,6 +252,7 @@ class Mechanism:
         law: str | None = None,
         duration: float | None = None,
         straight: bool | None = None,
+        certify: bool | None = None,
         dwell: Values | None = None,
         wrench: Mapping[str, Wrench] | None = None,
         load: Values | None = None,
@@ -261,7 +262,8 @@ class Mechanism:
 
         ``input={"l1": (0.6, 0.8), ...}`` moves several together; ``of`` traces points, ``"left+0.5,0.2"``; ``report``
         adds quantities, ``"transmission, velocity:left"``; ``follow=True`` goes round dead points, and without input
-        along the whole curve. ``law`` and ``duration`` (s) say how the input moves in time.
+        along the whole curve. ``law`` and ``duration`` (s) say how the input moves in time; ``certify=True``
+        shows by interval arithmetic that all rows lie on one branch.
         """
         ranges = dict(input or {})
         if name is not None:
@@ -278,6 +280,7 @@ class Mechanism:
             law=law,
             duration=duration,
             straight=straight,
+            certify=certify,
             dwell=dwell,
             wrench=wrenches(wrench),
             load=load,

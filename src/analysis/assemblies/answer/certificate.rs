@@ -9,20 +9,10 @@ use nalgebra::DMatrix;
 
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::{INDEPENDENT, norm, remove};
-use crate::mechanism::{Configuration, Dimensions, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Interval, Number};
 use crate::solve::Equations;
-use crate::system::{Held, System, Unknown, Work};
-
-/// Enclosures of all dimensions; `None` if one has none.
-pub(crate) fn enclosed(mechanism: &Mechanism) -> Option<Dimensions<Interval>> {
-    let parameters = mechanism.parameters_from::<Interval>(&[]).ok()?;
-    let mut dimensions = mechanism.dimensions_over(&parameters).ok()?;
-    let real = mechanism.dimensions();
-    dimensions.characteristic_length = real.characteristic_length;
-    dimensions.joint_scales.clone_from(&real.joint_scales);
-    Some(dimensions)
-}
+use crate::system::{Held, System, Unknown, Work, enclosed};
 
 /// The interval version of a question.
 pub(crate) struct Certifier {

@@ -1,0 +1,413 @@
+//! Whether the rows of a motion lie on one branch, by interval arithmetic between them.
+//!
+//! A box round two configurations is certified if, for all inputs between theirs, it holds exactly one zero of as many
+//! combinations of the closures as there are joint variables (Neumaier 1990, §5.1): then one continuous branch leads from
+//! the one to the other, and the inputs do not turn back on it. A box that is too wide is halved at the middle of the
+//! inputs. Neighbouring boxes share the small box round the configuration between them in which its exact place is.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use crate::mechanism::{Configuration, Mechanism};
+use crate::number::Interval;
+use crate::solve::{Conditions, Sides, holds_one, nearest};
+use crate::system::{Coordinate, Driven, Enclosure, Held, JointSpace, Unfit};
+
+/// Half the side of the box that holds a configuration's exact place, in rad or characteristic lengths.
+const EXACT: f64 = 1e-8;
+
+/// How often the way between two rows is halved.
+const HALVINGS: usize = 24;
+
+/// Boxes between two rows at most.
+const MOST_BOXES: usize = 10_000;
+
+/// What is certified of the branch between the rows of a motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// Why nothing is certified.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unfit: Option<Unfit>,
+    /// Boxes in which the branch is certified, end to end.
+    pub boxes: usize,
+    /// Parts of the motion in which it is not.
+    pub uncertified: Vec<Uncertified>,
+}
+
+impl Certificate {
+    /// Whether all rows are shown to lie on one branch.
+    pub fn is_whole(&self) -> bool {
+        self.unfit.is_none() && self.uncertified.is_empty()
+    }
+}
+
+/// A part of a motion in which the branch is not certified: near a dead point or a crossing, as a rule.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Uncertified {
+    /// The inputs where it begins, in rad or m.
+    pub from: Vec<f64>,
+    /// The inputs where it ends.
+    pub to: Vec<f64>,
+}
+
+/// Takes the rows one after the other.
+pub(super) struct Certifier<'m> {
+    mechanism: &'m Mechanism,
+    inputs: &'m [Driven],
+    space: Option<JointSpace>,
+    latest: Option<Place>,
+    certificate: Certificate,
+    /// Boxes that may be had yet before the next row.
+    left: usize,
+}
+
+/// A configuration on the way.
+#[derive(Clone)]
+struct Place {
+    inputs: Vec<f64>,
+    variables: Vec<f64>,
+    /// The box that holds its exact place; none where it is singular.
+    exact: Option<Sides>,
+}
+
+impl<'m> Certifier<'m> {
+    /// `held` holds the inputs too; it is `None` where one of them has no value.
+    pub fn new(
+        mechanism: &'m Mechanism,
+        held: Option<Held<f64>>,
+        inputs: &'m [Driven],
+        start: &Configuration<f64>,
+    ) -> Self {
+        let space = held.ok_or(Unfit::Turns).and_then(|held| {
+            let moving: Vec<usize> = inputs.iter().filter_map(joint).collect();
+            JointSpace::new(mechanism, &held, &moving, start)
+        });
+        let (space, unfit) = match space {
+            Ok(space) => (Some(space), None),
+            Err(unfit) => (None, Some(unfit)),
+        };
+        Certifier {
+            mechanism,
+            inputs,
+            space,
+            latest: None,
+            certificate: Certificate {
+                unfit,
+                ..Certificate::default()
+            },
+            left: MOST_BOXES,
+        }
+    }
+
+    /// The next row.
+    pub fn row(&mut self, at: &Configuration<f64>) {
+        let Some(space) = &mut self.space else {
+            return;
+        };
+        let latest = self.latest.as_ref();
+        // angles of platforms are known modulo a turn
+        let near = |x: f64, angle: bool, known: Option<f64>| match known {
+            Some(known) if angle => x + ((known - x) / TAU).round() * TAU,
+            _ => x,
+        };
+        let inputs = self.inputs.iter().enumerate().map(|(i, input)| {
+            let angle = input.coordinate.is_angle(self.mechanism);
+            let angle = angle && input.coordinate.platform().is_some();
+            let known = latest.map(|latest| latest.inputs[i]);
+            near(input.coordinate.of(at), angle, known)
+        });
+        let inputs = inputs.collect();
+        let mut variables = space.of(self.mechanism, at);
+        let joints = self.mechanism.joints().len();
+        for (i, &joint) in space.enclosure.unknowns().iter().enumerate() {
+            let known = latest.map(|latest| latest.variables[i]);
+            variables[i] = near(variables[i], joint >= joints, known);
+        }
+        let row = Place::new(space, self.inputs, inputs, variables);
+        if let Some(latest) = self.latest.replace(row.clone()) {
+            self.left = MOST_BOXES;
+            self.join(&latest, &row, HALVINGS);
+        }
+    }
+
+    pub fn certificate(self) -> Certificate {
+        self.certificate
+    }
+
+    /// Certifies the branch from one place to another, or notes where that fails.
+    fn join(&mut self, from: &Place, to: &Place, halvings: usize) {
+        let Some(space) = &mut self.space else {
+            return;
+        };
+        if let (Some(start), Some(end)) = (&from.exact, &to.exact)
+            && around(from, to).is_some_and(|sides| {
+                let holds = |exact: &Sides| {
+                    let pairs = sides.iter().zip(exact);
+                    pairs
+                        .into_iter()
+                        .all(|(a, b)| a.low < b.low && b.high < a.high)
+                };
+                let moving = Moving::new(space, self.inputs, &from.inputs, &to.inputs);
+                holds(start) && holds(end) && holds_one(&moving, &sides, &mut moving.work())
+            })
+        {
+            self.certificate.boxes += 1;
+            self.left = self.left.saturating_sub(1);
+            return;
+        }
+        let middle = (halvings.min(self.left) > 0 && (from.exact.is_some() || to.exact.is_some()))
+            .then(|| Place::between(space, self.inputs, from, to))
+            .flatten();
+        match middle {
+            Some(middle) => {
+                self.join(from, &middle, halvings - 1);
+                self.join(&middle, to, halvings - 1);
+            }
+            None => self.note(from, to),
+        }
+    }
+
+    fn note(&mut self, from: &Place, to: &Place) {
+        match self.certificate.uncertified.last_mut() {
+            Some(last) if last.to == from.inputs => last.to.clone_from(&to.inputs),
+            _ => self.certificate.uncertified.push(Uncertified {
+                from: from.inputs.clone(),
+                to: to.inputs.clone(),
+            }),
+        }
+    }
+}
+
+impl Place {
+    fn new(
+        space: &mut JointSpace,
+        driven: &[Driven],
+        inputs: Vec<f64>,
+        variables: Vec<f64>,
+    ) -> Self {
+        let there = Moving::new(space, driven, &inputs, &inputs);
+        let sides: Sides = variables
+            .iter()
+            .map(|&x| Interval::around(x, EXACT))
+            .collect();
+        let exact = holds_one(&there, &sides, &mut there.work()).then_some(sides);
+        Place {
+            inputs,
+            variables,
+            exact,
+        }
+    }
+
+    /// Where the inputs are in the middle; `None` if nothing regular is found there.
+    fn between(
+        space: &mut JointSpace,
+        driven: &[Driven],
+        from: &Place,
+        to: &Place,
+    ) -> Option<Self> {
+        let middle = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect()
+        };
+        let inputs = middle(&from.inputs, &to.inputs);
+        let there = Moving::new(space, driven, &inputs, &inputs);
+        let start = middle(&from.variables, &to.variables);
+        let variables = nearest(&there, &start, &mut there.work())?;
+        let place = Place::new(space, driven, inputs, variables);
+        place.exact.is_some().then_some(place)
+    }
+}
+
+/// The joint that an input moves.
+fn joint(input: &Driven) -> Option<usize> {
+    match input.coordinate {
+        Coordinate::Joint(joint) => Some(joint),
+        _ => None,
+    }
+}
+
+/// The conditions of assembly while the inputs go straight from some values to others.
+struct Moving<'s> {
+    enclosure: &'s Enclosure,
+    /// Inputs that are joints: one goes through an interval, and the others depend on it.
+    rows: Vec<Row>,
+}
+
+/// xᵢ − ratio·xⱼ lies in an interval.
+struct Row {
+    column: usize,
+    ratio: Option<(f64, usize)>,
+    value: Interval,
+}
+
+impl<'s> Moving<'s> {
+    fn new(space: &'s mut JointSpace, driven: &[Driven], from: &[f64], to: &[f64]) -> Self {
+        let mut ends: Vec<(usize, [f64; 2])> = Vec::new();
+        for ((input, &a), &b) in driven.iter().zip(from).zip(to) {
+            match input.coordinate {
+                Coordinate::Joint(joint) => {
+                    let column = space.enclosure.unknowns().binary_search(&joint);
+                    ends.extend(
+                        column.map(|i| (i, [a, b].map(|x| x / space.enclosure.scales()[i]))),
+                    );
+                }
+                Coordinate::Pose(platform, coordinate) => {
+                    space.hold(platform, coordinate, between(a, b));
+                }
+                Coordinate::Turn(..) => {}
+            }
+        }
+        let way = |[a, b]: [f64; 2]| (b - a).abs();
+        let first = ends.iter().max_by(|a, b| way(a.1).total_cmp(&way(b.1)));
+        let rows = first.map(|&(lead, [a, b])| {
+            let rows = ends.iter().map(|&(column, [from, to])| {
+                let ratio = if a == b { 0.0 } else { (to - from) / (b - a) };
+                match column == lead {
+                    true => Row {
+                        column,
+                        ratio: None,
+                        value: between(a, b),
+                    },
+                    false => Row {
+                        column,
+                        ratio: Some((ratio, lead)),
+                        // the ends are known to rounding
+                        value: Interval::around(
+                            from - ratio * a,
+                            1e-14 * (1.0 + from.abs() + a.abs()),
+                        ),
+                    },
+                }
+            });
+            rows.collect()
+        });
+        Moving {
+            enclosure: &space.enclosure,
+            rows: rows.unwrap_or_default(),
+        }
+    }
+}
+
+fn between(a: f64, b: f64) -> Interval {
+    Interval {
+        low: a.min(b),
+        high: a.max(b),
+    }
+}
+
+/// Storage of [`Moving`].
+#[derive(Clone)]
+struct Work {
+    closures: <Enclosure as Conditions>::Work,
+    values: Vec<Interval>,
+    slopes: Vec<Interval>,
+}
+
+impl Conditions for Moving<'_> {
+    type Work = Work;
+
+    fn work(&self) -> Work {
+        Work {
+            closures: self.enclosure.work(),
+            values: Vec::new(),
+            slopes: Vec::new(),
+        }
+    }
+
+    fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut Work) {
+        self.enclosure.evaluate(at, slopes, &mut work.closures);
+        let closures = self.enclosure.values(&work.closures);
+        let of_inputs = self.rows.iter().map(|row| {
+            let other = row.ratio.map(|(ratio, j)| Interval::point(ratio) * at[j]);
+            at[row.column] - other.unwrap_or(Interval::point(0.0)) - row.value
+        });
+        work.values.clear();
+        work.values
+            .extend(closures.iter().copied().chain(of_inputs));
+        if !slopes {
+            return;
+        }
+        let columns = self.enclosure.slopes(&work.closures);
+        work.slopes.clear();
+        for j in 0..at.len() {
+            let column = &columns[j * closures.len()..][..closures.len()];
+            let of_inputs = self.rows.iter().map(|row| match row.ratio {
+                _ if row.column == j => Interval::point(1.0),
+                Some((ratio, other)) if other == j => Interval::point(-ratio),
+                _ => Interval::point(0.0),
+            });
+            work.slopes.extend(column.iter().copied().chain(of_inputs));
+        }
+    }
+
+    fn possible(&self, work: &Work) -> bool {
+        self.enclosure.possible(&work.closures)
+    }
+
+    fn values<'a>(&self, work: &'a Work) -> &'a [Interval] {
+        &work.values
+    }
+
+    fn slopes<'a>(&self, work: &'a Work) -> &'a [Interval] {
+        &work.slopes
+    }
+}
+
+/// A box round two places, wider than the way between them is long; `None` if that is not finite.
+fn around(from: &Place, to: &Place) -> Option<Sides> {
+    const MARGIN: f64 = 0.3;
+    let pairs = || from.variables.iter().zip(&to.variables);
+    let way = pairs().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let side = |(a, b): (&f64, &f64)| {
+        let half = 0.5 * (a - b).abs();
+        Interval::around(0.5 * (a + b), half + MARGIN * way + 4.0 * EXACT)
+    };
+    way.is_finite().then(|| pairs().map(side).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::Certifier;
+    use crate::mechanism::{Configuration, Mechanism};
+    use crate::system::{Coordinate, Driven, Held};
+
+    /// The shipped 4-bar, with lengths 5, 1, 3 and 4 m, in closed form.
+    fn assembled(mechanism: &Mechanism, crank: f64, side: f64) -> Configuration<f64> {
+        let (x, y) = (crank.cos() - 5.0, crank.sin());
+        let diagonal = x.hypot(y);
+        let at_pivot = (16.0 + diagonal * diagonal - 9.0) / (8.0 * diagonal);
+        let rocker = y.atan2(x) - side * at_pivot.acos();
+        let coupler = (4.0 * rocker.sin() - y).atan2(4.0 * rocker.cos() - x);
+        let mut at = mechanism.home();
+        for (name, value) in [
+            ("theta1", crank),
+            ("phi2", coupler - crank),
+            ("phi1", rocker),
+        ] {
+            at.joints[mechanism.joint(name).unwrap()] = value;
+        }
+        at
+    }
+
+    #[test]
+    fn rows_on_two_branches_are_not_certified() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/four_bar.ron");
+        let mechanism = Mechanism::load(path).unwrap();
+        let mut held = Held::nothing(&mechanism);
+        held.joints[0] = true;
+        let inputs = [Driven {
+            coordinate: Coordinate::Joint(0),
+            from: 1.0,
+            to: 1.2,
+        }];
+        for (end, same) in [(1.0, true), (-1.0, false)] {
+            let rows = [(1.0, 1.0), (1.2, end)];
+            let rows = rows.map(|(crank, side)| assembled(&mechanism, crank, side));
+            let mut certifier = Certifier::new(&mechanism, Some(held.clone()), &inputs, &rows[0]);
+            rows.iter().for_each(|row| certifier.row(row));
+            assert_eq!(certifier.certificate().is_whole(), same);
+        }
+    }
+}
