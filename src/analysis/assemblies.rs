@@ -28,7 +28,7 @@ pub use search::{GenericSolutions, StoredError};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
 use crate::solve::{Pruning, Watch};
-use crate::system::{Held, HeldPlatform, System};
+use crate::system::{Held, HeldPlatform, Neighbourhood, System};
 use answer::Question;
 use family::{C, Family, KnownBound, Member};
 use search::question;
@@ -266,7 +266,8 @@ impl AssemblySolver {
                 watch,
             ),
         };
-        let starts = |which| search::solved(&self.family, &question.system, asked, which, watch);
+        let near = Neighbourhood::holding(&self.mechanism, held);
+        let starts = |which| search::solved(&self.family, &near, asked, which, watch);
         let mut report = question.answer(
             &self.generic,
             fit,

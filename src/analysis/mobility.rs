@@ -5,7 +5,6 @@
 //! found by moving a finite step, never from a rank alone.
 
 mod branches;
-mod cone;
 mod loops;
 mod redundancy;
 mod report;

@@ -85,6 +85,11 @@ fn sentence(report: &AssembliesReport) -> String {
                     found(isolated)
                 );
             }
+            if report.continua.iter().all(|set| set.dimension < *freedom) {
+                let sets = infinitely_many(report);
+                let sets = sets.trim_end_matches('.');
+                return format!("{sets}, at the limit of what is possible; in general {left}.");
+            }
             let listed = match report.real - isolated {
                 _ if isolated == 0 => {
                     format!(

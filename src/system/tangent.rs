@@ -1,5 +1,6 @@
 //! The linearised equations at a configuration: twists of frames, freedoms, screws and rates.
 
+mod cone;
 mod freedom;
 mod locked;
 mod loops;
@@ -9,6 +10,7 @@ mod screws;
 mod shake;
 mod twists;
 
+pub use cone::{Cone, FlatSet, combination};
 pub use freedom::{Freedoms, Mobility, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};

@@ -128,13 +128,93 @@ fn rods_that_just_reach_are_assembled_from_aside_and_shorter_ones_are_not() {
 #[test]
 fn bodies_that_turn_about_the_line_of_stretched_rods_are_not_isolated() {
     let report = report(&bodies(3.0));
-    // with each body's turn held still, or as samples of a set of two dimensions
+    // twelve unknowns less three rods in general; here each body only turns
+    assert_eq!(report.fit, Fit::FreedomLeft(9));
+    assert!(report.real > 0);
     for assembly in &report.assemblies {
-        let place = |body: &str| assembly.platforms.get(body).unwrap();
-        let still = ["p", "q"].map(|body| place(body).roll_pitch_yaw[0].abs() < 1e-6);
-        assert!(
-            assembly.dimension == 2 || still == [true; 2] && report.real == 1,
-            "{assembly:?}"
-        );
+        let of = (assembly.multiplicity, assembly.dimension);
+        assert_eq!(of, (0, 2), "{assembly:?}");
+        for (body, along) in [("p", 1.0), ("q", 2.0)] {
+            // the origin goes round the line of the rods, 0.2 m from it
+            let [x, y, z] = assembly.platforms.get(body).unwrap().position;
+            assert!((x - along).abs() < 1e-6, "{assembly:?}");
+            assert!((y.hypot(z) - 0.2).abs() < 1e-6, "{assembly:?}");
+        }
     }
+    let answer = report.document().answer;
+    let begins = "Infinitely many connected assemblies at these inputs: a set of dimension 2";
+    let ends =
+        "at the limit of what is possible; in general 9 freedoms are left with what is held.";
+    assert!(
+        answer.starts_with(begins) && answer.ends_with(ends),
+        "{answer}"
+    );
+}
+
+#[test]
+fn slack_between_two_bodies_leaves_as_many_dimensions_as_freedoms() {
+    let report = report(&bodies(2.9));
+    assert_eq!(report.fit, Fit::FreedomLeft(9));
+    assert!(report.real > 1);
+    assert!(
+        report
+            .assemblies
+            .iter()
+            .all(|a| (a.multiplicity, a.dimension) == (0, 9))
+    );
+}
+
+/// A body between two rods that reach 2 m, from which another hangs at a third one.
+fn hanging(post: f64) -> AssembliesReport {
+    report(&format!(
+        r#"Mechanism(
+            version: 1, name: "body hung from stretched rods", convention: Modified,
+            platforms: {{
+                "p": Platform(home: [Tx(1)], frames: {{ "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)], "C": [Ty(-0.2)] }}),
+                "q": Platform(home: [T(1, -1, 0)], frames: {{ "A": [Ty(0.1)], "B": [T(0.3, -0.2, 0.1)] }}),
+            }},
+            chains: {{ "near": Chain(base: [Ty(0.2)]), "far": Chain(base: [T({post:?}, 0.2, 0)]) }},
+            closures: {{
+                "r1": Distance("near", "p.B", 0.9), "r2": Distance("p.A", "far", 0.9), "r3": Distance("p.C", "q.A", 0.7),
+            }},
+        )"#
+    ))
+}
+
+#[test]
+fn what_hangs_from_stretched_rods_moves_as_far_as_it_can() {
+    // p turns about the line; q moves with its rod on a sphere, and about the end of that
+    for (post, dimension) in [(2.0, 1 + 2 + 3), (1.9, 12 - 3)] {
+        let report = hanging(post);
+        assert!(report.real > 0);
+        for assembly in &report.assemblies {
+            assert_eq!((assembly.multiplicity, assembly.dimension), (0, dimension));
+        }
+    }
+    assert_eq!(hanging(2.1).real, 0);
+}
+
+#[test]
+fn rods_stretched_along_two_lines_leave_one_isolated_assembly() {
+    let rod = |side: &str| format!(r#""{side}": Distance("{side}", "p.{side}", 0.9)"#);
+    let report = report(&format!(
+        r#"Mechanism(
+            version: 1, name: "body between four rods", convention: Modified,
+            platforms: {{ "p": Platform(frames: {{
+                "E": [T(0.1, 0, 0.2)], "W": [T(-0.1, 0, 0.2)], "N": [T(0, 0.1, 0.2)], "S": [T(0, -0.1, 0.2)],
+            }}) }},
+            chains: {{
+                "E": Chain(base: [T(1, 0, 0.2)]), "W": Chain(base: [T(-1, 0, 0.2)]),
+                "N": Chain(base: [T(0, 1, 0.2)]), "S": Chain(base: [T(0, -1, 0.2)]),
+            }},
+            closures: {{ {} }},
+        )"#,
+        ["E", "W", "N", "S"].map(rod).join(", ")
+    ));
+    // along one line the body would turn about it
+    assert_eq!(report.fit, Fit::FreedomLeft(2));
+    assert_eq!((report.real, report.assemblies[0].dimension), (1, 0));
+    let [x, y, z] = report.assemblies[0].platforms.get("p").unwrap().position;
+    assert!(x.abs().max(y.abs()).max(z.abs()) < 1e-6);
+    assert!(report.document().answer.contains("It is isolated"));
 }

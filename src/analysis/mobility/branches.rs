@@ -4,12 +4,11 @@ mod walk;
 
 use rand::Rng;
 
-use super::cone::{Cone, combination};
 use super::{Character, MobilitySettings};
 use crate::linear::orthonormal;
 use crate::solve::{Stage, Watch};
-use crate::system::{Neighbourhood, Tangent, independent_parts};
-use walk::{Directions, Seen, Walk, contains, same};
+use crate::system::{Cone, Neighbourhood, Tangent, combination, independent_parts};
+use walk::{Directions, MOVED_ON_A_BRANCH, Seen, Walk, contains, same};
 
 /// A joint that a finite step along free motions moves by more than this moves: at a dead point its
 /// rate is zero, and a step of 0.05 moves it to second order.
@@ -209,6 +208,25 @@ fn singular(
     const LONGEST: usize = 12;
     let n = tangent.motions.len();
     let cone = Cone::of(near, tangent);
+    if let Some(set) = cone.set(near, tangent, settings.branch_step, rng) {
+        let mut moved = vec![false; tangent.columns()];
+        for at in &set.beside {
+            let way = near.system().difference(&tangent.at, at);
+            see(&mut moved, &way, MOVED_ON_A_BRANCH * settings.branch_step);
+        }
+        let branch = Branch {
+            freedoms: set.motions.len(),
+            motions: set.motions,
+            moved,
+            ..Branch::default()
+        };
+        let finite = Some(branch).filter(|branch| branch.freedoms > 0);
+        return Part {
+            branches: finite.into_iter().collect(),
+            regular: false,
+            complete: true,
+        };
+    }
     let mut walk = Walk {
         near,
         own,
@@ -217,19 +235,6 @@ fn singular(
         rng,
         seen: Vec::new(),
     };
-    if let Some(motions) = cone.flat() {
-        let branch = match motions.is_empty() {
-            true => Some(vec![]),
-            false => walk.flat(&motions).map(|branch| vec![branch]),
-        };
-        if let Some(branches) = branch {
-            return Part {
-                branches,
-                regular: false,
-                complete: true,
-            };
-        }
-    }
     let mut limits: Vec<Limit> = Vec::new();
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);

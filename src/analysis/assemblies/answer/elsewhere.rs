@@ -1,5 +1,8 @@
 //! Assemblies at the target inputs to which no path leads, and samples of sets of them.
 
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+
 use super::super::Wanted;
 use super::{END, Found, Gathered, Question, Starts};
 use crate::analysis::assemblies::family::{C, size};
@@ -9,6 +12,7 @@ use crate::analysis::assemblies::track::{Local, ParameterHomotopy};
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::{Homotopy, Newton};
+use crate::system::{Cone, Neighbourhood};
 
 /// Starts from which what no path leads to is sought at every question, and where there is a reason
 /// to expect it.
@@ -64,6 +68,28 @@ impl Question<'_> {
         Some(self.coordinates.placed(&x, self.asked).map(|z| z.re))
     }
 
+    /// The dimension of the set of real solutions through a singular one, where fewer dimensions were
+    /// `spanned` than there are null vectors and second order decides how many it has.
+    ///
+    /// Equations that only touch zero, as those of rods stretched straight, leave of many complex solutions
+    /// few that are real, to which steps from beside them lead too slowly to be spanned.
+    fn touching(&self, x: &[C], spanned: usize) -> Option<usize> {
+        /// Length of the steps by which a set is tried.
+        const STEP: f64 = 0.02;
+        let point = self.coordinates.placed(x, self.asked).map(|z| z.re);
+        let mut near = Neighbourhood::holding(self.mechanism, self.held);
+        let mut tangent = near.tangent(point);
+        // links that spin are assemblies of their own unless they are held
+        tangent.motions.append(&mut tangent.idle);
+        if tangent.motions.len() == spanned {
+            return None;
+        }
+        let rng = &mut Pcg64Mcg::seed_from_u64(1);
+        let cone = Cone::of(&mut near, &tangent);
+        let set = cone.set(&mut near, &tangent, STEP, rng)?;
+        Some(set.motions.len())
+    }
+
     /// Adds solved points: by themselves, or as samples of a set.
     pub(crate) fn add(
         &self,
@@ -90,13 +116,20 @@ impl Question<'_> {
                 continue;
             }
             let mut local = Local::new(homotopy, true);
-            let dimension = local.dimension(&x);
             let order_of = local.order(&x);
-            let (x, multiplicity) = match (dimension, order_of) {
-                (0, 1) => (x, 1),
-                (0, n) => (local.refined(&x), n),
-                _ => (x, 0),
+            let spanned = local.dimension(&x);
+            let (x, dimension) = match order_of {
+                1 => (x, 0),
+                _ => {
+                    let refined = local.refined(&x);
+                    match self.touching(&refined, spanned) {
+                        Some(dimension) => (refined, dimension),
+                        None if spanned == 0 => (refined, 0),
+                        None => (x, spanned),
+                    }
+                }
             };
+            let multiplicity = if dimension == 0 { order_of } else { 0 };
             // where solutions meet, no more than rounding is left. What Newton's method calls solved may
             // be beside a set of solutions of other inputs, a hair from these
             let left = homotopy.residual(END, &x);

@@ -8,26 +8,23 @@ use rand_pcg::Pcg64;
 use crate::analysis::assemblies::family::Family;
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
-use crate::solve::{Newton, Stage, Stop, Watch};
-use crate::system::System;
+use crate::solve::{Newton, Stage, Watch};
+use crate::system::Neighbourhood;
 
 /// Assembled configurations reached by Newton's method from the target configuration, start 0, and
 /// from random ones. Each start is the same in every run.
 pub(crate) fn solved(
     family: &Family,
-    system: &System<f64>,
+    near: &Neighbourhood,
     asked: &Configuration<f64>,
     which: Range<usize>,
     watch: &Watch,
 ) -> Vec<Configuration<f64>> {
-    let storage = (system.work(), asked.clone());
-    let points = crate::solve::each(which.len(), &storage, |(work, trial), k| {
+    let points = crate::solve::each(which.len(), near, |near, k| {
         if watch.stops(Stage::Starts, k, Some(which.len())) {
             return None;
         }
-        let mut point = started(family, asked, which.start + k);
-        let report = Newton::default().solve(system, &mut point, trial, work);
-        (report.stop == Stop::Solved).then_some(point)
+        near.solve(&Newton::default(), started(family, asked, which.start + k))
     });
     points.into_iter().flatten().collect()
 }

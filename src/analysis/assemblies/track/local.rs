@@ -120,7 +120,8 @@ impl<'a, 'f> Local<'a, 'f> {
             return 0;
         }
         let values = DMatrix::from_columns(&steps).singular_values();
-        let rank = values.iter().filter(|v| **v > BACK).count();
+        // of a curved set they span more than its tangents, which are no more than the null vectors
+        let rank = values.iter().filter(|v| **v > BACK).count().min(free);
         match self.real {
             true => rank,
             false => rank.div_ceil(2),
@@ -128,13 +129,16 @@ impl<'a, 'f> Local<'a, 'f> {
     }
 
     /// A multiple solution to full precision, by deflation: P J v = 0 for null vectors v and the
-    /// projection P off the range of J (Leykin, Verschelde and Zhao 2006). `x` where that fails.
+    /// projection P off the range of J (Leykin, Verschelde and Zhao 2006); one of a set of them is moved
+    /// across the set only. `x` where that fails.
     pub fn refined(&mut self, x: &[C]) -> Vec<C> {
         const STEPS: usize = 4;
         const APART: f64 = 1e-4;
         const REACH: f64 = 1e-3;
         /// Singular values of a solution known to half its digits are this small.
         const LOST: f64 = 1e-4;
+        /// Along a null vector of no more curvature there may be a set of solutions.
+        const FLAT: f64 = 1e-3;
         let mut at = x.to_vec();
         for _ in 0..STEPS {
             let linear = self.linear(&at);
@@ -157,9 +161,7 @@ impl<'a, 'f> Local<'a, 'f> {
                     .collect();
                 let bent = DMatrix::from_columns(&curvatures);
                 let flat = DVector::from_column_slice(slope.as_slice());
-                let svd = bent.svd(true, true);
-                let sharp = svd.singular_values.min() > 1e-3;
-                if let (true, Ok(along)) = (sharp, svd.solve(&flat, 0.0)) {
+                if let Ok(along) = bent.svd(true, true).solve(&flat, FLAT) {
                     step -= free * along;
                 }
             }

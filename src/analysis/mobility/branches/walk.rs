@@ -3,15 +3,14 @@
 use rand::Rng;
 
 use super::super::MobilitySettings;
-use super::super::cone::{Cone, combination};
-use super::{Branch, is_regular, see};
+use super::{is_regular, see};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
-use crate::system::{Neighbourhood, Tangent};
+use crate::system::{Cone, Neighbourhood, Tangent, combination};
 
 /// A joint moves on a branch if it moves by more than this part of the step: infinitesimal freedoms
 /// leave some slack.
-const MOVED_ON_A_BRANCH: f64 = 1e-3;
+pub(super) const MOVED_ON_A_BRANCH: f64 = 1e-3;
 
 /// Branches whose tangents beside the meeting point differ by less than this are one, seen at two
 /// points of a curve.
@@ -130,13 +129,13 @@ impl<R: Rng> Walk<'_, '_, R> {
     /// Adds the branch that a small step along a direction settles on, if it does.
     pub fn explore(&mut self, direction: &[f64]) {
         let reach = self.settings.branch_step;
-        let Some((mut at, way)) = arrive(self.near, self.from, direction, reach) else {
+        let Some((mut at, way)) = self.near.arrive(self.from, direction, reach) else {
             return;
         };
         // too near the meeting point a motion of high order looks finite
         let distance = norm(&self.near.system().difference(&self.from.at, &at));
         if distance < 0.5 * reach
-            && let Some((further, _)) = arrive(self.near, self.from, &way, reach)
+            && let Some((further, _)) = self.near.arrive(self.from, &way, reach)
         {
             at = further;
         }
@@ -170,7 +169,7 @@ impl<R: Rng> Walk<'_, '_, R> {
                 return;
             };
             let direction = combination(&least.motions, self.rng);
-            if let Some((at, _)) = arrive(self.near, least, &direction, step) {
+            if let Some((at, _)) = self.near.arrive(least, &direction, step) {
                 points.push(self.tangent(at));
             }
         }
@@ -181,7 +180,11 @@ impl<R: Rng> Walk<'_, '_, R> {
         let mut directions = Directions::new(&cone, &least, self.settings.branch_trials);
         let mut ways: Vec<Vec<f64>> = Vec::new();
         while let Some(direction) = directions.next(&cone, &least, self.rng) {
-            ways.extend(arrive(self.near, &least, &direction, step).map(|(_, way)| way));
+            ways.extend(
+                self.near
+                    .arrive(&least, &direction, step)
+                    .map(|(_, way)| way),
+            );
         }
         least.motions = orthonormal(&ways, 0.1);
         if !least.motions.is_empty() && self.fills(&least, step) {
@@ -191,49 +194,7 @@ impl<R: Rng> Walk<'_, '_, R> {
 
     /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
-        at.motions.len() == 1 || self.follows(at, step).is_some()
-    }
-
-    /// Where steps in the span of the motions arrive, if all arrive where they aim.
-    pub fn follows(&mut self, at: &Tangent, step: f64) -> Option<Vec<Configuration<f64>>> {
-        const TRIALS: usize = 6;
-        const ALONG: f64 = 0.95;
-        let arrivals = (0..TRIALS).map(|_| {
-            let direction = combination(&at.motions, self.rng);
-            let (at, way) = arrive(self.near, at, &direction, step)?;
-            (dot(&way, &direction) > ALONG).then_some(at)
-        });
-        arrivals.collect()
-    }
-
-    /// The branch, if there is one, whose motions at the meeting point are all those that are not
-    /// forbidden to second order, if the rank is as low everywhere on it: then it is the only one.
-    /// Where a function and its slope vanish on a set, beside which it is curved, it vanishes nowhere
-    /// else nearby (the lemma of Morse and Bott).
-    pub fn flat(&mut self, motions: &[Vec<f64>]) -> Option<Branch> {
-        let flat = Tangent {
-            motions: motions.to_vec(),
-            ..self.from.clone()
-        };
-        let arrivals = self.follows(&flat, self.settings.branch_step)?;
-        let mut moved = vec![false; flat.columns()];
-        for at in arrivals {
-            let way = self.near.system().difference(&self.from.at, &at);
-            see(
-                &mut moved,
-                &way,
-                MOVED_ON_A_BRANCH * self.settings.branch_step,
-            );
-            if self.tangent(at).motions.len() != self.from.motions.len() {
-                return None;
-            }
-        }
-        Some(Branch {
-            freedoms: motions.len(),
-            motions: flat.motions,
-            moved,
-            ..Branch::default()
-        })
+        at.motions.len() == 1 || self.near.follows(at, step, self.rng).is_some()
     }
 
     fn add(&mut self, beside: Tangent, regular: bool) {
@@ -310,26 +271,4 @@ impl<R: Rng> Walk<'_, '_, R> {
             false => basis.clone(),
         }
     }
-}
-
-/// The assembled configuration that a small step leads to, with the unit direction to it, if it converges.
-fn arrive(
-    near: &mut Neighbourhood,
-    from: &Tangent,
-    direction: &[f64],
-    reach: f64,
-) -> Option<(Configuration<f64>, Vec<f64>)> {
-    let start = match near.follow(from, direction, reach) {
-        Some(step) => step.at,
-        None => {
-            let step: Vec<f64> = direction.iter().map(|x| x * reach).collect();
-            near.system().displaced(&from.at, &step)
-        }
-    };
-    let at = near.settle(start, reach)?;
-    let mut way = near.system().difference(&from.at, &at);
-    remove(&mut way, &from.idle);
-    let distance = norm(&way);
-    way.iter_mut().for_each(|x| *x /= distance);
-    (0.05 * reach < distance && distance < 5.0 * reach).then_some((at, way))
 }

@@ -3,18 +3,27 @@
 use nalgebra::DMatrix;
 use rand::Rng;
 
-use crate::linear::{add, dot, norm, orthonormal};
-use crate::system::{Neighbourhood, Tangent};
+use super::{Neighbourhood, Tangent};
+use crate::linear::{add, dot, norm, orthonormal, remove};
+use crate::mechanism::Configuration;
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
 /// wₖᵀ J = 0, which every finite motion starts along.
 /// Source: Connelly and Whiteley, SIAM J. Discrete Math. 9, 1996; Müller, Mech. Mach. Theory 2019.
-pub(super) struct Cone {
+pub struct Cone {
     freedoms: usize,
     /// The mᵢ.
     basis: Vec<Vec<f64>>,
     /// For each independent form its coefficients cᵢⱼ of vᵢ vⱼ with i ≤ j, row by row.
     forms: Vec<Vec<f64>>,
+}
+
+/// A smooth set of assembled configurations through one where the equations lose rank.
+pub struct FlatSet {
+    /// Orthonormal basis of its motions there; none if the configuration is isolated.
+    pub motions: Vec<Vec<f64>>,
+    /// Configurations of it a step away.
+    pub beside: Vec<Configuration<f64>>,
 }
 
 impl Cone {
@@ -88,7 +97,7 @@ impl Cone {
     /// links between them turn about their line: their stress makes the form (Connelly and Whiteley
     /// 1996). The combination is sought as a perceptron does, by adding the forms' values at the
     /// motion where it is most negative (Rosenblatt 1958).
-    pub fn flat(&self) -> Option<Vec<Vec<f64>>> {
+    fn flat(&self) -> Option<Vec<Vec<f64>>> {
         /// Forms have coefficients of unit norm.
         const ZERO: f64 = 1e-3;
         const STEPS: usize = 100;
@@ -132,6 +141,42 @@ impl Cone {
             add(&mut weights, 1.0, &values);
         }
         None
+    }
+
+    /// The smooth set through the configuration, if there is one, whose motions are all those that are not
+    /// forbidden to second order, and on which the rank is as low everywhere: then no other assembled
+    /// configuration is near. Where a function and its slope vanish on a set, beside which it is curved, it
+    /// vanishes nowhere else nearby (the lemma of Morse and Bott).
+    ///
+    /// `reach` is the length of the steps by which it is tried.
+    pub fn set(
+        &self,
+        near: &mut Neighbourhood,
+        from: &Tangent,
+        reach: f64,
+        rng: &mut impl Rng,
+    ) -> Option<FlatSet> {
+        /// Where equations only touch zero, solutions are known to half their digits, and what vanishes
+        /// there is this small beside the largest singular value.
+        const HALF: f64 = 1e-5;
+        let flat = Tangent {
+            motions: self.flat()?,
+            ..from.clone()
+        };
+        let beside = match flat.motions.is_empty() {
+            true => vec![],
+            false => near.follows(&flat, reach, rng)?,
+        };
+        let as_low = |at: &Configuration<f64>| {
+            let decomposition = near.tangent(at.clone()).decomposition;
+            let values = decomposition.singular_values();
+            let counts = values.iter().filter(|v| **v > HALF * values[0]);
+            counts.count() <= from.decomposition.rank()
+        };
+        beside.iter().all(as_low).then_some(FlatSet {
+            motions: flat.motions,
+            beside,
+        })
     }
 
     /// Whether second order excludes nothing.
@@ -203,8 +248,49 @@ fn shortest(rows: usize, columns: &[f64], b: &[f64]) -> Option<Vec<f64>> {
     Some(s.tr_mul(&weights).iter().copied().collect())
 }
 
+impl Neighbourhood<'_> {
+    /// The assembled configuration that a small step leads to, with the unit direction to it, if it converges.
+    pub fn arrive(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        reach: f64,
+    ) -> Option<(Configuration<f64>, Vec<f64>)> {
+        let start = match self.follow(from, direction, reach) {
+            Some(step) => step.at,
+            None => {
+                let step: Vec<f64> = direction.iter().map(|x| x * reach).collect();
+                self.system().displaced(&from.at, &step)
+            }
+        };
+        let at = self.settle(start, reach)?;
+        let mut way = self.system().difference(&from.at, &at);
+        remove(&mut way, &from.idle);
+        let distance = norm(&way);
+        way.iter_mut().for_each(|x| *x /= distance);
+        (0.05 * reach < distance && distance < 5.0 * reach).then_some((at, way))
+    }
+
+    /// Where steps in the span of the motions arrive, if all arrive where they aim: not where branches meet.
+    pub fn follows(
+        &mut self,
+        at: &Tangent,
+        step: f64,
+        rng: &mut impl Rng,
+    ) -> Option<Vec<Configuration<f64>>> {
+        const TRIALS: usize = 6;
+        const ALONG: f64 = 0.95;
+        let arrivals = (0..TRIALS).map(|_| {
+            let direction = combination(&at.motions, rng);
+            let (at, way) = self.arrive(at, &direction, step)?;
+            (dot(&way, &direction) > ALONG).then_some(at)
+        });
+        arrivals.collect()
+    }
+}
+
 /// A random unit vector in the span of orthonormal vectors.
-pub(super) fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
+pub fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
     let mut direction = vec![0.0; basis[0].len()];
     while norm(&direction) < 0.1 {
         direction.fill(0.0);
