@@ -16,7 +16,7 @@ mod warm;
 mod watch;
 
 pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
-pub use branching::BranchPoint;
+pub use branching::{BranchPoint, Nearing};
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
 pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
