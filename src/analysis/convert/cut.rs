@@ -124,6 +124,24 @@ fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, 
         Frame::Link { chain, row } => chain == place.chain && row == rows,
         _ => false,
     };
+    let link = |row: usize| Frame::Link {
+        chain: place.chain,
+        row,
+    };
+    let opened = [link(place.row), link(place.row + 1)];
+    // what a rigid closure joins becomes one body, which nothing else may join to itself
+    let stays_alone = |index: usize| {
+        let bodies = |frames: [Frame; 2]| {
+            let mut bodies = frames.map(|frame| mechanism.body(frame));
+            bodies.sort();
+            bodies
+        };
+        let closures = mechanism.closures();
+        let others = (closures.iter().enumerate()).filter(|(other, _)| *other != index);
+        let mut others = others.map(|(_, other)| other.frames).chain([opened]);
+        closures[index].kind != ClosureKind::Rigid
+            || others.all(|frames| bodies(frames) != bodies(closures[index].frames))
+    };
     let mut found: Vec<(usize, usize, usize)> = Vec::new();
     let mut others = Vec::new();
     for (index, closure) in mechanism.closures().iter().enumerate() {
@@ -133,7 +151,9 @@ fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, 
             _ => continue,
         };
         match ClosureRows::variables(closure.kind) {
-            Some(number) if ends(closure.frames[side]) => found.push((number, index, side)),
+            Some(number) if ends(closure.frames[side]) && stays_alone(index) => {
+                found.push((number, index, side))
+            }
             _ => others.push(closure.name.clone()),
         }
     }

@@ -5,7 +5,7 @@ mod lasting;
 
 use super::STILL;
 use super::twists::FrameTwists;
-use crate::description::{ClosureKind, Role};
+use crate::description::Role;
 use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
@@ -152,21 +152,22 @@ impl<'a> Neighbourhood<'a> {
             let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
             (a - b).norm() > 1e-6 / scale
         };
-        // what leaves two points of a link at rest turns it about the line of these, and a link that
-        // is cut in two turns as one
-        let bodies = &bodies;
-        let has_line = |place: usize| {
-            let on_it = |k: &usize| bodies[*k] == bodies[place];
-            let mut others = (0..frames.len()).filter(on_it);
+        // what leaves two points of a link at rest turns it about the line of these, and so it does a link that
+        // is cut in two, or whose halves slide in one another
+        let (frames, bodies) = (&frames, &bodies);
+        let has_line = |place: usize, joined: [Frame; 2]| {
+            let joined = joined.map(|frame| mechanism.body(frame));
+            let mut others = (0..frames.len()).filter(|k| joined.contains(&bodies[*k]));
             others.any(|other| apart(place, other))
         };
         let turning: Vec<(usize, bool)> = (mechanism.closures().iter())
             .filter(|closure| !closure.kind.leaves_orientation())
-            .flat_map(|closure| closure.frames.map(|frame| (closure.kind, frame)))
-            .filter_map(|(kind, frame)| {
+            .flat_map(|closure| closure.frames.map(|frame| (closure, frame)))
+            .filter_map(|(closure, frame)| {
                 let place = frames.iter().position(|f| *f == frame)?;
-                let cut = kind == ClosureKind::Rigid && has_line(place);
-                (!cut).then_some((place, kind.leaves_turn()))
+                let about_axis = closure.kind.leaves_turn();
+                let turns_as_one = !about_axis && has_line(place, closure.frames);
+                (!turns_as_one).then_some((place, about_axis))
             })
             .collect();
         let outside = mechanism.joints_outside_closures();

@@ -47,7 +47,7 @@ fn bound(count: usize, structure: &'static str, source: &'static str) -> Option<
 struct Link {
     kind: ClosureKind,
     frames: [Frame; 2],
-    /// Unknown joints that affect it.
+    /// Unknown joints that affect its equations.
     joints: Vec<usize>,
     axes: ClosureAxes<C>,
 }
@@ -81,7 +81,18 @@ impl<'a> Structure<'a> {
             .closures
             .iter()
             .zip(here.system.joints_of_closures());
+        let small = SMALL * dimensions.characteristic_length;
         let links = links.zip(axes).map(|((closure, mut joints), axes)| {
+            // a closure does not see a turn about the origin of its frame, or about the axis of that
+            let turned = |(_, omega, v): &(usize, Vector3<C>, Vector3<C>)| {
+                let moved = v.0.iter().any(|x| x.norm() > small);
+                let about = |axis: &Vector3<C>| closure.kind.leaves_turn() && parallel(omega, axis);
+                moved || !(closure.kind.leaves_orientation() || axes.frames.iter().any(about))
+            };
+            joints.retain(|joint| {
+                let mut at = axes.joints.iter().filter(|(j, ..)| j == joint).peekable();
+                at.peek().is_none() || at.any(turned)
+            });
             joints.sort_unstable();
             joints.dedup();
             Link {
