@@ -12,6 +12,7 @@ mod block;
 )]
 mod bordered;
 mod decomposition;
+mod elimination;
 mod factorable;
 #[expect(
     clippy::assign_op_pattern,
@@ -23,20 +24,23 @@ mod lu;
     reason = "`+=` of num_complex is a call, `+` is not"
 )]
 mod qr;
+mod rows;
 #[cfg(feature = "sparse")]
 mod sparse;
 mod svd;
 mod vectors;
 
 pub use aligned::axis_aligned;
-pub use block::{Block, DenseOnly, SparseStep};
+pub use block::{Block, DenseOnly, PatternOnly, SparseStep};
 pub use bordered::Bordered;
-pub use decomposition::Decomposition;
+pub use decomposition::{Decomposition, singular_values};
+pub use elimination::Elimination;
 pub use factorable::Factorable;
 pub use qr::Qr;
+pub use rows::Rows;
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
-pub use svd::{Svd, singular_values};
+pub use svd::Svd;
 pub use vectors::{add, complement, dot, norm, orthonormal, product, remove};
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside
@@ -78,8 +82,13 @@ pub const CANCELLED: f64 = 1e-14;
 /// rounding itself, as in the equation of a rod from the centre of a ball to a point of its link.
 pub fn rank(singular_values: &[f64]) -> usize {
     let largest = singular_values.first().copied().unwrap_or(0.0);
-    let threshold = (RANK_TOLERANCE * largest).max(CANCELLED);
+    let threshold = lost(largest);
     singular_values.iter().filter(|&&s| s > threshold).count()
+}
+
+/// What counts as lost beside the largest singular value.
+fn lost(largest: f64) -> f64 {
+    (RANK_TOLERANCE * largest).max(CANCELLED)
 }
 
 /// The numerical rank of a column-major matrix.
@@ -91,5 +100,6 @@ pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
     rank(matrix.singular_values().as_slice())
 }
 
-/// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube.
+/// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube. Beyond it the
+/// groups of rows are eliminated one after another ([`Elimination`]).
 pub const SPECTRUM_LIMIT: usize = 500;

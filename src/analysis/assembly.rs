@@ -124,9 +124,8 @@ pub struct AssemblyReport {
     pub seed: u64,
     /// The largest closure residual, dimensionless (characteristic lengths and rad).
     pub residual: f64,
-    /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian; infinite
-    /// at a singular configuration, NaN where there are too many unknowns to compute it
-    /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)); `null` in JSON in both cases.
+    /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian, estimated beyond
+    /// [`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT) unknowns; infinite, in JSON `null`, at a singular configuration.
     #[serde(deserialize_with = "infinite_if_null")]
     pub condition: f64,
     /// Whether the condition number is poor.

@@ -28,7 +28,7 @@ use crate::mechanism::{Mechanism, Variable};
 use crate::solve::{Continuation, Watch};
 use crate::system::{
     Analysed, Closing, Coordinate, Driven, Lock, Moved, Question, QuestionError, WidestGap,
-    check_angle, check_angles,
+    check_angle, check_angles, too_large,
 };
 use classify::Classifier;
 pub(crate) use classify::SingularityMeter;
@@ -139,6 +139,9 @@ pub fn singularities(
     watch: &Watch,
 ) -> Result<Analysed<SingularitiesReport>, QuestionError> {
     let mechanism = question.mechanism();
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
+    }
     let closed = match Closing::seeded(settings.seed).determined(question, watch)? {
         Ok(closed) => closed,
         Err(answer) => return Ok(answer),

@@ -2,6 +2,8 @@
 
 mod reactions;
 
+use std::collections::HashSet;
+
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
@@ -88,7 +90,8 @@ pub struct Force {
 ///
 /// By virtual work g + Jᵀλ + Sᵀτ = 0: g are the generalised forces of the load, J the closure
 /// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one is taken that
-/// loads closures and joints least, by the sum of squares.
+/// loads closures and joints least, by the sum of squares; closures alone beyond
+/// [`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT) unknowns.
 /// Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
 ///
 /// # Errors
@@ -114,20 +117,24 @@ pub fn statics(
     let held = question.driven_coordinates();
 
     let Equilibrium {
-        equations,
+        rank,
+        condition,
+        stresses,
         generalised,
         mut forces,
         left,
-    } = Equilibrium::of(&near, &tangent, &held, load);
-    let stresses = equations.null_space();
+    } = Equilibrium::of(&near, at, &held, load);
     let none = Load::default();
     let changes: Vec<reactions::Reactions> = (stresses.iter())
         .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
         .collect();
     let length = mechanism.characteristic_length();
-    let found = reactions::of(&mut near, at, load, &forces[..rows]);
-    for (share, stress) in found.least(&changes, length).iter().zip(&stresses) {
-        add(&mut forces, *share, stress);
+    // in a large mechanism closures alone are loaded least: its states of stress are not all known
+    if !near.system().is_large() {
+        let found = reactions::of(&mut near, at, load, &forces[..rows]);
+        for (share, stress) in found.least(&changes, length).iter().zip(&stresses) {
+            add(&mut forces, *share, stress);
+        }
     }
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
 
@@ -141,13 +148,12 @@ pub fn statics(
     let (mut closures, mut joints) = found.marked(&changes, length);
     // what makes coordinates of points joints carries only what holds these
     closures.truncate(mechanism.own_parts()[1]);
-    joints.retain(|joint| {
-        !mechanism
-            .joints()
-            .iter()
-            .enumerate()
-            .any(|(i, of)| mechanism.is_of_point(i) && joint.variables.contains(&of.name))
-    });
+    let of_points = mechanism.joints().iter().enumerate();
+    let of_points: HashSet<&String> = of_points
+        .filter(|(i, _)| mechanism.is_of_point(*i))
+        .map(|(_, joint)| &joint.name)
+        .collect();
+    joints.retain(|joint| !joint.variables.iter().any(|name| of_points.contains(name)));
     let unbalanced = unbalanced(mechanism, &unknowns, &left, norm(&generalised));
     Ok(Analysed::Closed(StaticsReport {
         mechanism: mechanism.name().to_owned(),
@@ -168,12 +174,12 @@ pub fn statics(
             })
             .collect(),
         unbalanced,
-        gained: (unknowns.len() - equations.rank()).saturating_sub(tangent.idle.len()),
+        gained: (unknowns.len() - rank).saturating_sub(tangent.idle.len()),
         actuators,
         closures,
         joints,
-        self_stresses: stresses.len(),
-        condition: equations.condition(),
+        self_stresses: rows + held.len() - rank,
+        condition,
         normalising_length: mechanism.characteristic_length(),
         outside_limits: closed.outside_limits(mechanism),
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),

@@ -258,7 +258,7 @@ pub fn sweep(
         Err(why) => return record.no_start(&mut curve, &start, why, method),
     };
     let (place, turns_back) = curve.towards_end(place);
-    let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
+    let mut rows = Rows::new(mechanism, held, &curve, &place, settings);
     if rows.first(&place, sink).is_break() {
         return interrupted(record.report(SweepEnd::Stopped, 1, 0.0));
     }

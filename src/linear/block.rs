@@ -53,3 +53,27 @@ impl<T> SparseStep<T> for DenseOnly {
     {
     }
 }
+
+/// The pattern alone: large matrices over these numbers are filled in and never factorised.
+#[derive(Clone, Copy, Debug)]
+pub struct PatternOnly;
+
+impl<T> SparseStep<T> for PatternOnly {
+    const AVAILABLE: bool = true;
+    fn new(_: usize, _: &[Block], _: usize) -> Self {
+        PatternOnly
+    }
+    fn factorise<'a>(&mut self, _: impl Iterator<Item = (&'a Block, &'a [T])>, _: &[T], _: f64)
+    where
+        T: 'a,
+    {
+        unreachable!("derivatives are taken of residuals; equations are solved over other numbers")
+    }
+    fn step<'a, I>(&self, _: impl Fn() -> I, _: &[T], _: &mut [T])
+    where
+        T: 'a,
+        I: Iterator<Item = (&'a Block, &'a [T])>,
+    {
+        unreachable!("never factorised")
+    }
+}

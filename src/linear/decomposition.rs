@@ -1,24 +1,78 @@
-use super::vectors::{add, complement, dot, product};
-use super::{Svd, rank};
+use std::sync::{Arc, OnceLock};
 
-/// The singular value decomposition A = U·Σ·Vᵀ of a dense matrix, cut at the rank tolerance.
+use super::vectors::orthogonalise;
+use super::{Elimination, Rows, Svd, add, complement, dot, norm, product, rank};
+
+/// The singular value decomposition A = U·Σ·Vᵀ of a dense matrix, cut at the rank tolerance, or what is known of it for
+/// a large one.
 ///
 /// Source: Golub and Van Loan, §2.4 and §5.5.
 #[derive(Clone, Debug)]
 pub struct Decomposition {
     rows: usize,
     columns: usize,
-    /// All singular values.
+    rank: usize,
+    found: Found,
+}
+
+#[derive(Clone, Debug)]
+enum Found {
+    Spectrum(Spectrum),
+    Large(Arc<Large>),
+}
+
+#[derive(Clone, Debug, Default)]
+struct Spectrum {
+    /// All singular values; of a large matrix the largest and the smallest that counts, estimated.
     values: Vec<f64>,
-    /// The vectors of those that count.
+    /// The vectors of those that count; of a large matrix those of the smallest.
     left: Vec<Vec<f64>>,
     right: Vec<Vec<f64>>,
+}
+
+#[derive(Debug)]
+struct Large {
+    elimination: Elimination,
+    null_space: Vec<Vec<f64>>,
+    /// Once it is asked for.
+    spectrum: OnceLock<Spectrum>,
+}
+
+impl Large {
+    fn spectrum(&self) -> Spectrum {
+        if self.elimination.rank() == 0 {
+            return Spectrum::default();
+        }
+        let (smallest, v) = self.elimination.smallest(&self.null_space);
+        let image = self.elimination.product(&v);
+        Spectrum {
+            values: vec![self.elimination.largest(), smallest],
+            left: vec![image.iter().map(|x| x / smallest).collect()],
+            right: vec![v],
+        }
+    }
 }
 
 impl Decomposition {
     /// Decomposes a column-major matrix.
     pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
         Decomposition::cut(rows, columns, entries, rank)
+    }
+
+    /// Decomposes a large matrix of groups of rows that touch few unknowns each. There is no left null space.
+    pub fn of_groups(columns: usize, groups: Vec<Rows>) -> Self {
+        let rows = groups.iter().map(|group| group.count).sum();
+        let elimination = Elimination::of(columns, groups);
+        Decomposition {
+            rows,
+            columns,
+            rank: elimination.rank(),
+            found: Found::Large(Arc::new(Large {
+                null_space: elimination.null_space(),
+                spectrum: OnceLock::new(),
+                elimination,
+            })),
+        }
     }
 
     /// The same, cut at a rank that is known: what lies beyond it is treated as zero, however large.
@@ -39,34 +93,79 @@ impl Decomposition {
         Decomposition {
             rows,
             columns,
-            left,
-            right,
-            values,
+            rank,
+            found: Found::Spectrum(Spectrum {
+                values,
+                left,
+                right,
+            }),
+        }
+    }
+
+    fn large(&self) -> Option<&Large> {
+        match &self.found {
+            Found::Spectrum(_) => None,
+            Found::Large(large) => Some(large),
+        }
+    }
+
+    fn spectrum(&self) -> &Spectrum {
+        match &self.found {
+            Found::Spectrum(spectrum) => spectrum,
+            Found::Large(large) => large.spectrum.get_or_init(|| large.spectrum()),
         }
     }
 
     /// The numerical rank.
     pub fn rank(&self) -> usize {
-        self.left.len()
+        self.rank
     }
 
-    /// Singular values, largest first.
+    /// The same of the whole matrix, where it was cut at a rank that was known.
+    pub fn whole_rank(&self) -> usize {
+        match &self.found {
+            Found::Spectrum(spectrum) => rank(&spectrum.values),
+            Found::Large(_) => self.rank,
+        }
+    }
+
+    /// The groups of rows of a large matrix.
+    pub fn groups(&self) -> Option<&[Rows]> {
+        Some(self.large()?.elimination.groups())
+    }
+
+    /// ‖A⁺(B − A)‖, about, for other entries B of a large matrix A; infinite for one that is not large.
+    pub fn relative_change(&self, other: &[Rows]) -> f64 {
+        self.large().map_or(f64::INFINITY, |large| {
+            (large.elimination).relative_change(other, &large.null_space)
+        })
+    }
+
+    /// Singular values, largest first; of a large matrix the largest and the smallest that counts, within some percent.
     pub fn singular_values(&self) -> &[f64] {
-        &self.values
+        &self.spectrum().values
     }
 
     /// Ratio of the largest to the smallest singular value that counts; 1 if none does.
     pub fn condition(&self) -> f64 {
-        match self.rank() {
+        match self.rank {
             0 => 1.0,
-            rank => self.values[0] / self.values[rank - 1],
+            _ => self.spectrum().values[0] / self.smallest(),
         }
     }
 
     /// A⁺b: of the vectors nearest to a solution of A x = b the shortest.
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+        if let Some(large) = self.large() {
+            return large.elimination.solve(b, &large.null_space);
+        }
         let mut x = vec![0.0; self.columns];
-        for ((u, v), value) in self.left.iter().zip(&self.right).zip(&self.values) {
+        let Spectrum {
+            values,
+            left,
+            right,
+        } = self.spectrum();
+        for ((u, v), value) in left.iter().zip(right).zip(values) {
             add(&mut x, dot(u, b) / value, v);
         }
         x
@@ -74,36 +173,80 @@ impl Decomposition {
 
     /// det(Uᵀ B V Σ⁻¹) of another matrix B of the same shape, column-major; 1 for A itself.
     pub fn determinant_beside(&self, entries: &[f64]) -> f64 {
-        let rank = self.rank();
-        let images = self.right.iter().map(|v| product(entries, self.rows, v));
-        let images: Vec<Vec<f64>> = images.collect();
+        let (rank, spectrum) = (self.rank(), self.spectrum());
+        let images = spectrum.right.iter();
+        let images: Vec<Vec<f64>> = images.map(|v| product(entries, self.rows, v)).collect();
         nalgebra::DMatrix::from_fn(rank, rank, |i, j| {
-            dot(&self.left[i], &images[j]) / self.values[j]
+            dot(&spectrum.left[i], &images[j]) / spectrum.values[j]
         })
         .determinant()
     }
 
     /// The unit vectors u and v of the smallest singular value that counts: A v = σ u.
     pub fn weakest(&self) -> Option<(&[f64], &[f64])> {
-        Some((self.left.last()?, self.right.last()?))
+        let spectrum = self.spectrum();
+        Some((spectrum.left.last()?, spectrum.right.last()?))
     }
 
     /// The smallest singular value that counts; infinite if none does.
     pub fn smallest(&self) -> f64 {
-        match self.rank() {
-            0 => f64::INFINITY,
-            rank => self.values[rank - 1],
+        match (self.rank, self.large()) {
+            (0, _) => f64::INFINITY,
+            (_, Some(_)) => self.spectrum().values[1],
+            (rank, None) => self.spectrum().values[rank - 1],
         }
+    }
+
+    /// The pivot of a large matrix that is nearest to losing its rank, beside its largest singular value; 1 of others.
+    pub fn least_pivot(&self) -> f64 {
+        self.large().map_or(1.0, |large| {
+            large.elimination.least_pivot() / large.elimination.largest()
+        })
     }
 
     /// Orthonormal basis of the vectors with A x = 0.
     pub fn null_space(&self) -> Vec<Vec<f64>> {
-        complement(&self.right, self.columns)
+        match &self.found {
+            Found::Spectrum(spectrum) => complement(&spectrum.right, self.columns),
+            Found::Large(large) => large.null_space.clone(),
+        }
     }
 
-    /// Orthonormal basis of the vectors with xᵀ A = 0.
+    /// Orthonormal basis of the vectors with xᵀ A = 0; not of a large matrix.
     pub fn left_null_space(&self) -> Vec<Vec<f64>> {
-        complement(&self.left, self.rows)
+        complement(&self.spectrum().left, self.rows)
+    }
+}
+
+/// Up to so many singular values rotations of pairs of columns are faster than an iteration.
+const FEW: usize = 6;
+
+/// The lengths of the columns, or of the rows if these are fewer, once they are made orthogonal, largest first.
+fn lengths_when_orthogonal(rows: usize, columns: usize, entries: &[f64]) -> Vec<f64> {
+    let (length, mut vectors) = match columns <= rows {
+        true => (rows, entries.to_vec()),
+        false => {
+            let row = |i: usize| entries.iter().skip(i).step_by(rows).copied();
+            (columns, (0..rows).flat_map(row).collect())
+        }
+    };
+    orthogonalise(length, &mut vectors, |_, _, _| {});
+    let mut lengths: Vec<f64> = vectors.chunks_exact(length).map(norm).collect();
+    lengths.sort_by(|a, b| b.total_cmp(a));
+    lengths
+}
+
+/// The singular values of a column-major matrix, largest first.
+pub fn singular_values(rows: usize, columns: usize, entries: &[f64]) -> Vec<f64> {
+    match rows.min(columns) {
+        // of a single row or column its length
+        1 => vec![norm(entries)],
+        2..=FEW => lengths_when_orthogonal(rows, columns, entries),
+        _ => {
+            let mut values = Svd::of(rows, columns, entries).values;
+            values.truncate(rows.min(columns));
+            values
+        }
     }
 }
 
@@ -131,5 +274,42 @@ mod tests {
             "{x:?}"
         );
         assert!((x[2] - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn singular_values_of_a_small_matrix_are_those_of_its_decomposition_in_either_shape() {
+        // a diagonal of 3, 2 and 1e-9 between two reflections I − 2 u uᵀ/u·u
+        let reflected = |u: &[f64], v: &mut [f64]| {
+            let factor = -2.0 * dot(u, v) / dot(u, u);
+            add(v, factor, u);
+        };
+        let known = [3.0, 2.0, 1e-9];
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        for j in 0..3 {
+            let mut weights = [0.0; 3];
+            weights[j] = 1.0;
+            reflected(&[0.3, -0.8, 0.4], &mut weights);
+            let mut column = vec![0.0; 5];
+            for k in 0..3 {
+                column[k] = known[k] * weights[k];
+            }
+            reflected(&[0.2, 0.5, -0.1, 0.7, 0.9], &mut column);
+            columns.push(column);
+        }
+        let tall = columns.concat();
+        let flat: Vec<f64> = (0..5)
+            .flat_map(|i| columns.iter().map(move |c| c[i]))
+            .collect();
+        for (rows, width, entries) in [(5, 3, &tall), (3, 5, &flat)] {
+            let found = singular_values(rows, width, entries);
+            assert_eq!(found.len(), 3);
+            for (found, known) in found.iter().zip(known) {
+                assert!((found - known).abs() < 1e-14 * 3.0, "{found} {known}");
+            }
+        }
+        assert_eq!(
+            singular_values(2, 2, &[1.0, 1.0, 2.0, 2.0])[1].max(1e-15),
+            1e-15
+        );
     }
 }

@@ -1,4 +1,4 @@
-use super::{DenseOnly, SparseStep};
+use super::{DenseOnly, PatternOnly, SparseStep};
 use crate::number::{Complex, Dual, Field, Interval, Lanes};
 
 /// A number for which least-squares steps can be computed, with its way to do so when the matrix is
@@ -23,7 +23,7 @@ impl Factorable for Complex<f64> {
 }
 
 impl<T: Field> Factorable for Dual<T> {
-    type Sparse = DenseOnly;
+    type Sparse = PatternOnly;
 }
 
 impl Factorable for Interval {

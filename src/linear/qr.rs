@@ -222,7 +222,7 @@ impl<T: Field> Qr<T> {
 }
 
 #[inline(always)]
-fn reflect_one<T: Field>(v: &[T], scale: T::Size, column: &mut [T]) {
+pub(super) fn reflect_one<T: Field>(v: &[T], scale: T::Size, column: &mut [T]) {
     let mut sum = T::zero();
     for (v, x) in v.iter().zip(&*column) {
         sum = sum + v.conjugate() * *x;

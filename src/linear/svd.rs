@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 
 use super::rank;
-use super::vectors::{dot, norm};
+use super::vectors::{orthogonalise, rotate};
 
 /// A = U·Σ·Vᵀ.
 pub struct Svd {
@@ -88,77 +88,8 @@ impl Svd {
     }
 }
 
-/// Up to so many singular values rotations of pairs of columns are faster than an iteration.
-const FEW: usize = 6;
-
-/// The lengths of the columns, or of the rows if these are fewer, once they are made orthogonal, largest first.
-fn lengths_when_orthogonal(rows: usize, columns: usize, entries: &[f64]) -> Vec<f64> {
-    let (length, mut vectors) = match columns <= rows {
-        true => (rows, entries.to_vec()),
-        false => {
-            let row = |i: usize| entries.iter().skip(i).step_by(rows).copied();
-            (columns, (0..rows).flat_map(row).collect())
-        }
-    };
-    orthogonalise(length, &mut vectors, |_, _, _| {});
-    let mut lengths: Vec<f64> = vectors.chunks_exact(length).map(norm).collect();
-    lengths.sort_by(|a, b| b.total_cmp(a));
-    lengths
-}
-
-/// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958); `turned` gets each pair with cosine and
-/// sine.
-fn orthogonalise(length: usize, vectors: &mut [f64], mut turned: impl FnMut([usize; 2], f64, f64)) {
-    const SWEEPS: usize = 40;
-    for _ in 0..SWEEPS {
-        let mut still = true;
-        for q in 1..vectors.len() / length.max(1) {
-            let (before, after) = vectors.split_at_mut(q * length);
-            let second = &mut after[..length];
-            for (p, first) in before.chunks_exact_mut(length).enumerate() {
-                let (a, b, along) = (dot(first, first), dot(second, second), dot(first, second));
-                if along.is_nan() || along.abs() <= f64::EPSILON * (a * b).sqrt() {
-                    continue;
-                }
-                still = false;
-                let zeta = (b - a) / (2.0 * along);
-                let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
-                let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-                let sine = cosine * tangent;
-                rotate(first, second, cosine, sine);
-                turned([p, q], cosine, sine);
-            }
-        }
-        if still {
-            break;
-        }
-    }
-}
-
-/// Rotates a pair of vectors.
-fn rotate(first: &mut [f64], second: &mut [f64], cosine: f64, sine: f64) {
-    for (x, y) in first.iter_mut().zip(second) {
-        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
-    }
-}
-
-/// The singular values of a column-major matrix, largest first.
-pub fn singular_values(rows: usize, columns: usize, entries: &[f64]) -> Vec<f64> {
-    match rows.min(columns) {
-        // of a single row or column its length
-        1 => vec![norm(entries)],
-        2..=FEW => lengths_when_orthogonal(rows, columns, entries),
-        _ => {
-            let mut values = Svd::of(rows, columns, entries).values;
-            values.truncate(rows.min(columns));
-            values
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::add;
     use super::*;
 
     /// Numbers in (−1, 1) (Knuth's linear congruential generator).
@@ -243,42 +174,5 @@ mod tests {
         let svd = Svd::of(2, 2, &[1.0, f64::NAN, 0.0, 1.0]);
         assert_eq!(svd.values.len(), 2);
         assert_eq!(Svd::of(0, 2, &[]).values, [0.0, 0.0]);
-    }
-
-    #[test]
-    fn singular_values_of_a_small_matrix_are_those_of_its_decomposition_in_either_shape() {
-        // a diagonal of 3, 2 and 1e-9 between two reflections I − 2 u uᵀ/u·u
-        let reflected = |u: &[f64], v: &mut [f64]| {
-            let factor = -2.0 * dot(u, v) / dot(u, u);
-            add(v, factor, u);
-        };
-        let known = [3.0, 2.0, 1e-9];
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        for j in 0..3 {
-            let mut weights = [0.0; 3];
-            weights[j] = 1.0;
-            reflected(&[0.3, -0.8, 0.4], &mut weights);
-            let mut column = vec![0.0; 5];
-            for k in 0..3 {
-                column[k] = known[k] * weights[k];
-            }
-            reflected(&[0.2, 0.5, -0.1, 0.7, 0.9], &mut column);
-            columns.push(column);
-        }
-        let tall = columns.concat();
-        let flat: Vec<f64> = (0..5)
-            .flat_map(|i| columns.iter().map(move |c| c[i]))
-            .collect();
-        for (rows, width, entries) in [(5, 3, &tall), (3, 5, &flat)] {
-            let found = singular_values(rows, width, entries);
-            assert_eq!(found.len(), 3);
-            for (found, known) in found.iter().zip(known) {
-                assert!((found - known).abs() < 1e-14 * 3.0, "{found} {known}");
-            }
-        }
-        assert_eq!(
-            singular_values(2, 2, &[1.0, 1.0, 2.0, 2.0])[1].max(1e-15),
-            1e-15
-        );
     }
 }

@@ -1,3 +1,5 @@
+//! Vectors, and bases of them.
+
 /// a·b.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
@@ -74,5 +76,45 @@ pub fn remove(vector: &mut [f64], basis: &[Vec<f64>]) {
     for direction in basis {
         let along = dot(vector, direction);
         add(vector, -along, direction);
+    }
+}
+
+/// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958); `turned` gets each pair with cosine and
+/// sine.
+pub(super) fn orthogonalise(
+    length: usize,
+    vectors: &mut [f64],
+    mut turned: impl FnMut([usize; 2], f64, f64),
+) {
+    const SWEEPS: usize = 40;
+    for _ in 0..SWEEPS {
+        let mut still = true;
+        for q in 1..vectors.len() / length.max(1) {
+            let (before, after) = vectors.split_at_mut(q * length);
+            let second = &mut after[..length];
+            for (p, first) in before.chunks_exact_mut(length).enumerate() {
+                let (a, b, along) = (dot(first, first), dot(second, second), dot(first, second));
+                if along.is_nan() || along.abs() <= f64::EPSILON * (a * b).sqrt() {
+                    continue;
+                }
+                still = false;
+                let zeta = (b - a) / (2.0 * along);
+                let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
+                let sine = cosine * tangent;
+                rotate(first, second, cosine, sine);
+                turned([p, q], cosine, sine);
+            }
+        }
+        if still {
+            break;
+        }
+    }
+}
+
+/// Rotates a pair of vectors.
+pub(super) fn rotate(first: &mut [f64], second: &mut [f64], cosine: f64, sine: f64) {
+    for (x, y) in first.iter_mut().zip(second) {
+        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
     }
 }

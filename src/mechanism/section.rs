@@ -66,7 +66,11 @@ impl Mechanism {
 
     /// Whether a body is one of the slides that make coordinates of a point joints.
     pub fn is_slide_of_point(&self, body: Body) -> bool {
-        matches!(body, Body::Link { chain, .. } if chain >= self.own_parts()[0])
+        let Body::Link { chain, .. } = body else {
+            return false;
+        };
+        let mut joints = self.chains[chain].rows.iter().flat_map(Row::joints);
+        joints.any(|joint| self.is_of_point(joint))
     }
 
     /// The mechanism with a point closed by a ball to the end of a chain of slides, each with its home value and α and

@@ -60,9 +60,10 @@ impl Report for MobilityReport {
             }
         });
         document.section(more_branches(self)).method(format!(
-            "condition number {} with lengths over {}",
+            "condition number {} with lengths over {}{}",
             size(self.condition),
-            metres(self.length)
+            metres(self.length),
+            words::elimination(self)
         ))
     }
 

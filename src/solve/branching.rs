@@ -71,7 +71,7 @@ impl Continuation {
     ///
     /// for bases w and v of the left and right null space that the point has with k singular values
     /// fewer, renewed in every step; there are more equations than unknowns, all of which hold at a
-    /// branch point. `None` if there is none within `reach`.
+    /// branch point. `None` if there is none within `reach`, or the Jacobian is large.
     ///
     /// Source: Griewank and Reddien 1984 (borders); Leykin, Verschelde and Zhao 2006 (deflation).
     pub fn branch_point<C: SolutionCurve>(
@@ -80,6 +80,10 @@ impl Continuation {
         near: &C::Point,
         reach: f64,
     ) -> Option<BranchPoint<C::Point>> {
+        // of a large Jacobian the left null space, which has a vector for each redundant row, is not known
+        if curve.linearise_groups(near).is_some() {
+            return None;
+        }
         let unknowns = curve.unknowns();
         (1..unknowns).take(4).find_map(|lost| {
             let found = self.rank_drop(curve, near, reach, lost)?;

@@ -14,8 +14,13 @@
 //! Kantorovich; Deuflhard, Newton Methods for Nonlinear Problems, 2004, §2.1): there is no other
 //! solution for the step to end at. No step passes a crossing of branches, where J⁺ is infinite: it is
 //! located and left as a [`BranchPoint`](super::BranchPoint).
+//!
+//! **Large Jacobians**, whose groups of rows touch few unknowns each, must meet the second condition group by group, each
+//! with the inverse of its own rows. Where these leave a group the freedom along the tangent alone, its own unknowns
+//! change no branch, and so nothing does; of the whole Jacobian the norm would grow with the number of loops in a row and
+//! steps would shrink with it.
 
-use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot, norm, rank};
+use crate::linear::{BESIDE_A_CROSSING, Decomposition, Rows, SINGULAR_PLACE, dot, norm};
 
 /// A set of solutions with one freedom, on a manifold of points with tangent coordinates.
 pub trait SolutionCurve {
@@ -28,6 +33,10 @@ pub trait SolutionCurve {
     fn residual(&mut self, at: &Self::Point) -> Vec<f64>;
     /// F and its Jacobian at a point, column-major, rows × unknowns.
     fn linearise(&mut self, at: &Self::Point) -> (Vec<f64>, Vec<f64>);
+    /// F and the groups of rows of its Jacobian, if that is large.
+    fn linearise_groups(&mut self, _: &Self::Point) -> Option<(Vec<f64>, Vec<Rows>)> {
+        None
+    }
     /// at ⊕ step.
     fn displaced(&self, at: &Self::Point, step: &[f64]) -> Self::Point;
     /// The step that leads from one point to another.
@@ -46,16 +55,22 @@ pub struct Place<P> {
 }
 
 impl<P> Place<P> {
-    /// The smallest singular value of the Jacobian across the tangent: it vanishes where branches
-    /// cross.
+    /// The smallest singular value of the Jacobian across the tangent: it vanishes where branches cross. Of a large one
+    /// the least pivot, which does too; singular values of long rows of loops are small everywhere.
     pub fn least(&self) -> f64 {
+        if self.decomposition.groups().is_some() {
+            return self.decomposition.least_pivot();
+        }
         let values = self.decomposition.singular_values();
         let across = self.tangent.len().wrapping_sub(2);
         values.get(across).copied().unwrap_or(1.0)
     }
 
-    /// The largest singular value of the Jacobian.
+    /// The largest singular value of the Jacobian, 1 of a large one.
     pub fn largest(&self) -> f64 {
+        if self.decomposition.groups().is_some() {
+            return 1.0;
+        }
         let values = self.decomposition.singular_values();
         values.first().copied().unwrap_or(1.0)
     }
@@ -154,19 +169,30 @@ impl Continuation {
         const STEPS: usize = 30;
         let unknowns = curve.unknowns();
         for _ in 0..STEPS {
-            let (residual, jacobian) = curve.linearise(&at);
-            let rows = residual.len();
-            if !jacobian.iter().chain(&residual).all(|x| x.is_finite()) {
-                return Err(StepFailure::NotClosed);
-            }
             let regular = unknowns.saturating_sub(1);
-            let decomposition = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
+            let (residual, jacobian, decomposition) = match curve.linearise_groups(&at) {
+                Some((residual, groups)) => {
+                    if !residual.iter().all(|x| x.is_finite()) {
+                        return Err(StepFailure::NotClosed);
+                    }
+                    (residual, vec![], Decomposition::of_groups(unknowns, groups))
+                }
+                None => {
+                    let (residual, jacobian) = curve.linearise(&at);
+                    if !jacobian.iter().chain(&residual).all(|x| x.is_finite()) {
+                        return Err(StepFailure::NotClosed);
+                    }
+                    let rows = residual.len();
+                    let cut = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
+                    (residual, jacobian, cut)
+                }
+            };
             let step = back(&decomposition, &residual);
             let size = norm(&step);
             let largest = residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
             let closed = largest <= self.tolerance;
             // what the rank tolerance cuts off has no inverse
-            if closed && rank(decomposition.singular_values()) < regular {
+            if closed && decomposition.whole_rank() < regular {
                 return Err(StepFailure::Singular);
             }
             let settled = size < 1e-14 || (closed && size >= 0.25 * before);
@@ -174,7 +200,7 @@ impl Continuation {
                 return Err(StepFailure::NotClosed);
             }
             if settled {
-                let free = unknowns - rank(decomposition.singular_values()).min(unknowns);
+                let free = unknowns - decomposition.whole_rank().min(unknowns);
                 if free != 1 {
                     return Err(StepFailure::Singular);
                 }
@@ -202,7 +228,7 @@ impl Continuation {
         curve: &mut C,
         place: &Place<C::Point>,
     ) -> Option<Place<C::Point>> {
-        match place.jacobian.is_empty() {
+        match place.jacobian.is_empty() && place.decomposition.groups().is_none() {
             true => Some((self.settle(curve, place.at.clone()).ok()?).towards(&place.tangent)),
             false => Some(place.clone()),
         }
@@ -235,9 +261,27 @@ impl Continuation {
         from: &Place<C::Point>,
         length: f64,
     ) -> Option<Place<C::Point>> {
+        if from.decomposition.groups().is_some() {
+            return self.settled_ahead(curve, from, length);
+        }
         let (at, size) = self.ahead(curve, from, length)?;
         let place = self.settle_after(curve, at, size).ok()?;
         Some(place.towards(&from.tangent))
+    }
+
+    /// A place near the one at a distance along the tangent, by Newton steps: along many loops in a row simplified ones
+    /// contract for the shortest steps only.
+    fn settled_ahead<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        length: f64,
+    ) -> Option<Place<C::Point>> {
+        let ahead: Vec<f64> = from.tangent.iter().map(|x| x * length).collect();
+        let predicted = curve.displaced(&from.at, &ahead);
+        let place = self.settle(curve, predicted.clone()).ok()?;
+        let corrected = norm(&curve.difference(&predicted, &place.at));
+        (corrected <= 0.5 * length.abs()).then(|| place.towards(&from.tangent))
     }
 
     /// The point of that place, which takes no decomposition, with the size of the last step to it.
@@ -343,15 +387,25 @@ impl Continuation {
         best.1
     }
 
-    /// A length for the next step, from that of the last and how much the Jacobian changed along it.
-    pub fn next_length(&self, length: f64, changed: f64) -> f64 {
+    /// A length for the next step, from that of the last and how much the Jacobian changed along it. With many unknowns
+    /// the one that moves fastest keeps to the longest step.
+    pub fn next_length<P>(&self, length: f64, changed: f64, from: &Place<P>) -> f64 {
         let wanted = 0.7 * self.change / changed.max(1e-3);
-        (length * wanted.clamp(0.5, 2.0)).min(self.longest)
+        let fastest = match from.decomposition.groups() {
+            Some(_) => from.tangent.iter().fold(0.0f64, |m, x| m.max(x.abs())),
+            None => 1.0,
+        };
+        (length * wanted.clamp(0.5, 2.0)).min(self.longest / fastest)
     }
 }
 
 /// How much the Jacobian changes between two places, beside itself: ‖J⁺(J₁ − J₀)‖.
 pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
+    if let (Some(before), Some(after)) = (from.decomposition.groups(), to.decomposition.groups()) {
+        let changes = before.iter().zip(after).map(|(a, b)| group_change(a, b));
+        let largest = changes.fold(Some(0.0f64), |m, change| Some(m?.max(change?)));
+        return largest.unwrap_or_else(|| from.decomposition.relative_change(after));
+    }
     let rows = match from.tangent.len() {
         0 => return 0.0,
         n => from.jacobian.len() / n,
@@ -363,6 +417,25 @@ pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
         dot(&beside, &beside)
     });
     squares.sum::<f64>().sqrt()
+}
+
+/// The same for a group of rows with its own inverse; `None` if it leaves more freedoms than one.
+fn group_change(before: &Rows, after: &Rows) -> Option<f64> {
+    if before == after {
+        return Some(0.0);
+    }
+    let columns = before.columns().zip(after.columns());
+    let columns = columns.map(|((_, a), (_, b))| (a, b));
+    let moving = |(a, b): &(&[f64], &[f64])| a.iter().chain(*b).any(|x| *x != 0.0);
+    let columns: Vec<(&[f64], &[f64])> = columns.filter(moving).collect();
+    let entries: Vec<f64> = columns.iter().flat_map(|(a, _)| *a).copied().collect();
+    let here = Decomposition::of(before.count, columns.len(), &entries);
+    let squares = columns.iter().map(|(a, b)| {
+        let moved: Vec<f64> = b.iter().zip(*a).map(|(b, a)| b - a).collect();
+        let beside = here.solve(&moved);
+        dot(&beside, &beside)
+    });
+    (here.rank() + 1 == columns.len()).then(|| squares.sum::<f64>().sqrt())
 }
 
 /// −J⁺r.
@@ -418,7 +491,7 @@ pub(super) mod tests {
                 assert!(length > 1e-6);
                 continue;
             };
-            length = method.next_length(length, changed);
+            length = method.next_length(length, changed, &next);
             if place.tangent[0] * next.tangent[0] < 0.0 {
                 let fold = method.root(&mut curve, &place, &next, &mut |_, p| p.tangent[0]);
                 folds.push(fold.at);
@@ -462,7 +535,7 @@ pub(super) mod tests {
         while place.at[0] < 0.3 {
             match method.step(&mut curve, &place, length) {
                 Ok((next, changed)) => {
-                    length = method.next_length(length, changed);
+                    length = method.next_length(length, changed, &next);
                     place = next;
                 }
                 Err(_) => length *= 0.5,

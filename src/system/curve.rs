@@ -10,7 +10,8 @@ pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, se
 pub use tracker::MotionTracker;
 pub use walk::{Event, Monitor, Segment, Walk};
 
-use super::equations::{System, Work};
+use super::equations::{Places, System, Work};
+use crate::linear::Rows;
 use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, PoseCoordinate, turn_near};
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
 use crate::system::{Coordinate, Held, HeldPlatform, Unknown};
@@ -60,6 +61,7 @@ pub struct Curve {
     /// The input that measures the part of the segment that is gone.
     measure: usize,
     repeats: Vec<bool>,
+    places: Places,
 }
 
 impl Curve {
@@ -87,6 +89,7 @@ impl Curve {
             .unwrap_or(0);
         Curve {
             work: system.work(),
+            places: Places::new(system.unknowns()),
             system,
             inputs,
             measure,
@@ -184,8 +187,7 @@ impl Curve {
 
     /// Whether a tangent moves the joint more than rounding does, and where it stands in it.
     pub fn column(&self, joint: usize) -> Option<usize> {
-        let mut unknowns = self.system.unknowns().iter();
-        unknowns.position(|unknown| *unknown == Unknown::Joint(joint))
+        self.places.of(Unknown::Joint(joint))
     }
 
     /// rad or m in one unit of the scaled coordinate.
@@ -325,6 +327,20 @@ impl SolutionCurve for Curve {
             }
         }
         (residual, extended)
+    }
+
+    fn linearise_groups(&mut self, at: &Configuration<f64>) -> Option<(Vec<f64>, Vec<Rows>)> {
+        if !self.system.is_large() {
+            return None;
+        }
+        self.system.linearise(at, &mut self.work);
+        let mut residual = self.system.residual_of(&self.work).to_vec();
+        let mut groups = self.system.jacobian_rows(&mut self.work);
+        for (gap, slope) in self.ties(at) {
+            residual.push(gap);
+            groups.push(Rows::single(slope));
+        }
+        Some((residual, groups))
     }
 
     fn displaced(&self, at: &Configuration<f64>, step: &[f64]) -> Configuration<f64> {

@@ -2,6 +2,7 @@ mod approach;
 mod axes;
 mod closure_gap;
 mod coordinate;
+mod decomposed;
 mod displacement;
 mod layout;
 mod parts;

@@ -35,6 +35,10 @@ const ALIGNED: f64 = 1e-6;
 
 pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundancy> {
     let mechanism = near.mechanism();
+    // there are too many: they are only counted
+    if near.system().is_large() {
+        return vec![];
+    }
     let mut dependencies = tangent.decomposition.left_null_space();
     if dependencies.is_empty() {
         return vec![];

@@ -1,5 +1,7 @@
 //! What closures and joints pass on from body to body.
 
+use std::collections::HashMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector3;
@@ -92,21 +94,33 @@ pub(super) fn of(
             unique: [true; 6],
         });
     }
-    let bodies = mechanism.bodies();
-    let links = bodies.iter().filter_map(|&body| match body {
-        Body::Link { chain, row } => Some((body, chain, row)),
-        _ => None,
-    });
-    let joints = links.map(|(body, chain, row)| {
-        let frame = Frame::Link { chain, row };
-        let point = mechanism.poses([frame], at)[0].position;
-        let (mut force, mut moment) = (Vector3::zero(), Vector3::zero());
-        for (on, wrench) in &acting {
-            if is_beyond(mechanism, *on, body) {
-                force += -wrench.force;
-                moment += -wrench.moment;
-            }
+    // a joint carries what acts on its link and on all that stands on it
+    let mut carried: HashMap<Body, [Vector3<f64>; 2]> = HashMap::new();
+    for (on, wrench) in &acting {
+        let mut body = *on;
+        while let Body::Link { chain, row } = body {
+            let [force, moment] = carried.entry(body).or_insert([Vector3::zero(); 2]);
+            *force += -wrench.force;
+            *moment += -wrench.moment;
+            body = parent(mechanism, chain, row);
         }
+    }
+    let links = mechanism
+        .bodies()
+        .into_iter()
+        .filter_map(|body| match body {
+            Body::Link { chain, row } => Some((body, chain, row)),
+            _ => None,
+        });
+    let links: Vec<(Body, usize, usize)> = links.collect();
+    let frame = |&(_, chain, row): &_| Frame::Link { chain, row };
+    let frames: Vec<Frame> = links.iter().map(frame).collect();
+    let poses = mechanism.placed(&frames, at);
+    let joints = links.into_iter().zip(frames).zip(poses);
+    let joints = joints.map(|(((body, chain, row), frame), pose)| {
+        let point = pose.position;
+        let still = [Vector3::zero(); 2];
+        let [force, moment] = carried.get(&body).copied().unwrap_or(still);
         let inner = parent(mechanism, chain, row);
         let variables = mechanism.chains()[chain].rows[row - 1].joints();
         Reaction {
@@ -134,19 +148,6 @@ fn parent(mechanism: &Mechanism, chain: usize, row: usize) -> Body {
         chain,
         row: row - 1,
     })
-}
-
-/// Whether a body is another, or stands on it by way of chains.
-fn is_beyond(mechanism: &Mechanism, mut body: Body, link: Body) -> bool {
-    loop {
-        if body == link {
-            return true;
-        }
-        let Body::Link { chain, row } = body else {
-            return false;
-        };
-        body = parent(mechanism, chain, row);
-    }
 }
 
 impl Reactions {

@@ -31,10 +31,11 @@ impl Rows {
     pub fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
-        inputs: &[Driven],
+        curve: &Curve,
         start: &At,
         settings: &SweepSettings,
     ) -> Self {
+        let inputs = curve.inputs();
         let tracker = holding(held, inputs).map(|held| {
             let dimensions = mechanism.dimensions();
             let system = System::placing(mechanism, dimensions, &held, &settings.frames);
@@ -43,8 +44,14 @@ impl Rows {
         let way =
             |input: &Driven| (input.to - input.from).abs() / input.coordinate.scale(mechanism);
         let way = inputs.iter().map(way).fold(0.0, f64::max);
+        // solutions of many loops in a row are rounded more
+        let rounded = if curve.system().is_large() {
+            1e-9
+        } else {
+            1e-12
+        };
         Rows {
-            same: 1e-12f64.max(4e-12 / way.max(1e-12)),
+            same: f64::max(rounded, 4e-12 / way.max(1e-12)),
             tracker,
             inputs: inputs.to_vec(),
             steps: settings.steps,

@@ -3,7 +3,7 @@
 use super::{Accuracy, FirstOrderOnly};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
-use crate::system::{Drive, Motion, Neighbourhood, Tangent};
+use crate::system::{Drive, Motion, Neighbourhood, Places, Tangent};
 
 fn is_still(values: &[f64]) -> bool {
     values.iter().all(|x| *x == 0.0)
@@ -100,11 +100,9 @@ pub(super) fn first_order_only(
     let fastest = largest(&rates);
     let opens = mismatch > ROUNDING * strongest.max(fastest * fastest);
     let tangent = near.tangent(at.clone());
-    let order = near.system().unknowns();
-    let places = order.iter().map(|unknown| {
-        let place = motion.unknowns().iter().position(|u| u == unknown);
-        place.expect("the motion has every unknown")
-    });
+    let places = Places::new(motion.unknowns());
+    let places = (near.system().unknowns().iter())
+        .map(|unknown| places.of(*unknown).expect("the motion has every unknown"));
     let mut direction: Vec<f64> = places.map(|place| rates[place]).collect();
     let length = norm(&direction);
     let alone = tangent.motions.len() == 1;

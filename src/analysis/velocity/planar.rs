@@ -1,5 +1,6 @@
 //! Transmission angles and instant centres of planar mechanisms.
 
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
@@ -8,7 +9,9 @@ use super::plane::{ZERO, normal, split};
 use super::rods::with_rods;
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
-use crate::mechanism::{Body, Configuration, Frame, Kinematics, Mechanism, Placement, Point};
+use crate::mechanism::{
+    Body, ClosureKind, Configuration, Frame, Kinematics, Mechanism, Placement, Point,
+};
 use crate::system::{
     Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, loops,
 };
@@ -102,12 +105,16 @@ impl TransmissionAngles {
             .map(|wrenches| wrenches.points);
         let ends: Vec<[Vector3<f64>; 2]> = ends.collect();
         let found = loops(near, at).into_iter();
-        let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &ends)));
+        let closures = mechanism.closures().iter().enumerate();
+        let rods = closures.filter(|(_, closure)| closure.kind == ClosureKind::Distance);
+        let rods = rods.map(|(place, rod)| (&*rod.name, ends[place]));
+        let rods: HashMap<&str, [Vector3<f64>; 2]> = rods.collect();
+        let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &rods)));
         let found: Vec<HingedLoop> = found.collect();
         let joints = 0..mechanism.joints().len();
         let mut known = Known {
             joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
-            closures: Vec::new(),
+            closures: HashSet::new(),
         };
         let mut dyads: Vec<Option<Vec<Dyad>>> = found.iter().map(|_| None).collect();
         let dyad = |one: &HingedLoop, known: &Known| {
@@ -224,7 +231,7 @@ fn hinge(part: &LoopPart) -> Option<[f64; 6]> {
 /// What moves as the inputs say.
 struct Known {
     joints: Vec<bool>,
-    closures: Vec<String>,
+    closures: HashSet<String>,
 }
 
 impl Known {
@@ -244,18 +251,16 @@ impl Known {
         let cut = *cut;
         let turns = one.hinges[cut].is_some_and(|twist| split(&twist).0.norm() > ZERO);
         if turns && parts[cut].joints.is_empty() {
-            let mut sum = vec![0.0; self.joints.len()];
+            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
             for (part, body) in parts.iter().zip(&one.all.bodies) {
                 // a row has the motion of its first body
                 let sign = if part.bodies[0] == *body { 1.0 } else { -1.0 };
                 for (&joint, twist) in part.joints.iter().zip(&part.twists) {
-                    sum[joint] += sign * split(twist).0.dot(normal);
+                    *sum.entry(joint).or_default() += sign * split(twist).0.dot(normal);
                 }
             }
-            let all = sum.iter().zip(&self.joints);
-            known[cut] = all
-                .clone()
-                .all(|(turn, &known)| known || turn.abs() <= ZERO);
+            known[cut] =
+                (sum.iter()).all(|(&joint, turn)| self.joints[joint] || turn.abs() <= ZERO);
         }
         known
     }
@@ -405,29 +410,36 @@ pub(super) fn centres(
     let unit = |size: usize, i: usize| -> Vec<f64> {
         (0..size).map(|k| f64::from(u8::from(k == i))).collect()
     };
-    let alone = (0..mechanism.joints().len()).map(|joint| unit(rates.len(), joint));
     let inputs = 0..drive.rates.len();
     let inputs = inputs.map(|input| motion.rates(&unit(drive.rates.len(), input)).to_vec());
-    for rates in inputs.chain(alone) {
+    for rates in inputs {
         all.extend((0..frames.len()).map(|i| at_origin(i, &rates)));
+    }
+    let mut alone = vec![0.0; rates.len()];
+    for i in 0..frames.len() {
+        for joint in twists.joints(i) {
+            alone[joint] = 1.0;
+            all.push(at_origin(i, &alone));
+            alone[joint] = 0.0;
+        }
     }
     if normal(all.iter()).is_none() {
         return vec![];
     }
     let largest = (at_input.iter().flatten()).fold(0.0, |m: f64, x| m.max(x.abs()));
+    let plane = normal(at_input.iter()).unwrap_or(Vector3::unit(2));
     let mut centres = Vec::new();
     for i in 0..bodies.len() {
+        if bodies.len() > MANY_BODIES && bodies[i] != Body::Ground {
+            continue;
+        }
         for j in i + 1..bodies.len() {
-            if bodies.len() > MANY_BODIES && bodies[i] != Body::Ground {
-                continue;
-            }
             let relative: [f64; 6] = std::array::from_fn(|k| at_input[j][k] - at_input[i][k]);
             let (omega, velocity) = split(&relative);
             let (point, at_infinity) = if omega.norm() > ZERO * largest {
                 let speed = omega.dot(&omega);
                 (Some(omega.cross(&velocity).times(length / speed)), None)
             } else if velocity.norm() > ZERO * largest {
-                let plane = normal(at_input.iter()).unwrap_or(Vector3::unit(2));
                 let across = plane.cross(&velocity);
                 (None, Some(across.times(1.0 / across.norm())))
             } else {

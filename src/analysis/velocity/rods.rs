@@ -1,8 +1,10 @@
 //! Rods that are given by their lengths, as links of planar loops.
 
+use std::collections::HashMap;
+
 use super::plane::normal;
 use crate::geometry::Vector3;
-use crate::mechanism::{Body, ClosureKind, Mechanism, NamedClosure};
+use crate::mechanism::{Body, Mechanism};
 use crate::system::{LoopPart, MechanismLoop};
 
 /// A loop in which rods that are given by their lengths are links with a hinge at either end, across the plane in
@@ -10,14 +12,12 @@ use crate::system::{LoopPart, MechanismLoop};
 pub(super) fn with_rods(
     mechanism: &Mechanism,
     mut one: MechanismLoop,
-    ends: &[[Vector3<f64>; 2]],
+    rods: &HashMap<&str, [Vector3<f64>; 2]>,
 ) -> MechanismLoop {
     let length = mechanism.characteristic_length();
-    let rod = |part: &LoopPart| {
-        let mut closures = mechanism.closures().iter();
-        let named = |closure: &NamedClosure| part.closure && closure.name == part.names[0];
-        let place = closures.position(named)?;
-        (mechanism.closures()[place].kind == ClosureKind::Distance).then_some(place)
+    let rod = |part: &LoopPart| match part.closure {
+        true => rods.get(&*part.names[0]),
+        false => None,
     };
     let others = one.parts.iter().filter(|part| rod(part).is_none());
     let Some(normal) = normal(others.flat_map(|part| &part.twists)) else {
@@ -33,11 +33,11 @@ pub(super) fn with_rods(
     };
     for (part, body) in parts.into_iter().zip(bodies) {
         one.bodies.push(body);
-        let Some(closure) = rod(&part) else {
+        let Some(&ends) = rod(&part) else {
             one.parts.push(part);
             continue;
         };
-        let mut points = ends[closure];
+        let mut points = ends;
         let mut last = part.bodies[1];
         if part.bodies[0] != body {
             points.reverse();

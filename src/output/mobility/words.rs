@@ -4,6 +4,7 @@ use crate::analysis::mobility::{
     Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, Wrench,
 };
 use crate::description::{count, listed};
+use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::output::closing;
 use crate::output::quantity::{coarse, form, metres, signed, triple, values};
 
@@ -213,6 +214,18 @@ pub(super) fn counted(report: &MobilityReport) -> String {
          {independent}.",
         signed(*kutzbach)
     )
+}
+
+/// How the rank of a large mechanism was found; nothing of others, whose singular values are all computed.
+pub(super) fn elimination(report: &MobilityReport) -> String {
+    match report.unknowns > SPECTRUM_LIMIT {
+        true => format!(
+            ", estimated; the rank is that of an orthogonal elimination of one unknown after another, in which a column \
+             shorter than {RANK_TOLERANCE:e} of the largest singular value depends on the others; beyond \
+             {SPECTRUM_LIMIT} unknowns redundant equations are counted and not listed"
+        ),
+        false => String::new(),
+    }
 }
 
 /// What an idle freedom is.

@@ -182,7 +182,7 @@ impl Region<'_> {
                 None => match method.step(curve, &place, length) {
                     Ok((to, changed)) => {
                         nearing.stepped(&place, &to, length);
-                        length = method.next_length(length, changed);
+                        length = method.next_length(length, changed, &to);
                         (None, to)
                     }
                     Err(_) if length > 1e-3 * method.longest => {

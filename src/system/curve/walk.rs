@@ -138,7 +138,7 @@ impl<'m> Walk<'m> {
                     self.nearing.stepped(&self.place, &to, self.length);
                     let from = std::mem::replace(&mut self.place, to.clone());
                     let length = self.length;
-                    self.length = self.method.next_length(length, changed);
+                    self.length = self.method.next_length(length, changed, &to);
                     let leg = self.leg(curve, from, to);
                     self.gone = leg.gone_at(curve, &leg.to);
                     return Ok(leg);

@@ -1,7 +1,7 @@
 //! Assembled configurations where the equations may lose rank.
 
 use super::{System, Work};
-use crate::linear::{Decomposition, SPECTRUM_LIMIT, norm};
+use crate::linear::norm;
 use crate::mechanism::Configuration;
 use crate::solve::{Equations, Newton, Report, Stop};
 
@@ -19,10 +19,7 @@ pub fn solve(
     let mut trial = at.clone();
     let mut report = newton.solve(system, at, &mut trial, work);
     let nearly = report.stop != Stop::Solved && report.size.largest < NEARLY;
-    if nearly
-        && system.unknowns().len() <= SPECTRUM_LIMIT
-        && let Some(settled) = settle(system, work, at.clone(), REACH)
-    {
+    if nearly && let Some(settled) = settle(system, work, at.clone(), REACH) {
         *at = settled;
         report.stop = Stop::Solved;
         report.size = system.linearise(at, work);
@@ -57,9 +54,7 @@ pub fn settle(
         if size == 0.0 || (stale > 2 && least <= tolerance) || (stale > 0 && least <= CLOSED) {
             break;
         }
-        let jacobian = system.dense_jacobian(work);
-        let (rows, columns) = (system.rows(), system.unknowns().len());
-        let decomposition = Decomposition::of(rows, columns, &jacobian);
+        let decomposition = system.decomposition(work);
         let mut back = decomposition.solve(system.residual_of(work));
         let longest = norm(&back);
         let factor = (reach / longest).min(1.0);

@@ -1,16 +1,22 @@
 //! The equations of equilibrium of an assembled mechanism.
 
 use super::Load;
-use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot};
+use crate::linear::{Decomposition, Elimination, Rows, add, dot};
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, Point};
-use crate::system::{Coordinate, FrameTwists, Neighbourhood, Tangent, Unknown};
+use crate::solve::Equations;
+use crate::system::{Coordinate, FrameTwists, Neighbourhood, Unknown};
 
 /// Forces that balance a load: g + Jᵀλ + Sᵀτ = 0 with the generalised forces g of the load, the closure Jacobian J
 /// with nothing held, and S the derivatives of what is held.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
-    /// [Jᵀ, Sᵀ]
-    pub equations: Decomposition,
+    /// The rank of [Jᵀ, Sᵀ].
+    pub rank: usize,
+    /// Its condition number.
+    pub condition: f64,
+    /// States of stress without load: an orthonormal basis, or some of a large mechanism without pattern, which change
+    /// whatever a state of stress can change.
+    pub stresses: Vec<Vec<f64>>,
     /// g, in N·m, in the order of the unknowns.
     pub generalised: Vec<f64>,
     /// λ, then τ, in N·m: of many solutions that of least norm.
@@ -21,42 +27,70 @@ pub struct Equilibrium {
 
 impl Equilibrium {
     /// At a configuration, with nothing held in `near`.
-    pub fn of(near: &Neighbourhood, tangent: &Tangent, held: &[Coordinate], load: &Load) -> Self {
+    pub fn of(
+        near: &Neighbourhood,
+        at: &Configuration<f64>,
+        held: &[Coordinate],
+        load: &Load,
+    ) -> Self {
         let system = near.system();
+        let mut work = system.work();
+        system.linearise(at, &mut work);
+        let generalised = generalised(near, at, load);
+        let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
+        let slopes = held.iter().map(|held| held.slope_in(system, at));
+        if system.is_large() {
+            let groups = system.jacobian_rows(&mut work).into_iter();
+            let groups = groups.chain(slopes.map(Rows::single));
+            return Equilibrium::of_groups(groups.collect(), generalised, &opposite);
+        }
         let (unknowns, rows) = (system.unknowns().len(), system.rows());
+        let jacobian = system.dense_jacobian(&mut work);
         // Jᵀ and Sᵀ beside one another, column by column
         let mut entries = Vec::with_capacity(unknowns * (rows + held.len()));
         for row in 0..rows {
-            let columns = tangent.jacobian.chunks_exact(rows);
+            let columns = jacobian.chunks_exact(rows);
             entries.extend(columns.map(|column| column[row]));
         }
-        for coordinate in held {
+        for slope in slopes {
             let first = entries.len();
             entries.resize(first + unknowns, 0.0);
-            for (place, slope) in coordinate.slope_in(system, &tangent.at) {
+            for (place, slope) in slope {
                 entries[first + place] = slope;
             }
         }
         let equations = Decomposition::of(unknowns, rows + held.len(), &entries);
-        let generalised = generalised(near, &tangent.at, load);
-        let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
         let forces = equations.solve(&opposite);
         let mut left = generalised.clone();
         for (column, force) in entries.chunks_exact(unknowns.max(1)).zip(&forces) {
             add(&mut left, *force, column);
         }
         Equilibrium {
-            equations,
+            rank: equations.rank(),
+            condition: equations.condition(),
+            stresses: equations.null_space(),
             generalised,
             forces,
             left,
         }
     }
 
-    /// Whether equilibrium determines a force: no state of stress without load changes it.
-    pub fn determines(&self, force: usize) -> bool {
-        let stresses = self.equations.null_space();
-        (stresses.iter()).all(|stress| stress[force].abs() <= RANK_TOLERANCE)
+    /// The same for the rows of a large J and S.
+    fn of_groups(rows: Vec<Rows>, generalised: Vec<f64>, opposite: &[f64]) -> Self {
+        const STRESSES: usize = 3;
+        let equations = Elimination::of(generalised.len(), rows);
+        let motions = equations.null_space();
+        let forces = equations.solve_transposed(opposite, &motions);
+        let mut left = generalised.clone();
+        add(&mut left, 1.0, &equations.transposed_product(&forces));
+        Equilibrium {
+            rank: equations.rank(),
+            condition: equations.largest() / equations.smallest(&motions).0,
+            stresses: equations.left_null_vectors(STRESSES, &motions),
+            generalised,
+            forces,
+            left,
+        }
     }
 }
 

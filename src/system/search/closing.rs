@@ -62,9 +62,6 @@ impl Closing {
 
     /// The closed mechanism, or the answer of an analysis that cannot be made without it.
     pub fn start<R>(&self, question: &Question, watch: &Watch) -> Result<Closed, Analysed<R>> {
-        if let Some(large) = too_large(question.mechanism()) {
-            return Err(Analysed::TooLarge(large));
-        }
         let starts = (self.restarts, self.seed);
         close(question, &self.newton, starts, watch).map_err(Analysed::NotClosed)
     }
@@ -78,9 +75,7 @@ impl Closing {
         question: &Question,
         watch: &Watch,
     ) -> Result<Result<Closed, Analysed<R>>, QuestionError> {
-        if too_large(question.mechanism()).is_none() {
-            check_count(question)?;
-        }
+        check_count(question)?;
         Ok(self.start(question, watch))
     }
 }

@@ -1,10 +1,12 @@
+use std::collections::BTreeMap;
+
 use super::neighbourhood::Neighbourhood;
 use super::shake::shaken;
 use crate::geometry::RollPitchYaw;
-use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Svd, norm, rank, remove};
+use crate::linear::{INDEPENDENT, Svd, norm, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
-use crate::system::{Coordinate, Held, System, Unknown, Work};
+use crate::system::{Coordinate, Held, Places, System, Unknown, Work};
 
 /// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
 #[derive(Clone, Debug)]
@@ -13,13 +15,12 @@ pub struct Freedoms {
     pub unknowns: Vec<Unknown>,
     /// Orthonormal basis of the motions, dimensionless: rad and characteristic lengths.
     pub motions: Vec<Vec<f64>>,
-    /// Singular values of the Jacobian, largest first.
-    pub singular_values: Vec<f64>,
+    /// Singular values of the Jacobian, largest first; of a large one the largest and the smallest that counts.
+    singular_values: Vec<f64>,
 }
 
 impl Freedoms {
-    /// The motions that closures and held coordinates leave at a configuration. Beyond
-    /// [`SPECTRUM_LIMIT`] unknowns nothing is computed, and the condition number is NaN.
+    /// The motions that closures and held coordinates leave at a configuration.
     pub fn at(dimensions: &Dimensions<f64>, held: &Held<f64>, at: &Configuration<f64>) -> Self {
         let system = System::new(dimensions, held);
         Freedoms::of(&system, at, &mut system.work())
@@ -27,14 +28,20 @@ impl Freedoms {
 
     /// The same for equations that are at hand.
     pub fn of(system: &System<f64>, at: &Configuration<f64>, work: &mut Work<f64>) -> Self {
+        system.linearise(at, work);
         let unknowns = system.unknowns().to_vec();
-        let (mut motions, mut singular_values) = (Vec::new(), Vec::new());
-        if unknowns.len() <= SPECTRUM_LIMIT {
-            system.linearise(at, work);
-            let jacobian = system.dense_jacobian(work);
-            let svd = Svd::of(system.rows(), unknowns.len(), &jacobian);
-            (motions, singular_values) = (svd.null_space().to_vec(), svd.values);
-        }
+        let (motions, singular_values) = match system.is_large() {
+            true => {
+                let decomposition = system.decomposition(work);
+                let values = decomposition.singular_values().to_vec();
+                (decomposition.null_space(), values)
+            }
+            false => {
+                let jacobian = system.dense_jacobian(work);
+                let svd = Svd::of(system.rows(), unknowns.len(), &jacobian);
+                (svd.null_space().to_vec(), svd.values)
+            }
+        };
         Freedoms {
             unknowns,
             motions,
@@ -44,32 +51,30 @@ impl Freedoms {
 
     /// The numerical rank of the Jacobian.
     pub fn rank(&self) -> usize {
-        rank(&self.singular_values)
+        self.unknowns.len() - self.motions.len()
     }
 
     /// Condition number; infinite where unknowns are not determined.
     pub fn condition(&self) -> f64 {
-        match self.singular_values[..] {
-            _ if self.unknowns.is_empty() => 1.0,
-            [] => f64::NAN,
-            [largest, ..] if self.motions.is_empty() => {
-                largest / self.singular_values[self.unknowns.len() - 1]
-            }
-            _ => f64::INFINITY,
+        match self.motions.is_empty() {
+            true => self.condition_of_determined(),
+            false => f64::INFINITY,
         }
     }
 
     /// The same ratio over the unknowns that are determined.
     pub fn condition_of_determined(&self) -> f64 {
-        match (self.rank(), self.singular_values.first()) {
-            (0, _) | (_, None) => 1.0,
-            (rank, Some(largest)) => largest / self.singular_values[rank - 1],
+        let counted = self.rank().min(self.singular_values.len());
+        match self.singular_values[..counted] {
+            [] => 1.0,
+            [largest, .., smallest] => largest / smallest,
+            [_] => 1.0,
         }
     }
 
     /// The rate of an unknown in each motion, weighted; zero for one that is held.
-    fn rates(&self, unknown: Unknown, weights: &[f64]) -> Vec<f64> {
-        let place = self.unknowns.iter().position(|u| *u == unknown);
+    fn rates(&self, places: &Places, unknown: Unknown, weights: &[f64]) -> Vec<f64> {
+        let place = places.of(unknown);
         let rate = |motion: &Vec<f64>| {
             let rates = place.into_iter().flat_map(|place| &motion[place..]);
             rates.zip(weights).map(|(rate, weight)| weight * rate).sum()
@@ -90,9 +95,8 @@ impl Freedoms {
         }
         let near = Neighbourhood::new(mechanism);
         let own = near.system().unknowns().iter();
-        let places: Vec<Option<usize>> = own
-            .map(|unknown| self.unknowns.iter().position(|u| u == unknown))
-            .collect();
+        let all = Places::new(&self.unknowns);
+        let places: Vec<Option<usize>> = own.map(|unknown| all.of(*unknown)).collect();
         let whole = |motion: &Vec<f64>| {
             let parts = places.iter().map(|place| place.map_or(0.0, |i| motion[i]));
             parts.collect()
@@ -103,15 +107,15 @@ impl Freedoms {
 
 /// The joints and platforms that take part in motions, the most mobile first.
 pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>]) -> Vec<String> {
-    let mut shares: Vec<(String, f64)> = Vec::new();
+    let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
     for (i, unknown) in unknowns.iter().enumerate() {
         let share: f64 = motions.iter().map(|motion| motion[i] * motion[i]).sum();
-        let name = unknown.owner(mechanism);
-        match shares.iter_mut().find(|(known, _)| known == name) {
-            Some((_, sum)) => *sum += share,
-            None => shares.push((name.to_owned(), share)),
-        }
+        *sums.entry(unknown.owner(mechanism)).or_default() += share;
     }
+    let shares = sums
+        .into_iter()
+        .map(|(name, share)| (name.to_owned(), share));
+    let mut shares: Vec<(String, f64)> = shares.collect();
     shares.retain(|(_, share)| *share > 1e-6);
     shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
     shares.into_iter().map(|(name, _)| name).collect()
@@ -127,8 +131,7 @@ pub struct Mobility {
 
 impl Mobility {
     /// At the assembled configuration near one given that has the fewest freedoms, and of these the fewest local
-    /// ones, so that freedoms of a special configuration, as in gimbal lock, do not count. `None` if none is found, or
-    /// there are too many unknowns.
+    /// ones, so that freedoms of a special configuration, as in gimbal lock, do not count. `None` if none is found.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 0..4)
     }
@@ -145,9 +148,6 @@ impl Mobility {
     ) -> Option<Self> {
         let mut near = Neighbourhood::new(mechanism);
         let columns = near.system().unknowns().len();
-        if columns > SPECTRUM_LIMIT {
-            return None;
-        }
         let fewest = columns.saturating_sub(mechanism.equations_that_vary());
         let mut work = near.system().work();
         let mut found: Vec<(Freedoms, Configuration<f64>)> = Vec::new();
@@ -213,11 +213,12 @@ impl Mobility {
     pub fn independent(&self, mechanism: &Mechanism, candidates: &[Coordinate]) -> Vec<Coordinate> {
         let mut chosen = Vec::new();
         let mut basis: Vec<Vec<f64>> = Vec::new();
+        let places = Places::new(&self.freedoms.unknowns);
         for &candidate in candidates {
             if chosen.len() == self.count() {
                 break;
             }
-            let mut row = self.rates(mechanism, candidate);
+            let mut row = self.rates(mechanism, &places, candidate);
             let size = norm(&row);
             remove(&mut row, &basis);
             let left = norm(&row);
@@ -231,9 +232,9 @@ impl Mobility {
     }
 
     /// How fast a coordinate changes along each freedom.
-    fn rates(&self, mechanism: &Mechanism, candidate: Coordinate) -> Vec<f64> {
+    fn rates(&self, mechanism: &Mechanism, places: &Places, candidate: Coordinate) -> Vec<f64> {
         match candidate {
-            Coordinate::Joint(joint) => self.freedoms.rates(Unknown::Joint(joint), &[1.0]),
+            Coordinate::Joint(joint) => self.freedoms.rates(places, Unknown::Joint(joint), &[1.0]),
             Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
                 let pose = self.at.platforms[platform].pose();
                 let slope = match candidate {
@@ -247,7 +248,7 @@ impl Mobility {
                     }
                     _ => candidate.slope(&pose, mechanism.characteristic_length()),
                 };
-                self.freedoms.rates(Unknown::first_twist(platform), &slope)
+                (self.freedoms).rates(places, Unknown::first_twist(platform), &slope)
             }
         }
     }

@@ -29,9 +29,7 @@ pub struct Neighbourhood<'a> {
 pub struct Tangent {
     /// The configuration.
     pub at: Configuration<f64>,
-    /// The Jacobian J, column-major and dimensionless, with nothing held.
-    pub jacobian: Vec<f64>,
-    /// Its decomposition.
+    /// The dimensionless Jacobian J, decomposed.
     pub decomposition: Decomposition,
     /// Orthonormal basis of the infinitesimal motions ξ without local freedoms.
     pub motions: Vec<Vec<f64>>,
@@ -75,9 +73,8 @@ impl<'a> Neighbourhood<'a> {
     /// Linearises at an assembled configuration.
     pub fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
         self.system.linearise(&at, &mut self.work);
-        let jacobian = self.system.dense_jacobian(&mut self.work);
         let columns = self.system.unknowns().len();
-        let decomposition = Decomposition::of(self.system.rows(), columns, &jacobian);
+        let decomposition = self.system.decomposition(&mut self.work);
         let all = decomposition.null_space();
         let moved = self.displacements(&at, &all);
         let split = Decomposition::of(moved.len() / all.len().max(1), all.len(), &moved);
@@ -100,7 +97,6 @@ impl<'a> Neighbourhood<'a> {
                 motions.iter().map(combine).collect()
             },
             at,
-            jacobian,
             decomposition,
         }
     }
@@ -108,6 +104,9 @@ impl<'a> Neighbourhood<'a> {
     /// The rank of the closure equations at a configuration.
     pub fn rank(&mut self, at: &Configuration<f64>) -> usize {
         self.system.linearise(at, &mut self.work);
+        if self.system.is_large() {
+            return self.system.decomposition(&mut self.work).rank();
+        }
         let jacobian = self.system.dense_jacobian(&mut self.work);
         rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
     }
@@ -160,11 +159,12 @@ impl<'a> Neighbourhood<'a> {
             let mut others = (0..frames.len()).filter(|k| joined.contains(&bodies[*k]));
             others.any(|other| apart(place, other))
         };
+        let places = self.frames.places();
         let turning: Vec<(usize, bool)> = (mechanism.closures().iter())
             .filter(|closure| !closure.kind.leaves_orientation())
             .flat_map(|closure| closure.frames.map(|frame| (closure, frame)))
             .filter_map(|(closure, frame)| {
-                let place = frames.iter().position(|f| *f == frame)?;
+                let place = *places.get(&frame)?;
                 let about_axis = closure.kind.leaves_turn();
                 let turns_as_one = !about_axis && has_line(place, closure.frames);
                 (!turns_as_one).then_some((place, about_axis))
@@ -177,7 +177,7 @@ impl<'a> Neighbourhood<'a> {
             let closures = mechanism.closures().iter();
             let carried = mechanism.chains().iter().map(|chain| chain.on);
             let balls = (closures.flat_map(|closure| closure.frames)).chain(carried);
-            let places = balls.filter_map(|frame| frames.iter().position(|f| *f == frame));
+            let places = balls.filter_map(|frame| places.get(&frame).copied());
             places.filter(move |&place| bodies[place] == Body::Platform(platform))
         };
         let rods: Vec<usize> = (0..mechanism.platforms().len())

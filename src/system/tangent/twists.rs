@@ -136,6 +136,11 @@ impl<T: Number> FrameTwists<T> {
         self.frame(i, placement).rotation.column(Axis::Z)
     }
 
+    /// The columns of the joints on the way to point `i`.
+    pub fn joints(&self, i: usize) -> impl Iterator<Item = usize> {
+        self.plans[i].movers.iter().map(|(_, column)| *column)
+    }
+
     /// The twist at point `i`. Nothing allocates.
     pub fn twist(&self, i: usize, placement: &Placement<T>, rates: &[T]) -> Twist<T> {
         let Plan {

@@ -127,7 +127,7 @@ pub(crate) fn reach(
         }
         (place, part, rate) = (to, next, next_rate);
         length = method
-            .next_length(length, changed)
+            .next_length(length, changed, &place)
             .min(1.2 * (1.0 - part) / rate);
         length = length.max(2.0 * SHORTEST);
     }

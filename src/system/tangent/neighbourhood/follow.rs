@@ -121,7 +121,6 @@ impl Neighbourhood<'_> {
         if smallest > 2.0 * within * from.decomposition.singular_values()[0] {
             return None;
         }
-        let rows = self.system.rows();
         let mut squares = 0.0;
         for motion in &from.motions {
             let mut slope = 0.0;
@@ -129,10 +128,7 @@ impl Neighbourhood<'_> {
                 let ahead: Vec<f64> = motion.iter().map(|x| x * step).collect();
                 let at = self.system.displaced(&from.at, &ahead);
                 self.system.linearise(&at, &mut self.work);
-                let jacobian = self.system.dense_jacobian(&mut self.work);
-                let columns = jacobian.chunks_exact(rows).zip(v);
-                let value: f64 = columns.map(|(column, v)| v * dot(u, column)).sum();
-                slope += value / (2.0 * step);
+                slope += self.system.form(&mut self.work, u, v) / (2.0 * step);
             }
             squares += slope * slope;
         }

@@ -1,0 +1,431 @@
+//! Rank, null space and least squares of a large matrix whose rows touch few unknowns each.
+
+mod fronts;
+
+use super::rows::{Rows, product, transposed_product};
+use super::{add, dot, lost, norm, orthonormal, remove};
+use fronts::Fronts;
+
+/// How often solutions by normal equations are corrected.
+const CORRECTIONS: usize = 2;
+
+/// R of an orthogonal factorisation A = Q·R that goes from one group of rows to the next.
+///
+/// An unknown is eliminated from the few rows that contain it, by reflections, and what is left of these rows over the
+/// other unknowns is a group like the others (the multifrontal method: Duff and Reid 1983; Liu 1992; Davis 2011). The
+/// unknown with the fewest neighbours is next. Of the unknowns that only the rows at hand contain the one with the
+/// longest column goes first; one whose column is shorter than the rank tolerance allows is free. Columns as short as
+/// that are all that is dropped, so that the rank is that of a matrix as near to A.
+#[derive(Clone, Debug)]
+pub struct Elimination {
+    groups: Vec<Rows>,
+    columns: usize,
+    steps: Vec<Step>,
+    free: Vec<usize>,
+    largest: f64,
+    least_pivot: f64,
+}
+
+/// Rows of R.
+#[derive(Clone, Debug)]
+struct Step {
+    /// The unknowns that are eliminated, then the others of these rows.
+    unknowns: Vec<usize>,
+    rank: usize,
+    /// Column-major, `rank` rows.
+    entries: Vec<f64>,
+}
+
+impl Elimination {
+    /// Factorises groups of rows over so many unknowns.
+    pub fn of(columns: usize, groups: Vec<Rows>) -> Self {
+        let mut elimination = Elimination {
+            groups,
+            columns,
+            steps: Vec::new(),
+            free: Vec::new(),
+            largest: 0.0,
+            least_pivot: f64::INFINITY,
+        };
+        let (largest, _) = iterated(columns, |v| {
+            let image = elimination.product(v);
+            *v = elimination.transposed_product(&image);
+        });
+        elimination.largest = largest;
+        elimination.eliminate(lost(largest));
+        elimination
+    }
+
+    /// The rows.
+    pub fn groups(&self) -> &[Rows] {
+        &self.groups
+    }
+
+    /// The numerical rank.
+    pub fn rank(&self) -> usize {
+        self.columns - self.free.len()
+    }
+
+    /// A x.
+    pub fn product(&self, x: &[f64]) -> Vec<f64> {
+        product(&self.groups, x)
+    }
+
+    /// Aᵀ y.
+    pub fn transposed_product(&self, y: &[f64]) -> Vec<f64> {
+        transposed_product(&self.groups, self.columns, y)
+    }
+
+    /// Orthonormal basis of the vectors with A x = 0: each free unknown in turn moves, and the others follow.
+    pub fn null_space(&self) -> Vec<Vec<f64>> {
+        let motions = self.free.iter().map(|&free| {
+            let mut x = vec![0.0; self.columns];
+            x[free] = 1.0;
+            for step in self.steps.iter().rev() {
+                step.back_substitute(&mut x);
+            }
+            let size = norm(&x);
+            x.iter_mut().for_each(|x| *x /= size);
+            x
+        });
+        orthonormal(&motions.collect::<Vec<_>>(), 0.0)
+    }
+
+    /// A⁺b, with the null space of A as returned by [`Elimination::null_space`].
+    ///
+    /// RᵀR x = Aᵀb, corrected by what is left of b, because normal equations square the condition number (Björck 1987).
+    pub fn solve(&self, b: &[f64], null_space: &[Vec<f64>]) -> Vec<f64> {
+        let mut x = vec![0.0; self.columns];
+        for _ in 0..=CORRECTIONS {
+            let product = self.product(&x);
+            let left: Vec<f64> = b.iter().zip(product).map(|(b, ax)| b - ax).collect();
+            let mut step = self.transposed_product(&left);
+            self.solve_normal(&mut step);
+            add(&mut x, 1.0, &step);
+        }
+        remove(&mut x, null_space);
+        x
+    }
+
+    /// (Aᵀ)⁺b, with the null space of A.
+    ///
+    /// A (RᵀR)⁻¹ b, corrected as in [`Elimination::solve`].
+    pub fn solve_transposed(&self, b: &[f64], null_space: &[Vec<f64>]) -> Vec<f64> {
+        let mut y = vec![0.0; self.groups.iter().map(|group| group.count).sum()];
+        for _ in 0..=CORRECTIONS {
+            let product = self.transposed_product(&y);
+            let mut left: Vec<f64> = b.iter().zip(product).map(|(b, ay)| b - ay).collect();
+            remove(&mut left, null_space);
+            self.solve_normal(&mut left);
+            add(&mut y, 1.0, &self.product(&left));
+        }
+        y
+    }
+
+    /// Vectors with yᵀA = 0, without pattern and with components about 1: a component that is zero in a few of them is
+    /// zero in all, but by chance. A basis would have as many as there are redundant rows.
+    pub fn left_null_vectors(&self, count: usize, null_space: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let rows = self.groups.iter().map(|group| group.count).sum();
+        let vectors = (0..count).map(|k| {
+            let number = |i: usize| (12.9898 * (k * rows + i + 1) as f64).sin() * 43758.5453 % 1.0;
+            let any: Vec<f64> = (0..rows).map(number).collect();
+            let seen = self.product(&self.solve(&any, null_space));
+            any.iter().zip(seen).map(|(y, seen)| y - seen).collect()
+        });
+        vectors.collect()
+    }
+
+    /// About the largest singular value.
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// The shortest column that an unknown was eliminated by.
+    pub fn least_pivot(&self) -> f64 {
+        self.least_pivot
+    }
+
+    /// About the smallest singular value that counts, with its vector.
+    pub fn smallest(&self, null_space: &[Vec<f64>]) -> (f64, Vec<f64>) {
+        let (_, v) = iterated(self.columns, |v| {
+            remove(v, null_space);
+            self.solve_normal(v);
+            remove(v, null_space);
+        });
+        (norm(&self.product(&v)), v)
+    }
+
+    /// About ‖A⁺(B − A)‖, with the null space of A, for other entries B.
+    pub fn relative_change(&self, other: &[Rows], null_space: &[Vec<f64>]) -> f64 {
+        let changes = self.groups.iter().zip(other).map(|(a, b)| {
+            let entries = a.entries.iter().zip(&b.entries);
+            Rows {
+                entries: entries.map(|(a, b)| b - a).collect(),
+                ..a.clone()
+            }
+        });
+        let changes: Vec<Rows> = changes.collect();
+        let (change, _) = iterated(self.columns, |v| {
+            let image = self.solve(&product(&changes, v), null_space);
+            let back = self.solve_transposed(&image, null_space);
+            *v = transposed_product(&changes, self.columns, &back);
+        });
+        change
+    }
+
+    /// x ← (RᵀR)⁻¹ x, zero for free unknowns.
+    fn solve_normal(&self, x: &mut [f64]) {
+        for step in &self.steps {
+            step.forward_substitute(x);
+        }
+        self.free.iter().for_each(|&i| x[i] = 0.0);
+        for step in self.steps.iter().rev() {
+            step.back_substitute(x);
+        }
+    }
+
+    fn eliminate(&mut self, threshold: f64) {
+        let mut fronts = Fronts::new(self.columns, &self.groups);
+        while let Some(unknown) = fronts.next() {
+            if fronts.is_in_no_row(unknown) {
+                self.free.push(unknown);
+                continue;
+            }
+            let (mut front, own) = fronts.merged(unknown);
+            let rank = front.reduce(own, threshold);
+            for (k, (_, column)) in front.columns().take(rank).enumerate() {
+                self.least_pivot = self.least_pivot.min(column[k].abs());
+            }
+            self.free.extend(&front.unknowns[rank..own]);
+            self.steps.push(Step {
+                entries: front
+                    .columns()
+                    .flat_map(|(_, column)| &column[..rank])
+                    .copied()
+                    .collect(),
+                unknowns: front.unknowns.clone(),
+                rank,
+            });
+            fronts.put(front.without(rank, own));
+        }
+    }
+}
+
+/// Power iteration from a vector without symmetry: √ of the last factor, and the unit vector.
+fn iterated(size: usize, mut map: impl FnMut(&mut Vec<f64>)) -> (f64, Vec<f64>) {
+    const ITERATIONS: usize = 12;
+    let mut v: Vec<f64> = (0..size)
+        .map(|i| 1.0 + 0.5 * (1.7 * (i as f64 + 1.0)).sin())
+        .collect();
+    let mut factor = 0.0;
+    for _ in 0..ITERATIONS {
+        let before = norm(&v);
+        if before == 0.0 {
+            break;
+        }
+        v.iter_mut().for_each(|x| *x /= before);
+        map(&mut v);
+        factor = norm(&v);
+    }
+    v.iter_mut()
+        .for_each(|x| *x /= factor.max(f64::MIN_POSITIVE));
+    (factor.sqrt(), v)
+}
+
+impl Step {
+    fn column(&self, j: usize) -> &[f64] {
+        &self.entries[j * self.rank..(j + 1) * self.rank]
+    }
+
+    /// Solves these rows of R x = y for the unknowns that are eliminated; x contains y in their places.
+    fn back_substitute(&self, x: &mut [f64]) {
+        let mut y: Vec<f64> = self.unknowns[..self.rank].iter().map(|&i| x[i]).collect();
+        for j in self.rank..self.unknowns.len() {
+            add(&mut y, -x[self.unknowns[j]], self.column(j));
+        }
+        for k in (0..self.rank).rev() {
+            let column = self.column(k);
+            let value = y[k] / column[k];
+            add(&mut y[..k], -value, &column[..k]);
+            x[self.unknowns[k]] = value;
+        }
+    }
+
+    /// The same for these columns of Rᵀ y = x, taken from the other unknowns of x.
+    fn forward_substitute(&self, x: &mut [f64]) {
+        let mut y = vec![0.0; self.rank];
+        for k in 0..self.rank {
+            let column = self.column(k);
+            y[k] = (x[self.unknowns[k]] - dot(&column[..k], &y[..k])) / column[k];
+        }
+        for (j, &unknown) in self.unknowns.iter().enumerate() {
+            match y.get(j) {
+                Some(&y) => x[unknown] = y,
+                None => x[unknown] -= dot(self.column(j), &y),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Decomposition, singular_values};
+    use super::*;
+
+    /// Numbers in (−1, 1) (Knuth's linear congruential generator).
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut state = 4321u64;
+        move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    fn dense(columns: usize, groups: &[Rows]) -> (usize, Vec<f64>) {
+        let rows = groups.iter().map(|group| group.count).sum();
+        let mut entries = vec![0.0; rows * columns];
+        let mut first = 0;
+        for group in groups {
+            for (&unknown, column) in group.columns() {
+                entries[unknown * rows + first..][..group.count].copy_from_slice(column);
+            }
+            first += group.count;
+        }
+        (rows, entries)
+    }
+
+    fn transposed(rows: usize, entries: &[f64]) -> Vec<f64> {
+        let row = |i: usize| entries.iter().skip(i).step_by(rows).copied();
+        (0..rows).flat_map(row).collect()
+    }
+
+    /// A ring of groups of rows, each of a given rank over its own unknown, two that it shares with its neighbours, and
+    /// one that all share.
+    fn ring(
+        groups: usize,
+        next: &mut impl FnMut() -> f64,
+        rank: impl Fn(usize) -> usize,
+    ) -> Vec<Rows> {
+        let group = |k: usize| {
+            let unknowns = vec![2 * k, 2 * k + 1, (2 * k + 3) % (2 * groups), 2 * groups];
+            let wide = rank(k).min(4);
+            let left: Vec<f64> = (0..5 * wide).map(|_| next()).collect();
+            let right: Vec<f64> = (0..4 * wide).map(|_| next()).collect();
+            let entry = |i: usize, j: usize| -> f64 {
+                (0..wide).map(|m| left[5 * m + i] * right[4 * m + j]).sum()
+            };
+            let entries = (0..20).map(|k| entry(k % 5, k / 5)).collect();
+            Rows {
+                count: 5,
+                unknowns,
+                entries,
+            }
+        };
+        (0..groups).map(group).collect()
+    }
+
+    #[test]
+    fn ranks_and_solutions_are_those_of_the_singular_values() {
+        let mut next = numbers();
+        // as many freedoms as there are loops of too low a rank, and none where one loop has more equations
+        let ranks: [&dyn Fn(usize) -> usize; 5] = [
+            &|_| 2,
+            &|k| if k == 3 { 1 } else { 2 },
+            &|k| if k == 3 || k == 4 { 3 } else { 2 },
+            &|k| k % 3,
+            &|_| 4,
+        ];
+        for rank in ranks {
+            for groups in [2, 5, 12] {
+                let rows = ring(groups, &mut next, rank);
+                let columns = 2 * groups + 1;
+                let (count, entries) = dense(columns, &rows);
+                let expected = Decomposition::of(count, columns, &entries);
+                let found = Elimination::of(columns, rows);
+                assert_eq!(found.rank(), expected.rank());
+                let null_space = found.null_space();
+                assert_eq!(null_space.len(), columns - found.rank());
+                for motion in &null_space {
+                    assert!(norm(&found.product(motion)) < 1e-12);
+                    assert!((norm(motion) - 1.0).abs() < 1e-12);
+                }
+                let b: Vec<f64> = (0..count).map(|_| next()).collect();
+                let gap: Vec<f64> = (found.solve(&b, &null_space).iter())
+                    .zip(expected.solve(&b))
+                    .map(|(a, b)| a - b)
+                    .collect();
+                assert!(norm(&gap) < 1e-9 * expected.condition(), "{gap:?}");
+                let b: Vec<f64> = (0..columns).map(|_| next()).collect();
+                let turned = transposed(count, &entries);
+                let expected_turned = Decomposition::of(columns, count, &turned).solve(&b);
+                let gap: Vec<f64> = (found.solve_transposed(&b, &null_space).iter())
+                    .zip(expected_turned)
+                    .map(|(a, b)| a - b)
+                    .collect();
+                assert!(norm(&gap) < 1e-9 * expected.condition(), "{gap:?}");
+                let redundant = expected.left_null_space();
+                for stress in found.left_null_vectors(2, &null_space) {
+                    assert!(norm(&found.transposed_product(&stress)) < 1e-12 * norm(&stress));
+                    // no basis vector is missing in it
+                    assert!(
+                        redundant
+                            .iter()
+                            .all(|known| dot(known, &stress).abs() > 1e-6)
+                    );
+                }
+                let (largest, smallest) = (found.largest(), found.smallest(&null_space).0);
+                let values = expected.singular_values();
+                assert!(
+                    (largest / values[0] - 1.0).abs() < 0.1,
+                    "{largest} {values:?}"
+                );
+                let last = expected.smallest();
+                assert!(
+                    smallest >= 0.999 * last && smallest < 1.5 * last,
+                    "{smallest} {values:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_change_beside_a_matrix_is_that_of_the_singular_values() {
+        let mut next = numbers();
+        let (before, groups) = (ring(8, &mut next, |_| 2), 8);
+        let columns = 2 * groups + 1;
+        let after: Vec<Rows> = (before.iter())
+            .map(|group| Rows {
+                entries: group.entries.iter().map(|x| x + 0.1 * next()).collect(),
+                ..group.clone()
+            })
+            .collect();
+        let (count, here) = dense(columns, &before);
+        let (_, there) = dense(columns, &after);
+        let whole = Decomposition::of(count, columns, &here);
+        let moved = there.chunks_exact(count).zip(here.chunks_exact(count));
+        let changes: Vec<f64> = moved
+            .flat_map(|(b, a)| {
+                let change: Vec<f64> = b.iter().zip(a).map(|(b, a)| b - a).collect();
+                whole.solve(&change)
+            })
+            .collect();
+        let expected = singular_values(columns, columns, &changes)[0];
+        let found = Elimination::of(columns, before);
+        let change = found.relative_change(&after, &found.null_space());
+        assert!((change / expected - 1.0).abs() < 0.1, "{change} {expected}");
+    }
+
+    #[test]
+    fn a_column_within_the_rank_tolerance_is_free_and_one_beyond_it_is_not() {
+        for (size, rank) in [(1e-9, 1), (1e-5, 2)] {
+            let rows = Rows {
+                count: 2,
+                unknowns: vec![0, 1],
+                entries: vec![1.0, 0.0, 1.0, size],
+            };
+            assert_eq!(Elimination::of(3, vec![rows]).rank(), rank);
+        }
+    }
+}
