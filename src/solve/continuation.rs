@@ -342,6 +342,11 @@ impl Continuation {
         f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
     ) -> Place<C::Point> {
         const EVALUATIONS: usize = 80;
+        // solutions of large equations are rounded more
+        let (near, zero) = match from.decomposition.groups() {
+            Some(_) => (1e-11, 1e-11),
+            None => (4.0 * f64::EPSILON, 0.0),
+        };
         let end = dot(&curve.difference(&from.at, &to.at), &from.tangent);
         let (mut low, mut high) = ((0.0, f(curve, from)), (end, f(curve, to)));
         let (nearest, value) = if low.1.abs() < high.1.abs() {
@@ -352,7 +357,7 @@ impl Continuation {
         let mut best = (value.abs(), nearest.clone());
         let (mut width, mut slow) = (end.abs(), 0);
         for _ in 0..EVALUATIONS {
-            if best.0 == 0.0 || (high.0 - low.0).abs() <= 4.0 * f64::EPSILON * end.abs() {
+            if best.0 <= zero || (high.0 - low.0).abs() <= near * end.abs() {
                 break;
             }
             let mut s = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);

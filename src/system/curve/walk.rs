@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Curve;
 use super::trace::closed;
+use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{BranchPoint, Continuation, Nearing, Place, SolutionCurve, StepFailure};
@@ -16,7 +17,8 @@ pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &At) -> f64 + 'm>;
 /// A special point of the curve.
 #[derive(Clone, Debug)]
 pub enum Event {
-    /// A joint turns back: it is at the end of its range, and driven there it would lock.
+    /// A joint turns back: it is at the end of its range, and driven there it would lock. In large mechanisms the
+    /// actuated ones alone: there are too many others to place each.
     Turning(usize),
     /// The inputs turn back: beyond this part of the segment the branch does not exist.
     Fold,
@@ -57,6 +59,8 @@ pub struct Walk<'m> {
     method: Continuation,
     monitors: Vec<Monitor<'m>>,
     limits: Vec<(usize, f64, f64)>,
+    /// The joints whose turning points are located, with their columns.
+    turning: Vec<(usize, usize)>,
     start: At,
     place: At,
     length: f64,
@@ -72,7 +76,12 @@ impl<'m> Walk<'m> {
     pub fn new(mechanism: &Mechanism, curve: &Curve, start: At, method: Continuation) -> Self {
         let limits = mechanism.joints().iter().enumerate();
         let limits = limits.filter(|(joint, _)| curve.column(*joint).is_some());
+        let turning = mechanism.joints().iter().enumerate();
+        let turning = turning
+            .filter(|(_, joint)| joint.role == Role::Actuated || !curve.system().is_large())
+            .filter_map(|(joint, _)| Some((joint, curve.column(joint)?)));
         Walk {
+            turning: turning.collect(),
             limits: limits
                 .filter_map(|(joint, j)| j.limits.map(|(low, high)| (joint, low, high)))
                 .collect(),
@@ -202,10 +211,7 @@ impl<'m> Walk<'m> {
         let method = &self.method.clone();
         let mut events: Vec<(At, Event)> = Vec::new();
         let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > STILL;
-        for joint in 0..to.at.joints.len() {
-            let Some(column) = curve.column(joint) else {
-                continue;
-            };
+        for &(joint, column) in &self.turning {
             if changes(from.tangent[column], to.tangent[column]) {
                 let place = method.root(curve, &from, &to, &mut |_, p| p.tangent[column]);
                 events.push((place, Event::Turning(joint)));
