@@ -126,8 +126,8 @@ pub fn sentence(report: &SweepReport) -> String {
         ),
         (SweepEnd::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(
-            "The curve could not be followed reliably beyond {}: it ends there in a singularity of \
-             higher order, or bends too sharply.",
+            "The curve could not be followed reliably beyond {}: it ends there in a singularity, \
+             or bends too sharply.",
             match place.is_empty() {
                 true => "the last row".into(),
                 false => place,
