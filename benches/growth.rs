@@ -5,6 +5,9 @@
 //! linear growth is 2 and 4. Limits to stay under on one thread of a desktop machine: 2.6 and 6.8, which leave room for
 //! caches and for the order of names.
 
+// a bench prints its ratios
+#![allow(clippy::print_stdout)]
+
 use std::hint::black_box;
 use std::time::Instant;
 

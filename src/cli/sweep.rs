@@ -11,7 +11,7 @@ use linkwork::output::canvas::gif;
 use linkwork::output::csv::Csv;
 use linkwork::output::drawing::{DrawingSettings, View, frames};
 use linkwork::output::glb::glb;
-use linkwork::output::sweep::{Picture, row_columns, row_values, worded};
+use linkwork::output::sweep::{Picture, certified, row_columns, row_values, worded};
 
 use super::asked::{Asked, Forces, Posed, Ranges};
 use super::format::{Format, with_rows};
@@ -255,9 +255,11 @@ impl Sweep {
             Some(mode) => format!("mode {mode}: {}", motion.sentence),
             None => motion.sentence.clone(),
         });
+        let rows_alone = report.motions.iter().filter(|_| self.format == Format::Csv);
+        let certified = rows_alone.flat_map(|motion| certified(&motion.sweep));
         Ok(Answer {
             data: self.format.shown(&report),
-            remarks: posed.loaded.warnings() + &lines("note", unfinished),
+            remarks: posed.loaded.warnings() + &lines("note", unfinished.chain(certified)),
             yes: report.is_yes(),
         })
     }

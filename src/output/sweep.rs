@@ -7,7 +7,7 @@ mod picture;
 mod words;
 
 pub use picture::Picture;
-pub use words::sentence;
+pub use words::{certified, sentence};
 
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::quantity;

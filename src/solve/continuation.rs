@@ -407,8 +407,8 @@ impl Continuation {
 /// How much the Jacobian changes between two places, beside itself: ‖J⁺(J₁ − J₀)‖.
 pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
     if let (Some(before), Some(after)) = (from.decomposition.groups(), to.decomposition.groups()) {
-        let changes = before.iter().zip(after).map(|(a, b)| group_change(a, b));
-        let largest = changes.fold(Some(0.0f64), |m, change| Some(m?.max(change?)));
+        let mut changes = before.iter().zip(after).map(|(a, b)| group_change(a, b));
+        let largest = changes.try_fold(0.0f64, |m, change| Some(m.max(change?)));
         return largest.unwrap_or_else(|| from.decomposition.relative_change(after));
     }
     let rows = match from.tangent.len() {

@@ -168,12 +168,21 @@ impl<'m> Certifier<'m> {
         }
     }
 
+    /// Notes a part that is not certified; what is certified between two such parts and not much longer is theirs.
     fn note(&mut self, from: &Place, to: &Place) {
+        const MUCH: f64 = 10.0;
+        let apart = |a: &[f64], b: &[f64]| {
+            let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+            apart.fold(0.0, f64::max)
+        };
+        let (start, end) = (&from.inputs, &to.inputs);
         match self.certificate.uncertified.last_mut() {
-            Some(last) if last.to == from.inputs => last.to.clone_from(&to.inputs),
+            Some(last) if apart(&last.to, start) <= MUCH * apart(start, end) => {
+                last.to.clone_from(end);
+            }
             _ => self.certificate.uncertified.push(Uncertified {
-                from: from.inputs.clone(),
-                to: to.inputs.clone(),
+                from: start.clone(),
+                to: end.clone(),
             }),
         }
     }

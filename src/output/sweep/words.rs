@@ -137,7 +137,7 @@ pub fn sentence(report: &SweepReport) -> String {
 }
 
 /// What interval arithmetic says of the branch.
-pub(super) fn certified(report: &SweepReport) -> Vec<String> {
+pub fn certified(report: &SweepReport) -> Vec<String> {
     /// Parts that are listed.
     const SHOWN: usize = 8;
     let Some(certificate) = &report.certificate else {

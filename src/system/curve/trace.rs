@@ -209,7 +209,8 @@ impl Region<'_> {
                 .chain(&crossing)
                 .chain([&to])
                 .collect();
-            if let Some((i, from, to)) = self.leaves::<C>(&way) {
+            if let Some((i, k)) = self.leaves::<C>(&way) {
+                let (from, to) = (way[k], way[k + 1]);
                 let end = match i < 2 * self.sides.len() {
                     true => LocusEnd::Box,
                     false => LocusEnd::Limit,
@@ -237,19 +238,16 @@ impl Region<'_> {
         (places, LocusEnd::Lost, crossings)
     }
 
-    /// The bound that is left first on the way through places, with the two of them between which it is.
-    fn leaves<'p, C: ConfigurationCurve>(
-        &self,
-        way: &[&'p Place<C::Point>],
-    ) -> Option<(usize, &'p Place<C::Point>, &'p Place<C::Point>)> {
-        way.windows(2).find_map(|leg| {
+    /// The bound that is left first on the way through places, and after which of them.
+    fn leaves<C: ConfigurationCurve>(&self, way: &[&Place<C::Point>]) -> Option<(usize, usize)> {
+        way.windows(2).enumerate().find_map(|(k, leg)| {
             let [before, after] = [leg[0], leg[1]].map(|p| self.margins(C::configuration(&p.at)));
             let left = (before.iter().zip(&after))
                 .enumerate()
                 .filter(|(_, (b, a))| **a < -BESIDE && **a < **b)
                 .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
-            left.map(|(i, _)| (i, leg[0], leg[1]))
+            left.map(|(i, _)| (i, k))
         })
     }
 
