@@ -6,6 +6,7 @@
 mod boxes;
 mod branching;
 mod continuation;
+mod deflation;
 mod endgame;
 mod homotopy;
 mod minimum;
@@ -18,6 +19,7 @@ mod watch;
 pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
 pub use branching::{BranchPoint, Nearing};
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
+pub use deflation::deflating_step;
 pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use minimum::walk_down;

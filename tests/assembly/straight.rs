@@ -122,6 +122,11 @@ fn rods_that_just_reach_are_assembled_from_aside_and_shorter_ones_are_not() {
     assert!(report.is_assembled(), "{:?}", report.outcome);
     // to the tolerance of a dimensionless residual, over 3 m
     assert!(report.residual <= 1e-12, "{:e}", report.residual);
+    // where the slopes vanish positions are known no worse
+    for (body, along) in [("p", 1.0), ("q", 2.0)] {
+        let [x, y, z] = report.platforms.get(body).unwrap().frame.position;
+        assert!((x - along).abs() < 1e-9 && (y.hypot(z) - 0.2).abs() < 1e-9);
+    }
     assert!(!solved(3.0 + 1e-6).is_assembled());
 }
 

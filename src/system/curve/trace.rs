@@ -342,17 +342,18 @@ pub fn met_at<C: ConfigurationCurve>(
     const SAME: f64 = 1e-6;
     let goal = C::configuration(&place.at);
     let mut step = vec![0.0; curve.closed().unknowns()];
-    let mut distance = |i: usize| {
-        let from = C::configuration(&traced.places[i].at);
+    let mut distance = |from: &Place<C::Point>| {
+        let from = C::configuration(&from.at);
         (curve.closed()).difference_but_turns_into(from.view(), goal.view(), &mut step);
         let seen = (step.iter().enumerate()).filter(|(component, _)| curve.sees(*component));
         seen.map(|(_, x)| x * x).sum::<f64>().sqrt()
     };
     let nearest = (0..traced.places.len())
-        .map(|i| (i, distance(i)))
+        .map(|i| (i, distance(&traced.places[i])))
         .min_by(|a, b| a.1.total_cmp(&b.1));
     let (i, apart) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest)?;
-    if apart < SAME {
+    // where others cross no step leads back onto it
+    if apart < SAME || (traced.crossings.iter()).any(|crossing| distance(crossing) < SAME) {
         return Some(i as f64);
     }
     // a curve on which nothing moves that is seen may cross others, and is none of them

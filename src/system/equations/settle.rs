@@ -1,30 +1,64 @@
 //! Assembled configurations where the equations may lose rank.
 
 use super::{System, Work};
-use crate::linear::norm;
+use crate::linear::{SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
-use crate::solve::{Equations, Newton, Report, Stop};
+use crate::solve::{Equations, Newton, Report, Stop, deflating_step};
 
 /// Newton's method from `at`. Where equations only touch zero, as those of rods stretched straight, it
-/// ends when their slopes are lost, short of its tolerance; then by steps of least length from there.
+/// nears a solution ever more slowly: it is led there by the slopes that vanish there.
 pub fn solve(
     newton: &Newton,
     system: &System<f64>,
     at: &mut Configuration<f64>,
     work: &mut Work<f64>,
 ) -> Report {
-    /// What may be left when the slopes are lost, and how far the solution then is.
-    const NEARLY: f64 = 1e-9;
+    /// What may be left then, which is of second order in the distance.
+    const NEARLY: f64 = 1e-5;
     const REACH: f64 = 1e-3;
     let mut trial = at.clone();
     let mut report = newton.solve(system, at, &mut trial, work);
     let nearly = report.stop != Stop::Solved && report.size.largest < NEARLY;
-    if nearly && let Some(settled) = settle(system, work, at.clone(), REACH) {
+    let dense = system.unknowns().len() <= SPECTRUM_LIMIT;
+    let touching = (nearly && dense)
+        .then(|| touching(system, work, at.clone(), newton.tolerance))
+        .flatten();
+    if nearly && let Some(settled) = touching.or_else(|| settle(system, work, at.clone(), REACH)) {
         *at = settled;
         report.stop = Stop::Solved;
         report.size = system.linearise(at, work);
     }
     report
+}
+
+/// The assembled configuration beside a point at which equations only touch zero.
+fn touching(
+    system: &System<f64>,
+    work: &mut Work<f64>,
+    mut at: Configuration<f64>,
+    tolerance: f64,
+) -> Option<Configuration<f64>> {
+    const STEPS: usize = 8;
+    const REACH: f64 = 0.05;
+    for _ in 0..STEPS {
+        // slopes are of first order in the distance
+        let left = system.linearise(&at, work).largest;
+        let lost = (10.0 * left.sqrt()).clamp(1e-4, 3e-2);
+        let step = deflating_step(system.unknowns().len(), lost, |shift| {
+            system.linearise(&system.displaced(&at, shift), work);
+            let residual = system.residual_of(work).to_vec();
+            (residual, system.dense_jacobian(work))
+        })?;
+        let length = norm(&step);
+        if length > REACH {
+            return None;
+        }
+        at = system.displaced(&at, &step);
+        if length < 1e-15 {
+            break;
+        }
+    }
+    (system.linearise(&at, work).largest <= tolerance).then_some(at)
 }
 
 /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to

@@ -148,7 +148,8 @@ impl Cone {
     /// configuration is near. Where a function and its slope vanish on a set, beside which it is curved, it
     /// vanishes nowhere else nearby (the lemma of Morse and Bott).
     ///
-    /// `reach` is the length of the steps by which it is tried.
+    /// `reach` is the length of the steps by which it is tried, and then by shorter ones: the characteristic
+    /// length may be many times that of the links that move.
     pub fn set(
         &self,
         near: &mut Neighbourhood,
@@ -165,7 +166,9 @@ impl Cone {
         };
         let beside = match flat.motions.is_empty() {
             true => vec![],
-            false => near.follows(&flat, reach, rng)?,
+            false => [1.0, 0.1]
+                .into_iter()
+                .find_map(|part| near.follows(&flat, part * reach, rng))?,
         };
         let as_low = |at: &Configuration<f64>| {
             let decomposition = near.tangent(at.clone()).decomposition;

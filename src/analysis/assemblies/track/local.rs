@@ -10,6 +10,7 @@ use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
 use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd};
 use crate::number::Number;
+use crate::solve::deflating_step;
 
 /// Singular values this small relative to the largest may be zero.
 const SUSPECT: f64 = 1e-5;
@@ -59,13 +60,6 @@ impl Linear {
         self.right
             .columns(rank, self.right.ncols() - rank)
             .into_owned()
-    }
-
-    /// Part of vectors outside the range of J at that rank.
-    fn unseen(&self, b: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
-        let range = self.left.columns(0, rank);
-        let along = range.transpose() * &b;
-        b - range * along
     }
 }
 
@@ -128,49 +122,26 @@ impl<'a, 'f> Local<'a, 'f> {
         }
     }
 
-    /// A multiple solution to full precision, by deflation: P J v = 0 for null vectors v and the
-    /// projection P off the range of J (Leykin, Verschelde and Zhao 2006); one of a set of them is moved
-    /// across the set only. `x` where that fails.
+    /// A multiple solution to full precision; one of a set of them is moved across the set only. `x` where
+    /// that fails.
     pub fn refined(&mut self, x: &[C]) -> Vec<C> {
         const STEPS: usize = 4;
-        const APART: f64 = 1e-4;
         const REACH: f64 = 1e-3;
         /// Singular values of a solution known to half its digits are this small.
         const LOST: f64 = 1e-4;
-        /// Along a null vector of no more curvature there may be a set of solutions.
-        const FLAT: f64 = 1e-3;
         let mut at = x.to_vec();
         for _ in 0..STEPS {
-            let linear = self.linear(&at);
-            let rank = linear.rank(LOST);
-            let mut step = -linear.solve(&linear.residual, rank);
-            let free = linear.null_space(rank);
-            if free.ncols() > 0 {
-                let slope = linear.unseen(&linear.jacobian * &free, rank);
-                let curvatures: Vec<DVector<f64>> = (0..free.ncols())
-                    .map(|j| {
-                        let side = |distance: f64, this: &mut Self| {
-                            let shift = free.column(j) * distance;
-                            let beside = this.moved(&at, &shift);
-                            this.linear(&beside).jacobian
-                        };
-                        let change = side(APART, self) - side(-APART, self);
-                        let bent = linear.unseen(change * &free / (2.0 * APART), rank);
-                        DVector::from_column_slice(bent.as_slice())
-                    })
-                    .collect();
-                let bent = DMatrix::from_columns(&curvatures);
-                let flat = DVector::from_column_slice(slope.as_slice());
-                if let Ok(along) = bent.svd(true, true).solve(&flat, FLAT) {
-                    step -= free * along;
-                }
-            }
-            let length = step.amax();
-            if !length.is_finite() || length > REACH {
+            let step = deflating_step(self.columns(), LOST, |shift| {
+                let beside = self.moved(&at, &DVector::from_column_slice(shift));
+                let (residual, jacobian) = self.evaluated(&beside);
+                (residual.as_slice().to_vec(), jacobian.as_slice().to_vec())
+            });
+            let step = step.map(DVector::from_vec);
+            let Some(step) = step.filter(|step| step.amax() <= REACH) else {
                 return x.to_vec();
-            }
+            };
             at = self.moved(&at, &step);
-            if length < 1e-15 {
+            if step.amax() < 1e-15 {
                 break;
             }
         }
