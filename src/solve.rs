@@ -17,7 +17,7 @@ mod warm;
 mod watch;
 
 pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
-pub use branching::{BranchPoint, Nearing};
+pub use branching::BranchPoint;
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
 pub use deflation::deflating_step;
 pub use endgame::{PathEnd, Turning, path_end};

@@ -35,32 +35,6 @@ impl<P> BranchPoint<P> {
     }
 }
 
-/// Whether a curve nears a crossing: there the least singular value across it vanishes.
-#[derive(Clone, Copy, Debug)]
-pub struct Nearing {
-    /// The value before the last step, with the length of that, while it falls.
-    fell: Option<(f64, f64)>,
-    /// How far ahead a crossing was sought last.
-    sought: f64,
-}
-
-impl Default for Nearing {
-    fn default() -> Self {
-        Nearing {
-            fell: None,
-            sought: f64::INFINITY,
-        }
-    }
-}
-
-impl Nearing {
-    /// After a step of a length between two places.
-    pub fn stepped<P>(&mut self, from: &Place<P>, to: &Place<P>, length: f64) {
-        let (before, after) = (from.least(), to.least());
-        self.fell = (after < before).then_some((before, length));
-    }
-}
-
 /// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
 const STEP: f64 = 1e-5;
 
@@ -91,29 +65,6 @@ impl Continuation {
             let free = freedoms(curve, &found);
             (free == lost + 1).then(|| self.described(curve, found, free))
         })
-    }
-
-    /// The crossing that a curve nears, with the direction straight on from there: where the singular value
-    /// that fell along the last step vanishes, if that is near and half as far as it was sought last.
-    pub fn crossing_ahead<C: SolutionCurve>(
-        &self,
-        curve: &mut C,
-        place: &Place<C::Point>,
-        nearing: &mut Nearing,
-    ) -> Option<(BranchPoint<C::Point>, Vec<f64>)> {
-        let (before, length) = nearing.fell?;
-        let least = place.least();
-        let ahead = least * length / (before - least);
-        if ahead > 0.2 * self.longest || ahead > 0.5 * nearing.sought {
-            return None;
-        }
-        nearing.sought = ahead;
-        let step: Vec<f64> = place.tangent.iter().map(|x| x * ahead).collect();
-        let guess = curve.displaced(&place.at, &step);
-        let point = self.branch_point(curve, &guess, 2.0 * ahead)?;
-        let way = curve.difference(&place.at, &point.at);
-        let direction = point.straight_on(&way, &place.tangent)?;
-        Some((point, direction))
     }
 
     fn rank_drop<C: SolutionCurve>(

@@ -901,36 +901,6 @@ fn inverse_loci_of_a_five_bar_in_the_plane_of_its_hand_are_four_circles() {
 }
 
 #[test]
-fn loci_are_followed_through_crossings_without_ever_shorter_steps() {
-    let five_bar = mechanism("five_bar", &[]);
-    let full = std::f64::consts::TAU;
-    let sides = [("theta1", 0.0, full), ("theta2", 0.0, full)];
-    let report = locus(&five_bar, sides, &[], 40);
-    let crossed = report.loci.iter().filter(|l| !l.crossings.is_empty());
-    assert!(crossed.count() >= 4);
-    for locus in report.loci.iter().filter(|l| l.shape == Shape::Curve) {
-        let apart = |p: &[[f64; 2]]| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]);
-        let pieces: Vec<f64> = locus.points.windows(2).map(apart).collect();
-        // the first and the last one end where the curve does
-        let between = &pieces[1..pieces.len() - 1];
-        let shortest = between.iter().copied().fold(f64::INFINITY, f64::min);
-        assert!(shortest > 1e-4, "{shortest:e} of {}", pieces.len());
-        // some cross others just at an edge
-        for (point, end) in [locus.points.first(), locus.points.last()]
-            .iter()
-            .zip(locus.ends)
-        {
-            let off = |x: &f64| x.abs().min((x - full).abs());
-            let off = point.unwrap().iter().map(off).fold(f64::INFINITY, f64::min);
-            assert!(
-                end == LocusEnd::Closed || off < 1e-9,
-                "{off:e} from the edge"
-            );
-        }
-    }
-}
-
-#[test]
 fn a_direct_singularity_that_is_a_single_point_is_found_where_inverse_loci_touch() {
     // the cranks reach r beyond their pivots, g apart, and couplers of c = r + g/2 just reach both ends,
     // in one line; each leg is folded there

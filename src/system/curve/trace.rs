@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::solve::{BranchPoint, Continuation, Nearing, Place, Progress, SolutionCurve, Watch};
+use crate::solve::{Continuation, Place, Progress, SolutionCurve, Watch};
 use crate::system::{Coordinate, Held};
 
 /// A curve whose points are, or contain, configurations.
@@ -166,67 +166,57 @@ impl Region<'_> {
         let mut crossings = Vec::new();
         let mut place = start.clone();
         let (mut length, mut gone) = (0.1 * method.longest, 0.0);
-        let mut nearing = Nearing::default();
         // whether no crossing was found ahead of the place
         let mut none_ahead = false;
         for _ in 0..STEPS {
             if self.watch.at(self.now).is_break() {
                 break;
             }
-            let ahead = match method.crossing_ahead(curve, &place, &mut nearing) {
-                Some((point, straight)) => self.beyond(curve, &point, &straight),
-                None => None,
-            };
-            let (crossing, to) = match ahead {
-                Some([crossing, to]) => (Some(crossing), to),
-                None => match method.step(curve, &place, length) {
-                    Ok((to, changed)) => {
-                        nearing.stepped(&place, &to, length);
-                        length = method.next_length(length, changed, &to);
-                        (None, to)
+            let to = match method.step(curve, &place, length) {
+                Ok((to, changed)) => {
+                    length = method.next_length(length, changed, &to);
+                    to
+                }
+                Err(_) if length > 1e-3 * method.longest => {
+                    length *= 0.5;
+                    continue;
+                }
+                Err(_) => match (!none_ahead).then(|| self.beyond(curve, &place)).flatten() {
+                    Some([crossing, to]) => {
+                        crossings.push(crossing);
+                        length = 0.1 * method.longest;
+                        to
                     }
-                    Err(_) if length > 1e-3 * method.longest => {
+                    None if length > method.shortest => {
+                        none_ahead = true;
                         length *= 0.5;
                         continue;
                     }
-                    Err(_) => match (!none_ahead).then(|| self.ahead(curve, &place)).flatten() {
-                        Some([crossing, to]) => (Some(crossing), to),
-                        None if length > method.shortest => {
-                            none_ahead = true;
-                            length *= 0.5;
-                            continue;
-                        }
-                        None => return (places, LocusEnd::Lost, crossings),
-                    },
+                    None => return (places, LocusEnd::Lost, crossings),
                 },
             };
-            if crossing.is_some() {
-                nearing = Nearing::default();
-                length = 0.1 * method.longest;
-            }
             gone += norm(&curve.apart(&place.at, &to.at));
-            let way: Vec<_> = std::iter::once(&place)
-                .chain(&crossing)
-                .chain([&to])
-                .collect();
-            if let Some((i, k)) = self.leaves::<C>(&way) {
-                let (from, to) = (way[k], way[k + 1]);
+            let (before, after) = (
+                self.margins(C::configuration(&place.at)),
+                self.margins(C::configuration(&to.at)),
+            );
+            let left = (before.iter().zip(&after))
+                .enumerate()
+                .filter(|(_, (b, a))| **a < -BESIDE && **a < **b)
+                .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((i, _)) = left {
                 let end = match i < 2 * self.sides.len() {
                     true => LocusEnd::Box,
                     false => LocusEnd::Limit,
                 };
-                let mut margin =
-                    |_: &mut C, p: &Place<C::Point>| self.margins(C::configuration(&p.at))[i];
-                match margin(curve, from) > 0.0 {
-                    true => places.push(method.root(curve, from, to, &mut margin)),
-                    // where others cross just at the edge
-                    false if crossing.is_some() => places.push(from.clone()),
-                    false => {}
+                if before[i] > 0.0 {
+                    let mut margin =
+                        |_: &mut C, p: &Place<C::Point>| self.margins(C::configuration(&p.at))[i];
+                    places.push(method.root(curve, &place, &to, &mut margin));
                 }
-                crossings.extend(crossing);
                 return (places, end, crossings);
             }
-            crossings.extend(crossing);
             if let Some(end) = closed(curve, &start, &place, &to, gone, method) {
                 places.push(end);
                 return (places, LocusEnd::Closed, crossings);
@@ -238,54 +228,19 @@ impl Region<'_> {
         (places, LocusEnd::Lost, crossings)
     }
 
-    /// The bound that is left first on the way through places, and after which of them.
-    fn leaves<C: ConfigurationCurve>(&self, way: &[&Place<C::Point>]) -> Option<(usize, usize)> {
-        way.windows(2).enumerate().find_map(|(k, leg)| {
-            let [before, after] = [leg[0], leg[1]].map(|p| self.margins(C::configuration(&p.at)));
-            let left = (before.iter().zip(&after))
-                .enumerate()
-                .filter(|(_, (b, a))| **a < -BESIDE && **a < **b)
-                .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
-                .min_by(|a, b| a.1.total_cmp(&b.1));
-            left.map(|(i, _)| (i, k))
-        })
-    }
-
     /// A crossing of loci just ahead, and the place behind it straight on.
-    fn ahead<C: ConfigurationCurve>(
+    fn beyond<C: ConfigurationCurve>(
         &self,
         curve: &mut C,
         place: &Place<C::Point>,
     ) -> Option<[Place<C::Point>; 2]> {
-        let reach = 0.2 * self.method.longest;
-        let point = self.method.branch_point(curve, &place.at, reach)?;
+        let method = self.method;
+        let reach = 0.2 * method.longest;
+        let point = method.branch_point(curve, &place.at, reach)?;
         let way = curve.difference(&place.at, &point.at);
         let straight = point.straight_on(&way, &place.tangent)?;
-        self.beyond(curve, &point, &straight)
-    }
-
-    /// A crossing in the region as a place, and one behind it straight on: in the region too, unless the edge
-    /// is just there.
-    fn beyond<C: ConfigurationCurve>(
-        &self,
-        curve: &mut C,
-        point: &BranchPoint<C::Point>,
-        straight: &[f64],
-    ) -> Option<[Place<C::Point>; 2]> {
-        let inside = |place: &Place<C::Point>| self.inside(C::configuration(&place.at));
-        let crossing = Some(point.place(curve, straight)).filter(inside)?;
-        let mut behind = None;
-        for shorter in [1.0, 1e-1, 1e-2, 1e-3] {
-            let method = Continuation {
-                longest: shorter * self.method.longest,
-                ..self.method.clone()
-            };
-            behind = Some(method.leave(curve, &point.at, straight)?.0);
-            if behind.as_ref().is_some_and(inside) {
-                break;
-            }
-        }
-        Some([crossing, behind?])
+        let (to, _) = method.leave(curve, &point.at, &straight)?;
+        Some([point.place(curve, &straight), to])
     }
 }
 
@@ -342,18 +297,17 @@ pub fn met_at<C: ConfigurationCurve>(
     const SAME: f64 = 1e-6;
     let goal = C::configuration(&place.at);
     let mut step = vec![0.0; curve.closed().unknowns()];
-    let mut distance = |from: &Place<C::Point>| {
-        let from = C::configuration(&from.at);
+    let mut distance = |i: usize| {
+        let from = C::configuration(&traced.places[i].at);
         (curve.closed()).difference_but_turns_into(from.view(), goal.view(), &mut step);
         let seen = (step.iter().enumerate()).filter(|(component, _)| curve.sees(*component));
         seen.map(|(_, x)| x * x).sum::<f64>().sqrt()
     };
     let nearest = (0..traced.places.len())
-        .map(|i| (i, distance(&traced.places[i])))
+        .map(|i| (i, distance(i)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
     let (i, apart) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest)?;
-    // where others cross no step leads back onto it
-    if apart < SAME || (traced.crossings.iter()).any(|crossing| distance(crossing) < SAME) {
+    if apart < SAME {
         return Some(i as f64);
     }
     // a curve on which nothing moves that is seen may cross others, and is none of them
@@ -389,15 +343,11 @@ pub fn met_at<C: ConfigurationCurve>(
         None
     };
     let foot = |curve: &mut C, i: usize| {
-        let [from, to] = [&traced.places[i], &traced.places[i + 1]];
-        let part = |curve: &mut C, from: &Place<C::Point>, to: &Place<C::Point>| {
-            let from = method
-                .restored(curve, from)
-                .filter(|from| !from.is_singular())?;
-            foot_from(curve, &from, to)
-        };
+        let from = &method.restored(curve, &traced.places[i])?;
+        let to = &method.restored(curve, &traced.places[i + 1])?;
         // where others cross between them, only one of both leads there by sure steps
-        let part = part(curve, from, to).or_else(|| Some(1.0 - part(curve, to, from)?))?;
+        let part =
+            foot_from(curve, from, to).or_else(|| Some(1.0 - foot_from(curve, to, from)?))?;
         Some(i as f64 + part)
     };
     // a closed curve begins and ends at one place

@@ -7,7 +7,7 @@ use super::trace::closed;
 use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{BranchPoint, Continuation, Nearing, Place, SolutionCurve, StepFailure};
+use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
 
 type At = Place<Configuration<f64>>;
 
@@ -65,7 +65,9 @@ pub struct Walk<'m> {
     place: At,
     length: f64,
     gone: f64,
-    nearing: Nearing,
+    /// σ of the place before with the length of the step to here, while it falls.
+    falling: Option<(f64, f64)>,
+    tried: f64,
     /// A branch point that was reached but not yet left.
     waiting: Option<Box<BranchPoint<Configuration<f64>>>>,
 }
@@ -91,7 +93,8 @@ impl<'m> Walk<'m> {
             method,
             monitors: Vec::new(),
             gone: 0.0,
-            nearing: Nearing::default(),
+            falling: None,
+            tried: f64::INFINITY,
             waiting: None,
         }
     }
@@ -144,7 +147,8 @@ impl<'m> Walk<'m> {
         loop {
             match self.method.step(curve, &self.place, self.length) {
                 Ok((to, changed)) => {
-                    self.nearing.stepped(&self.place, &to, self.length);
+                    let (least, before) = (to.least(), self.place.least());
+                    self.falling = (least < before).then_some((before, self.length));
                     let from = std::mem::replace(&mut self.place, to.clone());
                     let length = self.length;
                     self.length = self.method.next_length(length, changed, &to);
@@ -167,17 +171,25 @@ impl<'m> Walk<'m> {
 
     /// The leg to a branch point, if the singular value across the curve falls to zero nearby.
     fn branches_ahead(&mut self, curve: &mut Curve) -> Option<Segment> {
-        let (point, direction) =
-            (self.method).crossing_ahead(curve, &self.place, &mut self.nearing)?;
+        let (before, length) = self.falling?;
+        let least = self.place.least();
+        let ahead = least * length / (before - least);
+        if ahead > 0.2 * self.method.longest || ahead > 0.5 * self.tried {
+            return None;
+        }
+        self.tried = ahead;
+        let step: Vec<f64> = self.place.tangent.iter().map(|x| x * ahead).collect();
+        let guess = curve.displaced(&self.place.at, &step);
+        let point = self.method.branch_point(curve, &guess, 2.0 * ahead)?;
+        let way = curve.difference(&self.place.at, &point.at);
+        let direction = point.straight_on(&way, &self.place.tangent)?;
         let to = point.place(curve, &direction);
         let from = self.place.clone();
         let mut leg = self.leg(curve, from, to.clone());
         // what ends the walk may come first, and is then met by shorter steps
         let ends =
             |event: &Event| matches!(event, Event::End(_) | Event::Limit { .. } | Event::Closed);
-        if leg.events.iter().any(|(_, event)| ends(event))
-            && norm(&curve.difference(&self.place.at, &point.at)) > 1e-6
-        {
+        if leg.events.iter().any(|(_, event)| ends(event)) && norm(&way) > 1e-6 {
             return None;
         }
         self.gone = leg.gone_at(curve, &to);
@@ -196,7 +208,8 @@ impl<'m> Walk<'m> {
         let from = self.place.clone();
         let (to, length) =
             (self.method.leave(curve, &point.at, &from.tangent)).ok_or(StepFailure::Singular)?;
-        self.nearing = Nearing::default();
+        self.falling = None;
+        self.tried = f64::INFINITY;
         self.length = 0.3 * length;
         self.place = to.clone();
         let leg = self.leg(curve, from, to);
