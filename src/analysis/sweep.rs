@@ -231,8 +231,8 @@ pub fn sweep(
     }
     let steps = Some(settings.steps);
     let mut reached = 0;
-    let mut certifier =
-        (settings.certify).then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start));
+    let mut certifier = (settings.certify)
+        .then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start, watch));
     let sink: &mut Flow = &mut |row| {
         if let Some(certifier) = &mut certifier {
             certifier.row(row.configuration);

@@ -216,8 +216,8 @@ pub enum AskError {
         /// The coordinate.
         name: String,
     },
-    /// A mapped coordinate that comes round again covers more than a turn.
-    #[error("the map of `{name}` is wider than a full turn")]
+    /// A coordinate that comes round again is mapped, or an angle of a platform moved, over more than a turn.
+    #[error("the range of `{name}` is wider than a full turn")]
     MoreThanATurn {
         /// The coordinate.
         name: String,

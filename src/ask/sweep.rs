@@ -12,7 +12,7 @@ use crate::analysis::sweep::{
 use crate::description;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::{Stage, Watch};
-use crate::system::{self, Coordinate, QuestionError, check_count, sampling_range};
+use crate::system::{self, Coordinate, Driven, QuestionError, check_count, sampling_range};
 
 /// Steps made at most.
 const MOST_STEPS: usize = 1_000_000_000;
@@ -47,6 +47,15 @@ impl Question {
         } else {
             |from, to| from == to
         })?;
+        // known modulo a turn
+        let angle = |input: &&Driven| {
+            input.coordinate.platform().is_some() && input.coordinate.is_angle(mechanism)
+        };
+        let wide = |input: &&Driven| (input.to - input.from).abs() > TAU * (1.0 + 1e-12);
+        if let Some(input) = inputs.iter().filter(angle).find(wide) {
+            let name = input.coordinate.name(mechanism);
+            return Err(AskError::MoreThanATurn { name });
+        }
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
         let mut question = self.with_inputs(self.resolved()?, &begin)?;
         for (index, input) in inputs.iter().enumerate() {

@@ -137,7 +137,7 @@ pub fn complaint(
         }
         AskError::AlsoHeld { .. } => said.label("also held").help(ONE_OF_THEM),
         AskError::MoreThanATurn { name } => {
-            said.help(format!("map a turn, e.g. --map {name}=-180deg..180deg"))
+            said.help(format!("a turn is all there is, e.g. {name}=-180deg..180deg"))
         }
         AskError::NothingMoves { driven } => {
             let name = driven.as_deref().unwrap_or("NAME");

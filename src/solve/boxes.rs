@@ -91,7 +91,8 @@ pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> 
 /// Whether a box holds exactly one zero of the preconditioned rows; where constants of the rows are intervals, for each
 /// value in them.
 pub fn holds_one<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) -> bool {
-    contracted(conditions, sides, work).is_some_and(|step| step.one)
+    // without unknowns there is nothing to choose
+    contracted(conditions, sides, work).is_some_and(|step| step.one || sides.is_empty())
 }
 
 /// A zero near a point, by Newton steps without control of rounding.

@@ -32,6 +32,8 @@ pub enum Unfit {
     Spins(String),
     /// An input is an angle of a platform that is held whole, and has no value of its own.
     Turns,
+    /// So many joint variables are too many.
+    Large(usize),
 }
 
 /// The joint variables that tell assemblies apart, with the conditions of assembly.

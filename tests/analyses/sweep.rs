@@ -1718,3 +1718,22 @@ fn motions_of_platforms_are_certified() {
         );
     }
 }
+
+#[test]
+fn an_arm_without_loops_is_certified_and_a_turn_is_all_of_a_platforms_angle() {
+    let arm = mechanism("planar_2r");
+    let question = ask::Question::new(arm);
+    let question = question.input("theta1", 0.5, 1.0).input("theta2", 0.5, 1.0);
+    let motions = question.motions(&certified(3), &Watch::none()).unwrap();
+    let report = motions.run(&motions.starts[0].1, &mut |_| {}, &Watch::none());
+    assert!(report.certificate.unwrap().is_whole());
+
+    for (turn, allowed) in [(1.0, true), (1.1, false)] {
+        let question = ask::Question::new(mechanism("planar_3rpr")).free("actuated");
+        let question = question.hold("platform.x", 14.9).hold("platform.y", -1.3);
+        let question = question.input("platform.yaw", 0.0, turn * TAU);
+        let motions = question.motions(&steps(10), &Watch::none());
+        let refused = matches!(motions, Err(ask::AskError::MoreThanATurn { .. }));
+        assert_eq!(refused, !allowed);
+    }
+}

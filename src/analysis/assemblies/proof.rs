@@ -70,6 +70,7 @@ pub fn prove(
     );
     proof.boxes = pruned.boxes;
     proof.waiting = pruned.waiting.len();
+    proof.crowded = proof.waiting > 0 && pruned.left.len() >= settings.most_left;
     // how exactly the listed assemblies are where they are said to be
     let near = |sides: &Sides, x: &[f64], margin: f64| {
         let periods = space.periods.iter();

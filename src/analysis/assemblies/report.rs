@@ -262,8 +262,12 @@ pub struct Proof {
     pub unknowns: usize,
     /// Boxes that were looked at.
     pub boxes: usize,
-    /// Boxes that were not, when the number allowed was reached.
+    /// Boxes that were not, when the number allowed was reached or the search was stopped.
     pub waiting: usize,
+    /// Whether it ended because ever more boxes too small to be halved are left, as about a set of infinitely many
+    /// solutions.
+    #[serde(default)]
+    pub crowded: bool,
     /// What is covered of joints that may go beyond it: the limits of those that do not come back to the same place.
     pub ranges: Vec<Range>,
     /// Those of them without limits, for which no bound follows from the lengths: within 1000 characteristic lengths.

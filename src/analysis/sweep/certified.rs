@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Interval;
-use crate::solve::{Conditions, Sides, holds_one, nearest};
+use crate::solve::{Conditions, Sides, Stage, Watch, holds_one, nearest};
 use crate::system::{Coordinate, Driven, Enclosure, Held, JointSpace, Unfit};
 
 /// Half the side of the box that holds a configuration's exact place, in rad or characteristic lengths.
@@ -20,8 +20,11 @@ const EXACT: f64 = 1e-8;
 /// How often the way between two rows is halved.
 const HALVINGS: usize = 24;
 
-/// Boxes between two rows at most.
-const MOST_BOXES: usize = 10_000;
+/// Boxes tried between two rows at most.
+const MOST_BOXES: usize = 4_000;
+
+/// Joint variables at most: a box takes as many operations as their cube.
+const MOST_VARIABLES: usize = 100;
 
 /// What is certified of the branch between the rows of a motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -58,8 +61,9 @@ pub(super) struct Certifier<'m> {
     space: Option<JointSpace>,
     latest: Option<Place>,
     certificate: Certificate,
-    /// Boxes that may be had yet before the next row.
+    /// Boxes that may be tried yet before the next row.
     left: usize,
+    watch: &'m Watch<'m>,
 }
 
 /// A configuration on the way.
@@ -78,10 +82,15 @@ impl<'m> Certifier<'m> {
         held: Option<Held<f64>>,
         inputs: &'m [Driven],
         start: &Configuration<f64>,
+        watch: &'m Watch<'m>,
     ) -> Self {
         let space = held.ok_or(Unfit::Turns).and_then(|held| {
             let moving: Vec<usize> = inputs.iter().filter_map(joint).collect();
-            JointSpace::new(mechanism, &held, &moving, start)
+            let space = JointSpace::new(mechanism, &held, &moving, start)?;
+            match space.enclosure.unknowns().len() {
+                0..=MOST_VARIABLES => Ok(space),
+                given => Err(Unfit::Large(given)),
+            }
         });
         let (space, unfit) = match space {
             Ok(space) => (Some(space), None),
@@ -97,6 +106,7 @@ impl<'m> Certifier<'m> {
                 ..Certificate::default()
             },
             left: MOST_BOXES,
+            watch,
         }
     }
 
@@ -140,6 +150,7 @@ impl<'m> Certifier<'m> {
         let Some(space) = &mut self.space else {
             return;
         };
+        self.left = self.left.saturating_sub(1);
         if let (Some(start), Some(end)) = (&from.exact, &to.exact)
             && around(from, to).is_some_and(|sides| {
                 let holds = |exact: &Sides| {
@@ -153,8 +164,10 @@ impl<'m> Certifier<'m> {
             })
         {
             self.certificate.boxes += 1;
-            self.left = self.left.saturating_sub(1);
             return;
+        }
+        if (self.watch).stops(Stage::Boxes, self.certificate.boxes, None) {
+            self.left = 0;
         }
         let middle = (halvings.min(self.left) > 0 && (from.exact.is_some() || to.exact.is_some()))
             .then(|| Place::between(space, self.inputs, from, to))
@@ -380,6 +393,7 @@ mod tests {
 
     use super::Certifier;
     use crate::mechanism::{Configuration, Mechanism};
+    use crate::solve::Watch;
     use crate::system::{Coordinate, Driven, Held};
 
     /// The shipped 4-bar, with lengths 5, 1, 3 and 4 m, in closed form.
@@ -406,6 +420,7 @@ mod tests {
         let mechanism = Mechanism::load(path).unwrap();
         let mut held = Held::nothing(&mechanism);
         held.joints[0] = true;
+        let watch = Watch::none();
         let inputs = [Driven {
             coordinate: Coordinate::Joint(0),
             from: 1.0,
@@ -414,7 +429,8 @@ mod tests {
         for (end, same) in [(1.0, true), (-1.0, false)] {
             let rows = [(1.0, 1.0), (1.2, end)];
             let rows = rows.map(|(crank, side)| assembled(&mechanism, crank, side));
-            let mut certifier = Certifier::new(&mechanism, Some(held.clone()), &inputs, &rows[0]);
+            let mut certifier =
+                Certifier::new(&mechanism, Some(held.clone()), &inputs, &rows[0], &watch);
             rows.iter().for_each(|row| certifier.row(row));
             assert_eq!(certifier.certificate().is_whole(), same);
         }

@@ -62,6 +62,9 @@ pub(crate) fn reason(unfit: &Unfit) -> String {
         Unfit::Spins(platform) => {
             format!("{platform} spins about a line of its own; write it as a Distance closure")
         }
+        Unfit::Large(given) => {
+            format!("{given} joint variables are too many for boxes, of at most 100")
+        }
         Unfit::Turns => "an input is an angle of a platform that is held whole".into(),
     }
 }
@@ -98,10 +101,13 @@ pub(super) fn notes(proof: &Proof) -> Vec<String> {
         ));
     }
     if proof.waiting > 0 {
-        notes.push(format!(
-            "the search ended with {} not looked at; --boxes allows more",
-            count(proof.waiting, "box")
-        ));
+        let boxes = count(proof.waiting, "box");
+        notes.push(match proof.crowded {
+            true => format!(
+                "the search ended with {boxes} not looked at: round singular solutions there is no end of small boxes"
+            ),
+            false => format!("the search ended with {boxes} not looked at; --boxes allows more"),
+        });
     }
     notes
 }
