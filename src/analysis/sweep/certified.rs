@@ -20,8 +20,8 @@ const EXACT: f64 = 1e-8;
 /// How often the way between two rows is halved.
 const HALVINGS: usize = 24;
 
-/// Boxes tried between two rows at most.
-const MOST_BOXES: usize = 4_000;
+/// Parts of that way that are halved at most, all of one length.
+const MOST_PARTS: usize = 1024;
 
 /// Joint variables at most: a box takes as many operations as their cube.
 const MOST_VARIABLES: usize = 100;
@@ -61,8 +61,6 @@ pub(super) struct Certifier<'m> {
     space: Option<JointSpace>,
     latest: Option<Place>,
     certificate: Certificate,
-    /// Boxes that may be tried yet before the next row.
-    left: usize,
     watch: &'m Watch<'m>,
 }
 
@@ -105,7 +103,6 @@ impl<'m> Certifier<'m> {
                 unfit,
                 ..Certificate::default()
             },
-            left: MOST_BOXES,
             watch,
         }
     }
@@ -136,8 +133,7 @@ impl<'m> Certifier<'m> {
         }
         let row = Place::new(space, self.inputs, inputs, variables);
         if let Some(latest) = self.latest.replace(row.clone()) {
-            self.left = MOST_BOXES;
-            self.join(&latest, &row, HALVINGS);
+            self.join(latest, row);
         }
     }
 
@@ -145,40 +141,59 @@ impl<'m> Certifier<'m> {
         self.certificate
     }
 
-    /// Certifies the branch from one place to another, or notes where that fails.
-    fn join(&mut self, from: &Place, to: &Place, halvings: usize) {
-        let Some(space) = &mut self.space else {
-            return;
-        };
-        self.left = self.left.saturating_sub(1);
-        if let (Some(start), Some(end)) = (&from.exact, &to.exact)
-            && around(from, to).is_some_and(|sides| {
-                let holds = |exact: &Sides| {
-                    let pairs = sides.iter().zip(exact);
-                    pairs
-                        .into_iter()
-                        .all(|(a, b)| a.low < b.low && b.high < a.high)
-                };
-                let moving = Moving::new(space, self.inputs, &from.inputs, &to.inputs);
-                holds(start) && holds(end) && holds_one(&moving, &sides, &mut moving.work())
-            })
-        {
-            self.certificate.boxes += 1;
-            return;
-        }
-        if (self.watch).stops(Stage::Boxes, self.certificate.boxes, None) {
-            self.left = 0;
-        }
-        let middle = (halvings.min(self.left) > 0 && (from.exact.is_some() || to.exact.is_some()))
-            .then(|| Place::between(space, self.inputs, from, to))
-            .flatten();
-        match middle {
-            Some(middle) => {
-                self.join(from, &middle, halvings - 1);
-                self.join(&middle, to, halvings - 1);
+    /// Certifies the branch from one row to the next, or notes where that fails.
+    fn join(&mut self, from: Place, to: Place) {
+        // with the part of the way that is gone before each
+        let mut parts = vec![(0.0, from, to)];
+        let mut open: Vec<(f64, Place, Place)> = Vec::new();
+        let mut length = 1.0;
+        for halvings in 0..=HALVINGS {
+            length *= 0.5;
+            let stopped = (self.watch).stops(Stage::Boxes, self.certificate.boxes, None);
+            let last = halvings == HALVINGS || parts.len() > MOST_PARTS || stopped;
+            let mut halves = Vec::new();
+            for (gone, from, to) in parts {
+                if self.holds(&from, &to) {
+                    self.certificate.boxes += 1;
+                    continue;
+                }
+                match (!last).then(|| self.between(&from, &to)).flatten() {
+                    Some(middle) => {
+                        halves.push((gone, from, middle.clone()));
+                        halves.push((gone + length, middle, to));
+                    }
+                    None => open.push((gone, from, to)),
+                }
             }
-            None => self.note(from, to),
+            parts = halves;
         }
+        open.sort_by(|a, b| a.0.total_cmp(&b.0));
+        open.iter().for_each(|(_, from, to)| self.note(from, to));
+    }
+
+    /// Whether one continuous branch leads from one place to another.
+    fn holds(&mut self, from: &Place, to: &Place) -> bool {
+        let (Some(space), Some(start), Some(end)) = (&mut self.space, &from.exact, &to.exact)
+        else {
+            return false;
+        };
+        let Some(sides) = around(from, to) else {
+            return false;
+        };
+        let inside = |exact: &Sides| {
+            let mut pairs = sides.iter().zip(exact);
+            pairs.all(|(a, b)| a.low < b.low && b.high < a.high)
+        };
+        let moving = Moving::new(space, self.inputs, &from.inputs, &to.inputs);
+        inside(start) && inside(end) && holds_one(&moving, &sides, &mut moving.work())
+    }
+
+    /// The place between two others, one of which is regular at least.
+    fn between(&mut self, from: &Place, to: &Place) -> Option<Place> {
+        let space = self.space.as_mut()?;
+        (from.exact.is_some() || to.exact.is_some())
+            .then(|| Place::between(space, self.inputs, from, to))
+            .flatten()
     }
 
     /// Notes a part that is not certified; what is certified between two such parts and not much longer is theirs.
