@@ -32,8 +32,13 @@ pub enum Unfit {
     Spins(String),
     /// An input is an angle of a platform that is held whole, and has no value of its own.
     Turns,
-    /// So many joint variables are too many.
-    Large(usize),
+    /// There are more joint variables than boxes are made for.
+    Large {
+        /// How many there are.
+        given: usize,
+        /// How many there may be.
+        most: usize,
+    },
 }
 
 /// The joint variables that tell assemblies apart, with the conditions of assembly.

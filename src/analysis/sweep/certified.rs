@@ -5,6 +5,8 @@
 //! the one to the other, and the inputs do not turn back on it. A box that is too wide is halved at the middle of the
 //! inputs. Neighbouring boxes share the small box round the configuration between them in which its exact place is.
 
+mod moving;
+
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
@@ -12,7 +14,8 @@ use serde::{Deserialize, Serialize};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Interval;
 use crate::solve::{Conditions, Sides, Stage, Watch, holds_one, nearest};
-use crate::system::{Coordinate, Driven, Enclosure, Held, JointSpace, Unfit};
+use crate::system::{Driven, Held, JointSpace, Unfit};
+use moving::{Moving, joint};
 
 /// Half the side of the box that holds a configuration's exact place, in rad or characteristic lengths.
 const EXACT: f64 = 1e-8;
@@ -87,7 +90,10 @@ impl<'m> Certifier<'m> {
             let space = JointSpace::new(mechanism, &held, &moving, start)?;
             match space.enclosure.unknowns().len() {
                 0..=MOST_VARIABLES => Ok(space),
-                given => Err(Unfit::Large(given)),
+                given => Err(Unfit::Large {
+                    given,
+                    most: MOST_VARIABLES,
+                }),
             }
         });
         let (space, unfit) = match space {
@@ -252,141 +258,6 @@ impl Place {
         let variables = nearest(&there, &start, &mut there.work())?;
         let place = Place::new(space, driven, inputs, variables);
         place.exact.is_some().then_some(place)
-    }
-}
-
-/// The joint that an input moves.
-fn joint(input: &Driven) -> Option<usize> {
-    match input.coordinate {
-        Coordinate::Joint(joint) => Some(joint),
-        _ => None,
-    }
-}
-
-/// The conditions of assembly while the inputs go straight from some values to others.
-struct Moving<'s> {
-    enclosure: &'s Enclosure,
-    /// Inputs that are joints: one goes through an interval, and the others depend on it.
-    rows: Vec<Row>,
-}
-
-/// xᵢ − ratio·xⱼ lies in an interval.
-struct Row {
-    column: usize,
-    ratio: Option<(f64, usize)>,
-    value: Interval,
-}
-
-impl<'s> Moving<'s> {
-    fn new(space: &'s mut JointSpace, driven: &[Driven], from: &[f64], to: &[f64]) -> Self {
-        let mut ends: Vec<(usize, [f64; 2])> = Vec::new();
-        for ((input, &a), &b) in driven.iter().zip(from).zip(to) {
-            match input.coordinate {
-                Coordinate::Joint(joint) => {
-                    let column = space.enclosure.unknowns().binary_search(&joint);
-                    ends.extend(
-                        column.map(|i| (i, [a, b].map(|x| x / space.enclosure.scales()[i]))),
-                    );
-                }
-                Coordinate::Pose(platform, coordinate) => {
-                    space.hold(platform, coordinate, between(a, b));
-                }
-                Coordinate::Turn(..) => {}
-            }
-        }
-        let way = |[a, b]: [f64; 2]| (b - a).abs();
-        let first = ends.iter().max_by(|a, b| way(a.1).total_cmp(&way(b.1)));
-        let rows = first.map(|&(lead, [a, b])| {
-            let rows = ends.iter().map(|&(column, [from, to])| {
-                let ratio = if a == b { 0.0 } else { (to - from) / (b - a) };
-                match column == lead {
-                    true => Row {
-                        column,
-                        ratio: None,
-                        value: between(a, b),
-                    },
-                    false => Row {
-                        column,
-                        ratio: Some((ratio, lead)),
-                        // the ends are known to rounding
-                        value: Interval::around(
-                            from - ratio * a,
-                            1e-14 * (1.0 + from.abs() + a.abs()),
-                        ),
-                    },
-                }
-            });
-            rows.collect()
-        });
-        Moving {
-            enclosure: &space.enclosure,
-            rows: rows.unwrap_or_default(),
-        }
-    }
-}
-
-fn between(a: f64, b: f64) -> Interval {
-    Interval {
-        low: a.min(b),
-        high: a.max(b),
-    }
-}
-
-/// Storage of [`Moving`].
-#[derive(Clone)]
-struct Work {
-    closures: <Enclosure as Conditions>::Work,
-    values: Vec<Interval>,
-    slopes: Vec<Interval>,
-}
-
-impl Conditions for Moving<'_> {
-    type Work = Work;
-
-    fn work(&self) -> Work {
-        Work {
-            closures: self.enclosure.work(),
-            values: Vec::new(),
-            slopes: Vec::new(),
-        }
-    }
-
-    fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut Work) {
-        self.enclosure.evaluate(at, slopes, &mut work.closures);
-        let closures = self.enclosure.values(&work.closures);
-        let of_inputs = self.rows.iter().map(|row| {
-            let other = row.ratio.map(|(ratio, j)| Interval::point(ratio) * at[j]);
-            at[row.column] - other.unwrap_or(Interval::point(0.0)) - row.value
-        });
-        work.values.clear();
-        work.values
-            .extend(closures.iter().copied().chain(of_inputs));
-        if !slopes {
-            return;
-        }
-        let columns = self.enclosure.slopes(&work.closures);
-        work.slopes.clear();
-        for j in 0..at.len() {
-            let column = &columns[j * closures.len()..][..closures.len()];
-            let of_inputs = self.rows.iter().map(|row| match row.ratio {
-                _ if row.column == j => Interval::point(1.0),
-                Some((ratio, other)) if other == j => Interval::point(-ratio),
-                _ => Interval::point(0.0),
-            });
-            work.slopes.extend(column.iter().copied().chain(of_inputs));
-        }
-    }
-
-    fn possible(&self, work: &Work) -> bool {
-        self.enclosure.possible(&work.closures)
-    }
-
-    fn values<'a>(&self, work: &'a Work) -> &'a [Interval] {
-        &work.values
-    }
-
-    fn slopes<'a>(&self, work: &'a Work) -> &'a [Interval] {
-        &work.slopes
     }
 }
 

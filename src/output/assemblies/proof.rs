@@ -62,8 +62,8 @@ pub(crate) fn reason(unfit: &Unfit) -> String {
         Unfit::Spins(platform) => {
             format!("{platform} spins about a line of its own; write it as a Distance closure")
         }
-        Unfit::Large(given) => {
-            format!("{given} joint variables are too many for boxes, of at most 100")
+        Unfit::Large { given, most } => {
+            format!("{given} joint variables are too many for boxes, of at most {most}")
         }
         Unfit::Turns => "an input is an angle of a platform that is held whole".into(),
     }
