@@ -22,11 +22,14 @@ export async function instance(module) {
   }
   const { exports } = await WebAssembly.instantiate(module, imports);
   const { memory, room, answer, reply } = exports;
-  return (request) => {
+  /** The reply as text in the solver's memory. */
+  const written = (request) => {
     const bytes = new TextEncoder().encode(JSON.stringify(request));
     const at = room(bytes.length);
     new Uint8Array(memory.buffer).set(bytes, at);
     const length = answer();
-    return JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, reply(), length)));
+    return new Uint8Array(memory.buffer, reply(), length);
   };
+  const ask = (request) => JSON.parse(new TextDecoder().decode(written(request)));
+  return Object.assign(ask, { written });
 }
