@@ -7,11 +7,11 @@
 use std::collections::HashSet;
 
 mod axes;
-mod brackets;
 mod checks;
 mod closure_kind;
 mod embedded;
 mod expectation;
+mod lexemes;
 mod lines;
 mod load;
 mod naming;

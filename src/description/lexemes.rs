@@ -1,6 +1,119 @@
-//! Finds the bracket that a RON file leaves open.
+//! Where the values, strings and comments of a RON text begin and end.
 
 use std::ops::Range;
+
+/// The words, numbers, strings, characters and signs of a text, by their places; white space and comments are passed over.
+pub(super) struct Lexemes<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Lexemes<'a> {
+    pub fn new(text: &'a str) -> Self {
+        Self { text, at: 0 }
+    }
+
+    /// Whether a string or a comment goes on beyond the end of the text, once there are no more lexemes.
+    fn unterminated(&self) -> bool {
+        self.at < self.text.len()
+    }
+
+    /// The end of the white space and comments that begin here.
+    fn skip_blank(&self) -> Option<usize> {
+        let bytes = self.text.as_bytes();
+        let mut at = self.at;
+        loop {
+            at = match bytes[at..] {
+                [b' ' | b'\t'..=b'\r', ..] => at + 1,
+                [b'/', b'/', ..] => at + bytes[at..].iter().take_while(|&&b| b != b'\n').count(),
+                [b'/', b'*', ..] => comment_end(bytes, at)?,
+                [0x80..=0xff, ..] => match self.text[at..].chars().next() {
+                    Some(character) if is_blank(character) => at + character.len_utf8(),
+                    _ => return Some(at),
+                },
+                _ => return Some(at),
+            }
+        }
+    }
+}
+
+impl Iterator for Lexemes<'_> {
+    type Item = Range<usize>;
+
+    fn next(&mut self) -> Option<Range<usize>> {
+        self.at = self.skip_blank()?;
+        let (text, start) = (self.text, self.at);
+        let bytes = text.as_bytes();
+        let raw = start + usize::from(matches!(bytes[start..], [b'b', b'r', ..]));
+        self.at = match *bytes.get(start)? {
+            b'"' => string_end(bytes, start)?,
+            b'\'' => character_end(text, start),
+            _ if matches!(bytes[raw..], [b'r', b'"' | b'#', ..]) => raw_string_end(text, raw)?,
+            first if in_word(first) => {
+                let length = bytes[start..].iter().take_while(|&&byte| in_word(byte));
+                start + length.count()
+            }
+            _ => start + text[start..].chars().next()?.len_utf8(),
+        };
+        Some(start..self.at)
+    }
+}
+
+/// An element of a list or tuple, or an entry of a map or structure with its key.
+pub(super) struct Part<'a> {
+    pub key: Option<&'a str>,
+    pub value: &'a str,
+}
+
+/// The parts of a well-formed value in brackets.
+pub(super) fn parts(value: &str) -> Vec<Part<'_>> {
+    let mut parts = Vec::new();
+    let mut depth = 0;
+    let (mut key, mut begin, mut end) = (None, None, 0);
+    for place in Lexemes::new(value) {
+        let sign = value.as_bytes()[place.start];
+        let closing = matches!(sign, b')' | b']' | b'}');
+        depth -= usize::from(closing);
+        match (depth, sign) {
+            (1, b':') => key = begin.take().map(|begin| &value[begin..end]),
+            (1, b',') | (0, b')' | b']' | b'}') => {
+                parts.extend(begin.take().map(|begin| Part {
+                    key: key.take(),
+                    value: &value[begin..end],
+                }));
+            }
+            (0, _) => {}
+            _ => {
+                begin.get_or_insert(place.start);
+                end = place.end;
+            }
+        }
+        depth += usize::from(matches!(sign, b'(' | b'[' | b'{'));
+    }
+    parts
+}
+
+/// A text without the white space and comments around it.
+pub(super) fn trimmed(text: &str) -> &str {
+    let mut lexemes = Lexemes::new(text);
+    let Some(first) = lexemes.next() else {
+        return "";
+    };
+    let end = lexemes.last().map_or(first.end, |last| last.end);
+    &text[first.start..end]
+}
+
+/// White space as RON has it: the Pattern_White_Space of Unicode.
+fn is_blank(character: char) -> bool {
+    matches!(
+        character,
+        '\t'..='\r' | ' ' | '\u{85}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}'
+    )
+}
+
+fn in_word(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.' | b'+' | b'-')
+}
 
 /// An opening bracket that is not closed before another kind of bracket, or the text, ends.
 #[derive(Debug, PartialEq)]
@@ -14,33 +127,26 @@ pub(super) struct Unclosed {
 /// The first unclosed bracket of `text`, outside strings and comments.
 pub(super) fn unclosed(text: &str) -> Option<Unclosed> {
     let bytes = text.as_bytes();
-    let mut open: Vec<usize> = Vec::new();
-    let mut i = 0;
-    while i < bytes.len() {
-        match bytes[i] {
-            b'(' | b'[' | b'{' => open.push(i),
+    let mut open: Vec<Range<usize>> = Vec::new();
+    let mut lexemes = Lexemes::new(text);
+    for place in &mut lexemes {
+        match bytes[place.start] {
+            b'(' | b'[' | b'{' => open.push(place),
             closing @ (b')' | b']' | b'}') => {
                 let last = open.pop()?;
-                if partner(bytes[last]) != closing {
+                if partner(bytes[last.start]) != closing {
                     return Some(Unclosed {
-                        open: last..last + 1,
-                        missed_at: i,
+                        open: last,
+                        missed_at: place.start,
                     });
                 }
             }
-            b'"' => i = string_end(bytes, i)?,
-            b'r' if matches!(bytes.get(i + 1), Some(b'"' | b'#')) => i = raw_string_end(text, i)?,
-            b'\'' => i = character_end(text, i),
-            b'/' if bytes.get(i + 1) == Some(&b'/') => {
-                i += text[i..].find('\n').unwrap_or(text.len() - i)
-            }
-            b'/' if bytes.get(i + 1) == Some(&b'*') => i = comment_end(bytes, i)?,
             _ => {}
         }
-        i += 1;
     }
-    open.pop().map(|last| Unclosed {
-        open: last..last + 1,
+    let open = open.pop().filter(|_| !lexemes.unterminated())?;
+    Some(Unclosed {
+        open,
         missed_at: text.len(),
     })
 }
@@ -53,44 +159,36 @@ fn partner(open: u8) -> u8 {
     }
 }
 
-/// The closing quote of the string that begins at `start`.
+/// The end of the string that begins at `start`.
 fn string_end(bytes: &[u8], start: usize) -> Option<usize> {
     let mut i = start + 1;
     while *bytes.get(i)? != b'"' {
         i += if bytes[i] == b'\\' { 2 } else { 1 };
     }
-    Some(i)
+    Some(i + 1)
 }
 
 fn raw_string_end(text: &str, start: usize) -> Option<usize> {
     let hashes = text[start + 1..].bytes().take_while(|&b| b == b'#').count();
     let content = start + 1 + hashes;
     if text.as_bytes().get(content) != Some(&b'"') {
-        return Some(start);
+        return Some(content);
     }
     let ending = format!("\"{}", "#".repeat(hashes));
     text[content + 1..]
         .find(&ending)
-        .map(|i| content + i + ending.len())
+        .map(|i| content + 1 + i + ending.len())
 }
 
 /// A character is at most an escape long; anything else is a stray apostrophe.
 fn character_end(text: &str, start: usize) -> usize {
     let mut characters = text[start + 1..].char_indices();
-    match characters.next() {
-        Some((_, '\\')) => text[start + 2..]
-            .char_indices()
-            .skip(1)
-            .take(10)
-            .find(|&(_, c)| c == '\'')
-            .map(|(i, _)| start + 2 + i),
-        Some(_) => characters
-            .next()
-            .filter(|&(_, c)| c == '\'')
-            .map(|(i, _)| start + 1 + i),
+    let closing = match characters.next() {
+        Some((_, '\\')) => characters.skip(1).take(10).find(|&(_, c)| c == '\''),
+        Some(_) => characters.next().filter(|&(_, c)| c == '\''),
         None => None,
-    }
-    .unwrap_or(start)
+    };
+    closing.map_or(start + 1, |(i, _)| start + 1 + i + 1)
 }
 
 fn comment_end(bytes: &[u8], start: usize) -> Option<usize> {
@@ -102,7 +200,7 @@ fn comment_end(bytes: &[u8], start: usize) -> Option<usize> {
             _ => i += 1,
         }
     }
-    Some(i - 1)
+    Some(i)
 }
 
 #[cfg(test)]

@@ -1,23 +1,21 @@
 //! A piece of a RON text, and its parts.
 //!
-//! `ron` reads values without their positions. It can return any value as a slice of the text, though, and a slice has
-//! a position; so the tree is parsed level by level, each child first as an unread slice.
+//! `ron` reads values without their positions. A slice of the text has a position; so, once `ron` has found the text
+//! well formed, values are divided into slices level by level, and `ron` reads the numbers and strings at the ends.
 
 use std::borrow::Cow;
 use std::fmt::{self, Formatter};
-use std::marker::PhantomData;
 use std::ops::Range;
 
-use ron::value::RawValue;
 use serde::Deserialize;
-use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserializer, Visitor};
 
+use super::lexemes::{Lexemes, parts, trimmed};
 use super::{Found, Spanned};
 
 /// A value that `ron` has found to be well formed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece<'a> {
-    /// Begins with the value; may end with white space and comments.
     text: &'a str,
     start: usize,
 }
@@ -58,17 +56,18 @@ enum Places {
 }
 
 impl<'a> Piece<'a> {
-    /// Of a text that begins at byte `start` of the file.
+    /// The value in a text that begins at byte `start` of the file.
     pub fn new(text: &'a str, start: usize) -> Self {
-        let trimmed = skip_blank(text);
+        let value = trimmed(text);
         Self {
-            text: trimmed,
-            start: start + text.len() - trimmed.len(),
+            text: value,
+            start: start + value.as_ptr() as usize - text.as_ptr() as usize,
         }
     }
 
-    fn part(&self, slice: &'a str) -> Self {
-        Self::new(slice, self.place(slice).start)
+    fn part(&self, text: &'a str) -> Self {
+        let start = self.place(text).start;
+        Self { text, start }
     }
 
     /// The place of a slice of this piece in the file.
@@ -79,12 +78,7 @@ impl<'a> Piece<'a> {
 
     /// The place of the value in the file.
     pub fn span(&self) -> Range<usize> {
-        let end = self.deserializer().and_then(|mut deserializer| {
-            IgnoredAny::deserialize(&mut deserializer)?;
-            Ok(self.text.len() - deserializer.remainder().len())
-        });
-        let value = &self.text[..end.unwrap_or(self.text.len())];
-        self.start..self.start + value.trim_end().len()
+        self.start..self.start + self.text.len()
     }
 
     pub fn shape(&self) -> Shape<'a> {
@@ -94,8 +88,8 @@ impl<'a> Piece<'a> {
             Some('\'') => Shape::Character,
             Some('[') => Shape::List,
             Some('{') => Shape::Map,
-            Some('(') => match word(skip_blank(characters.as_str())) {
-                Some((_, rest)) if skip_blank(rest).starts_with(':') => Shape::Fields,
+            Some('(') => match Lexemes::new(self.text).nth(2) {
+                Some(sign) if &self.text[sign.clone()] == ":" => Shape::Fields,
                 _ => Shape::Tuple,
             },
             Some('b')
@@ -106,10 +100,11 @@ impl<'a> Piece<'a> {
             }
             _ => match word(self.text) {
                 Some((word, rest)) => {
-                    let content = self.part(rest);
+                    let content = Lexemes::new(rest).next().map(|first| &rest[first.start..]);
+                    let content = content.filter(|content| content.starts_with('('));
                     Shape::Word {
                         word,
-                        content: content.text.starts_with('(').then_some(content),
+                        content: content.map(|content| self.part(content)),
                     }
                 }
                 None if self.text.starts_with('r') => Shape::Text,
@@ -159,38 +154,26 @@ impl<'a> Piece<'a> {
     }
 
     /// The values of a list or a tuple.
-    pub fn elements(&self) -> Result<Vec<Piece<'a>>, ron::Error> {
-        let mut deserializer = self.deserializer()?;
-        let parts = Parts(PhantomData::<()>);
-        let parts = match self.text.starts_with('[') {
-            true => deserializer.deserialize_seq(parts),
-            false => deserializer.deserialize_tuple(0, parts),
-        }?;
-        Ok(parts
-            .into_iter()
-            .map(|(_, value)| self.part(value))
-            .collect())
+    pub fn elements(&self) -> Vec<Piece<'a>> {
+        let values = parts(self.text).into_iter().map(|part| part.value);
+        values.map(|value| self.part(value)).collect()
     }
 
     /// The keys and values of a map.
-    pub fn pairs(&self) -> Result<Vec<(Piece<'a>, Piece<'a>)>, ron::Error> {
-        let parts = Parts(PhantomData::<&RawValue>);
-        let parts = self.deserializer()?.deserialize_map(parts)?.into_iter();
-        let pairs = parts.filter_map(|(key, value)| Some((key?.get_ron(), value)));
-        Ok(pairs
-            .map(|(key, value)| (self.part(key), self.part(value)))
-            .collect())
+    pub fn pairs(&self) -> Vec<(Piece<'a>, Piece<'a>)> {
+        let pairs = parts(self.text).into_iter();
+        let pairs = pairs.filter_map(|part| Some((self.part(part.key?), self.part(part.value))));
+        pairs.collect()
     }
 
     /// The names and values of named fields in parentheses.
-    pub fn fields(&self) -> Result<Vec<(Spanned<&'a str>, Piece<'a>)>, ron::Error> {
-        let parts = Parts(PhantomData::<Word>);
-        let parts = self.deserializer()?.deserialize_struct("", &[], parts)?;
-        let named = |(name, value): (Option<Word<'a>>, &'a str)| {
-            let Word(name) = name?;
-            Some((Spanned::new(name, self.place(name)), self.part(value)))
-        };
-        Ok(parts.into_iter().filter_map(named).collect())
+    pub fn fields(&self) -> Vec<(Spanned<&'a str>, Piece<'a>)> {
+        let fields = parts(self.text).into_iter().filter_map(|part| {
+            let name = part.key?;
+            let value = self.part(part.value);
+            Some((Spanned::new(word(name)?.0, self.place(name)), value))
+        });
+        fields.collect()
     }
 
     fn deserializer(&self) -> Result<ron::Deserializer<'a>, ron::Error> {
@@ -210,11 +193,6 @@ impl Literal<'_> {
             Places::Whole(span) => span.clone(),
         }
     }
-}
-
-/// The text after white space and comments.
-fn skip_blank(text: &str) -> &str {
-    ron::Deserializer::from_str(text).map_or(text, |deserializer| deserializer.remainder())
 }
 
 /// The word at the start of a text, and what follows it.
@@ -271,15 +249,6 @@ fn escaped_places(literal: &str, start: usize) -> Option<Vec<usize>> {
 #[serde(transparent)]
 struct Text<'a>(#[serde(borrow)] Cow<'a, str>);
 
-/// A word, as a field name.
-struct Word<'de>(&'de str);
-
-impl<'de> Deserialize<'de> for Word<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_identifier(WordVisitor).map(Word)
-    }
-}
-
 struct WordVisitor;
 
 impl<'de> Visitor<'de> for WordVisitor {
@@ -294,33 +263,6 @@ impl<'de> Visitor<'de> for WordVisitor {
     }
 }
 
-/// The values of a list, or the values of a map with keys of one type, each lent out unread.
-struct Parts<K>(PhantomData<K>);
-
-impl<'de, K: Deserialize<'de>> Visitor<'de> for Parts<K> {
-    type Value = Vec<(Option<K>, &'de str)>;
-
-    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str("a list or a map")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
-        let mut parts = Vec::new();
-        while let Some(value) = list.next_element::<&RawValue>()? {
-            parts.push((None, value.get_ron()));
-        }
-        Ok(parts)
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let mut parts = Vec::new();
-        while let Some((key, value)) = map.next_entry::<K, &RawValue>()? {
-            parts.push((Some(key), value.get_ron()));
-        }
-        Ok(parts)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -331,12 +273,12 @@ mod tests {
         let whole = Piece::new(text, 0);
         let expected = "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )";
         assert_eq!(&text[whole.span()], expected);
-        let [(a, one), (b, list)] = &whole.fields().unwrap()[..] else {
+        let [(a, one), (b, list)] = &whole.fields()[..] else {
             panic!("two fields")
         };
         assert_eq!([&text[a.span.clone()], &text[b.span.clone()]], ["a", "b"]);
         assert_eq!(&text[one.span()], "1.5");
-        let elements = list.elements().unwrap();
+        let elements = list.elements();
         let elements: Vec<_> = elements.iter().map(|x| &text[x.span()]).collect();
         assert_eq!(elements, ["\"x\"", "'c'"]);
     }

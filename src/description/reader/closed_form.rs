@@ -53,7 +53,7 @@ impl Reader {
             self.wrong_type(piece, Expected::TransformRows);
             return None;
         };
-        let mut rows = self.split(piece, piece.elements())?;
+        let mut rows = piece.elements();
         if rows.len() == 4
             && let Some(last) = rows.pop()
         {

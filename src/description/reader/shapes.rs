@@ -9,21 +9,24 @@ use super::*;
 pub(super) struct Fields<'a> {
     pub structure: Structure,
     pub span: Range<usize>,
-    pieces: HashMap<&'a str, Piece<'a>>,
+    /// In the order of the file; what is taken leaves its name.
+    pieces: Vec<(Spanned<&'a str>, Option<Piece<'a>>)>,
     /// Fields that are there under a misspelt name: they must not be called missing too.
     misspelt: Vec<&'static str>,
 }
 
 impl<'a> Fields<'a> {
     pub(super) fn take(&mut self, field: &str) -> Option<Piece<'a>> {
-        self.pieces.remove(field)
+        let mut pieces = self.pieces.iter_mut();
+        pieces.find(|(name, _)| name.value == field)?.1.take()
     }
 
     /// Whether one of some fields is there, rightly spelt or not.
     pub(super) fn gives(&self, fields: &[&str]) -> bool {
-        fields
-            .iter()
-            .any(|field| self.pieces.contains_key(field) || self.misspelt.contains(field))
+        let there = |&(ref name, piece): &(Spanned<&str>, Option<Piece>)| {
+            piece.is_some() && fields.contains(&name.value)
+        };
+        self.pieces.iter().any(there) || fields.iter().any(|field| self.misspelt.contains(field))
     }
 
     /// Where to point at something that is missing: all of a structure would be too much to underline.
@@ -81,7 +84,7 @@ impl Reader {
         let mut fields = Fields {
             structure,
             span: piece.span(),
-            pieces: HashMap::new(),
+            pieces: Vec::new(),
             misspelt: Vec::new(),
         };
         let Some(content) = content else {
@@ -89,40 +92,33 @@ impl Reader {
         };
         let found = match content.shape() {
             Shape::Fields => content.fields(),
-            Shape::Tuple if content.elements().is_ok_and(|elements| elements.is_empty()) => {
-                Ok(Vec::new())
-            }
+            Shape::Tuple if content.elements().is_empty() => Vec::new(),
             _ => {
                 self.wrong_type(content, expected);
                 return None;
             }
         };
-        let mut first: HashMap<&str, Range<usize>> = HashMap::new();
-        for (name, value) in self.split(content, found)? {
-            if let Some(first) = first.get(name.value) {
-                let problem = ProblemKind::DuplicateField {
-                    field: name.value.to_owned(),
-                }
-                .at(name.span);
-                self.problems
-                    .push(problem.with(first.clone(), Note::FirstHere(Noun::Field)));
+        for (name, value) in found {
+            let mut pieces = fields.pieces.iter();
+            if let Some((first, _)) = pieces.find(|(first, _)| first.value == name.value) {
+                let field = name.value.to_owned();
+                let problem = ProblemKind::DuplicateField { field }.at(name.span);
+                let note = Note::FirstHere(Noun::Field);
+                self.problems.push(problem.with(first.span.clone(), note));
                 continue;
             }
-            first.insert(name.value, name.span.clone());
-            if structure.fields().contains(&name.value) {
-                fields.pieces.insert(name.value, value);
-            } else {
-                let field = name.value.to_owned();
-                let meant = nearest(&field, structure.fields());
+            let known = structure.fields().contains(&name.value);
+            if !known {
+                let meant = nearest(name.value, structure.fields());
                 fields.misspelt.extend(meant);
-                let suggestion = meant.map(str::to_owned);
                 let kind = ProblemKind::UnknownField {
                     structure,
-                    field,
-                    suggestion,
+                    field: name.value.to_owned(),
+                    suggestion: meant.map(str::to_owned),
                 };
-                self.note(kind, name.span);
+                self.note(kind, name.span.clone());
             }
+            fields.pieces.push((name, known.then_some(value)));
         }
         Some(fields)
     }
@@ -160,7 +156,7 @@ impl Reader {
         };
         let mut first: HashMap<String, Range<usize>> = HashMap::new();
         let mut named = Vec::new();
-        for (key, value) in self.split(piece, piece.pairs()).unwrap_or_default() {
+        for (key, value) in piece.pairs() {
             let name = self.text(key, Expected::NameOf(noun));
             // a value is read even if its name is wrong, to find its problems too
             let before = self.problems.len();
@@ -195,11 +191,8 @@ impl Reader {
             self.wrong_type(piece, expected);
             return Vec::new();
         };
-        let elements = self.split(piece, piece.elements()).unwrap_or_default();
-        elements
-            .into_iter()
-            .filter_map(|element| read(self, element))
-            .collect()
+        let elements = piece.elements().into_iter();
+        elements.filter_map(|element| read(self, element)).collect()
     }
 
     pub(super) fn tuple<'a, const N: usize>(
@@ -211,7 +204,7 @@ impl Reader {
             self.wrong_type(piece, of);
             return None;
         };
-        let elements = self.split(piece, piece.elements())?;
+        let elements = piece.elements();
         let found = elements.len();
         match elements.try_into() {
             Ok(tuple) => Some(tuple),

@@ -4,7 +4,7 @@ use ron::Error;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use crate::description::brackets::unclosed;
+use crate::description::lexemes::unclosed;
 use crate::description::{Lines, Note, Problem, ProblemKind};
 
 /// Where the value begins, if the text from `start` on is one RON value.
