@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds page.html, which `linkwork view` fills in: the library for wasm32, the script, both into one page.
-# Needs npm, and either rustup's target wasm32-unknown-unknown or Debian's rustc-web, cargo-web, rust-web-src and an lld
-# in WASM_LD. PAGE_OUT is where the page goes, if not beside this script; PAGE_TARGET_DIR where cargo works.
+# Needs npm, and either rustup's target wasm32-unknown-unknown or Debian's rustc-web, cargo-web, libstd-rust-web-dev,
+# rust-web-src and lld-22 (another wasm-ld in WASM_LD). PAGE_OUT is where the page goes, if not beside this script; PAGE_TARGET_DIR where cargo works.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
@@ -17,7 +17,7 @@ if [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
     cargo $options $whole
 else
     # Debian has no standard library for wasm32: it is built from its source
-    PATH="/usr/lib/rust-web/bin:$PATH" RUSTC_BOOTSTRAP=1 cargo $options -Zbuild-std=std,panic_abort $whole
+    PATH="/usr/bin:$PATH" RUSTC_BOOTSTRAP=1 cargo $options -Zbuild-std=std,panic_abort $whole
 fi
 cd "$here"
 npm ci --silent --no-audit --no-fund

@@ -3,6 +3,8 @@
 # here; without their exports the linker leaves them out.
 set -eu
 linker=${WASM_LD:-$(rustc --print sysroot)/lib/rustlib/$(rustc -vV | sed -n 's/^host: //p')/bin/gcc-ld/wasm-ld}
+# Debian's compiler comes without one
+[ -x "$linker" ] || linker=$(ls /usr/lib/llvm-*/bin/wasm-ld | tail -n 1)
 count=$#
 before=
 while [ "$count" -gt 0 ]; do
