@@ -179,7 +179,7 @@ macro_rules! functions {
         })*
     };
 }
-use functions;
+pub(crate) use functions;
 
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
 ///

@@ -201,16 +201,6 @@ mod tests {
     }
 
     #[test]
-    fn the_smallest_part_that_is_not_affine_is_pointed_at() {
-        assert_eq!(affine("1 + cos(q)").unwrap_err().span, 4..10);
-        assert_eq!(affine("1 + phi1*phi2").unwrap_err().span, 4..13);
-        assert_eq!(affine("q^2 + 1").unwrap_err().span, 0..3);
-        assert_eq!(affine("a/q").unwrap_err().span, 0..3);
-        assert_eq!(affine("2*(b + a^q)").unwrap_err().span, 7..10);
-        assert_eq!(affine("max(q, 0)").unwrap_err().span, 0..9);
-    }
-
-    #[test]
     fn a_doubtful_division_is_left_to_evaluation() {
         assert_eq!(parts("q/(a - a)"), "0/(a - a) | q: 1/(a - a)");
     }

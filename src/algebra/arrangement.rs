@@ -357,29 +357,6 @@ mod tests {
     }
 
     #[test]
-    fn parallel_axes_are_merged_and_others_multiplied_out() {
-        let c23 = "(cos(t2)*cos(t3) - sin(t2)*sin(t3))";
-        let r11 = format!("cos(t1)*{c23}");
-        assert_eq!(
-            printed(&[&r11, "a*cos(t1)*cos(t2)"]),
-            ["cos(t1)*cos(t2 + t3)", "a*cos(t1)*cos(t2)"]
-        );
-        let planar = "l*cos(t1) + a*cos(t1)*cos(t2) - a*sin(t1)*sin(t2)";
-        assert_eq!(printed(&[planar]), ["l*cos(t1) + a*cos(t1 + t2)"]);
-    }
-
-    #[test]
-    fn what_terms_have_in_common_is_taken_out() {
-        for same in [
-            "b*cos(t1)*(l + a*cos(t2))",
-            "cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)",
-        ] {
-            assert_eq!(printed(&[same]), [same]);
-        }
-        assert_eq!(printed(&["-a*cos(t1) - a*b"]), ["-a*(b + cos(t1))"]);
-    }
-
-    #[test]
     fn constants_are_exact_and_in_front() {
         assert_eq!(
             printed(&[

@@ -150,28 +150,6 @@ mod tests {
     use super::EvaluationErrorKind::*;
     use super::*;
 
-    fn fault(text: &str) -> (EvaluationErrorKind, Range<usize>) {
-        let expression = Expression::parse(text).unwrap();
-        let error = expression.evaluate(&|_| 0.0_f64).unwrap_err();
-        (error.kind, error.span)
-    }
-
-    #[test]
-    fn the_part_without_a_value_is_pointed_at() {
-        assert_eq!(fault("1 + 2/(x*3)"), (DivisionByZero, 6..11));
-        assert_eq!(fault("1 + sqrt(x - 4)"), (RootOfNegative(-4.0), 4..15));
-        assert_eq!(fault("asin(2)"), (OutOfRange(Function::Asin, 2.0), 0..7));
-        assert_eq!(
-            fault("acos(-1.5)"),
-            (OutOfRange(Function::Acos, -1.5), 0..10)
-        );
-        assert_eq!(fault("ln(x)"), (LogarithmOfNonPositive(0.0), 0..5));
-        assert_eq!(fault("x^-1"), (DivisionByZero, 0..4));
-        assert_eq!(fault("(x-2)^0.5"), (PowerOfNegative(-2.0), 0..9));
-        assert_eq!(fault("2*exp(1000)"), (NotFinite, 2..11));
-        assert_eq!(fault("2*1e20*1e20"), (TooLarge(2e40), 0..11));
-    }
-
     #[test]
     fn a_name_without_a_finite_value_is_pointed_at() {
         let expression = Expression::parse("1 + x").unwrap();

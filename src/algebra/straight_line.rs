@@ -6,13 +6,12 @@
 //! are left out, so that structural zeros are recognised.
 
 use std::cell::RefCell;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{DenseOnly, Factorable};
-use crate::number::{Field, Number, operators};
+use crate::number::{Field, Number, functions, operators};
 
 /// A place in a list of operations.
 pub type Place = u32;
@@ -56,22 +55,19 @@ impl Operation {
     }
 
     /// What makes two operations the same: constants by their bits.
-    fn key(self) -> (u8, u64, u64) {
-        let at = |place: Place| u64::from(place);
-        match self {
-            Operation::Constant(x) => (0, x.to_bits(), 0),
-            Operation::Input(i) => (1, at(i), 0),
-            Operation::Add(x, y) => (2, at(x), at(y)),
-            Operation::Subtract(x, y) => (3, at(x), at(y)),
-            Operation::Multiply(x, y) => (4, at(x), at(y)),
-            Operation::Divide(x, y) => (5, at(x), at(y)),
-            Operation::Negate(x) => (6, at(x), 0),
-            Operation::Root(x) => (7, at(x), 0),
-            Operation::Sin(x) => (8, at(x), 0),
-            Operation::Cos(x) => (9, at(x), 0),
-        }
+    fn key(self) -> Key {
+        let mut operands = self.operands().map(u64::from);
+        let first = match self {
+            Operation::Constant(x) => x.to_bits(),
+            Operation::Input(i) => u64::from(i),
+            _ => operands.next().unwrap_or(0),
+        };
+        let kind = std::mem::discriminant(&self);
+        (kind, first, operands.next().unwrap_or(0))
     }
 }
+
+type Key = (std::mem::Discriminant<Operation>, u64, u64);
 
 /// The value of an operation, as long as the list it was written into is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +78,7 @@ pub struct Recorded(Place);
 struct List {
     operations: Vec<Operation>,
     values: Vec<f64>,
-    places: FxHashMap<(u8, u64, u64), Place>,
+    places: FxHashMap<Key, Place>,
     sample: Vec<f64>,
 }
 
@@ -331,42 +327,13 @@ impl Recorded {
     }
 }
 
-impl Add for Recorded {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        with(|list| list.add(self, other))
-    }
-}
-
-impl Sub for Recorded {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        with(|list| list.subtract(self, other))
-    }
-}
-
-impl Mul for Recorded {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        with(|list| list.multiply(self, other))
-    }
-}
-
-impl Div for Recorded {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        with(|list| list.divide(self, other))
-    }
-}
-
-impl Neg for Recorded {
-    type Output = Self;
-    fn neg(self) -> Self {
-        with(|list| list.negate(self))
-    }
-}
-
-operators!([Recorded]);
+operators!([Recorded]
+    #[inline] Add add |a, b| with(|list| list.add(a, b));
+    #[inline] Sub sub |a, b| with(|list| list.subtract(a, b));
+    #[inline] Mul mul |a, b| with(|list| list.multiply(a, b));
+    #[inline] Div div |a, b| with(|list| list.divide(a, b));
+    #[inline] Neg neg |a| with(|list| list.negate(a));
+);
 
 impl Number for Recorded {
     /// No decision is made over unknowns, so that the rows are the entire ones.
@@ -382,29 +349,19 @@ impl Number for Recorded {
     fn sin_cos(self) -> (Self, Self) {
         with(|list| list.sin_cos(self))
     }
-    fn sqrt(self) -> Self {
-        with(|list| list.root(self))
-    }
-    fn asin(self) -> Self {
-        self.of_constant(f64::asin)
-    }
-    fn acos(self) -> Self {
-        self.of_constant(f64::acos)
-    }
-    fn atan(self) -> Self {
-        self.of_constant(f64::atan)
-    }
+    functions!(|x|
+        sqrt: with(|list| list.root(x)),
+        asin: x.of_constant(f64::asin),
+        acos: x.of_constant(f64::acos),
+        atan: x.of_constant(f64::atan),
+        exp: x.of_constant(f64::exp),
+        ln: x.of_constant(f64::ln),
+    );
     fn atan2(self, x: Self) -> Self {
         match x.constant() {
             Some(x) => self.of_constant(|y| Number::atan2(y, x)),
             None => Self::from_f64(f64::NAN),
         }
-    }
-    fn exp(self) -> Self {
-        self.of_constant(f64::exp)
-    }
-    fn ln(self) -> Self {
-        self.of_constant(f64::ln)
     }
     fn is_finite(self) -> bool {
         self.real().is_finite()

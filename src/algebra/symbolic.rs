@@ -7,14 +7,13 @@
 //! Equal formulas have equal handles, so that structural zeros are recognised.
 
 use std::cell::RefCell;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
 use super::Function;
 use super::trigonometric::{Budget, Trigonometric};
-use crate::number::{Number, operators};
+use crate::number::{Number, functions, operators};
 
 /// A formula, as long as the arena it was made in is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,12 +142,24 @@ impl Symbolic {
         self.of(|x, _| Some(Trigonometric::call(function, std::slice::from_ref(x))))
     }
 
-    /// A function that is zero at zero.
-    fn odd(self, function: Function) -> Self {
-        match self.is_zero() {
-            true => self,
+    /// A function with a known value at one place.
+    fn known_at(self, place: Self, value: Self, function: Function) -> Self {
+        match self == place {
+            true => value,
             false => self.called(function),
         }
+    }
+
+    fn extreme(self, other: Self, function: Function) -> Self {
+        self.with(other, |x, y, _| {
+            Some(match (x.as_rational(), y.as_rational()) {
+                (Some(x), Some(y)) => Trigonometric::rational(match function {
+                    Function::Min => x.min(y),
+                    _ => x.max(y),
+                }),
+                _ => Trigonometric::call(function, &[x.clone(), y.clone()]),
+            })
+        })
     }
 
     fn is_zero(self) -> bool {
@@ -160,61 +171,27 @@ impl Symbolic {
     }
 }
 
-impl Add for Symbolic {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        match (self.is_zero(), other.is_zero()) {
-            (true, _) => other,
-            (_, true) => self,
-            _ => self.with(other, |a, b, _| Some(a.plus(b))),
-        }
-    }
-}
-
-impl Sub for Symbolic {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        match other.is_zero() {
-            true => self,
-            false => self.with(other, |a, b, _| Some(a.minus(b))),
-        }
-    }
-}
-
-impl Mul for Symbolic {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        if other.is_one() {
-            return self;
-        }
-        if self.is_one() {
-            return other;
-        }
-        self.with(other, |a, b, budget| a.times(b, budget))
-    }
-}
-
-impl Div for Symbolic {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        self.with(other, |a, b, budget| {
-            let inverse = b.inverse(budget)?;
-            a.times(&inverse, budget)
-        })
-    }
-}
-
-impl Neg for Symbolic {
-    type Output = Self;
-    fn neg(self) -> Self {
-        match self.is_zero() {
-            true => self,
-            false => self.of(|x, _| Some(x.negated())),
-        }
-    }
-}
-
-operators!([Symbolic]);
+operators!([Symbolic]
+    #[inline] Add add |a, b| match (a.is_zero(), b.is_zero()) {
+        (true, _) => b,
+        (_, true) => a,
+        _ => a.with(b, |a, b, _| Some(a.plus(b))),
+    };
+    #[inline] Sub sub |a, b| match b.is_zero() {
+        true => a,
+        false => a.with(b, |a, b, _| Some(a.minus(b))),
+    };
+    #[inline] Mul mul |a, b| match (a.is_one(), b.is_one()) {
+        (_, true) => a,
+        (true, _) => b,
+        _ => a.with(b, |a, b, budget| a.times(b, budget)),
+    };
+    #[inline] Div div |a, b| a.with(b, |a, b, budget| a.times(&b.inverse()?, budget));
+    #[inline] Neg neg |a| match a.is_zero() {
+        true => a,
+        false => a.of(|x, _| Some(x.negated())),
+    };
+);
 
 impl Number for Symbolic {
     fn from_f64(x: f64) -> Self {
@@ -249,38 +226,19 @@ impl Number for Symbolic {
         });
         (sin, cos)
     }
-    fn sqrt(self) -> Self {
-        self.of(|x, budget| x.root(budget))
-    }
-    fn asin(self) -> Self {
-        self.odd(Function::Asin)
-    }
-    fn acos(self) -> Self {
-        match self.is_one() {
-            true => Self::zero(),
-            false => self.called(Function::Acos),
-        }
-    }
-    fn atan(self) -> Self {
-        self.odd(Function::Atan)
-    }
+    functions!(|x|
+        sqrt: x.of(|x, _| Some(x.root())),
+        asin: x.known_at(Self::zero(), Self::zero(), Function::Asin),
+        acos: x.known_at(Self::one(), Self::zero(), Function::Acos),
+        atan: x.known_at(Self::zero(), Self::zero(), Function::Atan),
+        exp: x.known_at(Self::zero(), Self::one(), Function::Exp),
+        ln: x.known_at(Self::one(), Self::zero(), Function::Ln),
+    );
     fn atan2(self, x: Self) -> Self {
         self.with(x, |y, x, _| {
             let arguments = [y.clone(), x.clone()];
             Some(Trigonometric::call(Function::Atan2, &arguments))
         })
-    }
-    fn exp(self) -> Self {
-        match self.is_zero() {
-            true => Self::one(),
-            false => self.called(Function::Exp),
-        }
-    }
-    fn ln(self) -> Self {
-        match self.is_one() {
-            true => Self::zero(),
-            false => self.called(Function::Ln),
-        }
     }
     /// The sign of a letter is not known, whatever its value at home.
     fn abs(self) -> Self {
@@ -307,19 +265,5 @@ impl Number for Symbolic {
     }
     fn is_finite(self) -> bool {
         self.formula().is_some()
-    }
-}
-
-impl Symbolic {
-    fn extreme(self, other: Self, function: Function) -> Self {
-        self.with(other, |x, y, _| {
-            Some(match (x.as_rational(), y.as_rational()) {
-                (Some(x), Some(y)) => Trigonometric::rational(match function {
-                    Function::Min => x.min(y),
-                    _ => x.max(y),
-                }),
-                _ => Trigonometric::call(function, &[x.clone(), y.clone()]),
-            })
-        })
     }
 }

@@ -8,15 +8,14 @@
 //! products of letters. Products of sines and cosines become sums (Fourier), so that no identity between
 //! sines and cosines is left: exponentials of different linear forms are linearly independent over
 //! the polynomials, and square roots of different squarefree numbers over the rationals. Two values are equal
-//! if and only if their terms are, as far as letters are independent of one another; how constant angles that
-//! are not multiples of 15° are distinguished is explained at [`Trigonometric::vanishes`].
+//! if and only if their terms are, as far as letters are independent of one another.
 //!
 //! Anything that is not a trigonometric polynomial, such as 1/(1 + cos θ) or an arc tangent, becomes a letter of its
 //! own ([`Atom::Inverse`], [`Atom::Root`], [`Atom::Call`]); then equal terms still prove equality, but different terms
-//! do not prove the contrary.
+//! do not prove the contrary. Nor do they where a constant angle is no multiple of 15°: roots of unity obey relations
+//! beyond the addition theorems.
 
 mod constants;
-mod cyclotomic;
 mod term;
 mod value;
 
@@ -119,7 +118,8 @@ impl Trigonometric {
         }
     }
 
-    /// Whether it contains letters that are not polynomials of others: inverses, roots, inverse functions.
+    /// Whether it contains what may depend on the rest of it: inverses, roots, inverse functions, and constant angles
+    /// that are no multiples of 15°.
     pub fn is_opaque(&self) -> bool {
         self.terms.keys().any(Key::is_opaque)
     }
@@ -219,7 +219,7 @@ impl Trigonometric {
         for (inside, power) in squares {
             let factor = match power > 0 {
                 true => inside.to_power(power, budget)?,
-                false => inside.to_power(-power, budget)?.inverse(budget)?,
+                false => inside.to_power(-power, budget)?.inverse()?,
             };
             product = product.times(&factor, budget)?;
         }
@@ -233,54 +233,22 @@ impl Trigonometric {
             result = result.times(self, budget)?;
         }
         match power < 0 {
-            true => result.inverse(budget),
+            true => result.inverse(),
             false => Some(result),
         }
     }
 
     /// 1/self; `None` for zero.
-    pub fn inverse(&self, budget: &mut Budget) -> Option<Self> {
+    pub fn inverse(&self) -> Option<Self> {
         let (lead, coefficient) = self.terms.iter().next()?;
         if self.terms.len() == 1 && lead.is_invertible() {
             let (key, factor) = lead.inverse();
             return Some(Trigonometric::term(key, factor / coefficient));
         }
-        if let Some(inverse) = self.inverse_of_constant(budget) {
-            return Some(inverse);
-        }
         // 1/(c P) = 1/c · 1/P, so that multiples of one another have the same letter
         let normal = self.scaled(&coefficient.recip());
         let letter = Trigonometric::atom(Atom::Inverse(Arc::new(normal)));
         Some(letter.scaled(&coefficient.recip()))
-    }
-
-    /// 1/(a + b√s) = (a − b√s)/(a² − b²s), once for every root.
-    fn inverse_of_constant(&self, budget: &mut Budget) -> Option<Self> {
-        if !self.terms.keys().all(Key::is_real_constant) {
-            return None;
-        }
-        let (mut top, mut bottom) = (Trigonometric::one(), self.clone());
-        let prime = |sum: &Self| {
-            sum.terms
-                .keys()
-                .find_map(|key| constants::prime_of(key.root))
-        };
-        while let Some(prime) = prime(&bottom) {
-            let mut conjugate = Trigonometric::zero();
-            for (key, coefficient) in &bottom.terms {
-                let divides = key.root % prime == 0;
-                let signed = if divides {
-                    -coefficient
-                } else {
-                    coefficient.clone()
-                };
-                conjugate.add_term(key.clone(), signed);
-            }
-            top = top.times(&conjugate, budget)?;
-            bottom = bottom.times(&conjugate, budget)?;
-        }
-        let bottom = bottom.as_rational().filter(|b| !b.is_zero())?;
-        Some(top.scaled(&bottom.recip()))
     }
 
     /// (sin, cos) of self as an angle in radians.
@@ -289,10 +257,7 @@ impl Trigonometric {
             return known;
         }
         let Some(wave) = self.as_wave() else {
-            let call = |function| {
-                let arguments = Arc::from([self.clone()]);
-                Trigonometric::atom(Atom::Call(function, arguments))
-            };
+            let call = |function| Trigonometric::call(function, std::slice::from_ref(self));
             return Some((call(Function::Sin), call(Function::Cos)));
         };
         let half = BigRational::new(BigInt::one(), BigInt::from(2));
@@ -348,26 +313,24 @@ impl Trigonometric {
         budget: &mut Budget,
     ) -> Option<Option<(Self, Self)>> {
         let x = &arguments[0];
-        let mut third = |sign: bool| {
-            let square = x.times(x, budget)?;
-            let one = Trigonometric::one();
-            match sign {
-                true => one.plus(&square).root(budget),
-                false => one.minus(&square).root(budget),
-            }
+        let mut third = |sign: i64| {
+            let square = x
+                .times(x, budget)?
+                .scaled(&BigRational::from(BigInt::from(sign)));
+            Some(Trigonometric::one().plus(&square).root())
         };
         Some(match function {
-            Function::Asin => third(false).map(|cos| (x.clone(), cos)),
-            Function::Acos => third(false).map(|sin| (sin, x.clone())),
-            Function::Atan => third(true).and_then(|long| {
-                let inverse = long.inverse(budget)?;
+            Function::Asin => third(-1).map(|cos| (x.clone(), cos)),
+            Function::Acos => third(-1).map(|sin| (sin, x.clone())),
+            Function::Atan => third(1).and_then(|long| {
+                let inverse = long.inverse()?;
                 Some((x.times(&inverse, budget)?, inverse))
             }),
             Function::Atan2 => {
                 let (y, x) = (x, arguments.get(1)?);
                 let mut ratios = || {
                     let squares = x.times(x, budget)?.plus(&y.times(y, budget)?);
-                    let inverse = squares.root(budget)?.inverse(budget)?;
+                    let inverse = squares.root().inverse()?;
                     Some((y.times(&inverse, budget)?, x.times(&inverse, budget)?))
                 };
                 ratios()
@@ -377,13 +340,54 @@ impl Trigonometric {
     }
 
     /// The square root that is not negative; exact for rational numbers of moderate size.
-    pub fn root(&self, _budget: &mut Budget) -> Option<Self> {
+    pub fn root(&self) -> Self {
         if let Some(value) = self.as_rational()
             && let Some((factor, root)) = constants::square_root(&value)
         {
-            return Some(Trigonometric::term(Key::root(root), factor));
+            return Trigonometric::term(Key::root(root), factor);
         }
-        Some(Trigonometric::atom(Atom::Root(Arc::new(self.clone()))))
+        Trigonometric::atom(Atom::Root(Arc::new(self.clone())))
+    }
+
+    /// Whether it is zero for all values of its letters at which its denominators are not.
+    ///
+    /// `None` if undecided: not zero in this form, but it [may be](Self::is_opaque), or it is too long.
+    pub fn vanishes(&self, budget: &mut Budget) -> Option<bool> {
+        let cleared = self.without_denominators(budget)?;
+        match cleared.is_empty() {
+            true => Some(true),
+            false => (!cleared.is_opaque()).then_some(false),
+        }
+    }
+
+    /// Multiplied by every denominator P that occurs in it as 1/P; `None` if that is too long.
+    pub fn without_denominators(&self, budget: &mut Budget) -> Option<Self> {
+        let mut sum = self.clone();
+        loop {
+            let mut powers = sum.terms.keys().flat_map(|key| &key.powers);
+            let inverse = powers.find_map(|(atom, _)| match atom {
+                Atom::Inverse(inside) => Some(inside.clone()),
+                _ => None,
+            });
+            let Some(inside) = inverse else {
+                return Some(sum);
+            };
+            let letter = Atom::Inverse(inside.clone());
+            let power_in = |key: &Key| {
+                let found = key.powers.iter().find(|(atom, _)| *atom == letter);
+                found.map_or(0, |(_, power)| *power)
+            };
+            let most = sum.terms.keys().map(power_in).max()?.max(0);
+            let mut cleared = Trigonometric::zero();
+            for (key, coefficient) in &sum.terms {
+                let factor = inside.to_power(most - power_in(key), budget)?;
+                let mut key = key.clone();
+                key.powers.retain(|(atom, _)| *atom != letter);
+                let term = Trigonometric::term(key, coefficient.clone());
+                cleared = cleared.plus(&term.times(&factor, budget)?);
+            }
+            sum = cleared;
+        }
     }
 
     /// A function that is not expanded.

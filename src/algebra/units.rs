@@ -193,13 +193,4 @@ mod tests {
             "m and m/s are mixed at 0..20"
         );
     }
-
-    #[test]
-    fn names_of_quantities_have_colons_and_brackets() {
-        let text = "velocity:[left+0.5,0.2].x*2 - [a,b].y";
-        let expression = Expression::parse_quantity(text).unwrap();
-        let names: Vec<&str> = expression.names().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["velocity:[left+0.5,0.2].x", "[a,b].y"]);
-        assert!(Expression::parse("velocity:l1").is_err());
-    }
 }

@@ -213,7 +213,9 @@ fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
 
 fn why(reason: Reason) -> &'static str {
     match reason {
-        Reason::NotPolynomial => "it contains roots or inverse functions",
+        Reason::NotPolynomial => {
+            "it contains roots or inverse functions, or angles that are no multiples of 15 deg"
+        }
         Reason::NeedsElimination => {
             "it holds only when assembled and is not a linear combination of the closure equations"
         }

@@ -61,8 +61,7 @@ pub(super) fn square_root(value: &BigRational) -> Option<(BigRational, u64)> {
         return Some((BigRational::zero(), 1));
     }
     // √(a/b) = √(a b)/b
-    let (inside, mut rest) = (value.numer() * value.denom(), BigInt::one());
-    let mut left = inside;
+    let (mut left, mut rest) = (value.numer() * value.denom(), BigInt::one());
     let mut root = 1_u64;
     for prime in 2..LARGEST_PRIME {
         let square = BigInt::from(prime * prime);
@@ -84,9 +83,4 @@ pub(super) fn square_root(value: &BigRational) -> Option<(BigRational, u64)> {
         root = root.checked_mul(left)?;
     }
     Some((BigRational::new(rest, value.denom().clone()), root))
-}
-
-/// The smallest prime factor of a root, if there is a root.
-pub(super) fn prime_of(root: u64) -> Option<u64> {
-    (2..=root).find(|prime| root.is_multiple_of(*prime))
 }

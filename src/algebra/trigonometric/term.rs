@@ -105,7 +105,7 @@ impl Atom {
 }
 
 /// π as an angle.
-pub(super) fn pi_angle() -> Powers {
+fn pi_angle() -> Powers {
     vec![(Atom::Pi, 1)]
 }
 
@@ -156,17 +156,17 @@ impl Wave {
     }
 
     /// The factor of π in the exponent.
-    pub fn of_pi(&self) -> Option<Ratio<i64>> {
+    fn of_pi(&self) -> Option<Ratio<i64>> {
         let first = self.0.iter().find(|(angle, _)| *angle == pi_angle());
         first.map(|(_, k)| *k)
     }
 
-    pub(super) fn without_pi(&self) -> Wave {
+    fn without_pi(&self) -> Wave {
         let kept = self.0.iter().filter(|(angle, _)| *angle != pi_angle());
         Wave(kept.cloned().collect())
     }
 
-    pub(super) fn with_pi(&self, k: Ratio<i64>) -> Wave {
+    fn with_pi(&self, k: Ratio<i64>) -> Wave {
         let mut wave = self.without_pi();
         if !k.is_zero() {
             wave.0.push((pi_angle(), k));
@@ -177,21 +177,17 @@ impl Wave {
 }
 
 impl Key {
-    pub(super) fn is_opaque(&self) -> bool {
+    fn letters(&self) -> impl Iterator<Item = &Atom> {
         let angles = self.wave.0.iter().flat_map(|(angle, _)| angle);
-        let mut letters = self.powers.iter().chain(angles);
-        letters.any(|(atom, _)| atom.is_opaque())
+        self.powers.iter().chain(angles).map(|(atom, _)| atom)
+    }
+
+    pub(super) fn is_opaque(&self) -> bool {
+        self.letters().any(Atom::is_opaque) || self.wave.of_pi().is_some()
     }
 
     pub(super) fn symbols(&self, found: &mut BTreeSet<u32>) {
-        let angles = self.wave.0.iter().flat_map(|(angle, _)| angle);
-        for (atom, _) in self.powers.iter().chain(angles) {
-            atom.symbols(found);
-        }
-    }
-
-    pub(super) fn is_real_constant(&self) -> bool {
-        self.wave.0.is_empty() && self.powers.is_empty() && !self.imaginary
+        self.letters().for_each(|atom| atom.symbols(found));
     }
 
     /// Whether its inverse is one term.

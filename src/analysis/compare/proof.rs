@@ -55,7 +55,7 @@ pub struct Difference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
-    /// Roots, inverse functions or the like stand in it, which may depend on one another.
+    /// Roots, inverse functions or constant angles stand in it, which may depend on one another.
     NotPolynomial,
     /// It holds, if at all, only where the closures are whole, and is no sum of multiples of their equations.
     NeedsElimination,
