@@ -20,14 +20,26 @@ pub(crate) fn first_free(wanted: &str, separator: &str, free: impl Fn(&str) -> b
     names.find(|name| free(name)).unwrap_or_default()
 }
 
+/// Other characters than those of names of variables replaced.
+fn clean(wanted: &str) -> String {
+    wanted.replace(|c| !is_name(&format!("_{c}")), "_")
+}
+
 /// A name like `wanted` that expressions may use, with letters, digits and underscores only.
-pub(crate) fn free_variable(wanted: &str, free: impl Fn(&str) -> bool) -> String {
-    let allowed = |c: char| c.is_alphanumeric() || c == '_';
-    let clean = wanted.replace(|c| !allowed(c), "_");
-    let free = |name: &str| is_name(name) && !is_reserved(name) && free(name);
-    match free(&clean) {
+pub(crate) fn variable_name(wanted: &str) -> String {
+    let clean = clean(wanted);
+    match is_name(&clean) && !is_reserved(&clean) {
         true => clean,
-        false => first_free(&format!("q_{clean}"), "_", free),
+        false => format!("q_{clean}"),
+    }
+}
+
+/// The same, and free.
+pub(crate) fn free_variable(wanted: &str, free: impl Fn(&str) -> bool) -> String {
+    let name = variable_name(wanted);
+    match free(&name) {
+        true => name,
+        false => first_free(&format!("q_{}", clean(wanted)), "_", free),
     }
 }
 

@@ -31,7 +31,7 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
 }
 
 /// The same with another word before the last.
-pub(super) fn joined<S: AsRef<str>>(words: &[S], last_by: &str) -> String {
+pub(crate) fn joined<S: AsRef<str>>(words: &[S], last_by: &str) -> String {
     match words {
         [words @ .., last] if !words.is_empty() => {
             let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();

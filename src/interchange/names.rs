@@ -3,8 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::remark::Remark;
-use crate::algebra::{is_name, is_reserved};
-use crate::description::{GROUND, first_free};
+use crate::description::{GROUND, first_free, variable_name};
 
 /// Names given so far.
 #[derive(Default)]
@@ -22,12 +21,8 @@ pub(super) struct Names {
 impl Names {
     /// A name for a joint variable: letters, digits and underscores.
     pub fn variable(&mut self, wanted: &str) -> String {
-        let allowed = |c: char| c.is_alphanumeric() || c == '_';
-        let name = wanted.replace(|c| !allowed(c), "_");
-        let possible = |name: &String| is_name(name) && !is_reserved(name);
-        let mut names = [name.clone(), format!("q_{name}")].into_iter();
-        let name = names.find(possible).unwrap_or("q".into());
-        let name = first_free(&name, "_", |name| !self.variables.contains(name));
+        let free = |name: &str| !self.variables.contains(name);
+        let name = first_free(&variable_name(wanted), "_", free);
         self.variables.insert(name.clone());
         self.note("joint", wanted, &name);
         name

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::description::{Lines, listed};
+use crate::description::{Lines, joined, listed};
 
 /// A problem of a file of another program, with its place.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -206,8 +206,5 @@ fn quoted(names: &[String]) -> String {
 
 fn or(words: &[&str]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    match quoted.split_last() {
-        Some((last, words)) if !words.is_empty() => format!("{} or {last}", words.join(", ")),
-        _ => quoted.concat(),
-    }
+    joined(&quoted, "or")
 }

@@ -8,17 +8,16 @@
 
 mod closures;
 mod relations;
-mod sum;
 
 use std::collections::HashMap;
 
 use relations::{carriers, leaders, within_reason};
-use sum::sum;
 
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
 use super::tree::{Attachment, Coupling, Motion, Tree};
+use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
     JointDescription, Named, PlatformDescription, Role, Row, Spanned,
@@ -117,6 +116,16 @@ struct Unroller<'a> {
 type Floating = (usize, Named<PlatformDescription>);
 type Platforms = Vec<Named<PlatformDescription>>;
 type Closures = Vec<Named<ClosureDescription>>;
+
+/// constant + Σ factor · name.
+fn sum(constant: &Entry, terms: &[(String, f64)]) -> Entry {
+    let names = terms
+        .iter()
+        .map(|(name, factor)| (*factor, Expression::name(name.clone())));
+    let names: Vec<(f64, Expression)> = names.collect();
+    let terms = names.iter().map(|(factor, name)| (*factor, name));
+    Expression::sum(terms.chain([(1.0, &constant.expression)])).into()
+}
 
 /// Whether a pose can be left out because it is the identity.
 fn is_identity(pose: &Pose<f64>) -> bool {
@@ -287,7 +296,7 @@ impl Unroller<'_> {
         let rows = joints.zip(&table.rows).map(|(joint, row)| {
             let entry = |kind: fn(f64) -> Entry, constant: f64, coefficient: f64| {
                 let (constant, terms) = self.affine(constant, [(&joint.name, coefficient)]);
-                sum(kind(constant), &terms)
+                sum(&kind(constant), &terms)
             };
             let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
             let d = entry(Entry::length, row.d, row.slide);

@@ -142,6 +142,6 @@ impl Unroller<'_> {
             true => constant.abs(),
             false => constant,
         };
-        sum(Entry::length(constant), &terms)
+        sum(&Entry::length(constant), &terms)
     }
 }

@@ -14,7 +14,6 @@ use super::motion::AXIS;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, along_z, child, children, pose_of, tag};
-use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Loop, Tree};
 
 /// The types of joints that can close a loop, in the words of the formats.
@@ -42,12 +41,7 @@ pub(super) fn is_loop(node: Node) -> bool {
 }
 
 /// The loops of a robot.
-pub(super) fn read(
-    robot: Node,
-    tree: &Tree,
-    problems: &mut Problems,
-    remarks: &mut Vec<Remark>,
-) -> Vec<Loop> {
+pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Loop> {
     let mut reader = LoopReader {
         tree,
         problems,
@@ -70,21 +64,7 @@ pub(super) fn read(
             }
         }
     }
-    let loops = reader.loops;
-    if loops.is_empty() {
-        let halves = |link: &str| {
-            let name = link.strip_suffix("_1")?;
-            let other = format!("{name}_2");
-            let found = name.starts_with("closing_") && tree.body(&other).is_some();
-            found.then_some(other)
-        };
-        for body in &tree.bodies {
-            if let Some(other) = halves(&body.name) {
-                remarks.push(Remark::Halves([body.name.clone(), other]));
-            }
-        }
-    }
-    loops
+    reader.loops
 }
 
 /// A kind of joint and the frames that it joins, by their bodies.

@@ -2,8 +2,6 @@
 //!
 //! Only what moves is read: shapes and masses do not matter here, and whatever is wrong with them does not either. Loops,
 //! which URDF does not have, are read in the five ways in which programs have added them; `loops.rs` knows these.
-//! Versions of the format differ in two points: from 1.1 on `quat_xyzw` may turn an origin, and from 1.2 on a limit that
-//! is left out is none (before, it is 0).
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -12,7 +10,7 @@ use roxmltree::Node;
 use super::loops;
 use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{Problems, child, children, direction, document, turned};
+use crate::interchange::page::{Problems, child, children, direction, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Motion, Tree};
@@ -27,7 +25,6 @@ pub(crate) fn read(text: &str) -> Read {
     let mut reader = Reader {
         problems: Problems(Vec::new()),
         remarks: Vec::new(),
-        version: version(robot),
         links: Vec::new(),
         joints: Vec::new(),
     };
@@ -35,19 +32,9 @@ pub(crate) fn read(text: &str) -> Read {
     reader.finish(robot)
 }
 
-/// The version of the format that a file says it has; 1.0 if it says none that can be read.
-fn version(robot: Node) -> (u32, u32) {
-    let parse = |text: &str| {
-        let (major, minor) = text.trim().split_once('.')?;
-        Some((major.parse().ok()?, minor.parse().ok()?))
-    };
-    robot.attribute("version").and_then(parse).unwrap_or((1, 0))
-}
-
 struct Reader<'a, 'i> {
     problems: Problems,
     remarks: Vec<Remark>,
-    version: (u32, u32),
     links: Vec<String>,
     joints: Vec<(Node<'a, 'i>, String)>,
 }
@@ -59,8 +46,9 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut names = HashSet::new();
         for node in robot.children().filter(Node::is_element) {
             let element = node.tag_name().name();
+            let namespace = node.tag_name().namespace();
             match element {
-                _ if is_xacro(node) => {
+                _ if namespace.is_some_and(|uri| uri.contains("xacro")) => {
                     let element = format!("xacro:{element}");
                     self.problems
                         .say(ImportProblemKind::Macro { element }, node);
@@ -142,34 +130,11 @@ impl<'a, 'i> Reader<'a, 'i> {
         for (body, pose) in tree.bodies.iter_mut().zip(poses) {
             body.home = body.floats().then_some(pose);
         }
-        tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
+        tree.loops = loops::read(robot, &tree, &mut self.problems);
         match self.problems.0.is_empty() {
             true => Ok((tree, self.remarks)),
             false => Err(self.problems.0),
         }
-    }
-
-    /// The origin of a joint, turned by `rpy` or `quat_xyzw`.
-    fn origin(&mut self, node: Node) -> Pose<f64> {
-        let mut pose = self.problems.origin(node);
-        if self.version < (1, 1) {
-            return pose;
-        }
-        if let Some([x, y, z, w]) = self.problems.numbers::<4>(node, "quat_xyzw") {
-            if node.has_attribute("rpy") {
-                let what = "an origin with both `rpy` and `quat_xyzw`";
-                (self.problems).unsupported::<()>(what, "leave one of them out", node);
-            }
-            match direction([x, y, z]).is_some() || w != 0.0 {
-                true => pose.rotation = turned([w, x, y, z]),
-                false => {
-                    let text = node.attribute("quat_xyzw").unwrap_or_default().to_owned();
-                    self.problems
-                        .say(ImportProblemKind::NoOrientation { text }, node);
-                }
-            }
-        }
-        pose
     }
 
     /// What a joint joins, where, and how it moves.
@@ -177,7 +142,11 @@ impl<'a, 'i> Reader<'a, 'i> {
         let kind = self.problems.word(node, "type", &TYPES);
         let mut origin = None;
         for part in children(node, "origin") {
-            let pose = self.origin(part);
+            let pose = self.problems.origin(part);
+            if part.has_attribute("quat_xyzw") {
+                let what = "an origin turned by `quat_xyzw`";
+                (self.problems).unsupported::<()>(what, "write `rpy`", part);
+            }
             origin.get_or_insert(pose);
         }
         let mut along = Vector3::unit(0);
@@ -192,10 +161,6 @@ impl<'a, 'i> Reader<'a, 'i> {
             };
             along = unit.unwrap_or(along);
         }
-        let absent = match self.version < (1, 2) {
-            true => (0.0, 0.0),
-            false => (f64::NEG_INFINITY, f64::INFINITY),
-        };
         let mut limits = None;
         for part in children(node, "limit") {
             let [low, high] = ["lower", "upper"].map(|name| self.problems.number(part, name));
@@ -205,7 +170,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 let what = format!("limits from {low} to {high}, the lower above the upper");
                 self.problems.unsupported::<()>(what, "exchange them", part);
             }
-            limits.get_or_insert((low.unwrap_or(absent.0), high.unwrap_or(absent.1)));
+            limits.get_or_insert((low.unwrap_or(0.0), high.unwrap_or(0.0)));
         }
         let mut mimic = None;
         if let Some(part) = child(node, "mimic") {
@@ -304,9 +269,4 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         order
     }
-}
-
-fn is_xacro(node: Node) -> bool {
-    let namespace = node.tag_name().namespace();
-    namespace.is_some_and(|uri| uri.contains("xacro"))
 }
