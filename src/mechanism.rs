@@ -74,33 +74,18 @@ pub struct Mechanism {
     warnings: Vec<Problem>,
 }
 
-/// A frame of a mechanism.
+/// A frame of a mechanism; chains, platforms and frames by their indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
 pub enum Frame {
     /// The fixed frame.
     Ground,
     /// A platform's own frame.
-    Platform {
-        /// Index of the platform.
-        platform: usize,
-    },
+    Platform { platform: usize },
     /// A named frame on a platform.
-    OnPlatform {
-        /// Index of the platform.
-        platform: usize,
-        /// Index of the frame among the platform's.
-        frame: usize,
-    },
+    OnPlatform { platform: usize, frame: usize },
     /// The frame after a row of a chain's table; row 0 is the chain's base frame.
-    Link {
-        /// Index of the chain.
-        chain: usize,
-        /// Number of the row, from 1; 0 for the base.
-        row: usize,
-    },
+    Link { chain: usize, row: usize },
     /// A chain's tip frame.
-    Tip {
-        /// Index of the chain.
-        chain: usize,
-    },
+    Tip { chain: usize },
 }

@@ -47,30 +47,3 @@ impl<'a> Lines<'a> {
             .unwrap_or(self.text.len())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn positions_count_characters_from_one() {
-        let lines = Lines::new("aé\nb\n");
-        assert_eq!(lines.position(0), (1, 1));
-        assert_eq!(lines.position(3), (1, 3));
-        assert_eq!(lines.position(4), (2, 1));
-        assert_eq!(lines.position(6), (3, 1));
-        assert_eq!(lines.position(99), (3, 1));
-        assert_eq!(lines.position(2), (1, 2), "inside a character");
-    }
-
-    #[test]
-    fn offsets_lead_back_from_positions() {
-        let text = "aé\nb\nθθ";
-        let lines = Lines::new(text);
-        for (offset, _) in text.char_indices() {
-            let (line, column) = lines.position(offset);
-            assert_eq!(lines.offset(line, column), offset);
-        }
-        assert_eq!(lines.offset(9, 1), text.len());
-    }
-}

@@ -11,27 +11,21 @@ use super::{Description, Lines, MAX_BYTES, Problem, Severity, words};
 
 /// Why a mechanism file could not be loaded.
 #[derive(Debug, Error)]
+#[allow(missing_docs)]
 pub enum LoadError {
     /// The file could not be opened or read.
     #[error("{}: cannot be read: {error}", path.display())]
     Unreadable {
-        /// The file.
         path: PathBuf,
-        /// The error of the operating system.
         #[source]
         error: io::Error,
     },
-    /// The file is not text in UTF-8.
+    /// The file is not text in UTF-8, from a byte on.
     #[error(
         "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
         path.display()
     )]
-    NotText {
-        /// The file.
-        path: PathBuf,
-        /// The first byte that is not UTF-8.
-        offset: usize,
-    },
+    NotText { path: PathBuf, offset: usize },
     /// The file is larger than the limit.
     #[error(
         "{}: too large: {}, where at most {limit} bytes are read",
@@ -39,11 +33,8 @@ pub enum LoadError {
         bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"))
     )]
     TooLarge {
-        /// The file.
         path: PathBuf,
-        /// Its size, if it has one.
         bytes: Option<u64>,
-        /// The limit.
         limit: u64,
     },
     /// The file is not a description of a mechanism.

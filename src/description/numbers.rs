@@ -101,17 +101,6 @@ impl Displacement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Vector3;
-
-    fn shown(steps: &[Displacement]) -> Vec<String> {
-        let step = |step: &Displacement| {
-            let entries: Vec<String> = (step.entries().iter())
-                .map(|entry| entry.expression.to_string())
-                .collect();
-            format!("{}({})", step.word(), entries.join(", "))
-        };
-        steps.iter().map(step).collect()
-    }
 
     #[test]
     fn numbers_are_written_as_they_would_be_by_hand() {
@@ -124,18 +113,5 @@ mod tests {
         assert_eq!(length(0.1 + 0.2), "0.3");
         assert_eq!(length(1.0 / 3.0), "0.3333333333333333");
         assert_eq!(length(-0.0), "0");
-    }
-
-    #[test]
-    fn a_pose_becomes_the_displacements_that_make_it() {
-        let rx = Pose::rotation(Axis::X, std::f64::consts::FRAC_PI_2);
-        let made = Pose::translation(Vector3([0.5, 0.0, 0.0])) * rx;
-        assert_eq!(
-            shown(&Displacement::of_pose(&made)),
-            ["Tx(0.5)", "Rx(90 deg)"]
-        );
-        let up = Pose::rotation(Axis::Y, -std::f64::consts::FRAC_PI_2);
-        assert_eq!(shown(&Displacement::of_pose(&up)), ["Ry(-90 deg)"]);
-        assert!(Displacement::of_pose(&Pose::identity()).is_empty());
     }
 }

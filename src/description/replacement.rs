@@ -8,13 +8,12 @@ use crate::algebra::Expression;
 
 /// Why a parameter cannot be given another value.
 #[derive(Debug, Clone, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum ReplacementError {
     /// The file has no such parameter.
     #[error("the file has no parameter `{name}`")]
     UnknownParameter {
-        /// The name.
         name: String,
-        /// The parameter that was probably meant.
         suggestion: Option<String>,
     },
     /// The value is wrong. Spans count bytes of the text of the value.
@@ -69,50 +68,5 @@ impl Description {
         }
         self.parameters[index].value = value;
         Ok(self)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FILE: &str = r#"Mechanism(version: 1, name: "x", convention: Modified,
-        parameters: { "l0": 5, "l1": "l0/5" }, joints: { "q": Passive() },
-        chains: { "c": Chain(rows: [(a: "l1", theta: "q")]) })"#;
-
-    fn replaced(name: &str, value: &str) -> Result<Description, ReplacementError> {
-        Description::read(FILE).unwrap().with_parameter(name, value)
-    }
-
-    #[test]
-    fn a_new_value_may_use_other_parameters() {
-        let description = replaced("l1", "2*l0").unwrap();
-        let value = &description.parameters[1].value;
-        assert_eq!(value.expression.to_string(), "2*l0");
-        assert_eq!(&FILE[value.span.clone()], "\"l0/5\"");
-    }
-
-    #[test]
-    fn a_wrong_value_is_pointed_at() {
-        let value = |text| match replaced("l1", text) {
-            Err(ReplacementError::Value(problems)) => problems,
-            other => panic!("{other:?}"),
-        };
-        assert_eq!(value("1 + $")[0].span, 4..5);
-        let [joint, unknown] = &value("q + lO")[..] else {
-            panic!("two problems")
-        };
-        assert!(matches!(joint.kind, ProblemKind::JointNotAllowed { .. }));
-        assert_eq!(unknown.span, 4..6);
-    }
-
-    #[test]
-    fn an_unknown_parameter_is_refused_with_the_nearest_one() {
-        let error = replaced("L1", "1").unwrap_err();
-        let (name, suggestion) = ("L1".into(), Some("l1".into()));
-        assert_eq!(
-            error,
-            ReplacementError::UnknownParameter { name, suggestion }
-        );
     }
 }

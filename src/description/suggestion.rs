@@ -29,25 +29,3 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exchanged_missing_and_wrong_letters_are_seen_through() {
-        let names = ["theta1", "theta2", "phi1", "l1"];
-        assert_eq!(nearest("tehta1", names), Some("theta1"));
-        assert_eq!(nearest("Phi1", names), Some("phi1"));
-        assert_eq!(nearest("theta", names), Some("theta1"));
-        assert_eq!(nearest("l2", names), Some("l1"));
-    }
-
-    #[test]
-    fn what_is_far_from_everything_gets_no_suggestion() {
-        assert_eq!(nearest("gamma", ["theta1", "phi1"]), None);
-        assert_eq!(nearest("x", ["a", "b"]), None);
-        assert_eq!(nearest(&"a".repeat(100_000), ["a"]), None);
-        assert_eq!(nearest("", ["a"]), None);
-    }
-}

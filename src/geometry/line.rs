@@ -29,8 +29,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// Whether the directions are equal or opposite, so that the position of the common normal along
-    /// the lines is free.
+    /// Whether the directions are equal or opposite, so that the position of the common normal along the lines is free.
     pub fn is_parallel(self) -> bool {
         !matches!(self, Relation::Skew | Relation::Intersecting)
     }
@@ -92,10 +91,9 @@ impl Line {
 
     /// The common normal from this line to another.
     ///
-    /// With w = p₂ − p₁ and n = z₁ × z₂: the feet lie at t₁ = (w × z₂)·n/n² and t₂ = (w × z₁)·n/n²
-    /// along the lines, the distance is |w·n|/|n|. Lines are parallel where |n| = sin ∠ is within
-    /// [`RANK_TOLERANCE`], and meet where their distance is within that times `length` (m), a length
-    /// that is typical of the mechanism.
+    /// With w = p₂ − p₁ and n = z₁ × z₂: the feet lie at t₁ = (w × z₂)·n/n² and t₂ = (w × z₁)·n/n² along the lines, the
+    /// distance is |w·n|/|n|. Lines are parallel where |n| = sin ∠ is within [`RANK_TOLERANCE`], and meet where their
+    /// distance is within that times `length` (m), a length that is typical of the mechanism.
     pub fn common_normal(&self, other: &Line, length: f64) -> CommonNormal {
         let (z1, z2) = (self.direction, other.direction);
         let between = other.point - self.point;
@@ -146,53 +144,6 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn line(point: [f64; 3], along: [f64; 3]) -> Line {
-        Line::new(Vector3(point), Vector3(along)).unwrap()
-    }
-
-    #[test]
-    fn skew_lines_have_one_normal_whichever_points_they_are_given_by() {
-        let x = line([3.0, 0.0, 0.0], [2.0, 0.0, 0.0]);
-        let y = line([0.0, -7.0, 5.0], [0.0, 1.0, 0.0]);
-        let normal = x.common_normal(&y, 1.0);
-        assert_eq!(normal.relation, Relation::Skew);
-        assert_eq!(normal.direction, Some(Vector3([0.0, 0.0, 1.0])));
-        assert_eq!((normal.distance, normal.angle.to_degrees()), (5.0, 90.0));
-        assert_eq!(normal.feet, [Vector3::zero(), Vector3([0.0, 0.0, 5.0])]);
-        // seen from the other line it points the other way
-        assert_eq!(
-            y.common_normal(&x, 1.0).direction,
-            Some(Vector3([0.0, 0.0, -1.0]))
-        );
-    }
-
-    #[test]
-    fn special_cases_are_told_apart() {
-        let z = line([0.0; 3], [0.0, 0.0, 1.0]);
-        let relation = |point, along| z.common_normal(&line(point, along), 1.0).relation;
-        for (point, along, expected) in [
-            ([1.0, 0.0, 9.0], [0.0, 0.0, 2.0], Relation::Parallel),
-            ([1.0, 0.0, 0.0], [0.0, 0.0, -1.0], Relation::AntiParallel),
-            ([0.0, 0.0, 4.0], [0.0, 0.0, 1.0], Relation::Coincident),
-            ([0.0, 0.0, 4.0], [0.0, 0.0, -3.0], Relation::AntiCoincident),
-            ([0.0, 2.0, 4.0], [0.0, 1.0, 1.0], Relation::Intersecting),
-            ([1.0, 2.0, 4.0], [0.0, 1.0, 1.0], Relation::Skew),
-        ] {
-            assert_eq!(relation(point, along), expected);
-        }
-    }
-
-    #[test]
-    fn nearly_parallel_lines_are_parallel_within_the_rank_tolerance_only() {
-        let z = line([0.0; 3], [0.0, 0.0, 1.0]);
-        let tilted = |angle: f64| {
-            z.common_normal(&line([1.0, 0.0, 0.0], [0.0, angle, 1.0]), 1.0)
-                .relation
-        };
-        assert_eq!(tilted(0.9e-7), Relation::Parallel);
-        assert_eq!(tilted(1.1e-7), Relation::Skew);
-    }
 
     #[test]
     fn a_direction_of_no_length_is_refused_and_a_tiny_one_is_not() {

@@ -101,8 +101,7 @@ impl<T: Number> Quaternion<T> {
     }
 }
 
-/// Roll, pitch and yaw in radians: rotations about the fixed x, then y, then z axis,
-/// R = Rz(yaw)·Ry(pitch)·Rx(roll).
+/// Roll, pitch and yaw in radians: rotations about the fixed x, then y, then z axis, R = Rz(yaw)·Ry(pitch)·Rx(roll).
 ///
 /// This is the order of URDF and of most robotics texts; where the angles are named after the tool's
 /// vectors (yaw about n, roll about a), roll and yaw are exchanged.

@@ -60,13 +60,6 @@ impl<T: Number> Rotation<T> {
         let [x, y, z] = self.transpose().0;
         [x.0, y.0, z.0]
     }
-
-    /// The rotation with the given rows. No check is made that they are orthonormal.
-    #[inline]
-    pub fn from_rows(rows: [[T; 3]; 3]) -> Self {
-        let [x, y, z] = rows;
-        Rotation([Vector3(x), Vector3(y), Vector3(z)]).transpose()
-    }
 }
 
 impl<T: Number> Mul<Vector3<T>> for Rotation<T> {

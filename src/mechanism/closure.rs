@@ -12,10 +12,9 @@
 //! | offset (1, 2) | a_x·g/L, … | a_x·v/L at p_B |
 //! | distance (1) | (g·g − s²)/2L² | g·v/L² at the own point of each side |
 //!
-//! Alignment is twice the tangent of half the angle between the axes (a stereographic projection),
-//! orientation the Rodrigues vector 2 tan(θ/2)·n: the flipped axis, which a_x·b_z = a_y·b_z = 0
-//! alone would admit, lies at infinity. A side-A motion counts with the opposite sign; taking its
-//! velocity at p_B accounts for the turning of A's axes.
+//! Alignment is twice the tangent of half the angle between the axes (a stereographic projection), orientation the
+//! Rodrigues vector 2 tan(θ/2)·n: the flipped axis, which a_x·b_z = a_y·b_z = 0 alone would admit, lies at infinity. A
+//! side-A motion counts with the opposite sign; taking its velocity at p_B accounts for the turning of A's axes.
 
 mod rows;
 
@@ -222,85 +221,5 @@ impl<T: Number> Closure<T> {
             ClosureKind::Distance => rows.distance(&gap, self.length(&at.joints)),
         }
         rows
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::{Axis, Quaternion, Vector3};
-    use crate::mechanism::{ChainDimensions, Frame, PlatformPose, RowDimensions};
-
-    #[test]
-    fn frames_placed_as_far_as_needed_give_the_rows_of_frames_placed_in_full() {
-        let twist = Pose::rotation(Axis::X, 0.7) * Pose::translation(Vector3([0.3, -0.2, 0.5]));
-        let row = |turn: &[usize], slide: &[usize]| RowDimensions {
-            before: twist,
-            turn: LinearForm(turn.iter().map(|&j| (j, 0.9)).collect()),
-            slide: LinearForm(slide.iter().map(|&j| (j, 1.1)).collect()),
-            after: Pose::identity(),
-        };
-        let mut dimensions = Dimensions {
-            characteristic_length: 1.5,
-            joint_scales: vec![1.0, 1.5, 1.0, 1.0],
-            chains: [Pose::identity(), twist]
-                .map(|tip| ChainDimensions {
-                    on: Frame::Ground,
-                    base: twist,
-                    rows: vec![row(&[0], &[]), row(&[], &[1]), row(&[2], &[3])],
-                    tip,
-                })
-                .to_vec(),
-            platforms: vec![vec![twist * twist]],
-            closures: vec![],
-        };
-        let at = Configuration {
-            joints: vec![0.4, -0.3, 0.8, 0.2],
-            platforms: vec![PlatformPose {
-                orientation: Quaternion([0.8, 0.0, 0.6, 0.0]),
-                position: Vector3([0.1, 0.2, 0.3]),
-            }],
-        };
-        let on_platform = Frame::OnPlatform {
-            platform: 0,
-            frame: 0,
-        };
-        let tips = [0, 1].map(|chain| Frame::Tip { chain });
-        for kind in ClosureKind::ALL {
-            for frames in [tips, [tips[0], on_platform], [on_platform, tips[1]]] {
-                dimensions.closures = vec![ClosureDimensions {
-                    kind,
-                    frames,
-                    length: 0.5,
-                    extension: LinearForm(vec![]),
-                }];
-                let evaluate = |kinematics: Kinematics<f64>| {
-                    let closure =
-                        Closure::new(&dimensions, &dimensions.closures[0], &kinematics, EVERY_ROW);
-                    let mut placement = kinematics.placement();
-                    kinematics.place(&at, &mut placement);
-                    let rows = closure.rows(&placement, &at);
-                    let mut columns = vec![rows.residual];
-                    for (side, movers) in [Side::A, Side::B].into_iter().zip(&closure.movers) {
-                        for mover in movers {
-                            let (omega, v) = placement.twist(mover, rows.velocity_point(side));
-                            let mut column = [0.0; MOST_ROWS];
-                            rows.rates(side, &omega, &v, &mut column);
-                            columns.push(column);
-                        }
-                    }
-                    let mut residual = [0.0; MOST_ROWS];
-                    closure.residual(&placement, &at, &mut residual[..kind.equations()]);
-                    assert_eq!(residual, rows.residual);
-                    columns
-                };
-                let needs = frames.into_iter().zip(needs(kind, &EVERY_ROW));
-                assert_eq!(
-                    evaluate(Kinematics::needing(&dimensions, needs)),
-                    evaluate(Kinematics::new(&dimensions, frames)),
-                    "{kind:?}"
-                );
-            }
-        }
     }
 }

@@ -44,8 +44,7 @@ impl<T: Number> PlatformPose<T> {
 /// It need not be assembled.
 #[derive(Debug, PartialEq)]
 pub struct Configuration<T> {
-    /// Joint values in the order of the mechanism's joints: rad for revolute and helical joints,
-    /// m for prismatic ones.
+    /// Joint values in the order of the mechanism's joints: rad for revolute and helical joints, m for prismatic ones.
     pub joints: Vec<T>,
     /// Platform poses in the order of the mechanism's platforms.
     pub platforms: Vec<PlatformPose<T>>,

@@ -61,8 +61,7 @@ impl PoseCoordinate {
     /// The deviation of the coordinate from `value`, dimensionless, with the derivative along a twist
     /// (ω; v/L) of the platform about its origin.
     ///
-    /// An angle φ = atan2(y, x) differs from its value by atan2(y c − x s, x c + y s), which has no
-    /// jump at ±π.
+    /// An angle φ = atan2(y, x) differs from its value by atan2(y c − x s, x c + y s), which has no jump at ±π.
     ///
     /// Over complex numbers the row is entire instead: y c − x s for roll and yaw, y − s for pitch.
     /// No analytic row distinguishes φ from φ + π there, nor the two signs of cos(pitch), so it vanishes
@@ -146,8 +145,7 @@ type Changing<T> = (T, Vector3<T>);
 /// The deviation of an orientation from a wanted one, as the rotation vector 2 tan(θ/2)·n in ground, with
 /// the derivative along ω.
 ///
-/// w = 2 s/t with s = Σ wᵢ × rᵢ and t = 1 + Σ wᵢ·rᵢ over the columns of the wanted and the actual
-/// rotation.
+/// w = 2 s/t with s = Σ wᵢ × rᵢ and t = 1 + Σ wᵢ·rᵢ over the columns of the wanted and the actual rotation.
 pub(crate) fn orientation_rows<T: Number>(
     actual: &Rotation<T>,
     wanted: &Rotation<T>,

@@ -13,8 +13,7 @@ pub(crate) type Slot = usize;
 
 /// The order in which the frames of a mechanism are evaluated.
 ///
-/// Fixed displacements between joints are merged when it is built, so that one step costs one
-/// product and one turn.
+/// Fixed displacements between joints are merged when it is built, so that one step costs one product and one turn.
 #[derive(Clone, Debug)]
 pub struct Kinematics<T> {
     platforms: usize,
@@ -323,9 +322,7 @@ impl<T: Number> Placement<T> {
             omega.cross(&(*point - *position)) + z.times(mover.slide),
         )
     }
-}
 
-impl<T: Number> Placement<T> {
     /// Rotation rate and velocity at a point that joints and a platform carry, for the rates of their dimensionless
     /// variables: ω = Σ z q̇ and v = Σ z × (p − o) q̇, or z q̇ for a slide, beside the platform's own twist (ω; v/L).
     #[inline(always)]

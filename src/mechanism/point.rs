@@ -37,6 +37,7 @@ impl NamedPoint {
 
 /// Why a text is not a point.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)]
 pub enum PointError {
     /// There is no frame of that name.
     #[error("there is no frame `{0}`")]
@@ -44,9 +45,7 @@ pub enum PointError {
     /// An offset has no value.
     #[error("`{text}` cannot be an offset: {error}")]
     Value {
-        /// The offset as given.
         text: String,
-        /// Why.
         #[source]
         error: ValueError,
     },

@@ -72,6 +72,7 @@ words! {
 
 /// Why a text is not a quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum QuantityError {
     /// It is no expression.
     #[error("{0}")]
@@ -79,19 +80,12 @@ pub enum QuantityError {
     /// A name in it stands for nothing.
     #[error("`{name}` is neither a joint, a parameter, a coordinate of a point nor a quantity")]
     Unknown {
-        /// The name.
         name: String,
-        /// The name that was probably meant.
         suggestion: Option<String>,
     },
     /// A point in it is wrong.
     #[error("{error}")]
-    Point {
-        /// The name with the point.
-        name: String,
-        /// What is wrong with it.
-        error: PointError,
-    },
+    Point { name: String, error: PointError },
     /// Its units do not fit.
     #[error("{0}")]
     Unit(MeasureError),

@@ -35,11 +35,9 @@ use crate::geometry::{Line, Pose, Vector3};
 /// The axis of a joint in the home configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointAxis {
-    /// The axis, in the coordinates in which base and tool are given too. The point of a prismatic
-    /// axis has no meaning.
+    /// The axis, in the coordinates in which base and tool are given too. The point of a prismatic axis has no meaning.
     pub line: Line,
-    /// Rotation about the axis for a unit of the variable: 1 for a revolute joint, 0 for a
-    /// prismatic one.
+    /// Rotation about the axis for a unit of the variable: 1 for a revolute joint, 0 for a prismatic one.
     pub turn: f64,
     /// Translation along the axis for a unit of the variable, in m: 0 for a revolute joint, 1 for a
     /// prismatic one, the lead per radian for a helical one.
@@ -92,8 +90,7 @@ pub struct SerialAxes {
 }
 
 impl SerialAxes {
-    /// A typical length of the axes: the largest distance between given points, 1 m if
-    /// there is none.
+    /// A typical length of the axes: the largest distance between given points, 1 m if there is none.
     pub fn length(&self) -> f64 {
         let placed = self.joints.iter().filter(|joint| !joint.is_prismatic());
         let ends = [&self.base, &self.tool].into_iter().flatten();

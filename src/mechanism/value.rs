@@ -132,14 +132,13 @@ impl From<&Value> for Value {
 
 /// What is wrong with a value.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
 pub enum ValueError {
     /// It does not parse.
     Parse(ParseErrorKind),
     /// It uses a name that is no parameter.
     UnknownName {
-        /// The name.
         name: String,
-        /// The parameter that was probably meant.
         suggestion: Option<String>,
     },
     /// It has no value.
@@ -147,10 +146,7 @@ pub enum ValueError {
     /// Its unit does not fit.
     Unit(MeasureErrorKind),
     /// It is not a list of displacements.
-    NotAPose {
-        /// The part that is none.
-        part: String,
-    },
+    NotAPose { part: String },
     /// It is no number but a whole pose, or what only a coordinate has.
     NotANumber,
 }
@@ -184,8 +180,7 @@ impl Display for ValueError {
 
 impl Error for ValueError {}
 
-/// The value of an expression over the mechanism's parameters, in m, rad, N or N·m, and per unit of
-/// time for a rate.
+/// The value of an expression over the mechanism's parameters, in m, rad, N or N·m, and per unit of time for a rate.
 pub fn number_of(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64, ValueError> {
     Ok(read(mechanism, text, wanted)?.0)
 }

@@ -259,7 +259,8 @@ fn overconstrained_loops_have_their_printed_assemblies() {
 fn pose_text(matrix: &Value) -> String {
     let rows: Vec<Vec<f64>> = list(matrix).iter().map(numbers).collect();
     let pose = Pose {
-        rotation: Rotation::from_rows([0, 1, 2].map(|i| [rows[i][0], rows[i][1], rows[i][2]])),
+        rotation: Rotation([0, 1, 2].map(|i| Vector3([rows[i][0], rows[i][1], rows[i][2]])))
+            .transpose(),
         position: Vector3([0, 1, 2].map(|i| rows[i][3])),
     };
     let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(&pose.rotation);

@@ -40,7 +40,8 @@ fn triple(value: &Value) -> [f64; 3] {
 fn matrix(value: &Value) -> Pose<f64> {
     let rows: Vec<Vec<f64>> = list(value).iter().map(numbers).collect();
     Pose {
-        rotation: Rotation::from_rows([0, 1, 2].map(|i| [rows[i][0], rows[i][1], rows[i][2]])),
+        rotation: Rotation([0, 1, 2].map(|i| Vector3([rows[i][0], rows[i][1], rows[i][2]])))
+            .transpose(),
         position: Vector3([0, 1, 2].map(|i| rows[i][3])),
     }
 }

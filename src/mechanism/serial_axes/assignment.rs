@@ -27,8 +27,7 @@ pub struct Assignment {
 /// The common normal between two consecutive axes, with the choices made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Normal {
-    /// How the axes lie to one another; at the ends, where only one axis is, `None` if nothing
-    /// given fixes the normal.
+    /// How the axes lie to one another; at the ends, where only one axis is, `None` if nothing given fixes the normal.
     pub relation: Option<Relation>,
     /// The angle in rad between the directions as given, in [0, π].
     pub angle: f64,
@@ -175,8 +174,7 @@ impl SerialAxes {
         (x, last.feet[1] + axis.direction.times(slide))
     }
 
-    /// N_k between the axes of index k and k + 1, the second of which is moved to where the
-    /// relation holds exactly.
+    /// N_k between the axes of index k and k + 1, the second of which is moved to where the relation holds exactly.
     fn between(&self, k: usize, last: &Normal, axes: &mut [Line], length: f64) -> Normal {
         let (axis, next) = (axes[k], axes[k + 1]);
         let (x, start) = self.unmoved(k, last, &axis);
@@ -288,8 +286,7 @@ impl SerialAxes {
         }
     }
 
-    /// The largest angle (rad) and distance (m) between the axes and tool given and those of a
-    /// table with as many rows.
+    /// The largest angle (rad) and distance (m) between the axes and tool given and those of a table with as many rows.
     pub fn difference(&self, table: &Table) -> (f64, f64) {
         let made = table.axes();
         let mut turned = 0.0_f64;

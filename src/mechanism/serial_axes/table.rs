@@ -74,8 +74,7 @@ impl Table {
         last.unwrap_or(self.base) * self.tip
     }
 
-    /// The joint axes that the table describes: z_k in the modified convention, z_{k−1} in the
-    /// standard one.
+    /// The joint axes that the table describes: z_k in the modified convention, z_{k−1} in the standard one.
     pub fn axes(&self) -> SerialAxes {
         let frames = self.frames();
         let placed = match self.convention {
