@@ -14,18 +14,14 @@ use crate::geometry::Pose;
 
 /// A rigid body: what is fixed to one another whatever the joints do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
 pub enum Body {
     /// The fixed body.
     Ground,
     /// The platform of that index.
     Platform(usize),
-    /// The link after a moving row of a chain.
-    Link {
-        /// Index of the chain.
-        chain: usize,
-        /// Number of the row, from 1.
-        row: usize,
-    },
+    /// The link after a moving row of a chain; rows count from 1.
+    Link { chain: usize, row: usize },
 }
 
 impl Mechanism {
@@ -224,23 +220,19 @@ impl Mechanism {
 
     /// The body that a frame is fixed to.
     pub fn body(&self, frame: Frame) -> Body {
-        let mut frame = frame;
-        loop {
-            let (chain, rows) = match self.on_chain(frame) {
-                Ok(link) => link,
-                Err(None) => return Body::Ground,
-                Err(Some(platform)) => return Body::Platform(platform),
-            };
-            let Chain {
-                rows: table, on, ..
-            } = &self.chains[chain];
-            let moves = |row: &Row| row.moves();
-            if let Some(before) = table[..rows].iter().rposition(moves) {
-                let row = before + 1;
-                return Body::Link { chain, row };
-            }
-            frame = *on;
-        }
+        let moving = self.chains_below(frame).find_map(|(chain, rows)| {
+            let row = 1 + rows.iter().rposition(Row::moves)?;
+            Some(Body::Link { chain, row })
+        });
+        let carrier = || self.carrier(frame).map_or(Body::Ground, Body::Platform);
+        moving.unwrap_or_else(carrier)
+    }
+
+    /// The chains that carry a frame, from it downwards, each with the rows between.
+    fn chains_below(&self, frame: Frame) -> impl Iterator<Item = (usize, &[Row])> {
+        let below = |&(chain, _): &(usize, usize)| self.on_chain(self.chains[chain].on).ok();
+        let chains = std::iter::successors(self.on_chain(frame).ok(), below);
+        chains.map(|(chain, rows)| (chain, &self.chains[chain].rows[..rows]))
     }
 
     /// The chain of a frame and the number of rows before it, or the platform it is fixed to; none for the ground.
@@ -295,11 +287,7 @@ impl Mechanism {
             joints_of(&row.theta).for_each(|joint| turns[joint] = true);
             joints_of(&row.d).for_each(|joint| slides[joint] = true);
         }
-        for length in self
-            .closures
-            .iter()
-            .filter_map(|closure| closure.length.as_ref())
-        {
+        for length in self.closures.iter().filter_map(|c| c.length.as_ref()) {
             joints_of(length).for_each(|joint| slides[joint] = true);
         }
         for (joint, (turns, slides)) in self.joints.iter_mut().zip(turns.into_iter().zip(slides)) {
@@ -337,16 +325,9 @@ impl Mechanism {
 
     /// The joints between a frame and the ground or platform that carries it.
     pub fn joints_below(&self, frame: Frame) -> Vec<usize> {
-        let mut joints = Vec::new();
-        let mut frame = frame;
-        while let Ok((chain, rows)) = self.on_chain(frame) {
-            let Chain {
-                rows: table, on, ..
-            } = &self.chains[chain];
-            joints.extend(table[..rows].iter().rev().flat_map(|row| row.joints()));
-            frame = *on;
-        }
-        joints
+        let chains = self.chains_below(frame);
+        let rows = chains.flat_map(|(_, rows)| rows.iter().rev());
+        rows.flat_map(Row::joints).collect()
     }
 }
 
@@ -361,10 +342,8 @@ pub(super) fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> 
 impl Row {
     /// Whether a joint variable occurs in the row.
     pub(crate) fn moves(&self) -> bool {
-        joints_of(&self.theta)
-            .chain(joints_of(&self.d))
-            .next()
-            .is_some()
+        let mut joints = joints_of(&self.theta).chain(joints_of(&self.d));
+        joints.next().is_some()
     }
 
     /// The joints whose variables occur in the row.

@@ -1,7 +1,6 @@
 use super::{Extent, Field, Number, Packed, functions, trigonometry};
 
-/// Nothing comes from the platform's C library, so that the same input gives the same bytes on every
-/// machine.
+/// Nothing comes from the platform's C library, so that the same input gives the same bytes on every machine.
 impl Number for f64 {
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
