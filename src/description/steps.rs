@@ -38,6 +38,11 @@ pub(crate) fn undone(steps: &[Displacement]) -> Vec<Displacement> {
     undone
 }
 
+/// From the end of some displacements to that of others.
+pub(crate) fn between(from: &[Displacement], to: &[Displacement]) -> Vec<Displacement> {
+    joined(undone(from).into_iter().chain(to.iter().cloned()))
+}
+
 /// Displacements one after the other, what undoes itself left out: neighbours of one kind become one.
 pub(crate) fn joined(steps: impl IntoIterator<Item = Displacement>) -> Vec<Displacement> {
     let mut joined: Vec<Displacement> = Vec::new();

@@ -4,7 +4,7 @@ use super::places::{difference, length};
 use super::tables::Tables;
 use super::{AxisKind, AxisPlace};
 use crate::algebra::Expression;
-use crate::description::steps::{joined, undone};
+use crate::description::steps::between;
 use crate::description::{
     ChainDescription, ClosureDescription, Displacement, Named, Spanned, first_free, place_of,
 };
@@ -15,13 +15,9 @@ impl Tables<'_> {
         let Some(placed) = &self.bodies[body] else {
             return;
         };
-        let base = joined(
-            undone(&placed.frame)
-                .into_iter()
-                .chain(steps.iter().cloned()),
-        );
+        let base = between(&placed.frame, steps);
         let chain = ChainDescription::frame(&placed.name, base);
-        self.chains.push(Named { name, value: chain });
+        self.made.chains.push(Named { name, value: chain });
     }
 
     /// The closure of a joint that is cut.
@@ -49,7 +45,7 @@ impl Tables<'_> {
             span: described.value.span.clone(),
         };
         let name = described.name.clone();
-        self.closures.push(Named {
+        self.made.closures.push(Named {
             name,
             value: closure,
         });
@@ -62,26 +58,20 @@ impl Tables<'_> {
         let Some(placed) = self.bodies[body].clone() else {
             return String::new();
         };
-        let relative = joined(
-            undone(&placed.frame)
-                .into_iter()
-                .chain(steps.iter().cloned()),
-        );
+        let relative = between(&placed.frame, &steps);
         if relative.is_empty() {
             return placed.name;
         }
         let wanted = &self.axes.joints[joint].name.value;
         if let Some(platform) = placed.platform {
-            let frames = &mut self.platforms[platform].value.frames;
+            let frames = &mut self.made.platforms[platform].value.frames;
             let name = first_free(wanted, "_", |name| place_of(frames, name).is_none());
             frames.push(Named::new(name.clone(), relative));
             return format!("{}.{name}", placed.name);
         }
-        let wanted = format!("{wanted}_{}", side + 1);
-        let name = first_free(&wanted, "_", |name| !self.taken.iter().any(|t| t == name));
-        self.taken.push(name.clone());
+        let name = self.free_name(&format!("{wanted}_{}", side + 1));
         let chain = ChainDescription::frame(&placed.name, relative);
-        self.chains.push(Named::new(name.clone(), chain));
+        self.made.chains.push(Named::new(name.clone(), chain));
         name
     }
 }

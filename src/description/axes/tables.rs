@@ -17,14 +17,13 @@ use std::collections::BTreeSet;
 
 use super::graph::Graph;
 use super::places::{along, at, difference, frame_of, length, origin};
-use super::values::Values;
 use super::{AxesDescription, AxisKind, AxisPlace};
 use crate::algebra::Expression;
-use crate::description::steps::{joined, signed_sum, undone, zero};
+use crate::description::steps::{between, joined, signed_sum, zero};
 use crate::description::{
-    AxesProblem, ChainDescription, ClosureDescription, Convention, Description, Displacement,
-    Entry, GROUND, JointDescription, Named, PlatformDescription, Problem, Role, Row, Spanned,
-    first_free, names_of, nearest, place_of,
+    AxesProblem, ChainDescription, Convention, Description, Displacement, Entry, GROUND,
+    JointDescription, Named, PlatformDescription, Problem, Role, Row, Spanned, first_free,
+    names_of, nearest, place_of,
 };
 
 /// Joint coordinates, and what was chosen to make tables of them.
@@ -52,14 +51,12 @@ pub(super) struct Placed {
 pub(super) struct Tables<'a> {
     pub axes: &'a AxesDescription,
     pub graph: &'a Graph,
-    values: Values,
+    /// For each joint the change of its value against the drawing, over variables.
+    moved: Vec<Entry>,
     cuts: &'a BTreeSet<usize>,
     pub bodies: Vec<Option<Placed>>,
     pub taken: Vec<String>,
-    joints: Vec<Named<JointDescription>>,
-    pub chains: Vec<Named<ChainDescription>>,
-    pub platforms: Vec<Named<PlatformDescription>>,
-    pub closures: Vec<Named<ClosureDescription>>,
+    pub made: Description,
 }
 
 impl AxesDescription {
@@ -75,54 +72,49 @@ impl AxesDescription {
             true => axes.placed_cuts(&graph),
             false => axes.named_cuts(&graph),
         };
-        let values = Values::of(&axes);
-        let values = values.map_err(|found| problems.extend(found));
+        let moved = axes.moved().map_err(|found| problems.extend(found));
         let cuts = cuts.map_err(|found| problems.extend(found));
         let screws = cuts.iter().flatten().map(|&joint| &axes.joints[joint]);
         for screw in screws.filter(|joint| joint.value.kind == AxisKind::Helical) {
             let joint = screw.name.value.clone();
             problems.push(AxesProblem::ScrewCut { joint }.at(&screw.name.span));
         }
-        let (Ok(cuts), Ok(values), true) = (cuts, values, problems.is_empty()) else {
+        let (Ok(cuts), Ok(moved), true) = (cuts, moved, problems.is_empty()) else {
             return Err(problems);
         };
+        let convention = Spanned::nowhere(Convention::Modified);
         let mut tables = Tables {
             axes: &axes,
             graph: &graph,
-            values,
+            moved,
             cuts: &cuts,
             bodies: vec![None; graph.bodies.len()],
             taken: Vec::new(),
-            joints: Vec::new(),
-            chains: Vec::new(),
-            platforms: Vec::new(),
-            closures: Vec::new(),
+            made: Description {
+                name: axes.name.clone(),
+                source: axes.source.clone(),
+                convention: Some(axes.convention.clone().unwrap_or(convention)),
+                parameters: axes.parameters.clone(),
+                closed_forms: axes.closed_forms.clone(),
+                outputs: axes.outputs.clone(),
+                ..Description::default()
+            },
         };
         tables.all();
-        let (joints, chains) = (tables.joints, tables.chains);
-        let (platforms, closures) = (tables.platforms, tables.closures);
+        let made = tables.made;
         let always = axes.always_cut();
         let name = |j: &usize| axes.joints[*j].name.value.clone();
         let cut: Vec<String> = cuts.difference(&always).map(name).collect();
         let warnings = axes.lost_by_cuts(|name| cut.iter().any(|cut| cut == name));
-        let convention = Spanned::nowhere(Convention::Modified);
+        let coordinates = Coordinates {
+            axes,
+            cut,
+            rods,
+            warnings,
+        };
         Ok(Description {
-            name: axes.name.clone(),
-            source: axes.source.clone(),
-            convention: Some(axes.convention.clone().unwrap_or(convention)),
-            parameters: axes.parameters.clone(),
-            joints,
-            chains,
-            platforms,
-            closures,
-            closed_forms: axes.closed_forms.clone(),
-            outputs: axes.outputs.clone(),
-            coordinates: Some(Box::new(Coordinates {
-                axes,
-                cut,
-                rods,
-                warnings,
-            })),
+            coordinates: Some(Box::new(coordinates)),
+            ..made
         })
     }
 
@@ -183,12 +175,12 @@ impl Tables<'_> {
             self.bodies[root] = Some(Placed {
                 name: name.value.clone(),
                 frame: frame.clone(),
-                platform: Some(self.platforms.len()),
+                platform: Some(self.made.platforms.len()),
             });
             let home = joined(frame);
             let frames = Vec::new();
             let value = PlatformDescription { home, frames };
-            self.platforms.push(Named { name, value });
+            self.made.platforms.push(Named { name, value });
             self.grow(root);
         }
         for &joint in self.cuts {
@@ -203,7 +195,7 @@ impl Tables<'_> {
             self.stand(body, point.name.clone(), &steps);
         }
         if let (Some(tool), true) = (&axes.tool, axes.is_serial()) {
-            let name = first_free("tool", "_", |name| !self.taken.iter().any(|t| t == name));
+            let name = self.free_name("tool");
             let last = self.graph.bodies.len() - 1;
             self.stand(last, Spanned::nowhere(name), tool);
         }
@@ -232,14 +224,21 @@ impl Tables<'_> {
                 span: value.span.clone(),
             };
             let name = name.clone();
-            self.joints.push(Named { name, value: joint });
+            self.made.joints.push(Named { name, value: joint });
         }
+    }
+
+    /// A name for a frame, which it then has.
+    pub(super) fn free_name(&mut self, wanted: &str) -> String {
+        let name = first_free(wanted, "_", |name| self.taken.iter().all(|t| t != name));
+        self.taken.push(name.clone());
+        name
     }
 
     /// A passive variable of a joint that has several.
     fn variable(&mut self, wanted: &str) -> Entry {
         let taken = |name: &str| {
-            place_of(&self.joints, name).is_some()
+            place_of(&self.made.joints, name).is_some()
                 || place_of(&self.axes.joints, name).is_some()
                 || place_of(&self.axes.parameters, name).is_some()
         };
@@ -250,7 +249,7 @@ impl Tables<'_> {
             limits: None,
             span: 0..0,
         };
-        self.joints.push(Named::new(name.clone(), joint));
+        self.made.joints.push(Named::new(name.clone(), joint));
         Expression::name(name).into()
     }
 
@@ -372,9 +371,7 @@ impl Tables<'_> {
                     true => (first, second),
                     false => (second, first),
                 };
-                let cross = format!("{wanted}_cross");
-                let name = first_free(&cross, "_", |name| !self.taken.iter().any(|t| t == name));
-                self.taken.push(name.clone());
+                let name = self.free_name(&format!("{wanted}_cross"));
                 let middle = at(&origin(&moving));
                 let label = Spanned::nowhere(name.clone());
                 let both = [&moving[..], &moving[..]];
@@ -385,7 +382,10 @@ impl Tables<'_> {
             }
             AxisKind::Fixed => (zero(), zero()),
             _ => {
-                let value = self.values.moved(joint, forwards);
+                let value = match forwards {
+                    true => self.moved[joint].clone(),
+                    false => signed_sum([(-1.0, &self.moved[joint])]),
+                };
                 match (kind, &described.value.pitch) {
                     (AxisKind::Prismatic, _) => (value, zero()),
                     (AxisKind::Helical, Some(pitch)) => (along(&value, pitch), value),
@@ -416,10 +416,7 @@ impl Tables<'_> {
         frame: &[Displacement],
         (d, theta): (Entry, Entry),
     ) {
-        let after = |from: &[Displacement], to: &[Displacement]| {
-            joined(undone(from).into_iter().chain(to.iter().cloned()))
-        };
-        let (base, tip) = (after(before, near), after(far, frame));
+        let (base, tip) = (between(before, near), between(far, frame));
         let moves = !d.expression.is_zero() || !theta.expression.is_zero();
         let chain = match moves {
             true => ChainDescription {
@@ -429,6 +426,6 @@ impl Tables<'_> {
             },
             false => ChainDescription::frame(on, joined(base.into_iter().chain(tip))),
         };
-        self.chains.push(Named { name, value: chain });
+        self.made.chains.push(Named { name, value: chain });
     }
 }

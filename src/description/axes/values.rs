@@ -5,26 +5,21 @@ use crate::algebra::{Affine, Expression};
 use crate::description::steps::{signed_sum, zero};
 use crate::description::{AxesProblem, AxisKind, Entry, Problem, ProblemKind, place_of};
 
-/// The values of joints as sums of variables.
-pub(super) struct Values {
-    /// For each joint the change of its value against the drawing.
-    moved: Vec<Entry>,
-}
-
-impl Values {
-    /// The values of all joints.
+impl AxesDescription {
+    /// For each joint the change of its value against the drawing, over variables.
     ///
     /// # Errors
     /// If values are given by one another, or are no sums.
-    pub fn of(axes: &AxesDescription) -> Result<Self, Vec<Problem>> {
+    pub(super) fn moved(&self) -> Result<Vec<Entry>, Vec<Problem>> {
+        let axes = self;
         let mut problems = Vec::new();
         let sums: Vec<Option<Affine<String>>> = (axes.joints.iter())
             .map(|joint| {
                 let value = joint.value.value.as_ref()?;
                 let is_joint = |name: &String| place_of(&axes.joints, name).is_some();
                 let sum = value.expression.affine(is_joint);
-                sum.map_err(|e| problems.push(ProblemKind::NotAffine.at(e.span)))
-                    .ok()
+                let sum = sum.map_err(|e| problems.push(ProblemKind::NotAffine.at(e.span)));
+                sum.ok()
             })
             .collect();
         for (joint, sum) in axes.joints.iter().zip(&sums) {
@@ -52,16 +47,8 @@ impl Values {
             );
         }
         match problems.is_empty() {
-            true => Ok(Values { moved }),
+            true => Ok(moved),
             false => Err(problems),
-        }
-    }
-
-    /// The entry of a table for a joint, traversed from its first body or from its second.
-    pub fn moved(&self, joint: usize, forwards: bool) -> Entry {
-        match forwards {
-            true => self.moved[joint].clone(),
-            false => signed_sum([(-1.0, &self.moved[joint])]),
         }
     }
 }
