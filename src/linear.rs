@@ -4,25 +4,18 @@
 //! ones and one border, the shape a closed mechanism gives its Jacobian: each leg's passive joints
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
-mod aligned;
-mod block;
-#[expect(
+#![expect(
     clippy::assign_op_pattern,
     reason = "`+=` of num_complex is a call, `+` is not"
 )]
+
+mod aligned;
+mod block;
 mod bordered;
 mod decomposition;
 mod elimination;
 mod factorable;
-#[expect(
-    clippy::assign_op_pattern,
-    reason = "`+=` of num_complex is a call, `+` is not"
-)]
 mod lu;
-#[expect(
-    clippy::assign_op_pattern,
-    reason = "`+=` of num_complex is a call, `+` is not"
-)]
 mod qr;
 mod rows;
 #[cfg(feature = "sparse")]
@@ -31,7 +24,7 @@ mod svd;
 mod vectors;
 
 pub use aligned::axis_aligned;
-pub use block::{Block, DenseOnly, PatternOnly, SparseStep};
+pub use block::{Block, DenseOnly, NoFactors, SparseStep};
 pub use bordered::Bordered;
 pub use decomposition::{Decomposition, singular_values};
 pub use elimination::Elimination;
@@ -43,12 +36,10 @@ pub use sparse::SparseNormal;
 pub use svd::Svd;
 pub use vectors::{add, complement, dot, norm, orthonormal, product, remove};
 
-/// The one rank tolerance of the program: a direction counts as lost when it is this small beside
-/// the largest one.
+/// The one rank tolerance of the program: a direction counts as lost when it is this small beside the largest one.
 ///
-/// Jacobians are dimensionless (lengths are divided by the mechanism's characteristic length). At a
-/// double solution a closure residual of 1e-14 leaves the joints uncertain by its square root,
-/// 1e-7, and the Jacobian cannot be known better than that.
+/// Jacobians are dimensionless, and at a double solution a closure residual of 1e-14 leaves the joints uncertain by its
+/// square root.
 pub const RANK_TOLERANCE: f64 = 1e-7;
 
 /// The other limits of rank decisions, all relative to the largest singular value or to the row itself.
@@ -60,8 +51,7 @@ pub const SINGULAR_PLACE: f64 = 1e-9;
 /// Nearer to a crossing than this, rounding no longer lets the tangent of a curve distinguish branches.
 pub const BESIDE_A_CROSSING: f64 = 1e-5;
 
-/// The part of a row that Gram–Schmidt must leave for it to be chosen as independent; stricter than the
-/// rank tolerance, so that the choice is well conditioned.
+/// The part of a row that Gram–Schmidt must leave for it to be chosen as independent: stricter than the rank tolerance.
 pub const INDEPENDENT: f64 = 1e-6;
 
 /// A curvature counts as negative from this part of the largest on: it is taken by differences.
@@ -70,20 +60,19 @@ pub const CURVED: f64 = 1e-6;
 /// A condition number beyond the inverse of this has no digit in double precision.
 pub const ILL_CONDITIONED: f64 = 1e-12;
 
-/// The most unknowns that are factorised as one dense matrix; beyond it sparse factors are faster (15
-/// times for a row of 30 four-bars).
+/// The most unknowns that are factorised as one dense matrix: of more, sparse factors are faster.
 pub const DENSE_LIMIT: usize = 30;
 
-/// What rounding leaves of a sum of numbers about 1 that cancel: dimensionless matrices whose entries
-/// are no larger are zero.
+/// What rounding leaves of a sum of numbers about 1 that cancel; of dimensionless matrices such entries are zero.
 pub const CANCELLED: f64 = 1e-14;
 
-/// How many singular values, largest first, count beside the largest. None does if the largest is
-/// rounding itself, as in the equation of a rod from the centre of a ball to a point of its link.
+/// How many singular values, largest first, count beside the largest; none if the largest is rounding itself.
 pub fn rank(singular_values: &[f64]) -> usize {
     let largest = singular_values.first().copied().unwrap_or(0.0);
-    let threshold = lost(largest);
-    singular_values.iter().filter(|&&s| s > threshold).count()
+    singular_values
+        .iter()
+        .filter(|&&s| s > lost(largest))
+        .count()
 }
 
 /// What counts as lost beside the largest singular value.
@@ -103,3 +92,15 @@ pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
 /// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube. Beyond it the
 /// groups of rows are eliminated one after another ([`Elimination`]).
 pub const SPECTRUM_LIMIT: usize = 500;
+
+/// Numbers in (−1, 1) (Knuth's linear congruential generator).
+#[cfg(test)]
+fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}

@@ -11,6 +11,13 @@ pub struct Block {
     pub shared: Vec<usize>,
 }
 
+impl Block {
+    /// The unknowns of its columns, in their order.
+    pub fn unknowns(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        self.own.iter().chain(&self.shared).copied()
+    }
+}
+
 /// Least-squares steps for a large matrix made of blocks that touch few unknowns each.
 pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
     /// Whether there is such a factorisation; otherwise large matrices are treated as dense.
@@ -32,36 +39,17 @@ pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
         I: Iterator<Item = (&'a Block, &'a [T])>;
 }
 
-/// No sparse factorisation: matrices of any size are dense.
+/// No sparse factorisation: large matrices are dense, or with `FILLED` filled in block by block and never factorised.
 #[derive(Clone, Copy, Debug)]
-pub struct DenseOnly;
+pub struct NoFactors<const FILLED: bool>;
 
-impl<T> SparseStep<T> for DenseOnly {
-    const AVAILABLE: bool = false;
+/// Matrices of any size are dense.
+pub type DenseOnly = NoFactors<false>;
+
+impl<T, const FILLED: bool> SparseStep<T> for NoFactors<FILLED> {
+    const AVAILABLE: bool = FILLED;
     fn new(_: usize, _: &[Block], _: usize) -> Self {
-        DenseOnly
-    }
-    fn factorise<'a>(&mut self, _: impl Iterator<Item = (&'a Block, &'a [T])>, _: &[T], _: f64)
-    where
-        T: 'a,
-    {
-    }
-    fn step<'a, I>(&self, _: impl Fn() -> I, _: &[T], _: &mut [T])
-    where
-        T: 'a,
-        I: Iterator<Item = (&'a Block, &'a [T])>,
-    {
-    }
-}
-
-/// The pattern alone: large matrices over these numbers are filled in and never factorised.
-#[derive(Clone, Copy, Debug)]
-pub struct PatternOnly;
-
-impl<T> SparseStep<T> for PatternOnly {
-    const AVAILABLE: bool = true;
-    fn new(_: usize, _: &[Block], _: usize) -> Self {
-        PatternOnly
+        NoFactors
     }
     fn factorise<'a>(&mut self, _: impl Iterator<Item = (&'a Block, &'a [T])>, _: &[T], _: f64)
     where

@@ -26,8 +26,7 @@ pub struct Bordered<T: Factorable> {
     sparse: Option<T::Sparse>,
 }
 
-/// Without column exchange pivots may stay well above a lost rank, so elimination is used only if all
-/// are this large.
+/// Elimination is used if all pivots are this large: without column exchange they do not tell the rank.
 const TRUSTED_PIVOT: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
@@ -114,6 +113,23 @@ impl<T: Factorable> Bordered<T> {
         &self.shared
     }
 
+    /// The blocks with their entries: column-major, own columns first, then the shared.
+    pub fn entries(&self) -> impl Iterator<Item = (&Block, &[T])> {
+        self.blocks.iter().map(Factor::entries)
+    }
+
+    /// Every column of every block: its first row, its unknown, its entries.
+    pub fn columns(&self) -> impl Iterator<Item = (usize, usize, &[T])> {
+        let mut next = 0;
+        self.entries().flat_map(move |(block, entries)| {
+            let row = next;
+            next += block.rows;
+            let columns = entries.chunks_exact(block.rows.max(1));
+            let columns = columns.zip(block.unknowns());
+            columns.map(move |(column, unknown)| (row, unknown, column))
+        })
+    }
+
     /// The entries of block `b` for filling in: column-major, own columns first, then the shared.
     #[inline(always)]
     pub fn block_mut(&mut self, b: usize) -> &mut [T] {
@@ -127,8 +143,7 @@ impl<T: Factorable> Bordered<T> {
         }
     }
 
-    /// Factorises the blocks as filled in and then the border; `extra` holds the extra rows, one
-    /// after another over the shared unknowns.
+    /// Factorises the blocks as filled in, then the border; `extra` has the extra rows one after another.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {
         if let Some(sparse) = &mut self.sparse {
             return sparse.factorise(self.blocks.iter().map(Factor::entries), extra, damping);
@@ -162,8 +177,8 @@ impl<T: Factorable> Bordered<T> {
         let mut row = 0;
         for block in &self.blocks {
             let rank = block.qr.rank();
-            for (j, &place) in block.border_places.iter().enumerate() {
-                let left = &block.qr.carried(j)[rank..];
+            for (carried, &place) in block.qr.carried().zip(&block.border_places) {
+                let left = &carried[rank..];
                 self.border.column_mut(place)[row..row + left.len()].copy_from_slice(left);
             }
             row += block.qr.rows() - rank;
@@ -232,7 +247,7 @@ impl<T: Factorable> Bordered<T> {
         for block in self.blocks.iter_mut().filter(with_own) {
             // row by row: there are few of them, often one, and more shared unknowns
             for (k, b) in block.rhs[..block.qr.rank()].iter_mut().enumerate() {
-                for (carried, &place) in block.qr.all_carried().zip(&block.border_places) {
+                for (carried, &place) in block.qr.carried().zip(&block.border_places) {
                     *b = *b - self.border_x[place] * carried[k];
                 }
             }

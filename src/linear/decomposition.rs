@@ -3,8 +3,7 @@ use std::sync::{Arc, OnceLock};
 use super::vectors::orthogonalise;
 use super::{Elimination, Rows, Svd, add, complement, dot, norm, product, rank};
 
-/// The singular value decomposition A = U·Σ·Vᵀ of a dense matrix, cut at the rank tolerance, or what is known of it for
-/// a large one.
+/// The singular value decomposition of a dense matrix, cut at the rank tolerance, or what is known of a large one's.
 ///
 /// Source: Golub and Van Loan, §2.4 and §5.5.
 #[derive(Clone, Debug)]
@@ -17,35 +16,27 @@ pub struct Decomposition {
 
 #[derive(Clone, Debug)]
 enum Found {
-    Spectrum(Spectrum),
+    /// All singular values, with the vectors of those that count.
+    Spectrum(Svd),
     Large(Arc<Large>),
-}
-
-#[derive(Clone, Debug, Default)]
-struct Spectrum {
-    /// All singular values; of a large matrix the largest and the smallest that counts, estimated.
-    values: Vec<f64>,
-    /// The vectors of those that count; of a large matrix those of the smallest.
-    left: Vec<Vec<f64>>,
-    right: Vec<Vec<f64>>,
 }
 
 #[derive(Debug)]
 struct Large {
     elimination: Elimination,
     null_space: Vec<Vec<f64>>,
-    /// Once it is asked for.
-    spectrum: OnceLock<Spectrum>,
+    /// Once it is asked for: the largest value and, estimated, the smallest that counts with its vectors.
+    spectrum: OnceLock<Svd>,
 }
 
 impl Large {
-    fn spectrum(&self) -> Spectrum {
+    fn spectrum(&self) -> Svd {
         if self.elimination.rank() == 0 {
-            return Spectrum::default();
+            return Svd::default();
         }
         let (smallest, v) = self.elimination.smallest(&self.null_space);
         let image = self.elimination.product(&v);
-        Spectrum {
+        Svd {
             values: vec![self.elimination.largest(), smallest],
             left: vec![image.iter().map(|x| x / smallest).collect()],
             right: vec![v],
@@ -81,24 +72,16 @@ impl Decomposition {
     }
 
     fn cut(rows: usize, columns: usize, entries: &[f64], rank: impl Fn(&[f64]) -> usize) -> Self {
-        let Svd {
-            mut left,
-            mut values,
-            mut right,
-        } = Svd::of(rows, columns, entries);
-        values.truncate(rows.min(columns));
-        let rank = rank(&values);
-        left.truncate(rank);
-        right.truncate(rank);
+        let mut svd = Svd::of(rows, columns, entries);
+        svd.values.truncate(rows.min(columns));
+        let rank = rank(&svd.values);
+        svd.left.truncate(rank);
+        svd.right.truncate(rank);
         Decomposition {
             rows,
             columns,
             rank,
-            found: Found::Spectrum(Spectrum {
-                values,
-                left,
-                right,
-            }),
+            found: Found::Spectrum(svd),
         }
     }
 
@@ -109,7 +92,7 @@ impl Decomposition {
         }
     }
 
-    fn spectrum(&self) -> &Spectrum {
+    fn spectrum(&self) -> &Svd {
         match &self.found {
             Found::Spectrum(spectrum) => spectrum,
             Found::Large(large) => large.spectrum.get_or_init(|| large.spectrum()),
@@ -160,12 +143,8 @@ impl Decomposition {
             return large.elimination.solve(b, &large.null_space);
         }
         let mut x = vec![0.0; self.columns];
-        let Spectrum {
-            values,
-            left,
-            right,
-        } = self.spectrum();
-        for ((u, v), value) in left.iter().zip(right).zip(values) {
+        let svd = self.spectrum();
+        for ((u, v), value) in svd.left.iter().zip(&svd.right).zip(&svd.values) {
             add(&mut x, dot(u, b) / value, v);
         }
         x

@@ -1,8 +1,7 @@
-use super::{DenseOnly, PatternOnly, SparseStep};
+use super::{DenseOnly, NoFactors, SparseStep};
 use crate::number::{Complex, Dual, Field, Interval, Lanes};
 
-/// A number for which least-squares steps can be computed, with its way to do so when the matrix is
-/// large and sparse.
+/// A number for which least-squares steps are computed, with its way to do so for large, sparse matrices.
 pub trait Factorable: Field {
     /// The sparse factorisation.
     type Sparse: SparseStep<Self>;
@@ -23,7 +22,7 @@ impl Factorable for Complex<f64> {
 }
 
 impl<T: Field> Factorable for Dual<T> {
-    type Sparse = PatternOnly;
+    type Sparse = NoFactors<true>;
 }
 
 impl Factorable for Interval {

@@ -72,21 +72,14 @@ impl<T: Field> Qr<T> {
         &mut self.entries[j * self.rows..(j + 1) * self.rows]
     }
 
-    /// The carried column `j`, after factorisation QᴴB.
+    /// The carried columns in order, after factorisation QᴴB.
     #[inline(always)]
-    pub fn carried(&self, j: usize) -> &[T] {
-        self.column(self.pivots + j)
-    }
-
-    /// All carried columns in order.
-    #[inline(always)]
-    pub(super) fn all_carried(&self) -> impl Iterator<Item = &[T]> {
+    pub(super) fn carried(&self) -> impl Iterator<Item = &[T]> {
         let used = &self.entries[..self.rows * self.columns];
         used[self.pivots * self.rows..].chunks_exact(self.rows.max(1))
     }
 
-    /// Factorises in place. A pivot below the rank tolerance times `reference` (or times the
-    /// largest pivot, if that is larger) ends it. Returns the largest pivot.
+    /// Factorises in place until pivots are lost beside `reference` or the largest pivot, which it returns.
     pub fn factorise(&mut self, reference: f64) -> f64 {
         // the sizes of one closure, of a planar loop and of one platform, known to the compiler: three times as fast
         match (self.rows, self.pivots) {
@@ -203,8 +196,7 @@ impl<T: Field> Qr<T> {
         }
     }
 
-    /// Solves R x = b for rotated `b`; unknowns beyond the rank are zero. `x` is in the original
-    /// order of the columns.
+    /// Solves R x = b for rotated `b`, in the original order of the columns; unknowns beyond the rank are zero.
     #[inline]
     pub fn back_substitute(&self, b: &mut [T], x: &mut [T]) {
         for place in self.rank..self.pivots {

@@ -24,20 +24,13 @@ pub struct SparseNormal<T> {
     damping: f64,
 }
 
-impl Block {
-    /// The unknowns of the block's columns, in their order.
-    pub(super) fn columns(&self) -> impl Iterator<Item = usize> + Clone + '_ {
-        self.own.iter().chain(&self.shared).copied()
-    }
-}
-
 impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     const AVAILABLE: bool = true;
 
     fn new(size: usize, blocks: &[Block], extra_rows: usize) -> Self {
         let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
         for block in blocks {
-            pairs.extend(lower(block.columns()).map(|(_, pair)| pair));
+            pairs.extend(lower(block.unknowns()).map(|(_, pair)| pair));
         }
         if extra_rows > 0 {
             pairs.extend(lower(0..size).map(|(_, pair)| pair));
@@ -73,7 +66,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         self.damping = damping;
         for (block, entries) in blocks {
             let column = |j: usize| &entries[j * block.rows..(j + 1) * block.rows];
-            let places = lower(block.columns());
+            let places = lower(block.unknowns());
             self.values
                 .extend(places.map(|([i, j], _)| inner(column(i), column(j))));
         }
@@ -87,8 +80,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
                 .extend(lower(0..size).map(|([i, j], _)| product(i, j)));
         }
         let largest = self.values.iter().fold(1.0, |m: f64, x| m.max(x.real()));
-        // a freedom that is left makes JᴴJ singular; the least addition that lets the factorisation
-        // through keeps the step short along it
+        // a freedom left makes JᴴJ singular: the least addition that can be factorised keeps the step short along it
         let mut floor = damping;
         loop {
             let filled = self.values.len();
@@ -123,7 +115,11 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
             let mut row = 0;
             for (block, entries) in blocks() {
                 let mut left = r[row..row + block.rows].to_vec();
-                let columns = || block.columns().zip(entries.chunks_exact(block.rows.max(1)));
+                let columns = || {
+                    block
+                        .unknowns()
+                        .zip(entries.chunks_exact(block.rows.max(1)))
+                };
                 for (unknown, column) in columns() {
                     for (left, entry) in left.iter_mut().zip(column) {
                         *left += *entry * x[unknown];

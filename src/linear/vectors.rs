@@ -24,8 +24,7 @@ pub fn product(entries: &[f64], rows: usize, x: &[f64]) -> Vec<f64> {
     product
 }
 
-/// Orthonormal basis of what the given vectors span, leaving out what is within the tolerance of
-/// depending on the others.
+/// Orthonormal basis of what vectors span, without those that depend on the others within the tolerance.
 pub fn orthonormal(vectors: &[Vec<f64>], tolerance: f64) -> Vec<Vec<f64>> {
     let mut left: Vec<Vec<f64>> = vectors.to_vec();
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -79,8 +78,7 @@ pub fn remove(vector: &mut [f64], basis: &[Vec<f64>]) {
     }
 }
 
-/// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958); `turned` gets each pair with cosine and
-/// sine.
+/// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958), of each of which `turned` is told.
 pub(super) fn orthogonalise(
     length: usize,
     vectors: &mut [f64],

@@ -1,13 +1,10 @@
-//! Independent pieces of work on all cores or one after another, with the same results in the same
-//! order.
+//! Independent pieces of work on all cores or one after another, with the same results in the same order.
 
-#[cfg(feature = "parallel")]
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// `f(storage, i)` for `i` below `count`; storage is cloned for each thread and must not carry
 /// anything from one piece to the next.
-#[cfg(feature = "parallel")]
 pub fn each<S, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R>
 where
     S: Clone + Send + Sync,
@@ -32,32 +29,26 @@ where
 }
 
 /// The number of the next piece of work, until none is left.
-#[cfg(feature = "parallel")]
 type Next<'a> = dyn Fn() -> Option<usize> + 'a;
 
 /// Runs `work` on every thread; each asks for the next piece until none of `count` is left.
 ///
 /// Not generic: rayon's parallel iterators in each of some sixty places took a twentieth of the compile time.
-#[cfg(feature = "parallel")]
 fn share(count: usize, work: &(dyn Fn(&Next) + Sync)) {
     let taken = AtomicUsize::new(0);
     let next = || {
         let i = taken.fetch_add(1, Ordering::Relaxed);
         (i < count).then_some(i)
     };
+    #[cfg(feature = "parallel")]
     rayon::scope(|scope| {
         for _ in 1..rayon::current_num_threads().min(count) {
             scope.spawn(|_| work(&next));
         }
         work(&next);
     });
-}
-
-/// `f(storage, i)` for `i` below `count`, one after another.
-#[cfg(not(feature = "parallel"))]
-pub fn each<S: Clone, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R) -> Vec<R> {
-    let mut storage = storage.clone();
-    (0..count).map(|i| f(&mut storage, i)).collect()
+    #[cfg(not(feature = "parallel"))]
+    work(&next);
 }
 
 /// Storage that is cloned once for each thread at work and kept from call to call.
