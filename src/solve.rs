@@ -46,8 +46,7 @@ pub trait Equations {
     fn linearise(&self, at: &Self::Point, work: &mut Self::Work) -> Size;
     /// Factorises the Jacobian last evaluated, with rows √λ·I added.
     fn factorise(&self, damping: f64, work: &mut Self::Work);
-    /// The step −J⁺r for the residual last evaluated; returns its largest component, which
-    /// is infinite where a component is not finite.
+    /// The step −J⁺r for the residual last evaluated; returns its largest component, infinite if one is not finite.
     fn step(&self, work: &mut Self::Work) -> f64;
     /// The last step in tangent coordinates, to be read or to be replaced by another move.
     fn step_mut<'a>(&self, work: &'a mut Self::Work) -> &'a mut [Self::Number];

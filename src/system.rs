@@ -22,8 +22,8 @@ pub use curve::{
 };
 pub(crate) use enclosure::Enclosure;
 pub use equations::{
-    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, Places, Spin, System,
-    Unknown, Work, approach, independent_parts,
+    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,
+    System, Unknown, Work, approach, independent_parts,
 };
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};

@@ -349,15 +349,10 @@ fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
     let home = mechanism.home();
     let mut held = held.clone();
     for (held, pose) in held.platforms.iter_mut().zip(&home.platforms) {
-        if let HeldPlatform::Partly {
-            coordinates,
-            orientation,
-            ..
-        } = held
-        {
+        if let HeldPlatform::Partly(parts) = held {
             let pose = pose.pose();
-            (coordinates.iter_mut()).for_each(|(c, value)| *value = c.of(&pose));
-            *orientation = orientation.map(|_| pose.rotation);
+            (parts.coordinates.iter_mut()).for_each(|(c, value)| *value = c.of(&pose));
+            parts.orientation = parts.orientation.map(|_| pose.rotation);
         }
     }
     held

@@ -247,7 +247,7 @@ fn idle_freedoms(
         for (unknown, _) in turning {
             let names = match unknown {
                 Unknown::Joint(_) => &mut joints,
-                Unknown::Twist { .. } => &mut platforms,
+                Unknown::Twist(..) => &mut platforms,
             };
             names.push(unknown.owner(mechanism).to_owned());
         }

@@ -195,16 +195,9 @@ impl<'a> Plan<'a> {
         };
         let mut holding = self.held.map(T::from_f64);
         for (platform, part) in holding.platforms.iter_mut().enumerate() {
-            if let HeldPlatform::Partly {
-                coordinates,
-                orientation,
-                ..
-            } = part
-            {
-                coordinates
-                    .iter_mut()
-                    .for_each(|(c, target)| *target = held(platform, *c));
-                if let Some(orientation) = orientation {
+            if let HeldPlatform::Partly(parts) = part {
+                (parts.coordinates.iter_mut()).for_each(|(c, target)| *target = held(platform, *c));
+                if let Some(orientation) = &mut parts.orientation {
                     *orientation = angles(platform).rotation();
                 }
             }
@@ -266,7 +259,7 @@ impl<'a> Plan<'a> {
         system.linearise(&at, &mut work);
         let residual = system.residual_of(&work).to_vec();
         let (rows, unknowns) = (system.rows(), system.unknowns().len());
-        let jacobian = system.dense_jacobian(&mut work);
+        let jacobian = system.dense_jacobian(&work);
         // rows that vanish whatever the unknowns are say nothing
         let open: Vec<usize> = (0..rows)
             .filter(|&row| residual[row].constant() != Some(0.0))
@@ -359,16 +352,13 @@ impl<'a> Plan<'a> {
                     Unknown::Joint(joint) => {
                         at.joints[joint] += rate(i).scale(system.joint_scale(joint));
                     }
-                    Unknown::Twist {
-                        platform,
-                        component: 0,
-                    } => {
+                    Unknown::Twist(platform, 0) => {
                         let omega = Vector3([rate(i), rate(i + 1), rate(i + 2)]);
                         let shift = Vector3([rate(i + 3), rate(i + 4), rate(i + 5)]);
                         let shift = shift.scaled(system.characteristic_length());
                         at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
                     }
-                    Unknown::Twist { .. } => {}
+                    Unknown::Twist(..) => {}
                 }
             }
             kinematics.place(&at, &mut placement);

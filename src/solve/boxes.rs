@@ -34,8 +34,7 @@ pub struct Pruning {
     pub most_boxes: usize,
     /// Boxes with no side longer than this are not halved, in rad or characteristic lengths.
     pub least_side: f64,
-    /// Boxes that are too small to be halved, after which the search ends: about a set of infinitely many solutions
-    /// there is no end of them.
+    /// Boxes too small to be halved after which the search ends: about a set of solutions there is no end of them.
     pub most_left: usize,
 }
 
@@ -88,8 +87,7 @@ pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> 
     None
 }
 
-/// Whether a box holds exactly one zero of the preconditioned rows; where constants of the rows are intervals, for each
-/// value in them.
+/// Whether a box holds exactly one zero of the preconditioned rows, for each value of constants that are intervals.
 pub fn holds_one<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) -> bool {
     // without unknowns there is nothing to choose
     contracted(conditions, sides, work).is_some_and(|step| step.one || sides.is_empty())
@@ -119,8 +117,7 @@ pub fn nearest<C: Conditions>(
     None
 }
 
-/// Looks for zeros in `domain` outside of `regions`, boxes of which each is known to hold one zero at most. Unknowns
-/// with a period are the same after it.
+/// Looks for zeros in `domain` outside of `regions`, which hold one zero at most; unknowns may have periods.
 pub fn prune<C: Conditions>(
     conditions: &C,
     domain: Sides,

@@ -1,6 +1,6 @@
 //! Points where branches of a curve of solutions cross: there the Jacobian loses rank.
 
-use super::continuation::{Continuation, Place, SolutionCurve};
+use super::continuation::{Continuation, Place, SolutionCurve, back};
 use crate::linear::{
     BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, add, dot, norm, product,
 };
@@ -14,14 +14,12 @@ pub struct BranchPoint<P> {
     pub freedoms: usize,
     /// Unit tangents of the branches that pass, each once; none if no branch could be distinguished.
     pub directions: Vec<Vec<f64>>,
-    /// Whether nothing passes: no direction leads on even to second order, and no other solution
-    /// is near.
+    /// Whether nothing passes: no direction leads on to second order, and no other solution is near.
     pub isolated: bool,
 }
 
 impl<P> BranchPoint<P> {
-    /// The direction of the branch that goes straight on along a tangent, if the point lies ahead:
-    /// `step` leads to it from the place with that tangent.
+    /// The direction of the branch straight on along the tangent at a place from which `step` leads here, if ahead.
     pub fn straight_on(&self, step: &[f64], tangent: &[f64]) -> Option<Vec<f64>> {
         if dot(step, tangent) < 0.9 * norm(step) {
             return None;
@@ -101,8 +99,7 @@ impl Continuation {
                 }
             }
             let augmented = decomposed(&matrix, unknowns);
-            let mut step = augmented.solve(&wanted);
-            step.iter_mut().for_each(|x| *x = -*x);
+            let step = back(&augmented, &wanted);
             let size = norm(&step);
             let largest = residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
             let there = largest <= self.tolerance
@@ -151,8 +148,7 @@ impl Continuation {
         }
     }
 
-    /// A regular place a little way from a branch point along one of its directions, with the
-    /// distance to it. `None` if no branch leaves that way.
+    /// A regular place a little way along one of a branch point's directions, with the distance, if one is there.
     pub fn leave<C: SolutionCurve>(
         &self,
         curve: &mut C,
@@ -181,8 +177,7 @@ impl Continuation {
 }
 
 impl<P: Clone> BranchPoint<P> {
-    /// The point as a place of the branch along one of its directions, for bracketing only: its
-    /// Jacobian is singular.
+    /// The point as a place of the branch along a direction: for bracketing only, as its Jacobian is singular.
     pub fn place<C: SolutionCurve<Point = P>>(&self, curve: &mut C, direction: &[f64]) -> Place<P> {
         let (residual, jacobian) = curve.linearise(&self.at);
         let (rows, unknowns) = (residual.len(), direction.len());
@@ -249,8 +244,7 @@ fn forms<C: SolutionCurve>(
     forms
 }
 
-/// Unit vectors on which all quadratic forms vanish, each once up to its sign, where they are
-/// isolated: Newton's method from points spread over the sphere.
+/// Isolated unit vectors on which all forms vanish, up to their sign: Newton's method from all over the sphere.
 fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
     let largest = forms.iter().map(|form| norm(form)).fold(0.0, f64::max);
     let counts = |form: &&Vec<f64>| norm(form) > RANK_TOLERANCE.max(BESIDE_A_CROSSING * largest);

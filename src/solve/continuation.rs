@@ -80,8 +80,7 @@ impl<P> Place<P> {
         self.least() < BESIDE_A_CROSSING * self.largest()
     }
 
-    /// Whether branches cross here: only a [`BranchPoint`](super::BranchPoint) gives such a place,
-    /// located to rounding.
+    /// Whether branches cross here, as at the places of a [`BranchPoint`](super::BranchPoint), located to rounding.
     pub fn is_singular(&self) -> bool {
         self.least() <= SINGULAR_PLACE * self.largest()
     }
@@ -269,8 +268,7 @@ impl Continuation {
         Some(place.towards(&from.tangent))
     }
 
-    /// A place near the one at a distance along the tangent, by Newton steps: along many loops in a row simplified ones
-    /// contract for the shortest steps only.
+    /// A place near the one at a distance along the tangent, by full Newton steps: others hardly contract there.
     fn settled_ahead<C: SolutionCurve>(
         &self,
         curve: &mut C,
@@ -392,8 +390,7 @@ impl Continuation {
         best.1
     }
 
-    /// A length for the next step, from that of the last and how much the Jacobian changed along it. With many unknowns
-    /// the one that moves fastest keeps to the longest step.
+    /// A length for the next step from that of the last and the change along it; of many unknowns the fastest counts.
     pub fn next_length<P>(&self, length: f64, changed: f64, from: &Place<P>) -> f64 {
         let wanted = 0.7 * self.change / changed.max(1e-3);
         let fastest = match from.decomposition.groups() {
@@ -444,7 +441,7 @@ fn group_change(before: &Rows, after: &Rows) -> Option<f64> {
 }
 
 /// −J⁺r.
-fn back(decomposition: &Decomposition, residual: &[f64]) -> Vec<f64> {
+pub(super) fn back(decomposition: &Decomposition, residual: &[f64]) -> Vec<f64> {
     let mut step = decomposition.solve(residual);
     step.iter_mut().for_each(|x| *x = -*x);
     step

@@ -29,8 +29,7 @@ pub trait Homotopy {
 /// How carefully to follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracker {
-    /// The size of correction to aim at after a prediction. Smaller is safer and slower: a tenth
-    /// costs 1.6 times the steps.
+    /// The correction to aim at after a prediction. Smaller is safer and slower: a tenth costs 1.6 times the steps.
     pub correction: f64,
     /// A second correction must be smaller than the first by this factor.
     pub contraction: f64,
@@ -126,8 +125,7 @@ fn shifted<H: Homotopy>(h: &H, x: &[C], terms: &[(C, &Vec<C>)], out: &mut [C]) {
 }
 
 impl Tracker {
-    /// Follows `x` from `from` along the straight way to `to`. On failure, and when it is stopped, `x`
-    /// is the last point that could be trusted.
+    /// Follows `x` along the straight way `from`–`to`; on failure or when stopped, up to the last point to be trusted.
     pub fn track<H: Homotopy>(
         &self,
         h: &mut H,

@@ -12,8 +12,7 @@ struct Smooth<'a, C, G> {
     evaluations: Cell<usize>,
 }
 
-/// A line search on values dominated by rounding may never end; a hundred steps take a few hundred
-/// evaluations.
+/// A line search among rounding errors may never end; a hundred steps take a few hundred evaluations.
 const MOST_EVALUATIONS: usize = 2000;
 
 impl<C: Fn(&[f64]) -> f64, G> CostFunction for Smooth<'_, C, G> {

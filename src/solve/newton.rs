@@ -5,13 +5,11 @@ use super::{Equations, Size};
 /// redundant rows or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Newton {
-    /// A point is a solution when no dimensionless row exceeds this. Coordinates of order one carry
-    /// rounding errors of some 1e-16, so 1e-12 leaves room for long chains.
+    /// A point is a solution when no dimensionless row exceeds this: rounding of about 1e-16 adds up along chains.
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,
-    /// The longest step in any unknown, in rad or characteristic lengths: a linearised rotation is no use
-    /// beyond about 1 rad.
+    /// The longest step in any unknown, in rad or characteristic lengths: no rotation is linear beyond about 1 rad.
     pub longest_step: f64,
     /// The first damping tried after a failed step.
     pub first_damping: f64,
@@ -82,11 +80,9 @@ impl Newton {
                 return report(Stop::Minimum, steps + 1, size);
             }
         }
-        let solved = size.largest <= self.tolerance;
-        let stop = if solved {
-            Stop::Solved
-        } else {
-            Stop::StepLimit
+        let stop = match size.largest <= self.tolerance {
+            true => Stop::Solved,
+            false => Stop::StepLimit,
         };
         report(stop, self.max_steps, size)
     }
@@ -132,8 +128,7 @@ impl Newton {
         }
     }
 
-    /// Further steps while they reduce the residual: one at a regular solution, about a dozen at a double
-    /// one, which distinguishes it from a badly conditioned regular one.
+    /// Further steps while they reduce the residual: one at a regular solution, about a dozen at a double one.
     fn polish<E: Equations>(
         &self,
         equations: &E,

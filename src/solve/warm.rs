@@ -12,11 +12,9 @@ pub struct Warm {
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,
-    /// A step must multiply the residual by less than this, or the Jacobian is renewed, which costs as
-    /// much as one to three steps.
+    /// A step must multiply the residual by less than this, or the Jacobian is renewed, which costs one to three steps.
     pub contraction: f64,
-    /// The longest step in any unknown, in rad or characteristic lengths. A longer one means that
-    /// the guess was not nearly right, and that another branch may be nearer than the one followed.
+    /// The longest step in any unknown, in rad or characteristic lengths: longer ones may lead to another branch.
     pub longest_step: f64,
     /// The highest order of extrapolation, at most 5; 0 starts from the last solution.
     pub extrapolation: usize,
@@ -50,8 +48,7 @@ pub struct WarmReport {
 /// Orders of extrapolation: none, constant moves, moves that change linearly, quadratically and so on.
 const ORDERS: usize = 6;
 
-/// A step that reaches the tolerance but gains no more than this was made with a Jacobian too old to say what is
-/// left to the solution.
+/// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell what is left.
 const STALE: f64 = 1e-2;
 
 /// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, …,

@@ -114,8 +114,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Passes on how far the work is; whether it goes on. Once stopped it stays stopped, and the observer is not called
-    /// again.
+    /// Passes on how far the work is, unless it was stopped before; whether it goes on.
     #[inline]
     pub fn at(&self, now: Progress) -> ControlFlow<()> {
         let Some(observer) = self.observer else {

@@ -10,11 +10,11 @@ pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, se
 pub use tracker::MotionTracker;
 pub use walk::{Event, Monitor, Segment, Walk};
 
-use super::equations::{Places, System, Work};
+use super::equations::{System, Work};
 use crate::linear::Rows;
-use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, PoseCoordinate, turn_near};
+use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
-use crate::system::{Coordinate, Held, HeldPlatform, Unknown};
+use crate::system::{Coordinate, Held, HeldParts, HeldPlatform, Unknown};
 
 /// A coordinate that moves along a segment, in m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,6 @@ pub struct Curve {
     /// The input that measures the part of the segment that is gone.
     measure: usize,
     repeats: Vec<bool>,
-    places: Places,
 }
 
 impl Curve {
@@ -89,7 +88,6 @@ impl Curve {
             .unwrap_or(0);
         Curve {
             work: system.work(),
-            places: Places::new(system.unknowns()),
             system,
             inputs,
             measure,
@@ -175,8 +173,7 @@ impl Curve {
         })
     }
 
-    /// How fast a coordinate changes along a tangent, in rad or characteristic lengths; 0 if it is
-    /// held.
+    /// How fast a coordinate changes along a tangent, in rad or characteristic lengths; 0 if it is held.
     pub fn rate(&self, at: &Configuration<f64>, tangent: &[f64], of: Coordinate) -> f64 {
         let slope = of.slope_in(&self.system, at);
         slope
@@ -187,7 +184,7 @@ impl Curve {
 
     /// Whether a tangent moves the joint more than rounding does, and where it stands in it.
     pub fn column(&self, joint: usize) -> Option<usize> {
-        self.places.of(Unknown::Joint(joint))
+        self.system.place_of(Unknown::Joint(joint))
     }
 
     /// rad or m in one unit of the scaled coordinate.
@@ -246,22 +243,18 @@ impl Curve {
                     let change = to.joints[joint] - from.at.joints[joint];
                     take(i, change / self.system.joint_scale(joint));
                 }
-                Unknown::Twist {
-                    platform,
-                    component: 0,
-                } => {
+                Unknown::Twist(platform, 0) => {
                     let (a, b) = (&from.at.platforms[platform], &to.platforms[platform]);
                     let twist = self.system.twist_between(a, b);
                     (twist.into_iter().enumerate()).for_each(|(k, x)| take(i + k, x));
                 }
-                Unknown::Twist { .. } => {}
+                Unknown::Twist(..) => {}
             }
         }
         (along, (squares - along * along).max(0.0).sqrt())
     }
 
-    /// The step from one configuration to another with whole turns left out, where they change
-    /// nothing.
+    /// The step from one configuration to another without whole turns that change nothing.
     pub fn difference_but_turns(
         &self,
         from: &Configuration<f64>,
@@ -309,7 +302,7 @@ impl SolutionCurve for Curve {
     fn linearise(&mut self, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
         self.system.linearise(at, &mut self.work);
         let mut residual = self.system.residual_of(&self.work).to_vec();
-        let jacobian = self.system.dense_jacobian(&mut self.work);
+        let jacobian = self.system.dense_jacobian(&self.work);
         if self.inputs.len() < 2 {
             return (residual, jacobian);
         }
@@ -335,7 +328,7 @@ impl SolutionCurve for Curve {
         }
         self.system.linearise(at, &mut self.work);
         let mut residual = self.system.residual_of(&self.work).to_vec();
-        let mut groups = self.system.jacobian_rows(&mut self.work);
+        let mut groups = self.system.jacobian_rows(&self.work);
         for (gap, slope) in self.ties(at) {
             residual.push(gap);
             groups.push(Rows::single(slope));
@@ -358,16 +351,11 @@ impl Held<f64> {
         match coordinate {
             Coordinate::Joint(joint) => self.joints[joint] = false,
             Coordinate::Pose(platform, without) => {
-                let part = &mut self.platforms[platform];
-                if let HeldPlatform::Partly {
-                    coordinates,
-                    orientation,
-                    spins,
-                } = part
-                {
-                    coordinates.retain(|(c, _): &(PoseCoordinate, f64)| *c != without);
-                    if coordinates.is_empty() && orientation.is_none() && spins.is_empty() {
-                        *part = HeldPlatform::Free;
+                let held = &mut self.platforms[platform];
+                if let HeldPlatform::Partly(parts) = held {
+                    parts.coordinates.retain(|(c, _)| *c != without);
+                    if *parts == HeldParts::default() {
+                        *held = HeldPlatform::Free;
                     }
                 }
             }

@@ -79,8 +79,7 @@ pub(crate) struct Space {
 }
 
 impl Enclosure {
-    /// Of a mechanism without platforms, with what is held of frames of it; `held` has the values of joints that are
-    /// known.
+    /// Of a mechanism without platforms, with what is held of its frames and the values of known joints.
     pub fn new(
         dimensions: &Dimensions<Interval>,
         holds: &[(Frame, HoldRow<Interval>)],
@@ -174,8 +173,7 @@ impl Enclosure {
         &self.scales
     }
 
-    /// For each closure that joins two points at a given distance, mostly none: the sum of all fixed lengths between
-    /// them, and the slides with the length for a unit of each.
+    /// For each closure that joins two points: the sum of fixed lengths between them, and slides with lengths per unit.
     pub fn reaches(&self) -> impl Iterator<Item = (f64, Vec<(usize, f64)>)> {
         self.conditions.iter().filter_map(|condition| {
             let What::Closure(kind, length, extension) = &condition.what else {

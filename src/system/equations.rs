@@ -16,7 +16,7 @@ pub use approach::approach;
 pub use axes::ClosureAxes;
 pub use closure_gap::Gap;
 pub use coordinate::Coordinate;
-pub use layout::{Held, HeldPlatform, Places, Unknown};
+pub use layout::{Held, HeldParts, HeldPlatform, Places, Unknown};
 pub use parts::independent_parts;
 pub use settle::{settle, solve};
 pub use spin::Spin;
@@ -45,10 +45,7 @@ pub struct System<T: Factorable> {
     closures: Vec<Closure<T>>,
     plans: Vec<ClosurePlan<T>>,
     unknowns: Vec<Unknown>,
-    /// Which unknown each joint is, if it is one.
-    joint_unknowns: Vec<Option<usize>>,
-    /// The unknown that is the first component of each platform's twist.
-    first_twists: Vec<Option<usize>>,
+    places: Places,
     joint_scales: Vec<f64>,
     length: f64,
     holds: Vec<HoldRow<T>>,
@@ -72,8 +69,8 @@ impl<T: Factorable> System<T> {
         System::keeping(dimensions, held, &all, &[])
     }
 
-    /// The same without the rows that vanish in every configuration of the mechanism, as those across the plane of a
-    /// planar loop: all that iterations need. What counts rows or assigns forces to them needs all.
+    /// The same without rows that vanish everywhere, as those across the plane of a loop: all that iterations need.
+    /// What counts rows or assigns forces to them needs all.
     pub fn reduced(mechanism: &Mechanism, dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
         System::placing(mechanism, dimensions, held, &[])
     }
@@ -127,8 +124,7 @@ impl<T: Factorable> System<T> {
                 layout.shared,
             ),
             unknowns: layout.unknowns,
-            joint_unknowns: layout.joint_unknowns,
-            first_twists: layout.first_twists,
+            places: layout.places_of_unknowns,
             holds,
         }
     }
@@ -197,6 +193,12 @@ impl<T: Factorable> System<T> {
         &self.unknowns
     }
 
+    /// The place of an unknown among them, if it is one.
+    #[inline]
+    pub fn place_of(&self, unknown: Unknown) -> Option<usize> {
+        self.places.of(unknown)
+    }
+
     /// The natural size of a joint's variable: 1 rad, or the characteristic length in m.
     pub fn joint_scale(&self, joint: usize) -> f64 {
         self.joint_scales[joint]
@@ -252,18 +254,11 @@ impl<T: Factorable> System<T> {
     }
 
     /// The Jacobian last evaluated, dense and column-major, rows × unknowns.
-    pub fn dense_jacobian(&self, work: &mut Work<T>) -> Vec<T> {
-        let rows = self.rows();
+    pub fn dense_jacobian(&self, work: &Work<T>) -> Vec<T> {
+        let (rows, row) = (self.rows(), self.hold_rows().start);
         let mut dense = vec![T::zero(); rows * self.unknowns.len()];
-        let mut row = 0;
-        for (b, block) in self.empty.blocks().enumerate() {
-            let entries = work.jacobian.block_mut(b);
-            let unknowns = block.own.iter().chain(&block.shared);
-            for (column, &unknown) in entries.chunks_exact(block.rows.max(1)).zip(unknowns) {
-                let start = unknown * rows + row;
-                dense[start..start + block.rows].copy_from_slice(column);
-            }
-            row += block.rows;
+        for (row, unknown, column) in work.jacobian.columns() {
+            dense[unknown * rows + row..][..column.len()].copy_from_slice(column);
         }
         let shared = self.empty.shared();
         for (i, entries) in work.hold_rows.chunks_exact(shared.len().max(1)).enumerate() {
@@ -276,10 +271,9 @@ impl<T: Factorable> System<T> {
 
     fn hold_residuals(&self, at: &Configuration<T>, work: &mut Work<T>) {
         let width = self.empty.shared().len();
-        let first = self.rows() - self.empty.extra_rows();
+        let first = self.hold_rows().start;
         let twist_place = |platform| {
-            let twist = Unknown::first_twist(platform);
-            let unknown = self.unknowns.iter().position(|u| *u == twist);
+            let unknown = self.place_of(Unknown::first_twist(platform));
             unknown.expect("a partly held platform is unknown") - self.empty.shared()[0]
         };
         let mut row = 0;
@@ -351,17 +345,10 @@ impl<T: Factorable> System<T> {
 pub(crate) fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
     let mut rows = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {
-        if let HeldPlatform::Partly {
-            coordinates,
-            orientation,
-            spins,
-        } = held
-        {
-            let single = coordinates.iter();
-            rows.extend(single.map(|&(c, value)| HoldRow::Coordinate(platform, c, value)));
-            rows.extend(orientation.map(|wanted| HoldRow::Orientation(platform, wanted)));
-            rows.extend(spins.iter().copied().map(HoldRow::Spin));
-        }
+        let single = held.coordinates().iter();
+        rows.extend(single.map(|&(c, value)| HoldRow::Coordinate(platform, c, value)));
+        rows.extend((held.orientation()).map(|wanted| HoldRow::Orientation(platform, wanted)));
+        rows.extend(held.spins().iter().copied().map(HoldRow::Spin));
     }
     rows
 }
@@ -465,7 +452,7 @@ mod tests {
                 let mut work = system.work();
                 system.linearise(at, &mut work);
                 let mut all = vec![rows(system, system.residual_of(&work))];
-                let jacobian = system.dense_jacobian(&mut work);
+                let jacobian = system.dense_jacobian(&work);
                 all.extend(
                     jacobian
                         .chunks_exact(system.rows().max(1))

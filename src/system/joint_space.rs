@@ -74,7 +74,7 @@ impl JointSpace {
         });
         let poses: Vec<Option<Pose<Interval>>> = poses.collect();
         let watched: Vec<bool> = parts()
-            .map(|(_, part)| matches!(part, HeldPlatform::Partly { .. }))
+            .map(|(_, part)| matches!(part, HeldPlatform::Partly(_)))
             .collect();
         let free: Vec<bool> = held.joints.iter().map(|held| !held).collect();
         let recut = dimensions.recut(&poses, &watched, &free);

@@ -26,7 +26,7 @@ use crate::description::Role;
 use crate::geometry::Pose;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate, Value};
-use crate::system::{Coordinate, Held, HeldPlatform};
+use crate::system::{Coordinate, Held, HeldParts, HeldPlatform};
 use demand::Target;
 
 /// A question about a mechanism: which coordinates are held at which values, and where to start.
@@ -246,18 +246,17 @@ impl<'a> Question<'a> {
                 0 => HeldPlatform::Free,
                 6 => HeldPlatform::Pose,
                 // three angles at once are an orientation, which has no gimbal lock
-                _ if angles == 3 => HeldPlatform::Partly {
+                _ if angles == 3 => HeldPlatform::Partly(HeldParts {
                     orientation: Some(
                         with_coordinates(&Pose::identity(), given.iter().copied()).rotation,
                     ),
                     coordinates: given.into_iter().filter(|(c, _)| !c.is_angle()).collect(),
-                    spins: Vec::new(),
-                },
-                _ => HeldPlatform::Partly {
+                    ..HeldParts::default()
+                }),
+                _ => HeldPlatform::Partly(HeldParts {
                     coordinates: given,
-                    orientation: None,
-                    spins: Vec::new(),
-                },
+                    ..HeldParts::default()
+                }),
             }
         });
         self.with_still(Held {

@@ -45,8 +45,7 @@ impl Searched {
     }
 }
 
-/// Searches for the assembled configuration of a question. Every analysis that begins with one
-/// uses this search, so that all analyses are about the same configuration.
+/// The search for the assembled configuration of a question: one for all analyses, so that all mean the same.
 pub struct Search<'a> {
     pub(super) question: &'a Question<'a>,
     pub(super) mechanism: &'a Mechanism,
@@ -162,7 +161,7 @@ impl<'a> Search<'a> {
             return None;
         }
         self.system.linearise(&attempt.at, &mut self.work);
-        if self.system.nullity(RANK_TOLERANCE, &mut self.work) > 0 {
+        if self.system.nullity(RANK_TOLERANCE, &self.work) > 0 {
             return None;
         }
         let held = joints.filter(|(_, held)| **held).count();
@@ -195,8 +194,7 @@ impl<'a> Search<'a> {
         Attempt { at, report }
     }
 
-    /// The start of the question. When it is not home, what has no guess of its own is first
-    /// brought to where it suits the rest best.
+    /// The start of the question; when that is not home, what has no guess of its own is brought to suit the rest.
     fn guess(&self) -> Configuration<f64> {
         let start = self.question.start();
         if !self.question.differs_from_home() {
@@ -212,8 +210,7 @@ impl<'a> Search<'a> {
         self.fit(start, joints, self.question.guessed_platforms())
     }
 
-    /// Brings what is not fixed as near to closing as it can come: the formulation decides success more
-    /// than the method, and a platform that fits its legs is a far better guess than one that does not.
+    /// Brings what is not fixed as near to closing as it can come: a platform that fits its legs is a far better guess.
     fn fit(
         &self,
         start: Configuration<f64>,
@@ -252,8 +249,7 @@ impl<'a> Search<'a> {
         self.fit(at, joints, &vec![false; self.held.platforms.len()])
     }
 
-    /// Passive turns found by a long search come back to (−π, π], or into their limits, or to the turn
-    /// that was guessed.
+    /// Brings passive turns back to (−π, π], into their limits, or to the turn that was guessed.
     fn normalise_angles(&self, at: &mut Configuration<f64>) {
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
             if self.held.joints[i] || !self.mechanism.repeats(i) {

@@ -8,7 +8,7 @@ use linkwork::geometry::{Axis, Pose, Quaternion, RollPitchYaw, Rotation, Vector3
 use linkwork::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use linkwork::number::Dual;
 use linkwork::solve::{Equations, Newton, Stop};
-use linkwork::system::{Freedoms, Held, HeldPlatform, System};
+use linkwork::system::{Freedoms, Held, HeldParts, HeldPlatform, System};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -269,7 +269,7 @@ fn leftover(system: &System<f64>, at: &Configuration<f64>) -> f64 {
     system.linearise(at, &mut work);
     let residual = DVector::from_column_slice(system.residual_of(&work));
     let (rows, columns) = (system.rows(), system.unknowns().len());
-    let jacobian = DMatrix::from_vec(rows, columns, system.dense_jacobian(&mut work));
+    let jacobian = DMatrix::from_vec(rows, columns, system.dense_jacobian(&work));
     let step = jacobian
         .clone()
         .svd(true, true)
@@ -358,18 +358,18 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
             }
             let held = Held {
                 joints: vec![],
-                platforms: vec![HeldPlatform::Partly {
+                platforms: vec![HeldPlatform::Partly(HeldParts {
                     coordinates: coordinates.clone(),
                     orientation: Some(wanted),
                     spins: vec![],
-                }],
+                })],
             };
             let system = System::new(dimensions, &held);
             let rows = system.rows();
             prop_assert_eq!(rows, 1 + 6 + 3);
             let mut work = system.work();
             system.linearise(&at, &mut work);
-            let jacobian = system.dense_jacobian(&mut work);
+            let jacobian = system.dense_jacobian(&work);
             let residual = system.residual_of(&work).to_vec();
             // each angle's gap is its difference, modulo a turn
             for (row, (coordinate, value)) in (1..).zip(&coordinates) {
@@ -391,13 +391,13 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
             }
             let held = Held {
                 joints: vec![],
-                platforms: vec![HeldPlatform::Partly {
+                platforms: vec![HeldPlatform::Partly(HeldParts {
                     coordinates: (coordinates.into_iter())
                         .map(|(c, value)| (c, Dual::constant(value)))
                         .collect(),
                     orientation: Some(Rotation(wanted.0.map(|v| Vector3(v.0.map(Dual::constant))))),
                     spins: vec![],
-                }],
+                })],
             };
             let over_duals = System::new(&duals, &held);
             for k in 0..6 {

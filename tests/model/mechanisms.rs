@@ -146,7 +146,7 @@ fn dual_column(mechanism: &Mechanism, at: &Configuration<f64>, k: usize) -> (Vec
     system.linearise(&moving, &mut work);
     let slopes = system.residual_of(&work).iter().map(|r| r.slope).collect();
     let rows = system.rows();
-    let dense = system.dense_jacobian(&mut work);
+    let dense = system.dense_jacobian(&work);
     let column = dense[k * rows..][..rows].iter().map(|entry| entry.value);
     (slopes, column.collect())
 }
@@ -194,7 +194,7 @@ fn every_jacobian_entry_is_the_derivative_of_its_residual_over_every_number() {
         for at in [mechanism.home(), shaken(&mechanism, 0.15)] {
             let mut work = system.work();
             system.linearise(&at, &mut work);
-            let jacobian = system.dense_jacobian(&mut work);
+            let jacobian = system.dense_jacobian(&work);
             for k in 0..columns {
                 let column = &jacobian[k * rows..][..rows];
                 let (dual, over_duals) = dual_column(&mechanism, &at, k);

@@ -228,9 +228,7 @@ impl Question<'_> {
         let joints = self.coordinates.free_joints.len();
         let poses = x[joints..].chunks_exact(7);
         (self.coordinates.free_platforms.iter().zip(poses)).all(|(&p, x)| {
-            let HeldPlatform::Partly { coordinates, .. } = &self.held.platforms[p] else {
-                return true;
-            };
+            let coordinates = self.held.platforms[p].coordinates();
             let rotation = Quaternion([x[0], x[1], x[2], x[3]]).rotation();
             let along =
                 |(c, value): &(PoseCoordinate, f64)| c.along(&rotation, C::from_f64(*value));

@@ -21,19 +21,19 @@ pub(super) fn blame(
     let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
     let mut work = system.work();
     system.linearise(at, &mut work);
-    let jacobian = system.dense_jacobian(&mut work);
+    let jacobian = system.dense_jacobian(&work);
     let rows = system.rows();
     let (mut free, mut inputs) = (Vec::new(), Vec::new());
     let columns = jacobian.chunks_exact(rows.max(1));
     for (unknown, column) in system.unknowns().iter().zip(columns) {
         let is_held = match *unknown {
             Unknown::Joint(joint) => held.joints[joint],
-            Unknown::Twist { platform, .. } => held.platforms[platform] == HeldPlatform::Pose,
+            Unknown::Twist(platform, _) => held.platforms[platform] == HeldPlatform::Pose,
         };
         match (is_held, *unknown) {
             (false, _) => free.push(column),
             (true, Unknown::Joint(joint)) => inputs.push((joint, column)),
-            (true, Unknown::Twist { .. }) => {}
+            (true, Unknown::Twist(..)) => {}
         }
     }
     let transposed: Vec<f64> = (0..rows)

@@ -127,7 +127,7 @@ impl<'m> Record<'m> {
                 let moving = curve.system().unknowns().iter().zip(&place.tangent);
                 let moving = moving.filter_map(|(unknown, rate)| match *unknown {
                     Unknown::Joint(joint) => Some((joint, rate.abs())),
-                    Unknown::Twist { .. } => None,
+                    Unknown::Twist(..) => None,
                 });
                 let fastest = moving.max_by(|a, b| a.1.total_cmp(&b.1));
                 let kind = MetKind::Fold {

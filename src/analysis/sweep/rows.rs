@@ -6,7 +6,7 @@ use super::points::Paths;
 use super::{Flow, Law, MetKind, Row, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement};
 use crate::solve::{Continuation, Place};
-use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
+use crate::system::{Coordinate, Curve, Driven, Held, MotionTracker, System};
 
 type At = Place<Configuration<f64>>;
 
@@ -278,24 +278,11 @@ pub(super) fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> 
         match input.coordinate {
             Coordinate::Joint(joint) => held.joints[joint] = true,
             Coordinate::Pose(platform, coordinate) => {
-                let part = &mut held.platforms[platform];
-                match part {
-                    HeldPlatform::Free => {
-                        *part = HeldPlatform::Partly {
-                            coordinates: vec![(coordinate, input.from)],
-                            orientation: None,
-                            spins: Vec::new(),
-                        };
-                    }
-                    HeldPlatform::Partly {
-                        coordinates,
-                        orientation,
-                        ..
-                    } if orientation.is_none() || !coordinate.is_angle() => {
-                        coordinates.push((coordinate, input.from));
-                    }
-                    _ => return None,
+                let parts = held.platforms[platform].parts_mut()?;
+                if parts.orientation.is_some() && coordinate.is_angle() {
+                    return None;
                 }
+                parts.coordinates.push((coordinate, input.from));
             }
             Coordinate::Turn(..) => return None,
         }

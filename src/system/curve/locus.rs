@@ -45,11 +45,10 @@ impl LocusCurve {
         let unknowns = closed.system().unknowns();
         let seen = unknowns.iter().map(|unknown| match *unknown {
             Unknown::Joint(joint) => whole || inputs.contains(&Coordinate::Joint(joint)),
-            Unknown::Twist { .. } => true,
+            Unknown::Twist(..) => true,
         });
         let locked = Locked::without_spins(mechanism, held, locks);
-        let all = locked.system().unknowns();
-        let column = |unknown| all.iter().position(|own| own == unknown);
+        let column = |unknown: &Unknown| locked.system().place_of(*unknown);
         LocusCurve {
             seen: seen.collect(),
             columns: unknowns.iter().filter_map(column).collect(),
@@ -67,9 +66,7 @@ impl LocusCurve {
         self.closed.unknowns()
     }
 
-    /// The derivative of M along the motion v, column-major.
-    ///
-    /// Five points: the error is of fourth order in the step, about as small as rounding.
+    /// The derivative of M along the motion v, column-major, by five points: about as exact as rounding.
     fn change(&mut self, point: &Singular) -> Vec<f64> {
         const STEP: f64 = 1e-3;
         let mut change = vec![0.0; self.locked.rows() * self.locked.columns()];
@@ -85,8 +82,7 @@ impl LocusCurve {
         change
     }
 
-    /// What of (∂M/∂v) v is outside the image of M. It is where inputs or outputs would have to move
-    /// for the motion v to go on to second order.
+    /// What of (∂M/∂v) v is outside the image of M: where inputs or outputs must move for v to go on to second order.
     pub fn bend(&mut self, point: &Singular) -> Vec<f64> {
         let (rows, columns) = (self.locked.rows(), self.locked.columns());
         let change = self.change(point);
@@ -113,8 +109,7 @@ impl ConfigurationCurve for LocusCurve {
         &self.closed
     }
 
-    /// Platforms and inputs: legs that are folded the other way about their passive joints do not
-    /// make another locus.
+    /// Platforms and inputs: legs folded the other way about passive joints make no other locus.
     fn sees(&self, component: usize) -> bool {
         self.seen[component]
     }
@@ -154,11 +149,7 @@ impl SolutionCurve for LocusCurve {
             let place = self.columns[k];
             let column = &mut column[first..first + second];
             column.copy_from_slice(&change[place * second..(place + 1) * second]);
-            if let Unknown::Twist {
-                component: c @ 0..3,
-                ..
-            } = *unknown
-            {
+            if let Unknown::Twist(_, c @ 0..3) = *unknown {
                 let turning = place - c;
                 let [y, z] = [(c + 1) % 3, (c + 2) % 3];
                 // ω × e with e along component c

@@ -17,8 +17,7 @@ pub trait ConfigurationCurve: SolutionCurve {
     /// Whether a component of a step between configurations distinguishes curves.
     fn sees(&self, component: usize) -> bool;
 
-    /// The step from one configuration to another, whole turns left out: as the first components of
-    /// a tangent.
+    /// The step from one configuration to another, whole turns left out: as the first components of a tangent.
     fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64> {
         let [from, to] = [from, to].map(Self::configuration);
         self.closed().difference_but_turns(from, to)
@@ -105,8 +104,7 @@ impl Region<'_> {
         }
     }
 
-    /// How far a configuration is inside each bound, of the box and then of limits, in rad and
-    /// characteristic lengths.
+    /// How far a configuration is inside each bound of the box, then of limits, in rad and characteristic lengths.
     fn margins(&self, at: &Configuration<f64>) -> Vec<f64> {
         let length = self.mechanism.characteristic_length();
         let unit = |is_angle: bool| if is_angle { 1.0 } else { 1.0 / length };
@@ -257,8 +255,7 @@ pub fn settled<C: SolutionCurve>(
     method.settle(curve, near).ok()
 }
 
-/// The point to which Gauss–Newton steps of bounded length lead from afar; `arrived` is asked with
-/// the size of the next step and the residual. `None` if they do not arrive.
+/// The point that bounded Gauss–Newton steps reach from afar; `arrived` gets the next step's size and the residual.
 pub fn neared<C: SolutionCurve>(
     curve: &mut C,
     mut point: C::Point,
@@ -286,8 +283,7 @@ pub fn neared<C: SolutionCurve>(
     None
 }
 
-/// Where a curve passes through a place: the number of the last point before it, with the part of
-/// the way to the next that is gone.
+/// Where a curve passes through a place: the number of the last point before it, and the part of the way to the next.
 pub fn met_at<C: ConfigurationCurve>(
     curve: &mut C,
     traced: &Traced<C::Point>,
@@ -360,8 +356,7 @@ pub fn met_at<C: ConfigurationCurve>(
     beside.into_iter().flatten().find_map(|i| foot(curve, i))
 }
 
-/// The place between two where the curve comes back to its start, of which `gone` is the length so
-/// far.
+/// The place between two where the curve comes back to its start, after the length `gone`.
 pub(super) fn closed<C: ConfigurationCurve>(
     curve: &mut C,
     start: &Place<C::Point>,

@@ -44,8 +44,7 @@ impl<T: Factorable> MotionTracker<T> {
         &self.system
     }
 
-    /// The latest solution; after a solve that failed, the one before it with the held values that
-    /// were asked for.
+    /// The latest solution; after a solve that failed, the one before with the held values asked for.
     pub fn configuration(&self) -> &Configuration<T> {
         &self.configuration
     }
@@ -96,56 +95,31 @@ impl<T: Factorable> MotionTracker<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Pose, Vector3};
-    use crate::mechanism::{
-        ChainDimensions, ClosureDimensions, ClosureKind, Dimensions, Frame, LinearForm,
-        RowDimensions,
-    };
+    use crate::description::Description;
+    use crate::mechanism::Mechanism;
     use crate::solve::Stop;
     use crate::system::Held;
     use std::f64::consts::TAU;
 
     /// The 4-bar with ground 4.5, crank 2, coupler 4 and rocker 3.5, closed by a revolute joint.
     fn four_bar() -> MotionTracker {
-        let along_x = |x| Pose::translation(Vector3([x, 0.0, 0.0]));
-        let turn = |joint, before| RowDimensions {
-            before,
-            turn: LinearForm(vec![(joint, 1.0)]),
-            slide: LinearForm(vec![]),
-            after: Pose::identity(),
-        };
-        let chain = |base, rows, tip| ChainDimensions {
-            on: Frame::Ground,
-            base,
-            rows,
-            tip: along_x(tip),
-        };
-        let crank = vec![turn(0, Pose::identity()), turn(1, along_x(2.0))];
-        let rocker = vec![turn(2, Pose::identity())];
-        let dimensions = Dimensions {
-            characteristic_length: 4.5,
-            joint_scales: vec![1.0; 3],
-            chains: vec![
-                chain(Pose::identity(), crank, 4.0),
-                chain(along_x(4.5), rocker, 3.5),
-            ],
-            platforms: vec![],
-            closures: vec![ClosureDimensions {
-                kind: ClosureKind::Revolute,
-                frames: [Frame::Tip { chain: 0 }, Frame::Tip { chain: 1 }],
-                length: 0.0,
-                extension: LinearForm(vec![]),
-            }],
-        };
-        let held = Held {
-            joints: vec![true, false, false],
-            platforms: vec![],
-        };
+        let text = include_str!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/mechanisms/four_bar.ron"
+        ));
+        let mut description = Description::read(text).unwrap();
+        for (name, value) in [("l0", "4.5"), ("l1", "2"), ("l2", "4"), ("l3", "3.5")] {
+            description = description.with_parameter(name, value).unwrap();
+        }
+        let mechanism = Mechanism::new(&description).unwrap();
+        let mut held = Held::nothing(&mechanism);
+        held.joints[0] = true;
         let start = Configuration {
             joints: vec![0.0, 1.0, 1.5],
             platforms: vec![],
         };
-        let mut tracker = MotionTracker::new(System::new(&dimensions, &held), start);
+        let system = System::new(mechanism.dimensions(), &held);
+        let mut tracker = MotionTracker::new(system, start);
         assert_eq!(tracker.recover(&Newton::default()).stop, Stop::Solved);
         tracker
     }

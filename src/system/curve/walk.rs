@@ -17,8 +17,7 @@ pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &At) -> f64 + 'm>;
 /// A special point of the curve.
 #[derive(Clone, Debug)]
 pub enum Event {
-    /// A joint turns back: it is at the end of its range, and driven there it would lock. In large mechanisms the
-    /// actuated ones alone: there are too many others to place each.
+    /// A joint turns back at the end of its range, where driven it would lock; in large mechanisms an actuated one.
     Turning(usize),
     /// The inputs turn back: beyond this part of the segment the branch does not exist.
     Fold,
@@ -73,8 +72,7 @@ pub struct Walk<'m> {
 }
 
 impl<'m> Walk<'m> {
-    /// From a regular place, in the direction of its tangent. Joints with limits must have values
-    /// within them (see [`Mechanism::turn_to_limits`]).
+    /// From a regular place along its tangent, with joints [within their limits](Mechanism::turn_to_limits).
     pub fn new(mechanism: &Mechanism, curve: &Curve, start: At, method: Continuation) -> Self {
         let limits = mechanism.joints().iter().enumerate();
         let limits = limits.filter(|(joint, _)| curve.column(*joint).is_some());
@@ -187,9 +185,7 @@ impl<'m> Walk<'m> {
         let from = self.place.clone();
         let mut leg = self.leg(curve, from, to.clone());
         // what ends the walk may come first, and is then met by shorter steps
-        let ends =
-            |event: &Event| matches!(event, Event::End(_) | Event::Limit { .. } | Event::Closed);
-        if leg.events.iter().any(|(_, event)| ends(event)) && norm(&way) > 1e-6 {
+        if leg.events.iter().any(|(_, event)| event.ends()) && norm(&way) > 1e-6 {
             return None;
         }
         self.gone = leg.gone_at(curve, &to);
@@ -264,14 +260,12 @@ impl<'m> Walk<'m> {
                         true => method.root(curve, &from, &to, &mut |_, p| beyond(p)),
                         false => from.clone(),
                     };
-                    events.push((
-                        place,
-                        Event::Limit {
-                            joint,
-                            value,
-                            upper,
-                        },
-                    ));
+                    let limit = Event::Limit {
+                        joint,
+                        value,
+                        upper,
+                    };
+                    events.push((place, limit));
                 }
             }
         }

@@ -7,8 +7,7 @@ use crate::linear::CURVED;
 use crate::mechanism::Configuration;
 use crate::solve::{Equations, walk_down};
 
-/// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic
-/// lengths).
+/// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic lengths).
 const WEIGHT: f64 = 10.0;
 const KEPT: f64 = 1e-10;
 /// A gradient this small beside the gaps vanishes.

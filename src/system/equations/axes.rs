@@ -8,8 +8,7 @@ use crate::mechanism::Configuration;
 /// The axes of one closure in ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClosureAxes<T> {
-    /// For each unknown joint that moves the closure: its index, and ω and the velocity of the closure
-    /// per unit of its scaled variable.
+    /// Each unknown joint that moves the closure, with ω and the closure's velocity per unit of its scaled variable.
     pub joints: Vec<(usize, Vector3<T>, Vector3<T>)>,
     /// The z axes of the two frames it joins; of frames whose origin alone counts they are not known.
     pub frames: [Vector3<T>; 2],

@@ -7,8 +7,7 @@ use crate::mechanism::{Configuration, Mechanism};
 /// How far a closure is open.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Gap {
-    /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked
-    /// directions of a sliding joint.
+    /// Distance in m: between origins, from the length of a `Distance`, or along blocked directions of a slide.
     pub distance: f64,
     /// Angle in rad between the axes, or between the frames where no turn is allowed.
     pub angle: f64,

@@ -13,8 +13,7 @@ pub enum Coordinate {
     Joint(usize),
     /// A platform coordinate.
     Pose(usize, PoseCoordinate),
-    /// A turn about an axis of ground of a platform that is held whole, where roll and yaw are
-    /// dependent (pitch ±90°). It has a rate and no value.
+    /// A turn about an axis of ground of a platform held whole at pitch ±90°. It has a rate and no value.
     Turn(usize, Axis),
 }
 
@@ -35,8 +34,7 @@ impl Coordinate {
         }
     }
 
-    /// The turn about an axis of ground that takes the place of an angle where a whole orientation is
-    /// held.
+    /// The turn about an axis of ground in place of an angle, where a whole orientation is held.
     pub fn turn_for(platform: usize, coordinate: PoseCoordinate) -> Coordinate {
         match coordinate {
             PoseCoordinate::Roll => Coordinate::Turn(platform, Axis::X),
@@ -104,14 +102,13 @@ impl Coordinate {
 
     /// Its derivative by the unknowns of a system it depends on, dimensionless; none where it is held.
     pub fn slope_in(self, system: &System<f64>, at: &Configuration<f64>) -> Vec<(usize, f64)> {
-        let column = |unknown| system.unknowns().iter().position(|u| *u == unknown);
         match self {
             Coordinate::Joint(joint) => {
-                let column = column(Unknown::Joint(joint));
+                let column = system.place_of(Unknown::Joint(joint));
                 column.map(|c| (c, 1.0)).into_iter().collect()
             }
             Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
-                let first = column(Unknown::first_twist(platform));
+                let first = system.place_of(Unknown::first_twist(platform));
                 let pose = at.platforms[platform].pose();
                 let slope = self.slope(&pose, system.characteristic_length());
                 let places = first.into_iter().flat_map(|first| first..first + 6);

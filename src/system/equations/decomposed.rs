@@ -10,7 +10,7 @@ impl System<f64> {
     }
 
     /// The Jacobian last evaluated, decomposed.
-    pub fn decomposition(&self, work: &mut Work<f64>) -> Decomposition {
+    pub fn decomposition(&self, work: &Work<f64>) -> Decomposition {
         let columns = self.unknowns.len();
         match self.is_large() {
             true => Decomposition::of_groups(columns, self.jacobian_rows(work)),
@@ -19,7 +19,7 @@ impl System<f64> {
     }
 
     /// uᵀ J v for the Jacobian last evaluated.
-    pub fn form(&self, work: &mut Work<f64>, u: &[f64], v: &[f64]) -> f64 {
+    pub fn form(&self, work: &Work<f64>, u: &[f64], v: &[f64]) -> f64 {
         let mut first = 0;
         let groups = self.jacobian_rows(work).into_iter().map(|group| {
             let u = &u[first..first + group.count];
@@ -33,20 +33,19 @@ impl System<f64> {
     }
 
     /// The Jacobian last evaluated as groups of rows, in their order, with the unknowns that each group touches.
-    pub fn jacobian_rows(&self, work: &mut Work<f64>) -> Vec<Rows> {
-        let blocks = self.empty.blocks().enumerate().map(|(b, block)| Rows {
+    pub fn jacobian_rows(&self, work: &Work<f64>) -> Vec<Rows> {
+        let blocks = work.jacobian.entries().map(|(block, entries)| Rows {
             count: block.rows,
-            unknowns: block.own.iter().chain(&block.shared).copied().collect(),
-            entries: work.jacobian.block_mut(b).to_vec(),
+            unknowns: block.unknowns().collect(),
+            entries: entries.to_vec(),
         });
-        let blocks: Vec<Rows> = blocks.collect();
         let shared = self.empty.shared();
         let holds = work.hold_rows.chunks_exact(shared.len().max(1));
         let holds = holds.map(|entries| {
             let touched = shared.iter().copied().zip(entries.iter().copied());
             Rows::single(touched.filter(|(_, entry)| *entry != 0.0))
         });
-        blocks.into_iter().chain(holds).collect()
+        blocks.chain(holds).collect()
     }
 }
 
@@ -80,9 +79,9 @@ mod tests {
                 }
                 let mut work = system.work();
                 system.linearise(&closed.configuration, &mut work);
-                let jacobian = system.dense_jacobian(&mut work);
+                let jacobian = system.dense_jacobian(&work);
                 let expected = Decomposition::of(rows, columns, &jacobian);
-                let found = Decomposition::of_groups(columns, system.jacobian_rows(&mut work));
+                let found = Decomposition::of_groups(columns, system.jacobian_rows(&work));
                 assert_eq!(found.rank(), expected.rank(), "{}", path.display());
                 for motion in found.null_space() {
                     let image = crate::linear::product(&jacobian, rows, &motion);

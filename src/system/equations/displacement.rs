@@ -14,25 +14,20 @@ impl<T: Factorable> System<T> {
     }
 
     /// The same in place.
-    pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
-        self.displace_part(at, step, 1.0);
-    }
-
-    /// By a fraction of steps.
     #[inline]
-    pub(super) fn displace_part(&self, at: &mut Configuration<T>, step: &[T], fraction: f64) {
+    pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
         for (joint, value) in at.joints.iter_mut().enumerate() {
-            *value = self.moved_joint(joint, *value, step, fraction);
+            *value = self.moved_joint(joint, *value, step, 1.0);
         }
         for (platform, pose) in at.platforms.iter_mut().enumerate() {
-            *pose = self.moved_platform(platform, pose, step, fraction);
+            *pose = self.moved_platform(platform, pose, step, 1.0);
         }
     }
 
     /// The value of a joint moved by a fraction of its step; the same if it is held.
     #[inline(always)]
     pub(super) fn moved_joint(&self, joint: usize, value: T, step: &[T], fraction: f64) -> T {
-        match self.joint_unknowns[joint] {
+        match self.place_of(Unknown::Joint(joint)) {
             Some(i) => value + step[i].scale(fraction * self.joint_scales[joint]),
             None => value,
         }
@@ -47,7 +42,7 @@ impl<T: Factorable> System<T> {
         step: &[T],
         fraction: f64,
     ) -> PlatformPose<T> {
-        match self.first_twists[platform] {
+        match self.place_of(Unknown::first_twist(platform)) {
             Some(i) => {
                 let omega = Vector3([step[i], step[i + 1], step[i + 2]]).scaled(fraction);
                 let length = fraction * self.length;
@@ -58,8 +53,7 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// The dimensionless step that leads from one configuration to another:
-    /// `displaced(from, difference(from, to))` is `to`.
+    /// The dimensionless step between configurations: `displaced(from, difference(from, to))` is `to`.
     pub fn difference(&self, from: &Configuration<T>, to: &Configuration<T>) -> Vec<T> {
         let mut step = vec![T::zero(); self.unknowns().len()];
         self.difference_into(from.view(), to.view(), &mut step);
@@ -79,14 +73,11 @@ impl<T: Factorable> System<T> {
                     let change = to.joints[joint] - from.joints[joint];
                     step[i] = change.scale(1.0 / self.joint_scale(joint));
                 }
-                Unknown::Twist {
-                    platform,
-                    component: 0,
-                } => {
+                Unknown::Twist(platform, 0) => {
                     let (from, to) = (&from.platforms[platform], &to.platforms[platform]);
                     step[i..i + 6].copy_from_slice(&self.twist_between(from, to));
                 }
-                Unknown::Twist { .. } => {}
+                Unknown::Twist(..) => {}
             }
         }
     }

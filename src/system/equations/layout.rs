@@ -11,56 +11,70 @@ pub enum HeldPlatform<T> {
     Free,
     /// Its whole pose, at the value it has in the configuration the solver starts from.
     Pose,
-    /// Some coordinates at given values, m and rad, and perhaps the whole orientation.
-    Partly {
-        /// Single coordinates with their values.
-        coordinates: Vec<(PoseCoordinate, T)>,
-        /// A wanted orientation: ground from platform.
-        orientation: Option<Rotation<T>>,
-        /// Lines of its own about which it does not spin.
-        spins: Vec<Spin>,
-    },
+    /// Some of it.
+    Partly(HeldParts<T>),
+}
+
+/// What is held of a platform in part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HeldParts<T> {
+    /// Single coordinates with their values, m and rad.
+    pub coordinates: Vec<(PoseCoordinate, T)>,
+    /// A wanted orientation: ground from platform.
+    pub orientation: Option<Rotation<T>>,
+    /// Lines of its own about which it does not spin.
+    pub spins: Vec<Spin>,
 }
 
 impl<T: Copy> HeldPlatform<T> {
+    /// What is held of it in part.
+    pub fn parts(&self) -> Option<&HeldParts<T>> {
+        match self {
+            HeldPlatform::Partly(parts) => Some(parts),
+            HeldPlatform::Free | HeldPlatform::Pose => None,
+        }
+    }
+
+    /// Single coordinates that are held, with their values.
+    pub fn coordinates(&self) -> &[(PoseCoordinate, T)] {
+        self.parts().map_or(&[], |parts| &parts.coordinates)
+    }
+
     /// The value at which a single coordinate is held.
     pub fn target(&self, coordinate: PoseCoordinate) -> Option<T> {
-        match self {
-            HeldPlatform::Partly { coordinates, .. } => (coordinates.iter())
-                .find(|(held, _)| *held == coordinate)
-                .map(|(_, value)| *value),
-            _ => None,
-        }
+        let mut held = self.coordinates().iter();
+        held.find(|(c, _)| *c == coordinate).map(|held| held.1)
     }
 
     /// Lines of its own about which it does not spin.
     pub fn spins(&self) -> &[Spin] {
+        self.parts().map_or(&[], |parts| &parts.spins)
+    }
+
+    /// The orientation at which it is held, if its position is not held with it.
+    pub fn orientation(&self) -> Option<Rotation<T>> {
+        self.parts()?.orientation
+    }
+}
+
+impl HeldPlatform<f64> {
+    /// What is held of it in part, to be added to; `None` if its whole pose is held.
+    pub fn parts_mut(&mut self) -> Option<&mut HeldParts<f64>> {
+        if let HeldPlatform::Free = self {
+            *self = HeldPlatform::Partly(HeldParts::default());
+        }
         match self {
-            HeldPlatform::Partly { spins, .. } => spins,
-            _ => &[],
+            HeldPlatform::Partly(parts) => Some(parts),
+            HeldPlatform::Free | HeldPlatform::Pose => None,
         }
     }
 
     /// Makes it spin about no more lines of its own.
     pub fn stop(&mut self, more: &[Spin]) {
-        match self {
-            HeldPlatform::Partly { spins, .. } => spins.extend(more),
-            HeldPlatform::Free if !more.is_empty() => {
-                *self = HeldPlatform::Partly {
-                    coordinates: Vec::new(),
-                    orientation: None,
-                    spins: more.to_vec(),
-                };
-            }
-            HeldPlatform::Free | HeldPlatform::Pose => {}
-        }
-    }
-
-    /// The orientation at which it is held, if its position is not held with it.
-    pub fn orientation(&self) -> Option<Rotation<T>> {
-        match self {
-            HeldPlatform::Partly { orientation, .. } => *orientation,
-            _ => None,
+        if !more.is_empty()
+            && let Some(parts) = self.parts_mut()
+        {
+            parts.spins.extend(more);
         }
     }
 }
@@ -80,18 +94,14 @@ impl<T: Number> Held<T> {
         let platforms = self.platforms.iter().map(|part| match part {
             HeldPlatform::Free => HeldPlatform::Free,
             HeldPlatform::Pose => HeldPlatform::Pose,
-            HeldPlatform::Partly {
-                coordinates,
-                orientation,
-                spins,
-            } => HeldPlatform::Partly {
-                coordinates: coordinates.iter().map(|&(c, x)| (c, f(x))).collect(),
-                orientation: orientation.map(|r| {
-                    let [x, y, z] = r.0;
-                    Rotation([x.map(&mut f), y.map(&mut f), z.map(&mut f)])
-                }),
-                spins: spins.clone(),
-            },
+            HeldPlatform::Partly(parts) => HeldPlatform::Partly(HeldParts {
+                coordinates: (parts.coordinates.iter())
+                    .map(|&(c, x)| (c, f(x)))
+                    .collect(),
+                orientation: (parts.orientation)
+                    .map(|r| Rotation(r.0.map(|axis| axis.map(&mut f)))),
+                spins: parts.spins.clone(),
+            }),
         });
         Held {
             joints: self.joints.clone(),
@@ -127,29 +137,21 @@ impl Held<f64> {
 pub enum Unknown {
     /// The variable of a joint.
     Joint(usize),
-    /// A component of a platform's twist: rotation about x, y, z, then displacement along them.
-    Twist {
-        /// Index of the platform.
-        platform: usize,
-        /// 0 to 5.
-        component: usize,
-    },
+    /// Of a platform the component 0 to 5 of its twist: rotation about x, y, z, then displacement along them.
+    Twist(usize, usize),
 }
 
 impl Unknown {
     /// The first of the six components of a platform's twist; the others follow it.
     pub fn first_twist(platform: usize) -> Self {
-        Unknown::Twist {
-            platform,
-            component: 0,
-        }
+        Unknown::Twist(platform, 0)
     }
 
     /// The name of the joint or platform it belongs to.
     pub fn owner(self, mechanism: &Mechanism) -> &str {
         match self {
             Unknown::Joint(joint) => &mechanism.joints()[joint].name,
-            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+            Unknown::Twist(platform, _) => &mechanism.platforms()[platform].name,
         }
     }
 }
@@ -169,11 +171,8 @@ impl Places {
         for (place, unknown) in unknowns.iter().enumerate() {
             let (all, owner) = match *unknown {
                 Unknown::Joint(joint) => (&mut places.joints, joint),
-                Unknown::Twist {
-                    platform,
-                    component: 0,
-                } => (&mut places.twists, platform),
-                Unknown::Twist { .. } => continue,
+                Unknown::Twist(platform, 0) => (&mut places.twists, platform),
+                Unknown::Twist(..) => continue,
             };
             all.resize(all.len().max(owner + 1), None);
             all[owner] = Some(place);
@@ -182,13 +181,13 @@ impl Places {
     }
 
     /// The place of an unknown, if it is in the list.
+    #[inline]
     pub fn of(&self, unknown: Unknown) -> Option<usize> {
         match unknown {
             Unknown::Joint(joint) => *self.joints.get(joint)?,
-            Unknown::Twist {
-                platform,
-                component,
-            } => self.twists.get(platform)?.map(|first| first + component),
+            Unknown::Twist(platform, component) => {
+                self.twists.get(platform)?.map(|first| first + component)
+            }
         }
     }
 }
@@ -213,56 +212,38 @@ impl<T> HoldRow<T> {
 /// The unknowns, the blocks they make of the closures, and the place of each closure.
 pub(crate) struct Layout {
     pub unknowns: Vec<Unknown>,
-    /// Which unknown each joint is, if it is one.
-    pub joint_unknowns: Vec<Option<usize>>,
-    /// The unknown that is the first component of each platform's twist.
-    pub first_twists: Vec<Option<usize>>,
+    pub places_of_unknowns: Places,
     pub blocks: Vec<Block>,
     /// For each closure its block and its first row in it.
     pub places: Vec<(usize, usize)>,
     pub shared: Vec<usize>,
-    places_of_unknowns: Places,
 }
 
 impl Layout {
     /// Closures that share a free joint variable form a block; platforms tie the blocks together.
     pub fn new<T: Factorable>(closures: &[Closure<T>], held: &Held<T>) -> Self {
-        let mut unknowns: Vec<Unknown> = Vec::new();
-        let mut joint_unknowns = vec![None; held.joints.len()];
-        for (joint, _) in held.joints.iter().enumerate().filter(|(_, held)| !**held) {
-            joint_unknowns[joint] = Some(unknowns.len());
-            unknowns.push(Unknown::Joint(joint));
-        }
+        let free = (0..held.joints.len()).filter(|joint| !held.joints[*joint]);
+        let mut unknowns: Vec<Unknown> = free.map(Unknown::Joint).collect();
         let joints = unknowns.len();
-        let mut first_twists = vec![None; held.platforms.len()];
-        for (platform, held) in held.platforms.iter().enumerate() {
-            if *held != HeldPlatform::Pose {
-                first_twists[platform] = Some(unknowns.len());
-                let twist = (0..6).map(|component| Unknown::Twist {
-                    platform,
-                    component,
-                });
-                unknowns.extend(twist);
-            }
-        }
+        let moving = (0..held.platforms.len()).filter(|p| held.platforms[*p] != HeldPlatform::Pose);
+        unknowns
+            .extend(moving.flat_map(|p| (0..6).map(move |component| Unknown::Twist(p, component))));
+        let places_of_unknowns = Places::new(&unknowns);
 
-        if T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT {
-            return Layout::of_single_closures(closures, unknowns, joint_unknowns, first_twists);
-        }
+        // the first unknowns may belong to one block alone; for a sparse matrix every closure is a block and all are shared
+        let sparse = T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT;
+        let owned = if sparse { 0 } else { joints };
+        let unknowns_of = |closure: &Closure<T>| {
+            let joints = closure.joints().into_iter();
+            joints.filter_map(|joint| places_of_unknowns.of(Unknown::Joint(joint)))
+        };
         let mut owner: Vec<usize> = (0..closures.len()).collect();
-        let mut closure_of: Vec<Option<usize>> = vec![None; joints];
+        let mut closure_of: Vec<Option<usize>> = vec![None; owned];
         for (c, closure) in closures.iter().enumerate() {
-            for joint in closure.joints() {
-                let Some(unknown) = joint_unknowns[joint] else {
-                    continue;
-                };
-                match closure_of[unknown] {
-                    None => closure_of[unknown] = Some(c),
-                    Some(other) => {
-                        let (a, b) = (root(&owner, c), root(&owner, other));
-                        owner[a.max(b)] = a.min(b);
-                    }
-                }
+            for unknown in unknowns_of(closure).filter(|unknown| *unknown < owned) {
+                let first = *closure_of[unknown].get_or_insert(c);
+                let (a, b) = (root(&mut owner, c), root(&mut owner, first));
+                owner[a.max(b)] = a.min(b);
             }
         }
 
@@ -270,17 +251,20 @@ impl Layout {
         let mut block_of_root = vec![None; closures.len()];
         let mut places = Vec::with_capacity(closures.len());
         for (c, closure) in closures.iter().enumerate() {
-            let block = *block_of_root[root(&owner, c)].get_or_insert_with(|| {
+            let number = *block_of_root[root(&mut owner, c)].get_or_insert_with(|| {
                 blocks.push(Block::default());
                 blocks.len() - 1
             });
-            places.push((block, blocks[block].rows));
-            blocks[block].rows += closure.equations();
+            let block = &mut blocks[number];
+            places.push((number, block.rows));
+            block.rows += closure.equations();
+            let shared = unknowns_of(closure).filter(|unknown| *unknown >= owned);
+            block.shared.extend(shared);
             for platform in closure.platforms.iter().flatten() {
-                if let Some(first) = first_twists[*platform]
-                    && !blocks[block].shared.contains(&first)
+                if let Some(first) = places_of_unknowns.of(Unknown::first_twist(*platform))
+                    && !block.shared.contains(&first)
                 {
-                    blocks[block].shared.extend(first..first + 6);
+                    block.shared.extend(first..first + 6);
                 }
             }
         }
@@ -294,61 +278,26 @@ impl Layout {
             }
         }
         Layout {
-            shared: (joints..unknowns.len()).collect(),
-            places_of_unknowns: Places::new(&unknowns),
+            shared: (owned..unknowns.len()).collect(),
+            places_of_unknowns,
             unknowns,
-            joint_unknowns,
-            first_twists,
             blocks,
             places,
-        }
-    }
-
-    /// A block for every closure, all unknowns shared: the pattern of a sparse matrix.
-    fn of_single_closures<T: Number>(
-        closures: &[Closure<T>],
-        unknowns: Vec<Unknown>,
-        joint_unknowns: Vec<Option<usize>>,
-        first_twists: Vec<Option<usize>>,
-    ) -> Self {
-        let blocks = closures.iter().map(|closure| {
-            let joints = closure.joints().into_iter();
-            let mut shared: Vec<usize> = joints.filter_map(|joint| joint_unknowns[joint]).collect();
-            for platform in closure.platforms.iter().flatten() {
-                if let Some(first) = first_twists[*platform]
-                    && !shared.contains(&first)
-                {
-                    shared.extend(first..first + 6);
-                }
-            }
-            Block {
-                rows: closure.equations(),
-                own: Vec::new(),
-                shared,
-            }
-        });
-        Layout {
-            blocks: blocks.collect(),
-            places: (0..closures.len()).map(|block| (block, 0)).collect(),
-            shared: (0..unknowns.len()).collect(),
-            places_of_unknowns: Places::new(&unknowns),
-            unknowns,
-            joint_unknowns,
-            first_twists,
         }
     }
 
     /// The column of an unknown in a block.
     pub fn column(&self, block: usize, unknown: Unknown) -> Option<usize> {
         let index = self.places_of_unknowns.of(unknown)?;
-        let Block { own, shared, .. } = &self.blocks[block];
-        own.iter().chain(shared).position(|&u| u == index)
+        self.blocks[block].unknowns().position(|u| u == index)
     }
 }
 
-fn root(owner: &[usize], mut closure: usize) -> usize {
-    while owner[closure] != closure {
-        closure = owner[closure];
+/// What stands for all that a thing has been joined to.
+pub(super) fn root(owner: &mut [usize], mut i: usize) -> usize {
+    while owner[i] != i {
+        owner[i] = owner[owner[i]];
+        i = owner[i];
     }
-    closure
+    i
 }

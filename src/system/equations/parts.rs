@@ -1,6 +1,6 @@
 //! Parts of a mechanism that no closure couples.
 
-use super::layout::{Places, Unknown};
+use super::layout::{Places, Unknown, root};
 use crate::mechanism::Mechanism;
 
 /// For each independent part of a mechanism which of the unknowns are its own.
@@ -18,12 +18,9 @@ pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec
     });
     for (joints, platforms) in platforms.chain(closures) {
         let joints = joints.into_iter().map(Unknown::Joint);
-        let twists = platforms.into_iter().flat_map(|platform| {
-            (0..6).map(move |component| Unknown::Twist {
-                platform,
-                component,
-            })
-        });
+        let twists = platforms
+            .into_iter()
+            .flat_map(|platform| (0..6).map(move |component| Unknown::Twist(platform, component)));
         let own: Vec<usize> = joints.chain(twists).filter_map(|u| all.of(u)).collect();
         let Some(&first) = own.iter().min() else {
             continue;
@@ -39,13 +36,4 @@ pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec
     parts
         .filter(|own: &Vec<bool>| own.contains(&true))
         .collect()
-}
-
-/// The label of the whole that an unknown has been joined to.
-fn root(label: &mut [usize], mut i: usize) -> usize {
-    while label[i] != i {
-        label[i] = label[label[i]];
-        i = label[i];
-    }
-    i
 }

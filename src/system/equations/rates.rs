@@ -81,37 +81,26 @@ impl<T: Factorable> System<T> {
     }
 
     /// A column of the Jacobian last evaluated, over all rows.
-    pub fn column_into(&self, unknown: usize, work: &mut Work<T>, out: &mut [T]) {
+    pub fn column_into(&self, unknown: usize, work: &Work<T>, out: &mut [T]) {
         out.fill(T::zero());
-        let mut row = 0;
-        for (b, block) in self.empty.blocks().enumerate() {
-            let mut unknowns = block.own.iter().chain(&block.shared);
-            if let Some(place) = unknowns.position(|u| *u == unknown) {
-                let entries = &work.jacobian.block_mut(b)[place * block.rows..][..block.rows];
-                out[row..row + block.rows].copy_from_slice(entries);
-            }
-            row += block.rows;
+        for (row, _, column) in work.jacobian.columns().filter(|of| of.1 == unknown) {
+            out[row..row + column.len()].copy_from_slice(column);
         }
         let shared = self.empty.shared();
         if let Some(place) = shared.iter().position(|u| *u == unknown) {
             let rows = work.hold_rows.chunks_exact(shared.len());
-            (out[row..].iter_mut().zip(rows)).for_each(|(out, entries)| *out = entries[place]);
+            let out = out[self.hold_rows().start..].iter_mut().zip(rows);
+            out.for_each(|(out, entries)| *out = entries[place]);
         }
     }
 
     /// The product J x of the Jacobian last evaluated, over the rows of the closures.
-    pub fn product_into(&self, x: &[T], work: &mut Work<T>, out: &mut [T]) {
+    pub fn product_into(&self, x: &[T], work: &Work<T>, out: &mut [T]) {
         out.fill(T::zero());
-        let mut row = 0;
-        for (b, block) in self.empty.blocks().enumerate() {
-            let out = &mut out[row..row + block.rows];
-            let columns = work.jacobian.block_mut(b).chunks_exact(block.rows.max(1));
-            for (column, &unknown) in columns.zip(block.own.iter().chain(&block.shared)) {
-                for (out, &entry) in out.iter_mut().zip(column) {
-                    *out += entry * x[unknown];
-                }
+        for (row, unknown, column) in work.jacobian.columns() {
+            for (out, &entry) in out[row..].iter_mut().zip(column) {
+                *out += entry * x[unknown];
             }
-            row += block.rows;
         }
     }
 
@@ -155,7 +144,7 @@ impl<T: Factorable> System<T> {
     ///
     /// Rows and columns longer than 1 are shortened first, because complex rotations and positions have
     /// no bound.
-    pub fn pivots(&self, work: &mut Work<T>) -> (f64, f64) {
+    pub fn pivots(&self, work: &Work<T>) -> (f64, f64) {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let mut dense = self.dense_jacobian(work);
         for r in 0..rows {
@@ -173,9 +162,8 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// How many independent directions the Jacobian last evaluated maps to nothing, with a
-    /// direction counting as lost when its pivot is this small beside the largest, or rounding.
-    pub fn nullity(&self, tolerance: f64, work: &mut Work<T>) -> usize {
+    /// How many independent directions the Jacobian maps to pivots this small beside the largest, or to rounding.
+    pub fn nullity(&self, tolerance: f64, work: &Work<T>) -> usize {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let pivots = pivots_of(rows, columns, &self.dense_jacobian(work));
         let counts = |pivot: &&f64| **pivot > (tolerance * pivots[0]).max(CANCELLED);

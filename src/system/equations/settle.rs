@@ -31,6 +31,19 @@ pub fn solve(
     report
 }
 
+impl System<f64> {
+    /// The configuration that Newton's method reaches from a start, if it assembles there.
+    pub fn solved(
+        &self,
+        newton: &Newton,
+        start: &Configuration<f64>,
+    ) -> Option<Configuration<f64>> {
+        let (mut at, mut trial) = (start.clone(), start.clone());
+        let report = newton.solve(self, &mut at, &mut trial, &mut self.work());
+        (report.stop == Stop::Solved).then_some(at)
+    }
+}
+
 /// The assembled configuration beside a point at which equations only touch zero.
 fn touching(
     system: &System<f64>,

@@ -12,8 +12,7 @@ pub struct ClosureWrenches<T> {
     pub points: [Vector3<T>; 2],
     /// Number of the closure's first row among all rows.
     pub first_row: usize,
-    /// For each row (moment; force × characteristic length) in ground: its rate for a twist
-    /// (ω; v/L) of side B at that point.
+    /// Each row as (moment; force × characteristic length) in ground: its rate for a twist (ω; v/L) of side B there.
     pub rows: Vec<[T; 6]>,
 }
 

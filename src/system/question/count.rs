@@ -8,8 +8,8 @@ use crate::description::Role;
 use crate::geometry::RollPitchYaw;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
-use crate::solve::{Newton, Stop};
-use crate::system::{Coordinate, HeldPlatform, Mobility, System};
+use crate::solve::Newton;
+use crate::system::{Coordinate, Mobility, System};
 
 /// The number of held coordinates compared with the freedoms of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -32,15 +32,11 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     let mechanism = question.mechanism();
     let start = question.start();
     check_locked(question, &start)?;
-    let near = Mobility::near(mechanism, &start);
-    let first = near.map(|mobility| compared(question, &start, &mobility));
-    if let Some(Ok(count)) = first {
-        return Ok(count);
-    }
-    let home = mechanism.home();
-    let others = [solved(question, &start), Some(home)];
-    let mut refused = first;
-    for at in others.into_iter().flatten() {
+    let system = || System::new(mechanism.dimensions(), &question.held());
+    let solved = std::iter::once_with(|| system().solved(&Newton::default(), &start));
+    let starts = [Some(start.clone())].into_iter().chain(solved);
+    let mut refused = None;
+    for at in starts.chain([Some(mechanism.home())]).flatten() {
         let Some(mobility) = Mobility::near(mechanism, &at) else {
             continue;
         };
@@ -56,14 +52,6 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
             held: question.held_coordinates().len(),
         })
     })
-}
-
-/// The assembled configuration that is reached from a start with everything held.
-fn solved(question: &Question, start: &Configuration<f64>) -> Option<Configuration<f64>> {
-    let system = System::new(question.mechanism().dimensions(), &question.held());
-    let (mut at, mut trial) = (start.clone(), start.clone());
-    let report = Newton::default().solve(&system, &mut at, &mut trial, &mut system.work());
-    (report.stop == Stop::Solved).then_some(at)
 }
 
 /// Compares what is held with the freedoms at a configuration.
@@ -126,10 +114,7 @@ fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), Q
     let mechanism = question.mechanism();
     let held = question.held();
     for (i, held) in held.platforms.iter().enumerate() {
-        let HeldPlatform::Partly { coordinates, .. } = held else {
-            continue;
-        };
-        let pitched = coordinates.iter().any(|(c, _)| *c == PoseCoordinate::Pitch);
+        let pitched = held.target(PoseCoordinate::Pitch).is_some();
         if pitched && RollPitchYaw::is_locked(&start.platforms[i].pose().rotation) {
             return Err(QuestionError::AnglesLocked {
                 platform: mechanism.platforms()[i].name.clone(),

@@ -40,12 +40,12 @@ impl Equilibrium {
         let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
         let slopes = held.iter().map(|held| held.slope_in(system, at));
         if system.is_large() {
-            let groups = system.jacobian_rows(&mut work).into_iter();
+            let groups = system.jacobian_rows(&work).into_iter();
             let groups = groups.chain(slopes.map(Rows::single));
             return Equilibrium::of_groups(groups.collect(), generalised, &opposite);
         }
         let (unknowns, rows) = (system.unknowns().len(), system.rows());
-        let jacobian = system.dense_jacobian(&mut work);
+        let jacobian = system.dense_jacobian(&work);
         // Jᵀ and Sᵀ beside one another, column by column
         let mut entries = Vec::with_capacity(unknowns * (rows + held.len()));
         for row in 0..rows {

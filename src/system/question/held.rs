@@ -6,8 +6,7 @@ use crate::mechanism::PoseCoordinate;
 use crate::system::{Coordinate, HeldPlatform};
 
 impl Question<'_> {
-    /// The held coordinates, those held by name before the joints held by the file alone. A whole pose
-    /// pitched by ±90° turns about the axes of ground.
+    /// The held coordinates, those held by name first; a whole pose pitched by ±90° turns about the axes of ground.
     pub fn held_coordinates(&self) -> Vec<Coordinate> {
         let platforms = self.coordinates.iter().enumerate();
         let coordinates = platforms.flat_map(|(platform, values)| {

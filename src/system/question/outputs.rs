@@ -34,8 +34,7 @@ pub fn inputs_of(question: &Question) -> Vec<Coordinate> {
     }
 }
 
-/// The outputs by default: the platforms; of an open chain the tips; else the joints on the ground
-/// that are not driven; else the points where the chains are joined.
+/// The outputs by default: platforms; of an open chain tips; else passive joints on the ground; else joined points.
 pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock> {
     let platforms = 0..mechanism.platforms().len();
     let platforms: Vec<Lock> = platforms
@@ -89,13 +88,8 @@ pub fn platform_outputs(
             let held = match held {
                 HeldPlatform::Free => false,
                 HeldPlatform::Pose => true,
-                HeldPlatform::Partly {
-                    coordinates,
-                    orientation,
-                    ..
-                } => {
-                    coordinates.iter().any(|(held, _)| *held == c)
-                        || orientation.is_some() && c.is_angle()
+                HeldPlatform::Partly(parts) => {
+                    held.target(c).is_some() || parts.orientation.is_some() && c.is_angle()
                 }
             };
             let coordinate = Coordinate::Pose(platform, c);

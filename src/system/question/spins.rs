@@ -48,11 +48,7 @@ impl Still {
         match self {
             Still::Joint(joint) => Coordinate::Joint(joint).slope_in(system, at),
             Still::Platform(spin) => {
-                let first = Unknown::Twist {
-                    platform: spin.platform,
-                    component: 0,
-                };
-                let first = system.unknowns().iter().position(|u| *u == first);
+                let first = system.place_of(Unknown::first_twist(spin.platform));
                 let (_, slope) = spin.row(&at.platforms[spin.platform].orientation);
                 let places = first.into_iter().flat_map(|first| first..first + 3);
                 places.zip(slope).collect()
@@ -120,10 +116,7 @@ fn platforms(
 ) -> Vec<Still> {
     let firsts = system.unknowns().iter().enumerate();
     let firsts = firsts.filter_map(|(first, unknown)| match *unknown {
-        Unknown::Twist {
-            platform,
-            component: 0,
-        } => Some((first, platform)),
+        Unknown::Twist(platform, 0) => Some((first, platform)),
         _ => None,
     });
     let spins = firsts.filter_map(|(first, platform)| {

@@ -6,7 +6,7 @@ use super::Search;
 use crate::algebra::SiUnit;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::solve::{Equations, Newton, Stop, Watch};
+use crate::solve::{Equations, Newton, Watch};
 use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
 /// How far a closure of a given pose is open.
@@ -100,8 +100,7 @@ pub struct Moved {
 }
 
 impl Moved {
-    /// Whether the pose given is only rounded: nothing moved by more than a small part of a radian
-    /// or of the characteristic length.
+    /// Whether nothing moved by more than rounding when the pose was written down.
     pub fn is_small(&self) -> bool {
         self.size <= SMALL
     }
@@ -112,11 +111,9 @@ impl Moved {
 pub struct Closed {
     /// The assembled configuration.
     pub configuration: Configuration<f64>,
-    /// The widest gap of the file's pose; `None` if the mechanism has no closures or the question
-    /// starts from other values.
+    /// The widest gap of the file's pose; `None` without closures or from other values.
     pub given: Option<WidestGap>,
-    /// What moved most from the values that were guessed, or from the file's pose if that is not
-    /// merely rounded.
+    /// What moved most from the values guessed, or from the file's pose if that is not merely rounded.
     pub moved: Option<Moved>,
     /// Whether what the question holds kept its values.
     pub kept: bool,
@@ -207,8 +204,7 @@ pub fn close(
     }
     let mut search = Search::new(question, newton);
     let way = |at: &Configuration<f64>| {
-        let moved = farthest(question, &start, at, |_| true);
-        moved.map_or(0.0, |moved| moved.size)
+        farthest(question, &start, at, None).map_or(0.0, |moved| moved.size)
     };
     let mut loose = None;
     if question.gives_pose() {
@@ -267,47 +263,32 @@ fn with_file_loose(
         joints: question.joints_held_by_name().to_vec(),
         ..question.held()
     };
-    let system = System::new(question.mechanism().dimensions(), &held);
-    let (mut at, mut trial) = (start.clone(), start.clone());
-    let report = newton.solve(&system, &mut at, &mut trial, &mut system.work());
-    (report.stop == Stop::Solved).then_some(at)
+    System::new(question.mechanism().dimensions(), &held).solved(newton, start)
 }
 
-/// How far assembling moved from the pose given: how far guesses moved, and how far the file's pose
-/// if that is more than rounding.
+/// How far guesses moved in assembling, or the file's pose if that is more than rounding.
 fn moved(
     question: &Question,
     start: &Configuration<f64>,
     to: &Configuration<f64>,
 ) -> Option<Moved> {
-    let joints = question.guessed_joints();
-    let guessed = joints.contains(&true) || question.guessed_platforms().contains(&true);
-    match guessed {
-        true => farthest(question, start, to, |part| match part {
-            Part::Joint(joint) => joints[joint],
-            Part::Platform(platform) => question.guessed_platforms()[platform],
-        }),
+    let guessed = [question.guessed_joints(), question.guessed_platforms()];
+    match guessed.concat().contains(&true) {
+        true => farthest(question, start, to, Some(guessed)),
         false if question.gives_pose() => {
-            farthest(question, start, to, |_| true).filter(|moved| !moved.is_small())
+            farthest(question, start, to, None).filter(|moved| !moved.is_small())
         }
         false => None,
     }
 }
 
-/// A joint or a platform by its number.
-#[derive(Clone, Copy)]
-enum Part {
-    Joint(usize),
-    Platform(usize),
-}
-
-/// What moves most between two configurations, beyond rounding. Whole turns that change nothing are
-/// no motion.
+/// What moves most between two configurations, beyond rounding and whole turns that change nothing, or `among` these joints and
+/// platforms.
 fn farthest(
     question: &Question,
     from: &Configuration<f64>,
     to: &Configuration<f64>,
-    counts: impl Fn(Part) -> bool,
+    among: Option<[&[bool]; 2]>,
 ) -> Option<Moved> {
     const ROUNDING: f64 = 1e-9;
     let mechanism = question.mechanism();
@@ -322,8 +303,9 @@ fn farthest(
             distance / length
         },
     };
+    let counts = |kind: usize, i: usize| among.is_none_or(|among| among[kind][i]);
     let joints = mechanism.joints().iter().enumerate();
-    let joints = joints.filter(|(i, _)| counts(Part::Joint(*i)));
+    let joints = joints.filter(|(i, _)| counts(0, *i));
     let joints = joints.map(|(i, joint)| {
         let change = to.joints[i] - from.joints[i];
         let change = match mechanism.repeats(i) {
@@ -333,7 +315,7 @@ fn farthest(
         moved(&joint.name, joint.kind.is_angle(), change.abs())
     });
     let platforms = mechanism.platforms().iter().enumerate();
-    let platforms = platforms.filter(|(i, _)| counts(Part::Platform(*i)));
+    let platforms = platforms.filter(|(i, _)| counts(1, *i));
     let platforms = platforms.flat_map(|(i, platform)| {
         let (a, b) = (&from.platforms[i], &to.platforms[i]);
         let shift = (b.position - a.position).norm();

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::{Attempt, Search};
 use crate::geometry::Quaternion;
-use crate::mechanism::{Configuration, PlatformPose, PoseCoordinate};
+use crate::mechanism::{Configuration, PlatformPose};
 use crate::solve::{Report, Stop};
 use crate::system::HeldPlatform;
 
@@ -38,7 +38,7 @@ impl Search<'_> {
                 if *held == HeldPlatform::Pose {
                     at.platforms[i] = pose_between(home, to, share);
                 }
-                for &(coordinate, value) in coordinates(held) {
+                for &(coordinate, value) in held.coordinates() {
                     let value = between(coordinate.of(&home.pose()), value, share);
                     system.to_mut().set_target(i, coordinate, value);
                 }
@@ -68,7 +68,7 @@ impl Search<'_> {
         }
         for (i, held) in self.held.platforms.iter().enumerate() {
             let (home, to) = (&home.platforms[i], &to.platforms[i]);
-            for (coordinate, value) in coordinates(held) {
+            for (coordinate, value) in held.coordinates() {
                 let scale = if coordinate.is_angle() {
                     1.0
                 } else {
@@ -83,13 +83,6 @@ impl Search<'_> {
             }
         }
         longest
-    }
-}
-
-fn coordinates(held: &HeldPlatform<f64>) -> &[(PoseCoordinate, f64)] {
-    match held {
-        HeldPlatform::Partly { coordinates, .. } => coordinates,
-        HeldPlatform::Free | HeldPlatform::Pose => &[],
     }
 }
 

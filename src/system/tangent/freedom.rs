@@ -87,8 +87,7 @@ impl Freedoms {
         moving(mechanism, &self.unknowns, &self.motions)
     }
 
-    /// Whether all motions are local: links turn about their own axes, as a rod between two balls does, and no
-    /// point moves.
+    /// Whether all motions are local: links turn about their own axes, and no point moves.
     pub fn are_local(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
         if self.motions.is_empty() {
             return true;
@@ -195,8 +194,7 @@ impl Mobility {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
     }
 
-    /// Whether the freedoms are finite, tried along one that mixes them all: an infinitesimally
-    /// flexible (shaky) structure has some that are not.
+    /// Whether the freedoms are finite, tried along one that mixes them: those of a shaky structure are not.
     pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
         let mut near = Neighbourhood::new(mechanism);
         let tangent = near.tangent(self.at.clone());
@@ -208,8 +206,7 @@ impl Mobility {
         self.idle
     }
 
-    /// The first of the candidates that are independent of one another, as many as there are
-    /// freedoms at most: holding them leaves nothing else to choose.
+    /// The first of the candidates that are independent, as many as there are freedoms at most: they leave no choice.
     pub fn independent(&self, mechanism: &Mechanism, candidates: &[Coordinate]) -> Vec<Coordinate> {
         let mut chosen = Vec::new();
         let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -238,8 +235,7 @@ impl Mobility {
             Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
                 let pose = self.at.platforms[platform].pose();
                 let slope = match candidate {
-                    // roll and yaw turn about the same line there: only whole orientations are
-                    // held, by three angles as good as any
+                    // roll and yaw turn about one line there: only whole orientations are held, by any three angles
                     Coordinate::Pose(_, c)
                         if c.is_angle() && RollPitchYaw::is_locked(&pose.rotation) =>
                     {

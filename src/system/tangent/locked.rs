@@ -105,7 +105,7 @@ impl Locked {
     /// M at a configuration, column-major.
     pub fn jacobian(&mut self, at: &Configuration<f64>) -> Vec<f64> {
         self.system.linearise(at, &mut self.work);
-        let closures = self.system.dense_jacobian(&mut self.work);
+        let closures = self.system.dense_jacobian(&self.work);
         let (first, rows) = (self.system.rows(), self.rows());
         let mut entries = vec![0.0; rows * self.columns()];
         for (to, from) in

@@ -7,7 +7,7 @@ use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::Decomposition;
 use crate::mechanism::{Body, Configuration, Frame, Symbol};
-use crate::system::{Places, Unknown};
+use crate::system::Unknown;
 
 /// A loop: a closure and the two chains from it to the body where they part.
 #[derive(Clone, Debug)]
@@ -112,8 +112,7 @@ fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
     let placement = twists.placed(at);
     let places = twists.places();
     let place = |frame: Frame| places.get(&frame).copied();
-    let columns = Places::new(near.system().unknowns());
-    let column = |joint: usize| columns.of(Unknown::Joint(joint));
+    let column = |joint: usize| near.system().place_of(Unknown::Joint(joint));
     let mut rates = vec![0.0; near.system().unknowns().len()];
     let mut edges = Vec::new();
     for (chain, part) in mechanism.chains().iter().enumerate() {
@@ -155,7 +154,6 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let wrenches = near.closure_wrenches(at);
-    let columns = Places::new(near.system().unknowns());
     let closures = mechanism.closures().iter().zip(wrenches);
     closures
         .map(|(closure, wrenches)| {
@@ -175,7 +173,7 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
             // a length that a joint drives is one freedom more: that along the rod
             for (symbol, _) in closure.length.iter().flat_map(|length| &length.terms) {
                 if let Symbol::Joint(joint) = symbol
-                    && columns.of(Unknown::Joint(*joint)).is_some()
+                    && near.system().place_of(Unknown::Joint(*joint)).is_some()
                 {
                     names.push(mechanism.joints()[*joint].name.clone());
                     joints.push(*joint);

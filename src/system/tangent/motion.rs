@@ -100,8 +100,7 @@ impl Motion {
         Motion::placing(mechanism, coordinates, &[], |held| held)
     }
 
-    /// The same that also places some frames, where more stands still, such as links that would spin about their own
-    /// lines.
+    /// The same that also places some frames, where more stands still, such as links that would spin.
     pub fn placing(
         mechanism: &Mechanism,
         coordinates: &[Coordinate],
@@ -112,12 +111,8 @@ impl Motion {
         let dimensions = mechanism.dimensions();
         let system = System::placing(mechanism, dimensions, &held, frames);
         let joints = (0..mechanism.joints().len()).map(Unknown::Joint);
-        let platforms = (0..mechanism.platforms().len()).flat_map(|platform| {
-            (0..6).map(move |component| Unknown::Twist {
-                platform,
-                component,
-            })
-        });
+        let platforms = (0..mechanism.platforms().len())
+            .flat_map(|platform| (0..6).map(move |component| Unknown::Twist(platform, component)));
         let unknowns: Vec<Unknown> = joints.chain(platforms).collect();
         let place = |unknown: &Unknown| unknowns.iter().position(|of| of == unknown);
         let places = system.unknowns().iter().map(place);
@@ -184,8 +179,7 @@ impl Motion {
         self.system.placement(&self.work)
     }
 
-    /// Factorises at an assembled configuration, for the calls of [`Motion::rates`] and
-    /// [`Motion::accelerations`] that follow.
+    /// Factorises at an assembled configuration, for [`Motion::rates`] and [`Motion::accelerations`] that follow.
     pub fn at(&mut self, at: &Configuration<f64>) {
         self.placed_at(at, None);
     }
@@ -205,8 +199,7 @@ impl Motion {
         self.changing.placed = false;
     }
 
-    /// Rates of all unknowns for rates of the held coordinates in their order, in m and rad per
-    /// unit of time.
+    /// Rates of all unknowns for rates of the held coordinates, in m and rad per unit of time.
     pub fn rates(&mut self, given: &[f64]) -> &[f64] {
         self.given[0].copy_from_slice(given);
         self.solve_rates()
@@ -253,8 +246,7 @@ impl Motion {
         self.solve_rates()
     }
 
-    /// Goes on with rates that were computed before, as a sum of [responses](Self::responses); those of coordinates at
-    /// rest need not be known.
+    /// Goes on with rates that are a sum of [responses](Self::responses), of coordinates not at rest.
     pub fn set_rates(&mut self, responses: &[Vec<f64>], given: &[f64]) {
         self.given[0].copy_from_slice(given);
         self.changing.placed = false;
@@ -268,23 +260,17 @@ impl Motion {
         }
     }
 
-    /// The largest rate, dimensionless, at which a closure would open with the rates last computed:
-    /// nothing but rounding unless the held coordinates cannot move so.
+    /// The largest dimensionless rate at which a closure would open: rounding, unless what is held cannot move so.
     pub fn mismatch(&mut self) -> f64 {
-        let rows = self.row_rates().iter();
-        rows.fold(0.0, |most: f64, row| most.max(row.abs()))
+        largest(self.row_rates())
     }
 
-    /// The largest acceleration, dimensionless, at which a closure would open with the
-    /// accelerations last computed: more than rounding where no motion has them, at a configuration
-    /// that is mobile to first order only.
+    /// The same acceleration: more than rounding where a mechanism is mobile to first order only.
     pub fn mismatch_of_accelerations(&mut self) -> f64 {
-        let rows = self.row_changes().iter();
-        rows.fold(0.0, |most: f64, row| most.max(row.abs()))
+        largest(self.row_changes())
     }
 
-    /// Rates and [accelerations](Self::accelerations) last computed as numbers that change, with its frames placed along
-    /// the path that has these rates.
+    /// The latest rates and [accelerations](Self::accelerations), with frames placed along the path of these rates.
     pub fn changes(&self) -> (&[Dual<f64>], &Placement<Dual<f64>>) {
         let Changing {
             system,
@@ -300,10 +286,8 @@ impl Motion {
         [&self.rates, &self.accelerations]
     }
 
-    /// The largest of the rates and of the accelerations last computed, in rad and characteristic lengths per unit of
-    /// time.
+    /// The largest of the latest rates and accelerations, in rad and characteristic lengths per unit of time.
     pub fn largest(&self) -> [f64; 2] {
-        let largest = |all: &[f64]| all.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         self.known().map(largest)
     }
 
@@ -371,8 +355,7 @@ impl Motion {
         right
     }
 
-    /// Accelerations of everything for the rates last computed and accelerations of the held
-    /// coordinates, in m and rad per unit of time squared.
+    /// Accelerations for the rates last computed and those of held coordinates, in m and rad per unit of time squared.
     pub fn accelerations(&mut self, given: &[f64]) -> &[f64] {
         self.given[1].copy_from_slice(given);
         self.accelerations.fill(0.0);
@@ -390,6 +373,10 @@ impl Motion {
         self.follow();
         &self.accelerations
     }
+}
+
+fn largest(all: &[f64]) -> f64 {
+    all.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
 /// A pose displaced by a twist (ω; v/L) for an instant.

@@ -6,7 +6,7 @@ mod lasting;
 use super::STILL;
 use super::twists::FrameTwists;
 use crate::description::Role;
-use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
+use crate::linear::{Decomposition, complement, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::equations::solve;
@@ -74,7 +74,7 @@ impl<'a> Neighbourhood<'a> {
     pub fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
         self.system.linearise(&at, &mut self.work);
         let columns = self.system.unknowns().len();
-        let decomposition = self.system.decomposition(&mut self.work);
+        let decomposition = self.system.decomposition(&self.work);
         let all = decomposition.null_space();
         let moved = self.displacements(&at, &all);
         let split = Decomposition::of(moved.len() / all.len().max(1), all.len(), &moved);
@@ -105,9 +105,9 @@ impl<'a> Neighbourhood<'a> {
     pub fn rank(&mut self, at: &Configuration<f64>) -> usize {
         self.system.linearise(at, &mut self.work);
         if self.system.is_large() {
-            return self.system.decomposition(&mut self.work).rank();
+            return self.system.decomposition(&self.work).rank();
         }
-        let jacobian = self.system.dense_jacobian(&mut self.work);
+        let jacobian = self.system.dense_jacobian(&self.work);
         rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
     }
 
@@ -138,8 +138,7 @@ impl<'a> Neighbourhood<'a> {
         moved.iter().all(|rate| rate.abs() < STILL)
     }
 
-    /// For each motion the rates that vanish in local freedoms: of origins of frames, platforms, driven
-    /// joints, links where a closure is turned too, joints that affect no closure.
+    /// For each motion the rates that vanish in local freedoms, as those of origins, platforms and driven joints.
     fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
         let mechanism = self.mechanism;
         let mut placement = self.frames.placement();
@@ -151,8 +150,7 @@ impl<'a> Neighbourhood<'a> {
             let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
             (a - b).norm() > 1e-6 / scale
         };
-        // what leaves two points of a link at rest turns it about the line of these, and so it does a link that
-        // is cut in two, or whose halves slide in one another
+        // two points of a link at rest leave a turn about their line, also of one cut in two or sliding in itself
         let (frames, bodies) = (&frames, &bodies);
         let has_line = |place: usize, joined: [Frame; 2]| {
             let joined = joined.map(|frame| mechanism.body(frame));
@@ -171,8 +169,7 @@ impl<'a> Neighbourhood<'a> {
             })
             .collect();
         let outside = mechanism.joints_outside_closures();
-        // platforms on several balls can only spin about the line of these; a ball may be rows of a
-        // chain that stands on the platform
+        // platforms on several balls only spin about their line; a ball may be rows of a chain on the platform
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
             let carried = mechanism.chains().iter().map(|chain| chain.on);
@@ -202,7 +199,7 @@ impl<'a> Neighbourhood<'a> {
                     Unknown::Joint(joint) => {
                         mechanism.joints()[joint].role == Role::Passive && !outside.contains(&joint)
                     }
-                    Unknown::Twist { platform, .. } => rods.contains(&platform),
+                    Unknown::Twist(platform, _) => rods.contains(&platform),
                 };
                 if !idle {
                     moved.push(rate);
@@ -239,12 +236,5 @@ impl Tangent {
             (Some(motion), _) | (None, Some(motion)) => motion.len(),
             (None, None) => self.decomposition.rank(),
         }
-    }
-
-    /// How far a unit vector is from being a motion: the sine of the angle between them.
-    pub fn misses(&self, direction: &[f64]) -> f64 {
-        let along = self.motions.iter().chain(&self.idle);
-        let squares: f64 = along.map(|motion| dot(motion, direction).powi(2)).sum();
-        (1.0 - squares).max(0.0).sqrt()
     }
 }

@@ -8,7 +8,7 @@ use super::STILL;
 use super::neighbourhood::Neighbourhood;
 use super::twists::Twist;
 use crate::geometry::Vector3;
-use crate::linear::{axis_aligned, norm, remove};
+use crate::linear::{Decomposition, axis_aligned, dot, norm, orthonormal, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 
 /// The infinitesimal motions of a body.
@@ -29,8 +29,7 @@ pub struct Screw {
     pub direction: [f64; 3],
     /// The point of the axis nearest to the origin of ground, in m; `None` for a translation.
     pub point: Option<[f64; 3]>,
-    /// Advance for a rotation by 1 rad, in m/rad; zero for a rotation, `None` for a translation,
-    /// whose pitch is infinite.
+    /// Advance in m/rad: zero for a rotation, `None` for a translation, whose pitch is infinite.
     pub pitch: Option<f64>,
 }
 
@@ -62,8 +61,7 @@ fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
 }
 
 impl Neighbourhood<'_> {
-    /// The twists that a space of infinitesimal motions gives to the platforms, or else to the links that
-    /// closures join, without spins in the local freedoms `idle`.
+    /// The twists of the platforms, or else of links that closures join, without spins in the local freedoms `idle`.
     pub fn twist_spaces(
         &self,
         at: &Configuration<f64>,
@@ -107,7 +105,7 @@ impl Neighbourhood<'_> {
 /// Orthonormal directions of the axes about which a frame spins at the given angular velocities.
 pub fn spin_lines(omegas: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
     let omegas: Vec<Vec<f64>> = omegas.map(|omega| omega.0.to_vec()).collect();
-    let lines = crate::linear::orthonormal(&omegas, STILL).into_iter();
+    let lines = orthonormal(&omegas, STILL).into_iter();
     lines.map(|w| Vector3([w[0], w[1], w[2]])).collect()
 }
 
@@ -117,8 +115,7 @@ pub fn without(omega: &Vector3<f64>, spins: &[Vector3<f64>]) -> Vector3<f64> {
     along.fold(*omega, |left, part| left - part)
 }
 
-/// Principal screws of a space of wrenches (f; m/L) about the origin of ground: `direction` is that
-/// of the force, or of the moment where there is no force.
+/// Principal screws of wrenches (f; m/L) about the origin of ground, along the force or else the moment.
 pub fn wrench_screws(wrenches: &[Vec<f64>], length: f64) -> Vec<Screw> {
     principal_screws(wrenches, length)
 }
@@ -132,28 +129,19 @@ fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
     let space = axis_aligned(twists);
     let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();
     let rotations = axis_aligned(&omegas);
-    let translations: Vec<Vec<f64>> = {
-        // combinations without rotation
-        let columns: Vec<f64> = omegas.concat();
-        let weights = crate::linear::Decomposition::of(3, omegas.len(), &columns).null_space();
-        let sums: Vec<Vec<f64>> = (weights.iter())
-            .map(|weights| {
-                (3..6)
-                    .map(|k| space.iter().zip(weights).map(|(t, w)| t[k] * w).sum())
-                    .collect()
-            })
-            .collect();
-        axis_aligned(&sums)
+    let turning = Decomposition::of(3, omegas.len(), &omegas.concat());
+    let velocity = |weights: &Vec<f64>| -> Vec<f64> {
+        let sum = |k: usize| space.iter().zip(weights).map(|(t, w)| t[k] * w).sum();
+        (3..6).map(sum).collect()
     };
-    let translation_basis = crate::linear::orthonormal(&translations, ZERO);
-    let rotation_basis = crate::linear::orthonormal(&rotations, ZERO);
+    // combinations without rotation
+    let still: Vec<Vec<f64>> = turning.null_space().iter().map(velocity).collect();
+    let translations = axis_aligned(&still);
+    let translation_basis = orthonormal(&translations, ZERO);
+    let rotation_basis = orthonormal(&rotations, ZERO);
     let velocities: Vec<Vec<f64>> = (rotation_basis.iter())
         .map(|omega| {
-            let columns: Vec<f64> = omegas.concat();
-            let weights = crate::linear::Decomposition::of(3, omegas.len(), &columns).solve(omega);
-            let mut velocity: Vec<f64> = (3..6)
-                .map(|k| space.iter().zip(&weights).map(|(t, w)| t[k] * w).sum())
-                .collect();
+            let mut velocity = velocity(&turning.solve(omega));
             remove(&mut velocity, &translation_basis);
             velocity
         })
@@ -177,8 +165,8 @@ fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f6
         return Vec::new();
     }
     let pitches = nalgebra::DMatrix::from_fn(size, size, |i, j| {
-        let ahead = crate::linear::dot(&rotation_basis[i], &velocities[j]);
-        let back = crate::linear::dot(&rotation_basis[j], &velocities[i]);
+        let ahead = dot(&rotation_basis[i], &velocities[j]);
+        let back = dot(&rotation_basis[j], &velocities[i]);
         let pitch = 0.5 * (ahead + back);
         // equal pitches must not turn the axes
         if pitch.abs() < ZERO { 0.0 } else { pitch }

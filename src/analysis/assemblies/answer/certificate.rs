@@ -107,10 +107,7 @@ impl Certifier {
         for unknown in self.system.unknowns() {
             match *unknown {
                 Unknown::Joint(j) => boxed.joints[j] += y * Interval::point(self.scales[j]),
-                Unknown::Twist {
-                    platform,
-                    component: 0,
-                } => {
+                Unknown::Twist(platform, 0) => {
                     let pose = &boxed.platforms[platform];
                     let shift = y * Interval::point(self.length);
                     boxed.platforms[platform] = PlatformPose {
@@ -118,7 +115,7 @@ impl Certifier {
                         position: pose.position + Vector3([shift; 3]),
                     };
                 }
-                Unknown::Twist { .. } => {}
+                Unknown::Twist(..) => {}
             }
         }
         boxed
@@ -141,7 +138,7 @@ impl Certifier {
         }
         self.system.linearise(&at, &mut self.work);
         let all = self.system.rows();
-        let dense = self.system.dense_jacobian(&mut self.work);
+        let dense = self.system.dense_jacobian(&self.work);
         let residual: Vec<Interval> = self
             .rows
             .iter()
@@ -154,7 +151,7 @@ impl Certifier {
         }
         let half = Interval::point(0.5);
         for (j, unknown) in self.system.unknowns().iter().enumerate() {
-            let Unknown::Twist { component: 0, .. } = unknown else {
+            let Unknown::Twist(_, 0) = unknown else {
                 continue;
             };
             let c = Vector3([0, 1, 2].map(|i| y[j + i] * half));

@@ -67,15 +67,9 @@ impl Coordinates {
             (0..held.platforms.len()).partition(|&p| held.platforms[p] == HeldPlatform::Pose);
         let (mut targets, mut orientations) = (Vec::new(), Vec::new());
         for (p, held) in held.platforms.iter().enumerate() {
-            if let HeldPlatform::Partly {
-                coordinates,
-                orientation,
-                ..
-            } = held
-            {
-                targets.extend(coordinates.iter().map(|(c, _)| Input::Target(p, *c)));
-                orientations.extend(orientation.map(|_| Input::Orientation(p)));
-            }
+            let coordinates = held.coordinates().iter();
+            targets.extend(coordinates.map(|(c, _)| Input::Target(p, *c)));
+            orientations.extend(held.orientation().map(|_| Input::Orientation(p)));
         }
         let joints = held_joints.into_iter().map(Input::Joint);
         let poses = held_poses.into_iter().map(Input::Pose);

@@ -59,7 +59,7 @@ impl ParameterHomotopy<'_> {
     pub fn regularity(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
         self.here.linearise();
-        let (largest, smallest) = self.here.system.pivots(&mut self.here.work);
+        let (largest, smallest) = self.here.system.pivots(&self.here.work);
         smallest / largest.max(1.0)
     }
 
@@ -104,7 +104,7 @@ impl ParameterHomotopy<'_> {
     pub fn evaluated(&mut self, s: C, x: &[C]) -> (Vec<C>, Vec<C>) {
         self.load(s, x);
         self.here.linearise();
-        let jacobian = self.here.system.dense_jacobian(&mut self.here.work);
+        let jacobian = self.here.system.dense_jacobian(&self.here.work);
         let residual = self.here.system.residual_of(&self.here.work);
         (residual.to_vec(), jacobian)
     }
@@ -180,7 +180,7 @@ impl ParameterHomotopy<'_> {
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);
         self.here.linearise();
-        self.here.system.nullity(tolerance, &mut self.here.work)
+        self.here.system.nullity(tolerance, &self.here.work)
     }
 
     /// dx/ds = −J⁺ ∂h/∂s by the factors last made and the residual last evaluated. A forward difference

@@ -132,7 +132,7 @@ impl MemberEquations {
             };
             apart.go(family, course, s);
             apart.linearise();
-            Some(apart.system.nullity(LOST, &mut apart.work))
+            Some(apart.system.nullity(LOST, &apart.work))
         };
         !incommensurate.is_empty() || !screws.is_empty() && freedom(false) > freedom(true)
     }

@@ -61,7 +61,7 @@ impl Metric {
                 let joint = &mechanism.joints()[joint];
                 whole || joint.role == Role::Actuated || joint.limits.is_some()
             }
-            Unknown::Twist { .. } => true,
+            Unknown::Twist(..) => true,
         });
         let seen: Vec<bool> = seen.collect();
         let unknowns = free.system().unknowns().iter().enumerate();
@@ -73,7 +73,7 @@ impl Metric {
                 scale: free.system().joint_scale(joint),
                 repeats: mechanism.repeats(joint),
             }),
-            Unknown::Twist { .. } => None,
+            Unknown::Twist(..) => None,
         });
         Metric {
             joints: joints.collect(),

@@ -167,8 +167,8 @@ impl Targets {
                 Coordinate::Pose(platform, c) => {
                     let (pose, turned) = match &held.platforms[platform] {
                         HeldPlatform::Pose => (true, true),
-                        HeldPlatform::Partly { orientation, .. } => {
-                            (false, orientation.is_some() && c.is_angle())
+                        HeldPlatform::Partly(parts) => {
+                            (false, parts.orientation.is_some() && c.is_angle())
                         }
                         HeldPlatform::Free => (false, false),
                     };

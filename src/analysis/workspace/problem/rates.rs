@@ -91,10 +91,7 @@ impl<T: Factorable + Packed> Rates<T> {
             first: match *of {
                 Coordinate::Joint(joint) => place(Unknown::Joint(joint)),
                 Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
-                    place(Unknown::Twist {
-                        platform,
-                        component: 0,
-                    })
+                    place(Unknown::Twist(platform, 0))
                 }
             },
         };
@@ -107,7 +104,7 @@ impl<T: Factorable + Packed> Rates<T> {
         let unknowns = free.unknowns().iter().enumerate();
         let moved = unknowns.filter(|(_, unknown)| match **unknown {
             Unknown::Joint(joint) => whole && mechanism.joints()[joint].role != Role::Actuated,
-            Unknown::Twist { .. } => true,
+            Unknown::Twist(..) => true,
         });
         let unknowns = free.unknowns().len();
         Rates {
@@ -155,8 +152,7 @@ impl<T: Factorable + Packed> Rates<T> {
             let mut motion = std::mem::take(&mut self.motions);
             self.move_one(at, system, work, i, &mut motion[i * unknowns..][..unknowns]);
             let one = &motion[i * unknowns..][..unknowns];
-            self.free
-                .product_into(one, &mut self.work, &mut self.column);
+            self.free.product_into(one, &self.work, &mut self.column);
             let (off, size) = (largest(&self.column), largest(one));
             for (gap, (off, size)) in gap.iter_mut().zip(off.iter().zip(size)) {
                 let relative = off / (1.0 + size);
@@ -257,7 +253,7 @@ impl<T: Factorable + Packed> Rates<T> {
             if (0..T::WIDTH).all(|place| rate.part(place) == 0.0) {
                 continue;
             }
-            (self.free).column_into(unknown, &mut self.work, &mut self.column);
+            (self.free).column_into(unknown, &self.work, &mut self.column);
             for (right, &row) in self.right.iter_mut().zip(&self.rows) {
                 *right += self.column[row] * *rate;
             }
@@ -321,12 +317,7 @@ fn ways<T: Factorable>(
     place: &impl Fn(Unknown) -> usize,
 ) -> Vec<RateSource> {
     let held = problem.question.held();
-    let twist = |platform, component| {
-        place(Unknown::Twist {
-            platform,
-            component,
-        })
-    };
+    let twist = |platform, component| place(Unknown::Twist(platform, component));
     let way = |of: &Coordinate| match *of {
         Coordinate::Joint(joint) => RateSource::Unknown(place(Unknown::Joint(joint))),
         Coordinate::Pose(platform, c) => {

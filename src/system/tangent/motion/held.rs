@@ -1,7 +1,7 @@
 //! The held coordinates of a choice, in the form the solver takes.
 
-use crate::geometry::{Pose, Rotation};
-use crate::mechanism::{Mechanism, PoseCoordinate};
+use crate::geometry::Pose;
+use crate::mechanism::Mechanism;
 use crate::system::{Coordinate, Held, HeldPlatform};
 
 /// Every coordinate singly, but poses and orientations held by turns as wholes.
@@ -16,13 +16,18 @@ pub(super) fn of(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Held<f64>
                 held.platforms[platform] = HeldPlatform::Pose;
             }
             Coordinate::Pose(platform, coordinate) => {
-                partly(&mut held.platforms[platform])
-                    .0
-                    .push((coordinate, 0.0));
+                let parts = held.platforms[platform].parts_mut();
+                parts
+                    .into_iter()
+                    .for_each(|parts| parts.coordinates.push((coordinate, 0.0)));
             }
             // the three turns of an orientation
             Coordinate::Turn(platform, _) => {
-                *partly(&mut held.platforms[platform]).1 = Some(Pose::<f64>::identity().rotation);
+                let parts = held.platforms[platform].parts_mut();
+                let identity = Pose::identity().rotation;
+                parts
+                    .into_iter()
+                    .for_each(|parts| parts.orientation = Some(identity));
             }
         }
     }
@@ -38,25 +43,4 @@ fn whole(coordinates: &[Coordinate], platform: usize) -> bool {
         Coordinate::Joint(_) => false,
     });
     of_it.count() == 6
-}
-
-/// The coordinates and the orientation of a platform held in part.
-fn partly(
-    held: &mut HeldPlatform<f64>,
-) -> (&mut Vec<(PoseCoordinate, f64)>, &mut Option<Rotation<f64>>) {
-    if !matches!(held, HeldPlatform::Partly { .. }) {
-        *held = HeldPlatform::Partly {
-            coordinates: Vec::new(),
-            orientation: None,
-            spins: Vec::new(),
-        };
-    }
-    match held {
-        HeldPlatform::Partly {
-            coordinates,
-            orientation,
-            ..
-        } => (coordinates, orientation),
-        HeldPlatform::Free | HeldPlatform::Pose => unreachable!("made so above"),
-    }
 }

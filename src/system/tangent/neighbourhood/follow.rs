@@ -69,11 +69,9 @@ impl Neighbourhood<'_> {
         direction: &[f64],
         distance: f64,
     ) -> Result<FiniteStep, Option<f64>> {
-        /// This gap may be left and the motion still counts as free: rounding. A freedom that is
-        /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
+        /// A gap of a free motion: rounding. One infinitesimal to order five leaves 0.05⁶ = 1.6e-8 times its curvature.
         const FREE: f64 = 1e-11;
-        /// The same for a step so short that a freedom of second order would leave no more than
-        /// that.
+        /// The same for a step so short that a freedom of second order would leave no more.
         const FREE_IF_SHORT: f64 = 1e-13;
         const SHORT: f64 = 1e-3;
         let mut length = distance;
@@ -90,8 +88,7 @@ impl Neighbourhood<'_> {
         Err(None)
     }
 
-    /// Whether all motions are finite, tried along one that mixes them all: an infinitesimally
-    /// flexible (shaky) structure has some that are not.
+    /// Whether all motions are finite, tried along one that mixes them: those of a shaky structure are not.
     pub fn is_mobile(&mut self, at: &Tangent) -> bool {
         const STEP: f64 = 0.05;
         let mut mixed = vec![0.0; self.system.unknowns().len()];
@@ -128,7 +125,7 @@ impl Neighbourhood<'_> {
                 let ahead: Vec<f64> = motion.iter().map(|x| x * step).collect();
                 let at = self.system.displaced(&from.at, &ahead);
                 self.system.linearise(&at, &mut self.work);
-                slope += self.system.form(&mut self.work, u, v) / (2.0 * step);
+                slope += self.system.form(&self.work, u, v) / (2.0 * step);
             }
             squares += slope * slope;
         }
@@ -213,8 +210,7 @@ impl Neighbourhood<'_> {
         along
     }
 
-    /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
-    /// rounding; `None` if they go further than `reach` or do not arrive.
+    /// The assembled configuration that Gauss–Newton steps of least length reach within `reach`, to rounding.
     pub fn settle(&mut self, at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
         settle(&self.system, &mut self.work, at, reach)
     }
