@@ -11,7 +11,6 @@ use crate::number::Field;
 /// With damping λ > 0, rows √λ·I are added (Levenberg 1944).
 #[derive(Clone, Debug)]
 pub struct Bordered<T: Factorable> {
-    unknowns: usize,
     rows: usize,
     blocks: Vec<Factor<T>>,
     extra_rows: usize,
@@ -22,7 +21,6 @@ pub struct Bordered<T: Factorable> {
     square: bool,
     border_rhs: Vec<T>,
     border_x: Vec<T>,
-    damped: bool,
     sparse: Option<T::Sparse>,
 }
 
@@ -78,7 +76,6 @@ impl<T: Factorable> Bordered<T> {
             None => (rows + unknowns, shared.len()),
         };
         Bordered {
-            unknowns,
             rows,
             blocks,
             extra_rows,
@@ -88,14 +85,8 @@ impl<T: Factorable> Bordered<T> {
             border_rhs: vec![T::zero(); most],
             border_x: vec![T::zero(); width],
             shared,
-            damped: false,
             sparse,
         }
-    }
-
-    /// Number of unknowns.
-    pub fn unknowns(&self) -> usize {
-        self.unknowns
     }
 
     /// Number of rows: those of the blocks in order, then the extra ones.
@@ -148,13 +139,13 @@ impl<T: Factorable> Bordered<T> {
         if let Some(sparse) = &mut self.sparse {
             return sparse.factorise(self.blocks.iter().map(Factor::entries), extra, damping);
         }
-        self.damped = damping > 0.0;
+        let damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
         let mut border_rows = self.extra_rows;
         for block in &mut self.blocks {
             let (rows, own) = (block.layout.rows, block.layout.own.len());
-            let total = if self.damped { rows + own } else { rows };
-            if self.damped {
+            let total = if damped { rows + own } else { rows };
+            if damped {
                 block.qr.reset(total);
                 for (j, column) in block.matrix.chunks_exact(rows.max(1)).enumerate() {
                     let target = block.qr.column_mut(j);
@@ -170,7 +161,7 @@ impl<T: Factorable> Bordered<T> {
             block.qr.factorise(1.0);
             border_rows += total - block.qr.rank();
         }
-        if self.damped {
+        if damped {
             border_rows += self.shared.len();
         }
         self.border.reset(border_rows);
@@ -189,7 +180,7 @@ impl<T: Factorable> Bordered<T> {
             }
             row += 1;
         }
-        if self.damped {
+        if damped {
             for place in 0..self.shared.len() {
                 self.border.column_mut(place)[row + place] = root;
             }

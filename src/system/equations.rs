@@ -1,6 +1,6 @@
 mod approach;
-mod axes;
 mod closure_gap;
+mod closures;
 mod coordinate;
 mod decomposed;
 mod displacement;
@@ -10,17 +10,15 @@ mod plan;
 mod rates;
 mod settle;
 mod spin;
-mod wrenches;
 
 pub use approach::approach;
-pub use axes::ClosureAxes;
 pub use closure_gap::Gap;
+pub use closures::{ClosureAxes, ClosureWrenches};
 pub use coordinate::Coordinate;
 pub use layout::{Held, HeldParts, HeldPlatform, Places, Unknown};
 pub use parts::independent_parts;
 pub use settle::{settle, solve};
 pub use spin::Spin;
-pub use wrenches::ClosureWrenches;
 
 use plan::ClosurePlan;
 

@@ -1,14 +1,15 @@
 //! Questions that cannot be put, and the words for them.
 
-use std::error::Error;
 use std::fmt::{self, Display, Formatter};
+
+use thiserror::Error;
 
 use super::demand::Demand;
 use crate::description::{count, listed};
 use crate::mechanism::{Value, ValueError};
 
 /// Why a question cannot be put.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum QuestionError {
     /// No joint, platform or platform coordinate has the name.
     UnknownName {
@@ -24,6 +25,7 @@ pub enum QuestionError {
         /// The value as given.
         text: String,
         /// What is wrong with it.
+        #[source]
         error: ValueError,
     },
     /// The same joint or coordinate is held or guessed twice, or held and freed.
@@ -134,15 +136,6 @@ impl Display for QuestionError {
                 write!(f, "; free {} and hold {}", listed(free), listed(hold))
             }
             _ => Ok(()),
-        }
-    }
-}
-
-impl Error for QuestionError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            QuestionError::Value { error, .. } => Some(error),
-            _ => None,
         }
     }
 }

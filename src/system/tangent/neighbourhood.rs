@@ -141,8 +141,7 @@ impl<'a> Neighbourhood<'a> {
     /// For each motion the rates that vanish in local freedoms, as those of origins, platforms and driven joints.
     fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
         let mechanism = self.mechanism;
-        let mut placement = self.frames.placement();
-        self.frames.place(at, &mut placement);
+        let placement = self.frames.placed(at);
         let scale = 1.0 / mechanism.characteristic_length();
         let frames: Vec<Frame> = self.frames.frames().collect();
         let bodies: Vec<Body> = frames.iter().map(|&frame| mechanism.body(frame)).collect();

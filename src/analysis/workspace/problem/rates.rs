@@ -82,10 +82,7 @@ impl<T: Factorable + Packed> Rates<T> {
         let dimensions = mechanism.dimensions().map(&mut T::from_f64);
         let nothing = Held::nothing(mechanism).map(T::from_f64);
         let free = System::reduced(mechanism, &dimensions, &nothing);
-        let place = |unknown: Unknown| {
-            let place = free.unknowns().iter().position(|u| *u == unknown);
-            place.expect("nothing is held")
-        };
+        let place = |unknown: Unknown| (free.place_of(unknown)).expect("nothing is held");
         let row = |of: &Coordinate| Row {
             of: *of,
             first: match *of {
