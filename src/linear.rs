@@ -23,7 +23,7 @@ mod svd;
 mod vectors;
 
 pub use aligned::axis_aligned;
-pub use block::{Block, DenseOnly, Factorable, NoFactors, SparseStep};
+pub use block::{Block, DenseOnly, Factorable, Filled, NoFactors, SparseStep};
 pub use bordered::Bordered;
 pub use decomposition::{Decomposition, singular_values};
 pub use elimination::Elimination;

@@ -1,7 +1,7 @@
 //! Newton's method for equations that may be redundant, inconsistent or singular.
 //!
-//! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
-//! along it ([`Equations`]), and learns where and why the iteration stopped ([`Stop`]).
+//! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move along it
+//! ([`Equations`]), and learns where and why the iteration stopped ([`Stop`]).
 
 mod boxes;
 mod branching;

@@ -20,25 +20,33 @@ impl Block {
     }
 }
 
+/// A block with its entries: column-major, own columns first, then the shared.
+#[derive(Clone, Debug)]
+pub struct Filled<T> {
+    /// The layout.
+    pub block: Block,
+    /// The entries.
+    pub entries: Vec<T>,
+}
+
+impl<T> Filled<T> {
+    /// Each unknown with its column.
+    pub fn columns(&self) -> impl Iterator<Item = (usize, &[T])> {
+        let columns = self.entries.chunks_exact(self.block.rows.max(1));
+        self.block.unknowns().zip(columns)
+    }
+}
+
 /// Least-squares steps for a large matrix made of blocks that touch few unknowns each.
 pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
     /// Whether there is such a factorisation; otherwise large matrices are treated as dense.
     const AVAILABLE: bool;
     /// Analyses the pattern of the blocks and of `extra_rows` rows that touch every unknown.
-    fn new(unknowns: usize, blocks: &[Block], extra_rows: usize) -> Self;
-    /// Factorises the blocks, each column-major, and the extra rows, row after row.
-    fn factorise<'a>(
-        &mut self,
-        blocks: impl Iterator<Item = (&'a Block, &'a [T])>,
-        extra: &[T],
-        damping: f64,
-    ) where
-        T: 'a;
+    fn new(unknowns: usize, blocks: &[Filled<T>], extra_rows: usize) -> Self;
+    /// Factorises the blocks and the extra rows, row after row.
+    fn factorise(&mut self, blocks: &[Filled<T>], extra: &[T], damping: f64);
     /// The step −J⁺r for the blocks last factorised.
-    fn step<'a, I>(&self, blocks: impl Fn() -> I, r: &[T], x: &mut [T])
-    where
-        T: 'a,
-        I: Iterator<Item = (&'a Block, &'a [T])>;
+    fn step(&self, blocks: &[Filled<T>], r: &[T], x: &mut [T]);
 }
 
 /// No sparse factorisation: large matrices are dense, or with `FILLED` filled in block by block and never factorised.
@@ -50,20 +58,13 @@ pub type DenseOnly = NoFactors<false>;
 
 impl<T, const FILLED: bool> SparseStep<T> for NoFactors<FILLED> {
     const AVAILABLE: bool = FILLED;
-    fn new(_: usize, _: &[Block], _: usize) -> Self {
+    fn new(_: usize, _: &[Filled<T>], _: usize) -> Self {
         NoFactors
     }
-    fn factorise<'a>(&mut self, _: impl Iterator<Item = (&'a Block, &'a [T])>, _: &[T], _: f64)
-    where
-        T: 'a,
-    {
+    fn factorise(&mut self, _: &[Filled<T>], _: &[T], _: f64) {
         unreachable!("derivatives are taken of residuals; equations are solved over other numbers")
     }
-    fn step<'a, I>(&self, _: impl Fn() -> I, _: &[T], _: &mut [T])
-    where
-        T: 'a,
-        I: Iterator<Item = (&'a Block, &'a [T])>,
-    {
+    fn step(&self, _: &[Filled<T>], _: &[T], _: &mut [T]) {
         unreachable!("never factorised")
     }
 }

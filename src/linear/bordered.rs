@@ -1,6 +1,6 @@
 use super::Qr;
 use super::lu::Lu;
-use super::{Block, DENSE_LIMIT, Factorable, SparseStep};
+use super::{Block, DENSE_LIMIT, Factorable, Filled, SparseStep};
 use crate::number::Field;
 
 /// Least squares min ‖J x + r‖ for a J made of blocks with unknowns of their own and shared ones.
@@ -12,7 +12,8 @@ use crate::number::Field;
 #[derive(Clone, Debug)]
 pub struct Bordered<T: Factorable> {
     rows: usize,
-    blocks: Vec<Factor<T>>,
+    blocks: Vec<Filled<T>>,
+    factors: Vec<Factor<T>>,
     extra_rows: usize,
     shared: Vec<usize>,
     border: Qr<T>,
@@ -29,19 +30,11 @@ const TRUSTED_PIVOT: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
 struct Factor<T: Field> {
-    layout: Block,
     /// Places of the block's shared unknowns in the border.
     border_places: Vec<usize>,
-    matrix: Vec<T>,
     qr: Qr<T>,
     rhs: Vec<T>,
     x: Vec<T>,
-}
-
-impl<T: Field> Factor<T> {
-    fn entries(&self) -> (&Block, &[T]) {
-        (&self.layout, &self.matrix)
-    }
 }
 
 impl<T: Factorable> Bordered<T> {
@@ -50,33 +43,34 @@ impl<T: Factorable> Bordered<T> {
         let place = |unknown: &usize| {
             (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
         };
+        let rows: usize = blocks.iter().map(|block| block.rows).sum::<usize>() + extra_rows;
+        let filled = |block: Block| Filled {
+            entries: vec![T::zero(); block.rows * block.unknowns().count()],
+            block,
+        };
+        let blocks: Vec<Filled<T>> = blocks.into_iter().map(filled).collect();
         // the sparse factors have no border
         let sparse = (T::Sparse::AVAILABLE && shared.len() > DENSE_LIMIT)
             .then(|| T::Sparse::new(unknowns, &blocks, extra_rows));
-        let blocks: Vec<Factor<T>> = blocks
-            .into_iter()
-            .map(|layout| {
-                let (rows, own, carried) = (layout.rows, layout.own.len(), layout.shared.len());
-                Factor {
-                    border_places: match sparse {
-                        Some(_) => Vec::new(),
-                        None => layout.shared.iter().map(place).collect(),
-                    },
-                    matrix: vec![T::zero(); rows * (own + carried)],
-                    qr: Qr::new(rows + own, own, carried),
-                    rhs: vec![T::zero(); rows + own],
-                    x: vec![T::zero(); own],
-                    layout,
-                }
-            })
-            .collect();
-        let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
+        let factors = blocks.iter().map(|Filled { block, .. }| {
+            let (rows, own) = (block.rows, block.own.len());
+            Factor {
+                border_places: match sparse {
+                    Some(_) => Vec::new(),
+                    None => block.shared.iter().map(place).collect(),
+                },
+                qr: Qr::new(rows + own, own, block.shared.len()),
+                rhs: vec![T::zero(); rows + own],
+                x: vec![T::zero(); own],
+            }
+        });
         let (most, width) = match sparse {
             Some(_) => (0, 0),
             None => (rows + unknowns, shared.len()),
         };
         Bordered {
             rows,
+            factors: factors.collect(),
             blocks,
             extra_rows,
             border: Qr::new(most, width, 0),
@@ -104,75 +98,74 @@ impl<T: Factorable> Bordered<T> {
         &self.shared
     }
 
-    /// The blocks with their entries: column-major, own columns first, then the shared.
-    pub fn entries(&self) -> impl Iterator<Item = (&Block, &[T])> {
-        self.blocks.iter().map(Factor::entries)
+    /// The blocks as filled in.
+    pub fn blocks(&self) -> &[Filled<T>] {
+        &self.blocks
     }
 
     /// Every column of every block: its first row, its unknown, its entries.
     pub fn columns(&self) -> impl Iterator<Item = (usize, usize, &[T])> {
         let mut next = 0;
-        self.entries().flat_map(move |(block, entries)| {
+        self.blocks.iter().flat_map(move |filled| {
             let row = next;
-            next += block.rows;
-            let columns = entries.chunks_exact(block.rows.max(1));
-            let columns = columns.zip(block.unknowns());
-            columns.map(move |(column, unknown)| (row, unknown, column))
+            next += filled.block.rows;
+            let columns = filled.columns();
+            columns.map(move |(unknown, column)| (row, unknown, column))
         })
     }
 
     /// The entries of block `b` for filling in: column-major, own columns first, then the shared.
     #[inline(always)]
     pub fn block_mut(&mut self, b: usize) -> &mut [T] {
-        &mut self.blocks[b].matrix
+        &mut self.blocks[b].entries
     }
 
     /// Makes all entries of blocks zero, as at first; factors stay.
     pub fn clear(&mut self) {
         for block in &mut self.blocks {
-            block.matrix.fill(T::zero());
+            block.entries.fill(T::zero());
         }
     }
 
     /// Factorises the blocks as filled in, then the border; `extra` has the extra rows one after another.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {
         if let Some(sparse) = &mut self.sparse {
-            return sparse.factorise(self.blocks.iter().map(Factor::entries), extra, damping);
+            return sparse.factorise(&self.blocks, extra, damping);
         }
         let damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
         let mut border_rows = self.extra_rows;
-        for block in &mut self.blocks {
-            let (rows, own) = (block.layout.rows, block.layout.own.len());
+        for (Filled { block, entries }, factor) in self.blocks.iter().zip(&mut self.factors) {
+            let (rows, own) = (block.rows, block.own.len());
             let total = if damped { rows + own } else { rows };
             if damped {
-                block.qr.reset(total);
-                for (j, column) in block.matrix.chunks_exact(rows.max(1)).enumerate() {
-                    let target = block.qr.column_mut(j);
+                factor.qr.reset(total);
+                for (j, column) in entries.chunks_exact(rows.max(1)).enumerate() {
+                    let target = factor.qr.column_mut(j);
                     target[..rows].copy_from_slice(column);
                     if j < own {
                         target[rows + j] = root;
                     }
                 }
             } else {
-                block.qr.load(rows, &block.matrix);
+                factor.qr.load(rows, entries);
             }
             // rows and unknowns are dimensionless, so a pivot is measured against 1
-            block.qr.factorise(1.0);
-            border_rows += total - block.qr.rank();
+            factor.qr.factorise(1.0);
+            border_rows += total - factor.qr.rank();
         }
         if damped {
             border_rows += self.shared.len();
         }
         self.border.reset(border_rows);
         let mut row = 0;
-        for block in &self.blocks {
-            let rank = block.qr.rank();
-            for (carried, &place) in block.qr.carried().zip(&block.border_places) {
+        for factor in &self.factors {
+            let rank = factor.qr.rank();
+            for (carried, &place) in factor.qr.carried().zip(&factor.border_places) {
                 let left = &carried[rank..];
                 self.border.column_mut(place)[row..row + left.len()].copy_from_slice(left);
             }
-            row += block.qr.rows() - rank;
+            row += factor.qr.rows() - rank;
         }
         for i in 0..self.extra_rows {
             for place in 0..self.shared.len() {
@@ -193,29 +186,29 @@ impl<T: Factorable> Bordered<T> {
         }
     }
 
-    /// The step −J⁺r for the residual `r` in the order of the rows, written to `x` in the order of
-    /// the unknowns. May be called again with other residuals for the same factors.
+    /// The step −J⁺r, in the order of the unknowns, for a residual in that of the rows; again for others if called
+    /// again.
     pub fn solve(&mut self, r: &[T], x: &mut [T]) {
         if let Some(sparse) = &self.sparse {
-            return sparse.step(|| self.blocks.iter().map(Factor::entries), r, x);
+            return sparse.step(&self.blocks, r, x);
         }
         let mut row = 0;
         let mut border_row = 0;
-        for block in &mut self.blocks {
-            let rows = block.layout.rows;
+        for (Filled { block, .. }, factor) in self.blocks.iter().zip(&mut self.factors) {
+            let rows = block.rows;
             let r = &r[row..row + rows];
             row += rows;
             // without own unknowns there is nothing to rotate: the rows go to the border
-            if block.layout.own.is_empty() {
+            if block.own.is_empty() {
                 negate(r, &mut self.border_rhs[border_row..]);
                 border_row += rows;
                 continue;
             }
-            negate(r, &mut block.rhs);
-            let total = block.qr.rows();
-            block.rhs[rows..total].fill(T::zero());
-            block.qr.rotate(&mut block.rhs);
-            let left = &block.rhs[block.qr.rank()..total];
+            negate(r, &mut factor.rhs);
+            let total = factor.qr.rows();
+            factor.rhs[rows..total].fill(T::zero());
+            factor.qr.rotate(&mut factor.rhs);
+            let left = &factor.rhs[factor.qr.rank()..total];
             self.border_rhs[border_row..border_row + left.len()].copy_from_slice(left);
             border_row += left.len();
         }
@@ -234,16 +227,18 @@ impl<T: Factorable> Bordered<T> {
         for (&unknown, &value) in self.shared.iter().zip(&self.border_x) {
             x[unknown] = value;
         }
-        let with_own = |block: &&mut Factor<T>| !block.layout.own.is_empty();
-        for block in self.blocks.iter_mut().filter(with_own) {
+        for (Filled { block, .. }, factor) in self.blocks.iter().zip(&mut self.factors) {
+            if block.own.is_empty() {
+                continue;
+            }
             // row by row: there are few of them, often one, and more shared unknowns
-            for (k, b) in block.rhs[..block.qr.rank()].iter_mut().enumerate() {
-                for (carried, &place) in block.qr.carried().zip(&block.border_places) {
+            for (k, b) in factor.rhs[..factor.qr.rank()].iter_mut().enumerate() {
+                for (carried, &place) in factor.qr.carried().zip(&factor.border_places) {
                     *b = *b - self.border_x[place] * carried[k];
                 }
             }
-            block.qr.back_substitute(&mut block.rhs, &mut block.x);
-            for (&unknown, &value) in block.layout.own.iter().zip(&block.x) {
+            (factor.qr).back_substitute(&mut factor.rhs, &mut factor.x);
+            for (&unknown, &value) in block.own.iter().zip(&factor.x) {
                 x[unknown] = value;
             }
         }
@@ -251,17 +246,13 @@ impl<T: Factorable> Bordered<T> {
 
     /// How many unknowns the last factorisation left undetermined.
     pub fn nullity(&self) -> usize {
-        let blocks = self.blocks.iter().map(|b| b.layout.own.len() - b.qr.rank());
+        let blocks = self.blocks.iter().zip(&self.factors);
+        let blocks = blocks.map(|(filled, factor)| filled.block.own.len() - factor.qr.rank());
         let free = match self.square {
             true => 0,
             false => self.shared.len() - self.border.rank(),
         };
         blocks.sum::<usize>() + free
-    }
-
-    /// The blocks' layout, in order.
-    pub fn blocks(&self) -> impl ExactSizeIterator<Item = &Block> {
-        self.blocks.iter().map(|b| &b.layout)
     }
 }
 

@@ -119,8 +119,8 @@ impl Elimination {
         y
     }
 
-    /// Vectors with yᵀA = 0, without pattern and with components about 1: a component that is zero in a few of them is
-    /// zero in all, but by chance. A basis would have as many as there are redundant rows.
+    /// Vectors with yᵀA = 0, without pattern and with components about 1: one that is zero in a few of them is zero in
+    /// all.
     pub fn left_null_vectors(&self, count: usize, null_space: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let rows = self.groups.iter().map(|group| group.count).sum();
         let vectors = (0..count).map(|k| {

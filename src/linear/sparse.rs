@@ -4,14 +4,14 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::traits::ComplexField;
 use faer::{Mat, Side};
 
-use super::{Block, SparseStep};
+use super::{Filled, SparseStep};
 use crate::number::Field;
 
 /// Least squares min ‖J x + r‖ for a large J in which every block of rows touches few unknowns.
 ///
-/// Solves the normal equations (JᴴJ + λ) x = −Jᴴr by a sparse Cholesky factorisation, whose pattern
-/// is analysed once, and corrects x by the residual that is left, because normal equations square
-/// the condition number. (Sparse orthogonal factors fill in along chains of loops.)
+/// Solves the normal equations (JᴴJ + λ) x = −Jᴴr by sparse Cholesky factors of a pattern analysed once, and corrects
+/// x by what is left, because normal equations square the condition number. (Orthogonal factors fill in along chains
+/// of loops.)
 #[derive(Clone, Debug)]
 pub struct SparseNormal<T> {
     size: usize,
@@ -27,9 +27,9 @@ pub struct SparseNormal<T> {
 impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     const AVAILABLE: bool = true;
 
-    fn new(size: usize, blocks: &[Block], extra_rows: usize) -> Self {
+    fn new(size: usize, blocks: &[Filled<T>], extra_rows: usize) -> Self {
         let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
-        for block in blocks {
+        for Filled { block, .. } in blocks {
             pairs.extend(lower(block.unknowns()).map(|(_, pair)| pair));
         }
         if extra_rows > 0 {
@@ -53,18 +53,11 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     }
 
     /// JᴴJ + λ = L·Lᴴ.
-    fn factorise<'a>(
-        &mut self,
-        blocks: impl Iterator<Item = (&'a Block, &'a [T])>,
-        extra: &[T],
-        damping: f64,
-    ) where
-        T: 'a,
-    {
+    fn factorise(&mut self, blocks: &[Filled<T>], extra: &[T], damping: f64) {
         self.values.clear();
         self.extra = extra.to_vec();
         self.damping = damping;
-        for (block, entries) in blocks {
+        for Filled { block, entries } in blocks {
             let column = |j: usize| &entries[j * block.rows..(j + 1) * block.rows];
             let places = lower(block.unknowns());
             self.values
@@ -99,11 +92,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     }
 
     /// Zero if the entries were not finite.
-    fn step<'a, I>(&self, blocks: impl Fn() -> I, r: &[T], x: &mut [T])
-    where
-        T: 'a,
-        I: Iterator<Item = (&'a Block, &'a [T])>,
-    {
+    fn step(&self, blocks: &[Filled<T>], r: &[T], x: &mut [T]) {
         // two corrections bring the error of the normal equations down to that of J itself
         const CORRECTIONS: usize = 2;
         x.fill(T::zero());
@@ -113,22 +102,17 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         for _ in 0..=CORRECTIONS {
             let mut slope = Mat::<T>::zeros(self.size, 1);
             let mut row = 0;
-            for (block, entries) in blocks() {
-                let mut left = r[row..row + block.rows].to_vec();
-                let columns = || {
-                    block
-                        .unknowns()
-                        .zip(entries.chunks_exact(block.rows.max(1)))
-                };
-                for (unknown, column) in columns() {
+            for filled in blocks {
+                let mut left = r[row..row + filled.block.rows].to_vec();
+                for (unknown, column) in filled.columns() {
                     for (left, entry) in left.iter_mut().zip(column) {
                         *left += *entry * x[unknown];
                     }
                 }
-                for (unknown, column) in columns() {
+                for (unknown, column) in filled.columns() {
                     slope[(unknown, 0)] -= inner(column, &left);
                 }
-                row += block.rows;
+                row += filled.block.rows;
             }
             for (entries, &r) in self.extra.chunks_exact(self.size).zip(&r[row..]) {
                 let left = (entries.iter().zip(&*x)).fold(r, |sum, (a, x)| sum + *a * *x);
@@ -166,27 +150,28 @@ fn inner<T: Field>(a: &[T], b: &[T]) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linear::Block;
 
     #[test]
     fn the_sparse_step_is_the_least_squares_step_with_and_without_damping() {
         // a chain: block k of three rows touches unknowns k and k + 1
         let size = 8;
-        let blocks: Vec<Block> = (0..size - 1)
-            .map(|k| Block {
-                rows: 3,
-                own: vec![],
-                shared: vec![k, k + 1],
-            })
-            .collect();
         let entry = |k: usize| ((k * 29 + 7) % 13) as f64 / 5.0 - 1.1;
-        let entries: Vec<Vec<f64>> = (0..size - 1)
-            .map(|k| (0..6).map(|i| entry(6 * k + i)).collect())
+        let blocks: Vec<Filled<f64>> = (0..size - 1)
+            .map(|k| Filled {
+                block: Block {
+                    rows: 3,
+                    own: vec![],
+                    shared: vec![k, k + 1],
+                },
+                entries: (0..6).map(|i| entry(6 * k + i)).collect(),
+            })
             .collect();
         let extra: Vec<f64> = (0..size).map(|k| entry(100 + k)).collect();
         let rows = 3 * (size - 1) + 1;
         let mut dense = nalgebra::DMatrix::zeros(rows, size);
-        for (k, entries) in entries.iter().enumerate() {
-            for (i, &value) in entries.iter().enumerate() {
+        for (k, filled) in blocks.iter().enumerate() {
+            for (i, &value) in filled.entries.iter().enumerate() {
                 dense[(3 * k + i % 3, k + i / 3)] = value;
             }
         }
@@ -196,10 +181,9 @@ mod tests {
         let r: Vec<f64> = (0..rows).map(|k| entry(200 + k)).collect();
         for damping in [0.0, 0.3] {
             let mut sparse = SparseNormal::new(size, &blocks, 1);
-            let all = || blocks.iter().zip(&entries).map(|(b, e)| (b, e.as_slice()));
-            sparse.factorise(all(), &extra, damping);
+            sparse.factorise(&blocks, &extra, damping);
             let mut x = vec![0.0; size];
-            sparse.step(all, &r, &mut x);
+            sparse.step(&blocks, &r, &mut x);
             let rhs = -(dense.transpose() * nalgebra::DVector::from_row_slice(&r));
             let normal =
                 dense.transpose() * &dense + nalgebra::DMatrix::identity(size, size) * damping;

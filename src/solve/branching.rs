@@ -41,9 +41,9 @@ impl Continuation {
     ///
     /// F(x) = 0, wᵢᵀ J(x) vⱼ = 0
     ///
-    /// for bases w and v of the left and right null space that the point has with k singular values
-    /// fewer, renewed in every step; there are more equations than unknowns, all of which hold at a
-    /// branch point. `None` if there is none within `reach`, or the Jacobian is large.
+    /// for bases w and v of the null spaces that the point has with k singular values fewer, renewed in every step;
+    /// all of these equations hold at a branch point. `None` if there is none within `reach`, or the Jacobian is
+    /// large.
     ///
     /// Source: Griewank and Reddien 1984 (borders); Leykin, Verschelde and Zhao 2006 (deflation).
     pub fn branch_point<C: SolutionCurve>(

@@ -1,24 +1,20 @@
 //! Following a curve of solutions: F(x) = 0 with one freedom left.
 //!
-//! Nothing here knows joints: a curve offers its residual, its Jacobian and its manifold
-//! ([`SolutionCurve`]). Rows may be redundant, as long as the rank at a regular place is one less
-//! than the number of unknowns.
+//! A curve offers its residual, its Jacobian and its manifold ([`SolutionCurve`]). Rows may be redundant, as long as
+//! the rank at a regular place is one less than the number of unknowns. Predictor: the tangent. Corrector: Newton's
+//! method in the plane across it with the Jacobian of the place the step starts from (pseudo-arclength continuation;
+//! Keller 1977).
 //!
-//! Predictor: the tangent. Corrector: Newton's method in the plane across it with the Jacobian of the
-//! place the step starts from (pseudo-arclength continuation; Keller 1977).
+//! **When a step is accepted.** With J⁺ of the place x₀ it starts from, both the correction must contract and
+//! ‖J⁺(J(x₁) − J(x₀))‖ ≤ [`Continuation::change`] < 1 must hold at its end x₁ (in the Frobenius norm, an upper bound).
+//! As long as the same holds between them, x ↦ J⁺F(x) is one to one on each plane across the tangent (the affine
+//! covariant theorem of Newton and Kantorovich; Deuflhard, Newton Methods for Nonlinear Problems, 2004, §2.1): there
+//! is no other solution for the step to end at. A crossing of branches, where J⁺ is infinite, is located and left as a
+//! [`BranchPoint`](super::BranchPoint).
 //!
-//! **When a step is accepted.** With J⁺ of the place x₀ it starts from, both the correction must
-//! contract and ‖J⁺(J(x₁) − J(x₀))‖ ≤ [`Continuation::change`] < 1 must hold at its end x₁ (Frobenius
-//! norm, so an upper bound of the spectral one). As long as the same holds between them, x ↦ J⁺F(x) is
-//! one to one on each plane across the tangent (the affine covariant theorem of Newton and
-//! Kantorovich; Deuflhard, Newton Methods for Nonlinear Problems, 2004, §2.1): there is no other
-//! solution for the step to end at. No step passes a crossing of branches, where J⁺ is infinite: it is
-//! located and left as a [`BranchPoint`](super::BranchPoint).
-//!
-//! **Large Jacobians**, whose groups of rows touch few unknowns each, must meet the second condition group by group, each
-//! with the inverse of its own rows. Where these leave a group the freedom along the tangent alone, its own unknowns
-//! change no branch, and so nothing does; of the whole Jacobian the norm would grow with the number of loops in a row and
-//! steps would shrink with it.
+//! **Large Jacobians** must meet the second condition group of rows by group, each with the inverse of its own rows.
+//! Where these leave a group the freedom along the tangent alone, its own unknowns change no branch, and so nothing
+//! does; the norm of the whole would grow with the number of loops in a row.
 
 use crate::linear::{BESIDE_A_CROSSING, Decomposition, Rows, SINGULAR_PLACE, dot, norm};
 
@@ -313,9 +309,8 @@ impl Continuation {
         Some((at, before))
     }
 
-    /// The place between two where a function of places vanishes, to rounding: `f` must have
-    /// different signs at both. `to` must have been reached from `from` by one step; where `from` is
-    /// singular, steps are made from `to`.
+    /// The place between two where a function of places, of different signs there, vanishes to rounding. `to` is one
+    /// step from `from`; where `from` is singular, steps are made from `to`.
     ///
     /// Regula falsi with the weights of Anderson and Björck 1973, halving when that does not.
     pub fn root<C: SolutionCurve>(

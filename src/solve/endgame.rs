@@ -45,8 +45,7 @@ const SAMPLES: usize = 8;
 const MOST_TURNS: usize = 8;
 /// A term with a negative power counts from here, beside the size of the solution.
 const GROWING: f64 = 1e-3;
-/// Circles in a row on which it must grow. Another meeting point inside looks the same, so smaller circles follow
-/// until all of one is far out.
+/// Circles in a row on which it must grow; as another meeting point inside looks the same, until all of one is far out.
 const IN_A_ROW: usize = 3;
 /// Circles gone round at most.
 const CIRCLES: usize = 12;

@@ -3,8 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// `f(storage, i)` for `i` below `count`; storage is cloned for each thread and must not carry
-/// anything from one piece to the next.
+/// `f(storage, i)` for `i` below `count`. Storage is cloned for each thread and carries nothing from piece to piece.
 pub fn each<S, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R>
 where
     S: Clone + Send + Sync,

@@ -1,11 +1,10 @@
 use super::Equations;
 use crate::number::{Extent, Field, Number};
 
-/// Newton's method for following a motion: each point starts from the ones before it.
+/// Newton's method for following a motion: each point starts from the ones before it, by extrapolation ([`Trail`]).
 ///
-/// Neighbouring points have nearly the same Jacobian, so its factors are kept from step to step and
-/// from point to point, and renewed only when a step with them gains too little (Shamanskii 1967).
-/// The start is extrapolated from the latest moves (see [`Trail`]).
+/// Neighbouring points have nearly the same Jacobian, so its factors are kept, and renewed only when a step with them
+/// gains too little (Shamanskii 1967).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warm {
     /// A point is a solution when no dimensionless row exceeds this.
@@ -51,15 +50,12 @@ const ORDERS: usize = 6;
 /// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell what is left.
 const STALE: f64 = 1e-2;
 
-/// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, …,
-/// ∇⁵m of the latest moves m from solution to solution.
+/// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, …, ∇⁵m of the latest
+/// moves m from solution to solution.
 ///
-/// Extrapolation of order p adds the first p of them and would have missed the latest move by ∇ᵖm, so
-/// the order with the smallest ∇ᵖm is used.
-///
-/// Extrapolation multiplies errors, at order 3 up to fifteen times, and a point within the tolerance may be
-/// off by all of it. The step that would still lead from the point to the solution is therefore kept beside it, and
-/// moves are those between solutions: along a fine trajectory the extrapolated points then need no correction.
+/// Extrapolation of order p adds the first p of them; the order is that which would have missed the latest move least,
+/// by ∇ᵖm. As it multiplies errors, at order 3 up to fifteen times, the step that would still lead from the point to
+/// the solution is kept too: along a fine trajectory extrapolated points then need no correction.
 #[derive(Clone, Debug)]
 pub struct Trail<P, T> {
     next: P,
@@ -122,10 +118,9 @@ impl<P, T: Field> Trail<P, T> {
 }
 
 impl Warm {
-    /// Moves `point`, a solution for other held values, to the solution for those it holds now.
+    /// Moves `point`, a solution for other held values, to the solution for those it holds now. Nothing allocates.
     ///
-    /// On failure `point` is left as it was, a start for [`Newton`](super::Newton), and the past
-    /// is forgotten. Nothing allocates.
+    /// On failure `point` is left as it was, a start for [`Newton`](super::Newton), and the past is forgotten.
     #[inline]
     pub fn solve<E: Equations>(
         &self,

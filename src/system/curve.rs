@@ -51,8 +51,8 @@ pub enum NoStart {
 
 /// The closure equations with one freedom left: nothing but that freedom is to be chosen.
 ///
-/// Where several inputs move together along a segment, they are unknowns too, tied by one row less
-/// than there are inputs. Unknowns are those of [`System`]: rad and characteristic lengths.
+/// Inputs that move together along a segment are unknowns too, tied by one row less than there are inputs. Unknowns are
+/// those of [`System`]: rad and characteristic lengths.
 #[derive(Clone, Debug)]
 pub struct Curve {
     system: System<f64>,

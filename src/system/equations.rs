@@ -175,7 +175,9 @@ impl<T: Factorable> System<T> {
 
     /// Adapts storage of a system that differs in its dimensions only; its factors stay as they are.
     pub fn refit(&self, work: &mut Work<T>) {
-        match self.empty.blocks().eq(work.jacobian.blocks()) {
+        let [here, there] =
+            [&self.empty, &work.jacobian].map(|j| j.blocks().iter().map(|filled| &filled.block));
+        match here.eq(there) {
             true => {
                 work.placement = self.kinematics.placement();
                 // what affected a closure there need not affect it here

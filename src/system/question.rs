@@ -31,9 +31,9 @@ use demand::Target;
 
 /// A question about a mechanism: which coordinates are held at which values, and where to start.
 ///
-/// A fresh question holds the actuated joints at home and starts at the home configuration. Joints
-/// are named as in the file, platform coordinates `top.x`, `top.y`, `top.z` (m) and `top.roll`,
-/// `top.pitch`, `top.yaw` (rad, see [`RollPitchYaw`](crate::geometry::RollPitchYaw)), a whole pose by the platform's name.
+/// A fresh question holds the actuated joints at home and starts at the home configuration. Joints are named as in the
+/// file, platform coordinates `top.x`, `top.y`, `top.z` (m) and `top.roll`, `top.pitch`, `top.yaw` (rad, see
+/// [`RollPitchYaw`](crate::geometry::RollPitchYaw)), a whole pose by the platform's name.
 #[derive(Clone, Debug)]
 pub struct Question<'a> {
     mechanism: &'a Mechanism,

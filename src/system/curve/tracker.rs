@@ -59,8 +59,8 @@ impl<T: Factorable> MotionTracker<T> {
         self.system.set_target(platform, coordinate, value);
     }
 
-    /// Lets `hold` change the values of held joints and poses, and finds the free ones. Nothing
-    /// allocates. `solved` is said only of a residual evaluated at the configuration returned.
+    /// Lets `hold` change the held joints and poses, and finds the free ones. Nothing allocates. `solved` is said only
+    /// of a residual evaluated at the configuration returned.
     #[inline]
     pub fn solve(&mut self, hold: impl FnOnce(&mut Configuration<T>)) -> WarmReport {
         hold(&mut self.configuration);

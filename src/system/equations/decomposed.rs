@@ -34,10 +34,10 @@ impl System<f64> {
 
     /// The Jacobian last evaluated as groups of rows, in their order, with the unknowns that each group touches.
     pub fn jacobian_rows(&self, work: &Work<f64>) -> Vec<Rows> {
-        let blocks = work.jacobian.entries().map(|(block, entries)| Rows {
-            count: block.rows,
-            unknowns: block.unknowns().collect(),
-            entries: entries.to_vec(),
+        let blocks = work.jacobian.blocks().iter().map(|filled| Rows {
+            count: filled.block.rows,
+            unknowns: filled.block.unknowns().collect(),
+            entries: filled.entries.clone(),
         });
         let shared = self.empty.shared();
         let holds = work.hold_rows.chunks_exact(shared.len().max(1));

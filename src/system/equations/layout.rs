@@ -230,7 +230,8 @@ impl Layout {
             .extend(moving.flat_map(|p| (0..6).map(move |component| Unknown::Twist(p, component))));
         let places_of_unknowns = Places::new(&unknowns);
 
-        // the first unknowns may belong to one block alone; for a sparse matrix every closure is a block and all are shared
+        // the first unknowns may belong to one block alone; for a sparse matrix every closure is a block and all are
+        // shared
         let sparse = T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT;
         let owned = if sparse { 0 } else { joints };
         let unknowns_of = |closure: &Closure<T>| {

@@ -10,9 +10,8 @@ use crate::number::Extent;
 use crate::solve::Equations;
 
 impl<T: Factorable> System<T> {
-    /// The rates of all rows, where its frames were last placed, for rates of all joints, then of the six twist
-    /// components of each platform, held ones too; what platform coordinates are held at stands still. They take the
-    /// place of the residual.
+    /// The rates of all rows where frames were last placed, in place of the residual: for rates of all joints, then of
+    /// the twist components of all platforms. What platform coordinates are held at stands still.
     pub fn row_rates<'a>(
         &self,
         at: &Configuration<T>,
@@ -138,12 +137,10 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// The largest and the smallest pivot of a full orthogonal factorisation of the Jacobian last
-    /// evaluated: their quotient measures how near it is to losing rank. The smallest is zero when
-    /// there are more unknowns than rows.
+    /// The largest and the smallest pivot of a factorisation of the Jacobian last evaluated: their quotient measures
+    /// how near it is to losing rank. The smallest is zero when there are more unknowns than rows.
     ///
-    /// Rows and columns longer than 1 are shortened first, because complex rotations and positions have
-    /// no bound.
+    /// Rows and columns longer than 1 are shortened first: complex rotations and positions have no bound.
     pub fn pivots(&self, work: &Work<T>) -> (f64, f64) {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let mut dense = self.dense_jacobian(work);

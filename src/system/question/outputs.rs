@@ -128,11 +128,9 @@ pub fn coordinate_outputs(mechanism: &Mechanism, held: &[Coordinate]) -> Vec<Coo
     })
 }
 
-/// The outputs of a question: the free coordinates of platforms, with a platform coordinate held also
-/// the free driven joints; without any of these the free joints that something determines.
-///
-/// Of a platform that is partly held the angular velocity is free if no angle is held, else the
-/// other angles.
+/// The outputs of a question: the free coordinates of platforms, with a platform coordinate held also the free driven
+/// joints; else the free joints that something determines. Of a platform that is partly held the angular velocity is
+/// free if no angle is held, else the other angles.
 pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usize]) -> Vec<Lock> {
     let mut outputs = Vec::new();
     for platform in 0..mechanism.platforms().len() {

@@ -58,13 +58,11 @@ impl Still {
 }
 
 impl Question<'_> {
-    /// The same question where links that only spin about their own lines, as a rod between two
-    /// balls, do not: each such freedom is taken away by one coordinate that stays where it is, a
-    /// passive joint of the link, or the spin of a platform that has no such joint. These do not
-    /// count as held: nobody chose them, and nothing else depends on them.
+    /// The same question where links that only spin about their own lines, as a rod between two balls, do not: for
+    /// each such freedom a coordinate stays where it is, a passive joint of the link, or else the spin of a platform.
+    /// These do not count as held: nobody chose them, and nothing else depends on them.
     ///
-    /// Without it a finite number of assemblies would be infinite, and each configuration of a curve
-    /// one of a surface.
+    /// Without it a finite number of assemblies would be infinite, and each configuration of a curve one of a surface.
     pub fn with_spins_still(mut self) -> Self {
         let mechanism = self.mechanism;
         // near home, so that questions that differ in values make the same choice

@@ -175,11 +175,10 @@ pub struct TooLarge {
     pub unknowns: usize,
 }
 
-/// Closes a mechanism as a question asks, the same way as for the question itself.
+/// Closes a mechanism as a question asks. What is held keeps its values.
 ///
-/// What is held keeps its values. Near a whole pose, which may be rounded or overdetermined, values
-/// held by the file alone may move if no assembly beside it has them, and in the end however far if
-/// the file's own pose leads to no other.
+/// Near a whole pose, which may be rounded or overdetermined, values held by the file alone may move if no assembly
+/// beside it has them, and in the end however far if the file's own pose leads to no other.
 pub fn close(
     question: &Question,
     newton: &Newton,
@@ -282,8 +281,7 @@ fn moved(
     }
 }
 
-/// What moves most between two configurations, beyond rounding and whole turns that change nothing, or `among` these joints and
-/// platforms.
+/// What moves most between two configurations, beyond rounding and idle turns, or of what is `among` these.
 fn farthest(
     question: &Question,
     from: &Configuration<f64>,

@@ -12,16 +12,14 @@ use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 
 pub use frames::{FrameMotion, FrameMotions};
 
-/// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held
-/// coordinates h. Built once; nothing allocates afterwards.
+/// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held coordinates h. Built once;
+/// nothing allocates afterwards.
 ///
-/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, and r̈ = 0 gives ẍ = −J⁺ γ, where γ is r̈ along the path
-/// that has these rates and no acceleration but that of h. H ḣ are the rates of the rows in a motion
-/// of the held coordinates alone, γ the derivative by time of the rates of the rows in all of it.
+/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, where H ḣ are the rates of the rows in a motion of h alone, and r̈ = 0 gives
+/// ẍ = −J⁺ γ, where γ is r̈ along the path that has these rates and no acceleration but that of h.
 ///
-/// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths.
-/// At a singular configuration they are one choice of many; see [`Motion::held`] with
-/// [`Freedoms`](super::Freedoms).
+/// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths. At a singular
+/// configuration they are one choice of many ([`Freedoms`](super::Freedoms) of [`Motion::held`]).
 #[derive(Clone, Debug)]
 pub struct Motion {
     coordinates: Vec<Coordinate>,

@@ -60,9 +60,8 @@ impl Neighbourhood<'_> {
         None
     }
 
-    /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
-    /// as needed for it to settle, which near a singular configuration is about the distance to
-    /// that. `Err` has the gap of one that leaves the closures open.
+    /// The finite step along a motion if there is one: `distance`, or as much shorter as it takes to settle, near a
+    /// singular configuration about the distance to that. `Err` has the gap of one that leaves the closures open.
     pub fn free_step(
         &mut self,
         from: &Tangent,
@@ -133,8 +132,8 @@ impl Neighbourhood<'_> {
         (distance < within).then_some(distance)
     }
 
-    /// What a motion ξ leaves of the equations to second order: wᵀ H(ξ, ξ) for each of the given w
-    /// with wᵀ J = 0. Motions of higher order that a finite one would need do not enter.
+    /// What a motion ξ leaves of the equations to second order, apart from other motions: wᵀ H(ξ, ξ) for given w, wᵀ J
+    /// = 0.
     pub fn second_order(
         &mut self,
         from: &Tangent,
@@ -154,11 +153,11 @@ impl Neighbourhood<'_> {
         sums.iter().map(|sum| sum / (STEP * STEP)).collect()
     }
 
-    /// The assembled configuration nearest to a point, downhill from an assembled one: where no motion
-    /// brings it nearer, distances being in rad and characteristic lengths.
+    /// The assembled configuration nearest to a point, in rad and characteristic lengths, downhill from an assembled
+    /// one.
     ///
-    /// Takes back the part of the distance along the motions ξ: x ← x ⊖ Σ ξ (ξ · (x ⊖ point)), shortened
-    /// until it brings x nearer.
+    /// Takes back the part of the distance along the motions ξ: x ← x ⊖ Σ ξ (ξ · (x ⊖ point)), shortened until x is
+    /// nearer.
     pub fn nearest(
         &mut self,
         point: &Configuration<f64>,

@@ -17,12 +17,9 @@ pub struct Lasting {
 }
 
 impl Tangent {
-    /// The same motions, with only as many local freedoms as there are beside the configuration too; the
-    /// others are listed apart. In gimbal lock, for example, the first and the last of three joints turn
-    /// against each other and move nothing, but beside it the same freedom moves links.
-    ///
-    /// The number of local freedoms is the least at any configuration near, since the rank of what they
-    /// leave at rest is lower at special configurations only.
+    /// The same motions with only as many local freedoms as there are beside the configuration, the least near it; the
+    /// others are listed apart. In gimbal lock, for example, two of three joints turn against each other and move
+    /// nothing, but beside it the same freedom moves links.
     pub fn lasting(self, near: &mut Neighbourhood) -> Lasting {
         let unlocked = |tangent: Tangent| Lasting {
             idle_beside: tangent.idle.clone(),
