@@ -16,7 +16,7 @@ use linkwork::analysis::velocity::{VelocitySettings, velocity};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
-use linkwork::system::{Drive, FrameMotions, Load, Motion, Question, close};
+use linkwork::system::{Drive, FrameTwists, Load, Motion, Question, close};
 
 fn mechanisms() -> Vec<(String, Mechanism)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
@@ -59,7 +59,7 @@ fn main() {
         let drive = Drive::still(&question);
         let frames = mechanism.frames();
         let mut motion = Motion::placing(mechanism, &drive.coordinates, &frames, |held| held);
-        let motions = FrameMotions::new(mechanism, &motion, &frames);
+        let motions = FrameTwists::moving(mechanism, &motion, &frames);
         let rates = vec![0.1; drive.coordinates.len()];
         group.bench_function(name, |b| {
             b.iter(|| {

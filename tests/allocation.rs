@@ -15,7 +15,7 @@ use linkwork::mechanism::{
 use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop, Warm};
 use linkwork::system::{
-    Coordinate, FrameMotions, Held, HeldPlatform, Motion, MotionTracker, Question, System, close,
+    Coordinate, FrameTwists, Held, HeldPlatform, Motion, MotionTracker, Question, System, close,
 };
 
 struct Counting;
@@ -134,7 +134,7 @@ fn rates_and_accelerations_of_everything_allocate_nothing() {
         let held: Vec<Coordinate> = question.held_coordinates();
         let frames = mechanism.frames();
         let mut motion = Motion::placing(&mechanism, &held, &frames, |held| held);
-        let motions = FrameMotions::new(&mechanism, &motion, &frames);
+        let motions = FrameTwists::moving(&mechanism, &motion, &frames);
         let (rates, changes) = (vec![0.3; held.len()], vec![-0.1; held.len()]);
         let before = ALLOCATIONS.load(Ordering::Relaxed);
         let mut sum = 0.0;

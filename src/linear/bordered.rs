@@ -5,10 +5,9 @@ use crate::number::Field;
 
 /// Least squares min ‖J x + r‖ for a J made of blocks with unknowns of their own and shared ones.
 ///
-/// Each block is factorised orthogonally over its own unknowns; the rows that are left (a leg's
-/// reciprocal wrenches on the platform) form a small border over the shared unknowns. Because the
-/// factors are orthogonal the result is the least-squares step of the whole, rank deficient or not.
-/// With damping λ > 0, rows √λ·I are added (Levenberg 1944).
+/// Each block is factorised orthogonally over its own unknowns; the rows that are left (a leg's reciprocal wrenches on
+/// the platform) form a small border over the shared unknowns. Because the factors are orthogonal the result is the
+/// least-squares step of the whole, rank deficient or not. With damping λ > 0, rows √λ·I are added (Levenberg 1944).
 #[derive(Clone, Debug)]
 pub struct Bordered<T: Factorable> {
     rows: usize,
@@ -186,8 +185,7 @@ impl<T: Factorable> Bordered<T> {
         }
     }
 
-    /// The step −J⁺r, in the order of the unknowns, for a residual in that of the rows; again for others if called
-    /// again.
+    /// The step −J⁺r in the order of the unknowns, for a residual in that of the rows; may be called again for others.
     pub fn solve(&mut self, r: &[T], x: &mut [T]) {
         if let Some(sparse) = &self.sparse {
             return sparse.step(&self.blocks, r, x);

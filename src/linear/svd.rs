@@ -15,12 +15,10 @@ pub struct Svd {
 }
 
 impl Svd {
-    /// The decomposition of a column-major matrix, with V square also where there are fewer rows than
-    /// columns.
+    /// The decomposition of a column-major matrix, with V square also where there are fewer rows than columns.
     ///
-    /// The QR iteration of nalgebra 0.35 is wrong by up to a percent for one matrix in some hundreds. A
-    /// result whose product is not A to rounding is replaced by slower rotations of pairs of columns
-    /// (Hestenes 1958).
+    /// The QR iteration of nalgebra 0.35 is wrong by up to a percent for one matrix in some hundreds. A result whose
+    /// product is not A to rounding is replaced by slower rotations of pairs of columns (Hestenes 1958).
     pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
         let mut matrix = DMatrix::zeros(rows.max(columns), columns);
         if rows > 0 && columns > 0 {

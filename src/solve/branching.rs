@@ -2,7 +2,7 @@
 
 use super::continuation::{Continuation, Place, SolutionCurve, back};
 use crate::linear::{
-    BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, add, dot, norm, product,
+    BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, dot, norm, product,
 };
 
 /// A point where the Jacobian of a curve loses rank.
@@ -131,13 +131,10 @@ impl Continuation {
         let forms = forms(curve, &at, &left, &right);
         let zeros = zeros(&forms, right.len());
         let isolated = zeros.is_empty() && forms.iter().any(|form| norm(form) > RANK_TOLERANCE);
-        let directions = zeros.into_iter().map(|weights| {
-            let mut direction = vec![0.0; unknowns];
-            for (v, weight) in right.iter().zip(&weights) {
-                add(&mut direction, *weight, v);
-            }
-            direction
-        });
+        let basis = right.concat();
+        let directions = zeros
+            .iter()
+            .map(|weights| product(&basis, unknowns, weights));
         let mut leaves = |direction: &Vec<f64>| self.leave(curve, &at, direction).is_some();
         let found = directions.filter(|direction| leaves(direction)).collect();
         BranchPoint {

@@ -1,8 +1,7 @@
 use super::{Equations, Size};
 
-/// Newton's method from a guess that may be far off: Gauss–Newton steps, damped when they fail
-/// (Levenberg 1944, Marquardt 1963). Near a solution the damping is zero and convergence quadratic,
-/// redundant rows or not.
+/// Newton's method from a guess that may be far off: Gauss–Newton steps, damped when they fail (Levenberg 1944,
+/// Marquardt 1963). Near a solution the damping is zero and convergence quadratic, redundant rows or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Newton {
     /// A point is a solution when no dimensionless row exceeds this: rounding of about 1e-16 adds up along chains.

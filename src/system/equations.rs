@@ -35,8 +35,7 @@ use layout::Layout;
 
 /// The closure equations of a mechanism for one choice of held coordinates.
 ///
-/// Rows and unknowns are dimensionless. A point is a [`Configuration`]; held joints and poses keep
-/// the values it has.
+/// Rows and unknowns are dimensionless. A point is a [`Configuration`]; held joints and poses keep the values it has.
 #[derive(Clone, Debug)]
 pub struct System<T: Factorable> {
     kinematics: Kinematics<T>,

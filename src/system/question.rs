@@ -78,8 +78,7 @@ impl<'a> Question<'a> {
     /// `value` is a number in m or rad, or a text as in the file ([`Value`]).
     ///
     /// # Errors
-    /// If there is no such joint or coordinate, the value has none, or something else was demanded
-    /// of it before.
+    /// If there is no such joint or coordinate, the value has none, or something else was demanded of it before.
     pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Verb::Hold, name, Some(value))? {
@@ -126,8 +125,7 @@ impl<'a> Question<'a> {
     /// [`hold`](Self::hold) keeps its value.
     ///
     /// # Errors
-    /// If there is no such joint or coordinate, the value has none, or something else was guessed
-    /// of it before.
+    /// If there is no such joint or coordinate, the value has none, or something else was guessed of it before.
     pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Verb::Guess, name, Some(value))? {

@@ -14,7 +14,7 @@ pub use cone::{Cone, FlatSet, combination};
 pub use freedom::{Freedoms, Mobility, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};
-pub use motion::{FrameMotion, FrameMotions, Motion};
+pub use motion::{FrameMotion, Motion};
 pub use neighbourhood::{FiniteStep, Lasting, Neighbourhood, Tangent};
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
 /// Components of a motion of unit norm, in rad and characteristic lengths, below this are rounding: a

@@ -4,7 +4,7 @@ use super::FrameRate;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 use crate::system::{
-    FrameMotion, FrameMotions, Motion, Neighbourhood, Tangent, spin_lines, without,
+    FrameMotion, FrameTwists, Motion, Neighbourhood, Tangent, spin_lines, without,
 };
 
 /// For each frame of a mechanism the axes about which its link spins in local freedoms.
@@ -64,7 +64,7 @@ pub(super) fn rates(
     spins: &Spins,
     accelerations: bool,
 ) -> Vec<FrameRate> {
-    let motions = FrameMotions::new(mechanism, motion, points);
+    let motions = FrameTwists::moving(mechanism, motion, points);
     let changes = motion.changes();
     let named = points.iter().enumerate();
     named

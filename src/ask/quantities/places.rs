@@ -4,7 +4,8 @@ use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{
     Configuration, Frame, Kinematics, Mechanism, Order, Placement, Point, PoseCoordinate,
 };
-use crate::system::{FrameMotions, FrameTwists, Held, Motion, System, Unknown};
+use crate::number::Dual;
+use crate::system::{FrameTwists, Held, Motion, System, Unknown};
 
 /// Frames at a configuration.
 pub(in super::super) struct Placed {
@@ -48,7 +49,7 @@ impl Placed {
 pub(super) struct Places {
     points: Vec<Point>,
     twists: FrameTwists<f64>,
-    motions: Option<FrameMotions>,
+    motions: Option<FrameTwists<Dual<f64>>>,
     scales: Vec<f64>,
 }
 
@@ -73,7 +74,7 @@ impl Places {
         let dimensions = mechanism.dimensions();
         Places {
             twists: FrameTwists::sharing(kinematics, dimensions, unknowns, &points),
-            motions: changing.map(|(motion, _)| FrameMotions::new(mechanism, motion, &points)),
+            motions: changing.map(|(motion, _)| FrameTwists::moving(mechanism, motion, &points)),
             scales: dimensions.joint_scales.clone(),
             points,
         }
@@ -112,9 +113,9 @@ impl PlacesAt<'_> {
                 Some(c.turned(twists.frame(i, self.placement), &turn))
             }
             Order::Acceleration => {
-                let (motions, changes) = (motions.as_ref()?, self.motion?.changes());
-                let turn = motions.twist(i, changes).omega;
-                Some(c.turned(motions.frame(i, changes.1), &turn).slope)
+                let (motions, (rates, placement)) = (motions.as_ref()?, self.motion?.changes());
+                let turn = motions.twist(i, placement, rates).omega;
+                Some(c.turned(motions.frame(i, placement), &turn).slope)
             }
         }
     }
@@ -131,7 +132,8 @@ impl PlacesAt<'_> {
                 Some(twist.velocity)
             }
             Order::Acceleration => {
-                let twist = motions.as_ref()?.twist(i, self.motion?.changes());
+                let (rates, placement) = self.motion?.changes();
+                let twist = motions.as_ref()?.twist(i, placement, rates);
                 Some(Vector3(twist.velocity.0.map(|part| part.slope)))
             }
         }

@@ -133,8 +133,7 @@ impl<'m> Walk<'m> {
     /// The next leg. After one that ended where branches meet, the walk goes on straight.
     ///
     /// # Errors
-    /// If no step is short enough to be sure, which happens where the curve ends in a point of
-    /// higher order.
+    /// If no step is short enough to be sure, which happens where the curve ends in a point of higher order.
     pub fn advance(&mut self, curve: &mut Curve) -> Result<Segment, StepFailure> {
         if let Some(point) = self.waiting.take() {
             return self.leave(curve, &point);

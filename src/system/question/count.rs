@@ -26,8 +26,7 @@ pub struct Count {
 /// Newton's method reaches from there with everything held, and at home; one of these must fit.
 ///
 /// # Errors
-/// If everywhere more or less is held than the mechanism has freedoms, or what is held depends on
-/// itself.
+/// If everywhere more or less is held than the mechanism has freedoms, or what is held depends on itself.
 pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     let mechanism = question.mechanism();
     let start = question.start();

@@ -22,18 +22,13 @@ pub struct Drive {
     /// Whether a rate or acceleration was given.
     pub given: bool,
     /// Platforms that are turned by rates of roll, pitch and yaw.
-    angles: Vec<AngleRates>,
+    angles: Vec<Angles>,
     /// Platforms that are turned about the axes of ground.
     turned: Vec<usize>,
 }
 
-/// Rates and accelerations of roll, pitch and yaw.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct AngleRates {
-    platform: usize,
-    rates: [f64; 3],
-    accelerations: [f64; 3],
-}
+/// A platform with the rates and the accelerations of its roll, pitch and yaw.
+type Angles = (usize, [[f64; 3]; 2]);
 
 /// What is given to a coordinate.
 #[derive(Clone, Copy)]
@@ -159,16 +154,12 @@ impl Drive {
                     return Err(mixed(platform));
                 }
                 let angle = c as usize - PoseCoordinate::Roll as usize;
-                let given = self.angles_of(platform);
-                match order {
-                    Order::Rate => given.rates[angle] = value,
-                    Order::Acceleration => given.accelerations[angle] = value,
-                }
+                self.angles_of(platform)[order as usize][angle] = value;
                 self.turn_by_angles(question, platform);
                 return Ok(self);
             }
             Coordinate::Turn(platform, _) => {
-                if self.angles.iter().any(|angles| angles.platform == platform) {
+                if self.angles.iter().any(|(of, _)| *of == platform) {
                     return Err(mixed(platform));
                 }
                 self.turned.push(platform);
@@ -177,32 +168,29 @@ impl Drive {
         }
         let place = self.coordinates.iter().position(|c| *c == coordinate);
         let place = place.expect("what is neither driven nor an angle was not found");
-        match order {
-            Order::Rate => self.rates[place] = value,
-            Order::Acceleration => self.accelerations[place] = value,
-        }
+        let given = match order {
+            Order::Rate => &mut self.rates,
+            Order::Acceleration => &mut self.accelerations,
+        };
+        given[place] = value;
         Ok(self)
     }
 
-    fn angles_of(&mut self, platform: usize) -> &mut AngleRates {
-        let known = self.angles.iter().position(|a| a.platform == platform);
+    fn angles_of(&mut self, platform: usize) -> &mut [[f64; 3]; 2] {
+        let known = self.angles.iter().position(|(of, _)| *of == platform);
         let place = known.unwrap_or_else(|| {
-            self.angles.push(AngleRates {
-                platform,
-                rates: [0.0; 3],
-                accelerations: [0.0; 3],
-            });
+            self.angles.push((platform, Default::default()));
             self.angles.len() - 1
         });
-        &mut self.angles[place]
+        &mut self.angles[place].1
     }
 
     /// Turns a platform about the axes of ground as its angles change.
     fn turn_by_angles(&mut self, question: &Question, platform: usize) {
-        let given = *self.angles_of(platform);
+        let [rates, accelerations] = *self.angles_of(platform);
         let angles = question.held_angles(platform);
         let angles = angles.expect("angles have rates where all three are held");
-        let [omega, change] = angles.turning(given.rates, given.accelerations);
+        let [omega, change] = angles.turning(rates, accelerations);
         for (place, coordinate) in self.coordinates.iter().enumerate() {
             if let Coordinate::Turn(of, axis) = *coordinate
                 && of == platform

@@ -7,8 +7,7 @@ use crate::mechanism::{PoseCoordinate, Value};
 use crate::system::Coordinate;
 
 impl Question<'_> {
-    /// The coordinates that a name stands for: one, the six of a platform, or all actuated joints for
-    /// `actuated`.
+    /// The coordinates that a name stands for: one, the six of a platform, or all actuated joints for `actuated`.
     ///
     /// # Errors
     /// If there is no such joint or coordinate.
@@ -24,8 +23,7 @@ impl Question<'_> {
         })
     }
 
-    /// The joint or platform coordinate of that name, and the value of an expression for it, in m
-    /// or rad.
+    /// The joint or platform coordinate of that name, and the value of an expression for it, in m or rad.
     ///
     /// # Errors
     /// If there is no such joint or coordinate, or the expression has no value.

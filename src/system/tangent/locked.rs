@@ -1,7 +1,7 @@
 //! The closure Jacobian with rows for the rates of inputs or outputs.
 
 use super::twists::FrameTwists;
-use crate::linear::{Decomposition, add};
+use crate::linear::{Decomposition, product};
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, System, Work};
@@ -147,14 +147,8 @@ impl Locked {
     pub fn rates(&mut self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let entries = self.jacobian(at);
         let (rows, first) = (self.rows(), self.system.rows());
-        let rates = motions.iter().map(|motion| {
-            let mut rates = vec![0.0; rows - first];
-            for (column, rate) in entries.chunks_exact(rows.max(1)).zip(motion) {
-                add(&mut rates, *rate, &column[first..]);
-            }
-            rates
-        });
-        rates.collect()
+        let rates = |motion: &Vec<f64>| product(&entries, rows, motion).split_off(first);
+        motions.iter().map(rates).collect()
     }
 
     /// M decomposed at a configuration, cut at the rank tolerance.

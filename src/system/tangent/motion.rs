@@ -10,7 +10,7 @@ use crate::number::Dual;
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 
-pub use frames::{FrameMotion, FrameMotions};
+pub use frames::FrameMotion;
 
 /// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held coordinates h. Built once;
 /// nothing allocates afterwards.

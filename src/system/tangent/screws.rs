@@ -122,9 +122,8 @@ pub fn wrench_screws(wrenches: &[Vec<f64>], length: f64) -> Vec<Screw> {
 
 /// Principal screws of a space of twists (ω; v/L) at the origin, then its translations.
 ///
-/// Twists are made unique by taking the part of v that is orthogonal to the translations; the
-/// pitch ω·v/ω·ω is then a quadratic form on the space of the ω, and its eigenvectors are the
-/// principal screws (Ball 1900; Hunt 1978).
+/// Twists are made unique by taking the part of v that is orthogonal to the translations; the pitch ω·v/ω·ω is then a
+/// quadratic form on the space of the ω, and its eigenvectors are the principal screws (Ball 1900; Hunt 1978).
 fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
     let space = axis_aligned(twists);
     let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();

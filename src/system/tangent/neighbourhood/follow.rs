@@ -18,10 +18,9 @@ pub struct FiniteStep {
 impl Neighbourhood<'_> {
     /// Moves a distance along a motion and back onto the equations in the range of the Jacobian.
     ///
-    /// With P = J⁺ fixed, x ← x ⊖ P r(x) solves the part of r in the range of J for given motion
-    /// components: the reduction of Lyapunov and Schmidt. What is left of r is a function of the
-    /// motion components alone, and a freedom is finite where it vanishes identically. `None` if
-    /// the iteration does not settle.
+    /// With P = J⁺ fixed, x ← x ⊖ P r(x) solves the part of r in the range of J for given motion components: the
+    /// reduction of Lyapunov and Schmidt. What is left of r is a function of the motion components alone, and a
+    /// freedom is finite where it vanishes identically. `None` if the iteration does not settle.
     /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
     pub fn follow(
         &mut self,
