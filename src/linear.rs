@@ -14,6 +14,7 @@ mod block;
 mod bordered;
 mod decomposition;
 mod elimination;
+mod factorable;
 mod lu;
 mod qr;
 mod rows;
@@ -23,10 +24,11 @@ mod svd;
 mod vectors;
 
 pub use aligned::axis_aligned;
-pub use block::{Block, DenseOnly, Factorable, Filled, NoFactors, SparseStep};
+pub use block::{Block, DenseOnly, Filled, NoFactors, SparseStep};
 pub use bordered::Bordered;
 pub use decomposition::{Decomposition, singular_values};
 pub use elimination::Elimination;
+pub use factorable::Factorable;
 pub use qr::Qr;
 pub use rows::Rows;
 #[cfg(feature = "sparse")]

@@ -1,7 +1,5 @@
 use std::fmt::Debug;
 
-use crate::number::{Complex, Dual, Field, Interval, Lanes};
-
 /// The columns of one block of rows: unknowns of its own, and shared ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
@@ -67,36 +65,4 @@ impl<T, const FILLED: bool> SparseStep<T> for NoFactors<FILLED> {
     fn step(&self, _: &[Filled<T>], _: &[T], _: &mut [T]) {
         unreachable!("never factorised")
     }
-}
-
-/// A number for which least-squares steps are computed, with its way to do so for large, sparse matrices.
-pub trait Factorable: Field {
-    /// The sparse factorisation.
-    type Sparse: SparseStep<Self>;
-}
-
-impl Factorable for f64 {
-    #[cfg(feature = "sparse")]
-    type Sparse = super::SparseNormal<f64>;
-    #[cfg(not(feature = "sparse"))]
-    type Sparse = DenseOnly;
-}
-
-impl Factorable for Complex<f64> {
-    #[cfg(feature = "sparse")]
-    type Sparse = super::SparseNormal<Complex<f64>>;
-    #[cfg(not(feature = "sparse"))]
-    type Sparse = DenseOnly;
-}
-
-impl<T: Field> Factorable for Dual<T> {
-    type Sparse = NoFactors<true>;
-}
-
-impl Factorable for Interval {
-    type Sparse = DenseOnly;
-}
-
-impl Factorable for Lanes {
-    type Sparse = DenseOnly;
 }
