@@ -5,8 +5,8 @@
 //! Source: T. R. Chase and J. A. Mirth, Circuits and branches of single-degree-of-freedom planar
 //! linkages, 1993.
 
+mod class;
 mod course;
-mod described;
 mod sets;
 
 use std::ops::ControlFlow;
@@ -18,11 +18,11 @@ use super::paths::Tracer;
 use super::{At, PathReport};
 use crate::algebra::SiUnit;
 use crate::linear::{dot, norm};
-use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role, turns};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role};
 use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
 use crate::system::{Coordinate, Curve, Event, Held, Walk};
-use course::platform_courses;
-use described::{branches, class};
+use class::class;
+use course::Course;
 use sets::sets_of_angles;
 
 /// How to look for circuits.
@@ -347,41 +347,23 @@ fn described(
 ) -> Circuit {
     const SAME: f64 = 1e-6;
     let found = &traced[i];
-    let platforms = match input {
+    let platforms: Vec<Course> = match input {
         Coordinate::Joint(_) => Vec::new(),
-        _ => platform_courses(mechanism, curve, method, found),
+        _ => Coordinate::all(mechanism)
+            .filter(|of| of.platform().is_some())
+            .filter_map(|of| Course::of_platform(mechanism, (&mut *curve, method), found, of))
+            .collect(),
     };
     let branches = match input {
-        Coordinate::Joint(joint) => branches(mechanism, joint, found),
-        of => (platforms.iter().find(|(moved, _)| *moved == of))
-            .map_or(Vec::new(), |(_, course)| course.branches(found.closed)),
-    };
-    let curve = &*curve;
-    let value = |place: &At, joint: usize| place.at.joints[joint];
-    let of_joint = |joint: usize| {
-        let turnings = found.turnings.iter().filter(|(j, _)| *j == joint);
-        let places = found.places.iter().chain(turnings.map(|(_, place)| place));
-        let all = places.map(|place| value(place, joint));
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = all.fold(none, |(low, high), x| (low.min(x), high.max(x)));
-        let ends = found.places.first().zip(found.places.last());
-        let net = ends.map_or(0.0, |(a, b)| value(b, joint) - value(a, joint));
-        let whole = found.closed && mechanism.repeats(joint);
-        let turns = if whole { turns(net) as i64 } else { 0 };
-        let of = &mechanism.joints()[joint];
-        let shift = turned(mechanism, joint, low, high);
-        JointMotion {
-            name: of.name.clone(),
-            unit: SiUnit::of_coordinate(of.kind.is_angle()),
-            turns,
-            low: low + shift,
-            high: high + shift,
+        Coordinate::Joint(joint) => Course::of_joint(mechanism, joint, found).branches(),
+        of => {
+            (platforms.iter().find(|course| course.of == of)).map_or(Vec::new(), Course::branches)
         }
     };
-    let moves = |joint: &usize| curve.column(*joint).is_some();
+    let curve = &*curve;
     let joints: Vec<JointMotion> = (0..mechanism.joints().len())
-        .filter(moves)
-        .map(of_joint)
+        .filter(|joint| curve.column(*joint).is_some())
+        .map(|joint| Course::of_joint(mechanism, joint, found).motion())
         .collect();
     let crossings = &found.crossings;
     let meets = |other: &Found| {
@@ -397,9 +379,7 @@ fn described(
         length: found.length,
         branches,
         joints,
-        platforms: (platforms.iter())
-            .map(|(of, course)| course.motion(of.name(mechanism), found.closed))
-            .collect(),
+        platforms: platforms.iter().map(Course::motion).collect(),
         crossings: (crossings.iter())
             .map(|point| {
                 let joints = point.at.joints.iter().enumerate();
@@ -417,13 +397,6 @@ fn described(
             .map(|place| place.at.joints.clone())
             .collect(),
     }
-}
-
-/// Shift of a reported range, rad or m: the whole turns that bring its middle to where single values
-/// of this joint are reported.
-fn turned(mechanism: &Mechanism, joint: usize, low: f64, high: f64) -> f64 {
-    let middle = 0.5 * (low + high);
-    mechanism.as_given(joint, middle) - middle
 }
 
 impl CircuitsReport {

@@ -1,38 +1,8 @@
-//! Branches of a circuit, and the class of a 4-bar.
+//! The class of a 4-bar.
 
-use super::{At, Branch, Circuit, Found, FourBarClass, turned};
+use super::{Circuit, FourBarClass};
 use crate::description::ClosureKind;
 use crate::mechanism::{Frame, JointKind, Mechanism};
-
-/// Pieces between turning points of the input.
-pub(super) fn branches(mechanism: &Mechanism, input: usize, found: &Found) -> Vec<Branch> {
-    let value = |place: &At| place.at.joints[input];
-    let cuts: Vec<f64> = (found.turnings.iter())
-        .filter(|(joint, _)| *joint == input)
-        .map(|(_, place)| value(place))
-        .collect();
-    let ends = found.places.first().zip(found.places.last());
-    let Some((first, last)) = ends.map(|(a, b)| (value(a), value(b))) else {
-        return Vec::new();
-    };
-    let piece = |(a, b): (f64, f64), turns: bool| {
-        let (low, high) = (a.min(b), a.max(b));
-        let shift = turned(mechanism, input, low, high);
-        Branch {
-            low: low + shift,
-            high: high + shift,
-            turns,
-        }
-    };
-    let cuts = match (found.closed, cuts.first()) {
-        (true, None) => return vec![piece((first, last), true)],
-        // once round, with the turns it made on the way
-        (true, Some(again)) => [&cuts[..], &[again + last - first][..]].concat(),
-        (false, _) => [&[first][..], &cuts[..], &[last][..]].concat(),
-    };
-    let pieces = cuts.windows(2).map(|pair| piece((pair[0], pair[1]), false));
-    pieces.collect()
-}
 
 /// The class of a planar 4-bar whose two joints on ground are joint variables.
 pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourBarClass> {
