@@ -88,11 +88,8 @@ pub enum ConvertError {
     #[error(transparent)]
     Cut(#[from] CutError),
     /// A variable that moves no joint of its own.
-    #[error("the variable `{joint}` stands nowhere alone, with the factor 1 or -1")]
-    NotAlone {
-        /// The variable.
-        joint: String,
-    },
+    #[error("the variable `{0}` stands nowhere alone, with the factor 1 or -1")]
+    NotAlone(String),
     /// What came out is not a mechanism.
     #[error("the converted file is not a mechanism: {}", titles(.0))]
     Wrong(Vec<Problem>),

@@ -8,6 +8,7 @@ use super::{Conversion, ConversionNote};
 use crate::description::Description;
 use crate::geometry::{RollPitchYaw, Rotation, Vector3};
 use crate::mechanism::{Body, Mechanism, NamedPoint};
+use crate::number::Complex;
 use crate::solve::{Newton, Watch};
 use crate::system::{MechanismLoop, Neighbourhood, Question, close, loops};
 
@@ -28,25 +29,6 @@ pub enum CognateError {
         /// The coupler.
         coupler: String,
     },
-}
-
-/// Numbers of the plane, as complex numbers are multiplied and divided.
-type Plane = [f64; 2];
-
-fn times(a: Plane, b: Plane) -> Plane {
-    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-fn over(a: Plane, b: Plane) -> Plane {
-    times(a, [b[0], -b[1]]).map(|x| x / (b[0] * b[0] + b[1] * b[1]))
-}
-
-fn plus(a: Plane, b: Plane) -> Plane {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-fn minus(a: Plane, b: Plane) -> Plane {
-    [a[0] - b[0], a[1] - b[1]]
 }
 
 /// The cognates of a 4-bar for a point of its coupler, where it stands at home: the one that has the pivot of the first
@@ -113,16 +95,16 @@ pub fn cognates(
     let along = (b0 - a0).times(1.0 / (b0 - a0).norm());
     let axes = Rotation([along, normal.cross(&along), normal]);
     let origin = a0 + normal.times(normal.dot(&(traced - a0)));
-    let flat = |p: Vector3<f64>| -> Plane {
+    let flat = |p: Vector3<f64>| -> Complex<f64> {
         let [x, y, _] = axes.inverse_rotate(&(p - origin)).0;
-        [x, y]
+        Complex::new(x, y)
     };
     let [a0, a, b, b0, c] = [a0, a, b, b0, traced].map(flat);
-    let write = |number: usize, [a0, a, b, b0]: [Plane; 4]| {
-        let s = over(minus(c, a), minus(b, a));
-        let third = plus(a0, times(s, minus(b0, a0)));
-        let d = plus(a0, minus(c, a));
-        let e = plus(d, times(s, minus(a, a0)));
+    let write = |number: usize, [a0, a, b, b0]: [Complex<f64>; 4]| {
+        let s = (c - a) / (b - a);
+        let third = a0 + s * (b0 - a0);
+        let d = a0 + (c - a);
+        let e = d + s * (a - a0);
         written(
             mechanism,
             number,
@@ -142,16 +124,14 @@ fn written(
     point: &NamedPoint,
     axes: &Rotation<f64>,
     origin: Vector3<f64>,
-    [a0, d, e, third, c]: [Plane; 5],
+    [a0, d, e, third, c]: [Complex<f64>; 5],
 ) -> Conversion {
-    let polar = |v: Plane| (v[0].hypot(v[1]), v[1].atan2(v[0]));
-    let (crank, theta) = polar(minus(d, a0));
-    let (coupler, angle) = polar(minus(e, d));
-    let (rocker, phi) = polar(minus(e, third));
-    let place = |p: Plane| (*axes * Vector3([p[0], p[1], 0.0]) + origin).0;
+    let (crank, theta) = (d - a0).to_polar();
+    let (coupler, angle) = (e - d).to_polar();
+    let (rocker, phi) = (e - third).to_polar();
     let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(axes);
-    let base = |p: Plane| {
-        let [x, y, z] = place(p);
+    let base = |p: Complex<f64>| {
+        let [x, y, z] = (*axes * Vector3([p.re, p.im, 0.0]) + origin).0;
         let mut steps = format!("T({x}, {y}, {z})");
         for (axis, angle) in [("z", yaw), ("y", pitch), ("x", roll)] {
             if angle != 0.0 {
@@ -162,7 +142,7 @@ fn written(
     };
     let psi = (angle - theta).sin().atan2((angle - theta).cos());
     // the coupler point in the frame of the coupler
-    let [x, y] = times(minus(c, d), [angle.cos(), -angle.sin()]);
+    let Complex { re: x, im: y } = (c - d) * Complex::new(angle.cos(), -angle.sin());
     let text = format!(
         r#"Mechanism(
     version: 1,

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::references::rename_in_outputs;
+use super::references::rename;
 use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{carried, doing_something, joined, zero};
@@ -35,10 +35,9 @@ pub fn to_axes(
         description,
         places: BTreeMap::new(),
         bodies: BTreeMap::new(),
-        joints: Vec::new(),
+        axes: AxesDescription::default(),
         own: BTreeSet::new(),
         apart: BTreeSet::new(),
-        cut: Vec::new(),
     };
     drawing.place();
     drawing.name_bodies();
@@ -48,33 +47,22 @@ pub fn to_axes(
         drawing.draw();
     }
     if let Some(joint) = drawing.lost().next() {
-        return Err(ConvertError::NotAlone { joint });
+        return Err(ConvertError::NotAlone(joint));
     }
-    let (bodies, points, renamed) = drawing.frames();
-    let new_name = |name: &mut String| {
-        if let Some((_, new)) = renamed.iter().find(|(old, _)| old == name) {
-            name.clone_from(new);
-        }
-    };
-    let mut closed_forms = description.closed_forms.clone();
-    for form in &mut closed_forms {
-        let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);
-        frames.for_each(|frame| new_name(&mut frame.value));
-    }
-    let mut outputs = description.outputs.clone();
-    rename_in_outputs(&mut outputs, &new_name);
+    let renamed = drawing.frames();
+    let (mut closed_forms, mut outputs) = (
+        description.closed_forms.clone(),
+        description.outputs.clone(),
+    );
+    rename(&mut closed_forms, &mut outputs, &renamed);
     let axes = AxesDescription {
         name: description.name.clone(),
         source: description.source.clone(),
         convention: description.convention.clone(),
         parameters: description.parameters.clone(),
-        joints: drawing.joints,
-        bodies,
-        points,
-        cut: drawing.cut,
         closed_forms,
         outputs,
-        ..AxesDescription::default()
+        ..drawing.axes
     };
     let tables = axes.tables().map_err(ConvertError::Wrong)?;
     Mechanism::new(&tables).map_err(ConvertError::Wrong)?;
@@ -89,12 +77,12 @@ struct Drawing<'a> {
     /// Ground from each frame in the drawing, and from the axis before each row.
     places: BTreeMap<Frame, Steps>,
     bodies: BTreeMap<Body, String>,
-    joints: Vec<Named<AxisDescription>>,
+    /// What is drawn so far.
+    axes: AxesDescription,
     /// The variables that have a joint of their name.
     own: BTreeSet<String>,
     /// The variables that stand in sums only: the first such row becomes two joints in series about the same axis.
     apart: BTreeSet<String>,
-    cut: Vec<Spanned<String>>,
 }
 
 /// The joint of a row: where it is, counted with the constant parts of its entries.
@@ -228,7 +216,7 @@ impl Drawing<'_> {
         free_variable(wanted, |name| {
             place_of(&self.description.joints, name).is_none()
                 && place_of(&self.description.parameters, name).is_none()
-                && place_of(&self.joints, name).is_none()
+                && place_of(&self.axes.joints, name).is_none()
         })
     }
 
@@ -249,15 +237,15 @@ impl Drawing<'_> {
             ends.any(|end| end.value == name)
         };
         first_free(wanted, "_", |name| {
-            self.description.is_free_body(name) && !self.joints.iter().any(|j| connects(j, name))
+            self.description.is_free_body(name)
+                && !self.axes.joints.iter().any(|j| connects(j, name))
         })
     }
 
     /// Draws all joints.
     fn draw(&mut self) {
-        self.joints.clear();
+        self.axes = AxesDescription::default();
         self.own.clear();
-        self.cut.clear();
         self.rows();
         self.closures();
     }
@@ -290,7 +278,7 @@ impl Drawing<'_> {
                         if let Some(travel) = screw {
                             let turns = Expression::parse("2*pi").unwrap_or(travel.clone());
                             self.joint(AxisKind::Helical, &turn, &at, [from, to], &wanted);
-                            if let Some(joint) = self.joints.last_mut() {
+                            if let Some(joint) = self.axes.joints.last_mut() {
                                 joint.value.pitch = Some(turns.times(&travel).into());
                             }
                             continue;
@@ -340,16 +328,9 @@ impl Drawing<'_> {
         joint.between = Some(between.map(Spanned::nowhere));
         let name = match own {
             Some((name, _)) => {
-                let known = place_of(&self.description.joints, &name);
-                if let Some(declared) = known.map(|i| &self.description.joints[i].value) {
-                    joint.role = Some(declared.role);
-                    joint.limits = declared.limits.clone();
-                    if !declared.home.expression.is_zero() {
-                        joint.home = Some(declared.home.clone());
-                        joint.drawn = Some(zero());
-                    }
-                }
-                self.own.insert(name.clone());
+                joint.home = self.declared(&name, &mut joint);
+                joint.home.take_if(|home| home.expression.is_zero());
+                joint.drawn = joint.home.is_some().then(zero);
                 name
             }
             None => {
@@ -357,7 +338,17 @@ impl Drawing<'_> {
                 self.free(wanted)
             }
         };
-        self.joints.push(Named::new(name, joint));
+        self.axes.joints.push(Named::new(name, joint));
+    }
+
+    /// Gives a joint the role and the limits of the variable whose own it is; returns the home value.
+    fn declared(&mut self, name: &str, joint: &mut AxisDescription) -> Option<Entry> {
+        self.own.insert(name.to_owned());
+        let declared = place_of(&self.description.joints, name)?;
+        let declared = &self.description.joints[declared].value;
+        joint.role = Some(declared.role);
+        joint.limits = declared.limits.clone();
+        Some(declared.home.clone())
     }
 
     /// A sum as a variable that stands nowhere alone, and the rest.
@@ -427,9 +418,9 @@ impl Drawing<'_> {
                 joint.second = Some(second);
             }
             if !kind.always_cut() {
-                self.cut.push(Spanned::nowhere(name.clone()));
+                self.axes.cut.push(Spanned::nowhere(name.clone()));
             }
-            self.joints.push(Named::new(name, joint));
+            self.axes.joints.push(Named::new(name, joint));
         }
     }
 
@@ -449,13 +440,7 @@ impl Drawing<'_> {
         };
         let name = match own {
             Some(name) => {
-                let known = place_of(&self.description.joints, &name);
-                if let Some(declared) = known.map(|i| &self.description.joints[i].value) {
-                    rod.role = Some(declared.role);
-                    rod.limits = declared.limits.clone();
-                    rod.home = Some(declared.home.clone());
-                }
-                self.own.insert(name.clone());
+                rod.home = self.declared(&name, &mut rod);
                 name
             }
             None => {
@@ -463,23 +448,14 @@ impl Drawing<'_> {
                 self.free(&named.name.value)
             }
         };
-        self.joints.push(Named::new(name, rod));
+        self.axes.joints.push(Named::new(name, rod));
     }
 
-    /// The frames of bodies, the points, and the new names of frames.
-    #[allow(clippy::type_complexity)]
-    fn frames(
-        &self,
-    ) -> (
-        Vec<Named<AxisPlace>>,
-        Vec<Named<PointDescription>>,
-        Vec<(String, String)>,
-    ) {
+    /// Adds the frames of bodies and the points; returns the new names of frames.
+    fn frames(&mut self) -> Vec<(String, String)> {
         let connected = |body: &String| {
-            let mut joints = self
-                .joints
-                .iter()
-                .flat_map(|j| j.value.between.iter().flatten());
+            let mut joints =
+                (self.axes.joints.iter()).flat_map(|j| j.value.between.iter().flatten());
             body == GROUND || joints.any(|end| end.value == *body)
         };
         let (mut bodies, mut points, mut renamed) = (Vec::new(), Vec::new(), Vec::new());
@@ -515,7 +491,8 @@ impl Drawing<'_> {
                 }
             }
         }
-        (bodies, points, renamed)
+        (self.axes.bodies, self.axes.points) = (bodies, points);
+        renamed
     }
 }
 

@@ -52,32 +52,21 @@ pub(super) fn cut(
     let place = find(mechanism, description, joint)?;
     let (closure, side) = closing(mechanism, &place, joint)?;
     let motion = ClosureRows::of(mechanism, description, closure, side);
-    let (old, new) = rebuild(mechanism, description, &place, closure, side, &motion);
-    let mut conversion = new;
-    let renamed = |(from, to)| ConversionNote::Renamed { from, to };
-    let mut notes: Vec<ConversionNote> = old.into_iter().map(renamed).collect();
-    notes.push(ConversionNote::Variables {
-        closure: description.closures[closure].name.value.clone(),
-        joints: names_of(&motion.joints).map(str::to_owned).collect(),
-    });
-    if description.joints[place.joint].value.role == Role::Actuated {
-        let joint = joint.to_owned();
-        notes.push(ConversionNote::DriveLost { joint });
-    }
-    if description.joints[place.joint].value.limits.is_some() {
-        let joint = joint.to_owned();
-        notes.push(ConversionNote::LimitsLost { joint });
-    }
-    notes.append(&mut conversion.notes);
-    conversion.notes = notes;
-    Ok(conversion)
+    Ok(rebuild(
+        mechanism,
+        description,
+        &place,
+        closure,
+        side,
+        &motion,
+    ))
 }
 
 fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<Place, CutError> {
     let joint = || name.to_owned();
     let Some(index) = mechanism.joint(name) else {
         if place_of(&description.closures, name).is_some() {
-            return Err(CutError::AlreadyCut { closure: joint() });
+            return Err(CutError::AlreadyCut(joint()));
         }
         let names = names_of(&description.joints);
         return Err(CutError::UnknownJoint {
@@ -86,7 +75,7 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
         });
     };
     if mechanism.joints()[index].kind == JointKind::Helical {
-        return Err(CutError::Helical { joint: joint() });
+        return Err(CutError::Helical(joint()));
     }
     let mut places = Vec::new();
     for (chain, part) in mechanism.dimensions().chains.iter().enumerate() {
@@ -103,15 +92,15 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
         .flat_map(|c| &c.extension.0)
         .any(|(j, _)| *j == index);
     match (places[..].as_ref(), in_length) {
-        ([], _) => Err(CutError::NoRow { joint: joint() }),
+        ([], _) => Err(CutError::NoRow(joint())),
         (&[(chain, row, 1, slides)], false) => Ok(Place {
             joint: index,
             chain,
             row,
             slides,
         }),
-        ([_], false) => Err(CutError::SharedRow { joint: joint() }),
-        _ => Err(CutError::SeveralRows { joint: joint() }),
+        ([_], false) => Err(CutError::SharedRow(joint())),
+        _ => Err(CutError::SeveralRows(joint())),
     }
 }
 
@@ -162,7 +151,7 @@ fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, 
         None => {
             let (joint, closures) = (joint.to_owned(), others);
             Err(match closures.is_empty() {
-                true => CutError::NoLoop { joint },
+                true => CutError::NoLoop(joint),
                 false => CutError::NotRows { joint, closures },
             })
         }
@@ -186,7 +175,7 @@ fn rebuild(
     closure: usize,
     side: usize,
     motion: &ClosureRows,
-) -> (Vec<(String, String)>, Conversion) {
+) -> Conversion {
     let convention = mechanism.chains()[place.chain].convention;
     let Named { name, value: chain } = &description.chains[place.chain];
     let (old, r) = (&chain.rows, place.row);
@@ -261,7 +250,8 @@ fn rebuild(
             Named::new(back_name.clone(), back),
         ],
     );
-    let joint = description.joints[place.joint].name.value.clone();
+    let opened = &description.joints[place.joint];
+    let joint = opened.name.value.clone();
     new.closures[closure] = Named::new(
         free_closure(&new, closure, &joint),
         ClosureDescription {
@@ -276,7 +266,22 @@ fn rebuild(
     );
     new.joints
         .splice(place.joint..=place.joint, motion.joints.clone());
-    let mut notes = Vec::new();
+    let renamed = renamed.into_iter();
+    let mut notes: Vec<ConversionNote> = renamed
+        .map(|(from, to)| ConversionNote::Renamed { from, to })
+        .collect();
+    notes.push(ConversionNote::Variables {
+        closure: description.closures[closure].name.value.clone(),
+        joints: names_of(&motion.joints).map(str::to_owned).collect(),
+    });
+    if opened.value.role == Role::Actuated {
+        let joint = joint.clone();
+        notes.push(ConversionNote::DriveLost { joint });
+    }
+    if opened.value.limits.is_some() {
+        let joint = joint.clone();
+        notes.push(ConversionNote::LimitsLost { joint });
+    }
     new.closed_forms.retain(|form| {
         let lost = names(&form.value).any(|name| *name == joint)
             && place_of(&form.value.locals, &joint).is_none();
@@ -289,7 +294,7 @@ fn rebuild(
         !lost
     });
     let description = new;
-    (renamed, Conversion { description, notes })
+    Conversion { description, notes }
 }
 
 fn free_closure(description: &Description, own: usize, wanted: &str) -> String {

@@ -4,7 +4,8 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 use crate::description::{
-    ChainDescription, Description, Displacement, Entry, Named, Spanned, first_free, place_of,
+    ChainDescription, ClosedFormDescription, Description, Displacement, Entry, Named, Spanned,
+    first_free, place_of,
 };
 use crate::mechanism::PoseCoordinate;
 
@@ -70,31 +71,46 @@ pub(super) fn exchange(
             renamed.push((frame, name));
         }
     }
-    let new_name = |name: &mut String| {
-        if let Some((_, new)) = renamed.iter().find(|(old, _)| old == name) {
-            name.clone_from(new);
+    for frame in description
+        .closures
+        .iter_mut()
+        .flat_map(|closure| &mut closure.value.frames)
+    {
+        if let Some((_, new)) = renamed.iter().find(|(old, _)| *old == frame.value) {
+            frame.value.clone_from(new);
         }
-    };
-    for closure in &mut description.closures {
-        let frames = closure.value.frames.iter_mut();
-        frames.for_each(|frame| new_name(&mut frame.value));
     }
-    for form in &mut description.closed_forms {
-        let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);
-        frames.for_each(|frame| new_name(&mut frame.value));
-    }
-    rename_in_outputs(&mut description.outputs, &new_name);
+    rename(
+        &mut description.closed_forms,
+        &mut description.outputs,
+        &renamed,
+    );
     renamed
 }
 
-/// Exchanges the names of frames in quantities.
-pub(super) fn rename_in_outputs(outputs: &mut [Named<Entry>], new_name: &impl Fn(&mut String)) {
+/// Exchanges the names of frames in closed forms and quantities.
+pub(super) fn rename(
+    closed_forms: &mut [Named<ClosedFormDescription>],
+    outputs: &mut [Named<Entry>],
+    renamed: &[(String, String)],
+) {
+    let new_name = |name: &str| {
+        let known = renamed.iter().find(|(old, _)| old == name);
+        known.map(|(_, new)| new.as_str())
+    };
+    for form in closed_forms {
+        for frame in form.value.of.iter_mut().chain(&mut form.value.relative_to) {
+            if let Some(new) = new_name(&frame.value) {
+                frame.value = new.to_owned();
+            }
+        }
+    }
     for output in outputs {
         let exchanged = output.value.expression.try_resolve(|name, _| {
             let (place, mut name) = (frame_in(name), name.clone());
-            let mut frame = name[place.clone()].to_owned();
-            new_name(&mut frame);
-            name.replace_range(place, &frame);
+            if let Some(new) = new_name(&name[place.clone()]) {
+                name.replace_range(place, new);
+            }
             Ok::<String, Infallible>(name)
         });
         output.value.expression = exchanged.expect("every name is kept or exchanged");

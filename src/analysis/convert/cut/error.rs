@@ -14,45 +14,23 @@ pub enum CutError {
         suggestion: Option<String>,
     },
     /// The name is a closure's: the mechanism is broken there already.
-    #[error("`{closure}` is a closure: the mechanism is already cut there")]
-    AlreadyCut {
-        /// The closure.
-        closure: String,
-    },
+    #[error("`{0}` is a closure: the mechanism is already cut there")]
+    AlreadyCut(String),
     /// The joint is helical, and no closure is.
-    #[error("the joint `{joint}` is helical, and there is no helical closure")]
-    Helical {
-        /// The joint.
-        joint: String,
-    },
+    #[error("the joint `{0}` is helical, and there is no helical closure")]
+    Helical(String),
     /// The variable stands in no row.
-    #[error("the variable `{joint}` stands in no row of a table")]
-    NoRow {
-        /// The joint.
-        joint: String,
-    },
+    #[error("the variable `{0}` stands in no row of a table")]
+    NoRow(String),
     /// The variable stands in several rows or entries.
-    #[error(
-        "the variable `{joint}` stands in several places, and a cut would open only one of them"
-    )]
-    SeveralRows {
-        /// The joint.
-        joint: String,
-    },
+    #[error("the variable `{0}` stands in several places, and a cut would open only one of them")]
+    SeveralRows(String),
     /// Other variables stand in its row.
-    #[error("the row of `{joint}` has other variables too, which the cut would free")]
-    SharedRow {
-        /// The joint.
-        joint: String,
-    },
+    #[error("the row of `{0}` has other variables too, which the cut would free")]
+    SharedRow(String),
     /// No closure holds what is behind the joint.
-    #[error(
-        "`{joint}` is not part of a loop: after the cut nothing would hold the links behind it"
-    )]
-    NoLoop {
-        /// The joint.
-        joint: String,
-    },
+    #[error("`{0}` is not part of a loop: after the cut nothing would hold the links behind it")]
+    NoLoop(String),
     /// The closures that do are not at the end of the joint's own chain, or cannot become rows.
     #[error(
         "the links behind `{joint}` are held only by {}, which cannot become rows at the end of \
