@@ -21,7 +21,7 @@ use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes, TableRow};
 pub use given::{AxesError, joint_axes};
 
 /// The most joints of one file of axes.
-pub const MOST_JOINTS: usize = 1000;
+const MOST_JOINTS: usize = 1000;
 
 /// How frames are placed.
 #[derive(Clone, Debug, Default)]
@@ -282,24 +282,21 @@ pub fn frames(
     }
     let values = values::Values::of(axes)?;
     let closed = !axes.is_serial();
-    let built = match closed {
+    let mut report = match closed {
         true => loops::closed(axes, &values, convention)?,
         false => chains::serial(axes, &values, convention)?,
     };
-    let description = built.description;
     let mut warnings = values.warnings.clone();
     // entries keep their places in the file, and what is new cannot be wrong
-    let mechanism = Mechanism::new(&description)?;
+    let mechanism = Mechanism::new(&report.description)?;
     let kept = |problem: &&Problem| matches!(problem.kind, ProblemKind::HomeOutsideLimits { .. });
     warnings.extend(mechanism.warnings().iter().filter(kept).cloned());
     let is_cut = |name: &str| {
-        built
-            .cuts
-            .iter()
-            .any(|c| c.cut.iter().any(|cut| cut == name))
+        let mut cuts = report.cuts.iter().flat_map(|cuts| &cuts.cut);
+        cuts.any(|cut| cut == name)
     };
     warnings.extend(axes.lost_by_cuts(is_cut));
-    if let [chain] = &built.chains[..]
+    if let [chain] = &report.chains[..]
         && let Some(base) = axes.base.as_deref().filter(|_| !closed)
         && !chain.starts_at_base
     {
@@ -309,15 +306,7 @@ pub fn frames(
         let span = span.map_or(axes.name.span.clone(), |(start, end)| start..end);
         warnings.push(AxesProblem::BaseUnused { convention }.at(&span));
     }
-    warnings.extend(far_normals(axes, &values, &built.chains));
-    Ok(FramesReport {
-        mechanism: axes.name.value.clone(),
-        convention,
-        chains: built.chains,
-        cuts: built.cuts,
-        turned: built.turned,
-        moved: built.moved,
-        description,
-        warnings,
-    })
+    warnings.extend(far_normals(axes, &values, &report.chains));
+    report.warnings = warnings;
+    Ok(report)
 }

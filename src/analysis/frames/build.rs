@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::PlacedChain;
-use super::chains::{self, Built, between, declarations, joint_axis, turned_to};
+use super::chains::{self, between, declarations, joint_axis, turned_to};
 use super::values::Values;
+use super::{FramesReport, PlacedChain};
 use crate::description::{
     AxesDescription, AxisKind, ChainDescription, ClosureDescription, Convention, Description,
     Displacement, GROUND, Graph, Named, PlatformDescription, Role, Spanned, place_of,
@@ -59,7 +59,7 @@ impl<'a> Build<'a> {
     }
 
     /// The mechanism file.
-    pub fn build(mut self) -> Built {
+    pub fn build(mut self) -> FramesReport {
         self.carried[0] = Some((GROUND.into(), Pose::identity()));
         self.grow(0);
         // what is held by cut joints only is a platform
@@ -81,7 +81,9 @@ impl<'a> Build<'a> {
         let kept = |j: usize| !self.cuts.contains(&j);
         let joints = declarations(self.axes, self.values, kept, role);
         let closures = self.cuts.iter().map(|&joint| self.closure(joint)).collect();
-        Built {
+        FramesReport {
+            mechanism: self.axes.name.value.clone(),
+            convention: self.convention,
             description: Description {
                 name: self.axes.name.clone(),
                 source: self.axes.source.clone(),
@@ -96,6 +98,7 @@ impl<'a> Build<'a> {
             cuts: None,
             turned: self.turned,
             moved: self.moved,
+            warnings: Vec::new(),
         }
     }
 

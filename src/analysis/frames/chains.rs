@@ -1,7 +1,7 @@
 //! Chains of a mechanism file from assigned frames.
 
 use super::values::Values;
-use super::{CutReport, PlacedChain};
+use super::{FramesReport, PlacedChain};
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, ChainDescription, Convention, Description,
@@ -9,15 +9,6 @@ use crate::description::{
 };
 use crate::geometry::{Axis, Pose, Rotation, Vector3};
 use crate::mechanism::{JointAxis, SerialAxes, Table, TableRow};
-
-/// A mechanism file and how it came about.
-pub(super) struct Built {
-    pub description: Description,
-    pub chains: Vec<PlacedChain>,
-    pub cuts: Option<CutReport>,
-    pub turned: f64,
-    pub moved: f64,
-}
 
 /// The axis of the joint of that index, traversed from the first of its bodies or from the second.
 pub(super) fn joint_axis(
@@ -125,7 +116,7 @@ pub(super) fn serial(
     axes: &AxesDescription,
     values: &Values,
     convention: Convention,
-) -> Result<Built, Vec<Problem>> {
+) -> Result<FramesReport, Vec<Problem>> {
     let balls = (axes.joints.iter()).filter(|joint| joint.value.kind == AxisKind::Spherical);
     let problems = balls.map(|ball| {
         let joint = ball.name.value.clone();
@@ -161,7 +152,9 @@ pub(super) fn serial(
     };
     let joints = declarations(axes, values, |_| true, role);
     let name = "chain";
-    Ok(Built {
+    Ok(FramesReport {
+        mechanism: axes.name.value.clone(),
+        convention,
         description: Description {
             name: axes.name.clone(),
             source: axes.source.clone(),
@@ -174,6 +167,7 @@ pub(super) fn serial(
         cuts: None,
         turned: made.turned,
         moved: made.moved,
+        warnings: Vec::new(),
     })
 }
 

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::build::Build;
-use super::chains::Built;
 use super::values::Values;
-use super::{CutChoice, CutReport};
+use super::{CutChoice, CutReport, FramesReport};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Graph, Problem, place_of,
 };
@@ -20,14 +19,14 @@ pub(super) fn closed(
     axes: &AxesDescription,
     values: &Values,
     convention: Convention,
-) -> Result<Built, Vec<Problem>> {
+) -> Result<FramesReport, Vec<Problem>> {
     let graph = Graph::of(axes)?;
     let balls = axes.always_cut();
     let ways = match axes.cut.is_empty() {
         true => proposed(axes, &graph, &balls)?,
         false => (vec![given(axes, &graph, &balls)?], false),
     };
-    let mut compared: Vec<(CutChoice, Built)> = (ways.0.into_iter())
+    let mut compared: Vec<(CutChoice, FramesReport)> = (ways.0.into_iter())
         .map(|cuts| {
             let built = Build::new(axes, values, &graph, &cuts, convention).build();
             (way(axes, &cuts, &balls, &built), built)
@@ -39,7 +38,7 @@ pub(super) fn closed(
     let ways_compared = compared.iter().map(|(way, _)| way.clone()).collect();
     let (best, built) = compared.swap_remove(0);
     let named = |j: &usize| axes.joints[*j].name.value.clone();
-    Ok(Built {
+    Ok(FramesReport {
         cuts: Some(CutReport {
             cut: best
                 .cut
@@ -58,7 +57,7 @@ fn way(
     axes: &AxesDescription,
     cuts: &BTreeSet<usize>,
     balls: &BTreeSet<usize>,
-    built: &Built,
+    built: &FramesReport,
 ) -> CutChoice {
     let named = |j: &usize| axes.joints[*j].name.value.clone();
     let chosen: Vec<usize> = cuts.difference(balls).copied().collect();
