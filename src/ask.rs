@@ -56,6 +56,18 @@ use crate::analysis::sweep::Schedule;
 use crate::mechanism::{Body, Configuration, Mechanism, NamedPoint};
 use crate::system;
 
+/// Random starts where one assembly near the start is wanted.
+const RESTARTS: usize = 20;
+
+/// Refuses random starts, or nodes that are searched, that are none or too many.
+fn check_starts(given: usize) -> Result<(), AskError> {
+    const MOST: usize = 1_000_000;
+    match (1..=MOST).contains(&given) {
+        true => Ok(()),
+        false => Err(AskError::Starts { given, most: MOST }),
+    }
+}
+
 /// A coordinate that moves or is mapped over a range.
 #[derive(Clone, Debug, PartialEq)]
 struct Range {
@@ -71,7 +83,7 @@ enum Wrench {
     Text(String),
 }
 
-/// What is asked of a mechanism.
+/// What is asked of a mechanism. Every analysis refuses a question that is wrong in itself.
 ///
 /// A fresh question holds the actuated joints at home, starts at the home configuration and moves nothing. Coordinates
 /// are named as for [`system::Question`]; values are numbers in m and rad, or texts as in the file ([`Value`]).

@@ -34,6 +34,7 @@ pub use motion::{
     Columns, Extreme, Extremum, KeptRows, Missing, MotionReport, MotionsReport, Pole,
 };
 pub use paths::{PathPoint, PathReport};
+pub(crate) use points::Paths;
 pub use schedule::Schedule;
 pub use straightness::Straightness;
 
@@ -114,6 +115,22 @@ pub struct Row<'a> {
     pub between: bool,
 }
 
+impl<'a> Row<'a> {
+    /// A configuration of which nothing more is said.
+    fn of(configuration: &'a Configuration<f64>) -> Self {
+        Row {
+            number: 0,
+            step: None,
+            configuration,
+            placement: None,
+            points: &[],
+            quantities: &[],
+            special: None,
+            between: false,
+        }
+    }
+}
+
 /// What takes the rows as they come.
 pub type Sink<'s> = dyn FnMut(&Row) + 's;
 
@@ -131,17 +148,6 @@ pub struct InputReport {
     pub from: f64,
     /// Its value at the end.
     pub to: f64,
-}
-
-impl InputReport {
-    fn of(mechanism: &Mechanism, input: &Driven) -> Self {
-        InputReport {
-            name: input.coordinate.name(mechanism),
-            unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
-            from: input.from,
-            to: input.to,
-        }
-    }
 }
 
 /// How a motion ended.
@@ -212,6 +218,31 @@ pub struct SweepReport {
     pub interrupted: bool,
 }
 
+impl SweepReport {
+    /// Of a motion that ended with nothing met and without rows.
+    pub(crate) fn of(mechanism: &Mechanism, inputs: &[Driven], ending: SweepEnd) -> Self {
+        let reports = inputs.iter().map(|input| InputReport {
+            name: input.coordinate.name(mechanism),
+            unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
+            from: input.from,
+            to: input.to,
+        });
+        SweepReport {
+            inputs: reports.collect(),
+            ending,
+            rows: 0,
+            met: Vec::new(),
+            more_met: 0,
+            sure_steps: 0,
+            length: 0.0,
+            characteristic_length: mechanism.characteristic_length(),
+            paths: Vec::new(),
+            certificate: None,
+            interrupted: false,
+        }
+    }
+}
+
 /// Moves the inputs from `start`, assembled where their segment begins, to its end.
 ///
 /// `held` holds everything that stands still, and none of the inputs; with the inputs it must leave
@@ -234,7 +265,7 @@ pub fn sweep(
     let mut certifier = (settings.certify)
         .then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start, watch));
     let sink: &mut Flow = &mut |row| {
-        if let Some(certifier) = &mut certifier {
+        if let Some(Ok(certifier)) = &mut certifier {
             certifier.row(row.configuration);
         }
         sink(row);
@@ -291,7 +322,11 @@ pub fn sweep(
             record.meet(curve, place, event);
             let special = !matches!(event, Event::Turning(_) | Event::End(_));
             if special {
-                (rows.special(place, record.latest(), sink)).map_break(stopped)?;
+                let row = Row {
+                    special: record.latest(),
+                    ..Row::of(&place.at)
+                };
+                rows.sent.send(row, sink).map_break(stopped)?;
             }
             let flow = match event {
                 Event::End(end) if *end => ControlFlow::Break(SweepEnd::Complete),
@@ -311,7 +346,11 @@ pub fn sweep(
         rows.between(curve, from, &leg.to, sink)
             .map_break(stopped)?;
         if settings.between {
-            rows.passed(&leg.to, sink).map_break(stopped)?;
+            let row = Row {
+                between: true,
+                ..Row::of(&leg.to.at)
+            };
+            rows.sent.send(row, sink).map_break(stopped)?;
         }
         length = leg.gone_at(curve, &leg.to);
         // an end that was passed unseen is worse than one that was not reached
@@ -321,10 +360,13 @@ pub fn sweep(
         }
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
-    let certificate = certifier.map(Certifier::certificate);
+    let unfit = |unfit| Certificate {
+        unfit: Some(unfit),
+        ..Certificate::default()
+    };
     interrupted(SweepReport {
-        certificate,
+        certificate: certifier.map(|of| of.map_or_else(unfit, Certifier::certificate)),
         paths: trail.reports(&mut curve, ending == SweepEnd::Closed),
-        ..record.report(ending, rows.count(), length)
+        ..record.report(ending, rows.sent.count, length)
     })
 }

@@ -40,9 +40,6 @@ impl Question {
 
     /// How everything moves when the held coordinates move at the rates of the question; those without one stand still.
     /// Points of the question are followed.
-    ///
-    /// # Errors
-    /// If the question is wrong.
     pub fn velocity(&self, watch: &Watch) -> Result<Analysed<VelocityReport>, AskError> {
         let question = self.resolved()?;
         let settings = VelocitySettings {
@@ -54,9 +51,6 @@ impl Question {
     }
 
     /// The forces that balance the wrenches and loads of the question.
-    ///
-    /// # Errors
-    /// If the question is wrong.
     pub fn statics(&self, watch: &Watch) -> Result<Analysed<StaticsReport>, AskError> {
         let question = self.resolved()?;
         let load = self.load_of(&question)?;
@@ -142,10 +136,10 @@ impl Question {
         let points = self.asked_points()?;
         let still = |point: &Point| self.mechanism.body(point.frame) == Body::Ground;
         match points.iter().position(still) {
-            Some(index) => Err(AskError::Motionless {
-                item: Role::Point.item(index),
-                name: self.points[index].clone(),
-            }),
+            Some(index) => {
+                let name = self.points[index].clone();
+                Err(AskError::Motionless(Role::Point.item(index), name))
+            }
             None => Ok(points),
         }
     }
@@ -159,10 +153,8 @@ impl Question {
     /// The same with their names.
     pub(super) fn named_points(&self) -> Result<Vec<NamedPoint>, AskError> {
         let points = self.points.iter().enumerate().map(|(index, text)| {
-            NamedPoint::read(&self.mechanism, text).map_err(|error| AskError::Point {
-                item: Role::Point.item(index),
-                error,
-            })
+            let wrong = |error| AskError::Point(Role::Point.item(index), error);
+            NamedPoint::read(&self.mechanism, text).map_err(wrong)
         });
         points.collect()
     }

@@ -59,26 +59,17 @@ impl Role {
 
     /// The error for the rate or acceleration of this index.
     pub(super) fn driven(self, index: usize) -> impl Fn(DriveError) -> AskError {
-        move |error| AskError::Drive {
-            item: self.item(index),
-            error: Box::new(error),
-        }
+        move |error| AskError::Drive(self.item(index), Box::new(error))
     }
 
     /// The error for the wrench or load of this index.
     pub(super) fn loaded(self, index: usize) -> impl Fn(ForceError) -> AskError {
-        move |error| AskError::Load {
-            item: self.item(index),
-            error: Box::new(error),
-        }
+        move |error| AskError::Load(self.item(index), Box::new(error))
     }
 
     /// The error for the part of this index.
     pub(super) fn named(self, index: usize) -> impl Fn(QuestionError) -> AskError {
-        move |error| AskError::Named {
-            item: self.item(index),
-            error: Box::new(error),
-        }
+        move |error| AskError::Named(self.item(index), Box::new(error))
     }
 }
 
@@ -87,13 +78,8 @@ impl Role {
 #[non_exhaustive]
 pub enum AskError {
     /// A name or a value is wrong.
-    #[error("{error}")]
-    Named {
-        /// Which.
-        item: Item,
-        /// What is wrong with it.
-        error: Box<QuestionError>,
-    },
+    #[error("{1}")]
+    Named(Item, Box<QuestionError>),
     /// The question as a whole holds too much or too little.
     #[error("{0}")]
     Question(QuestionError),
@@ -108,53 +94,23 @@ pub enum AskError {
         missing: Vec<String>,
     },
     /// A whole platform is mapped, or a coordinate of what is no platform.
-    #[error("{error}")]
-    NotMapped {
-        /// Which.
-        item: Item,
-        /// What is wrong with it.
-        error: Box<QuestionError>,
-    },
+    #[error("{1}")]
+    NotMapped(Item, Box<QuestionError>),
     /// A rate or an acceleration is wrong.
-    #[error("{error}")]
-    Drive {
-        /// Which.
-        item: Item,
-        /// What is wrong with it.
-        error: Box<DriveError>,
-    },
+    #[error("{1}")]
+    Drive(Item, Box<DriveError>),
     /// A load is wrong.
-    #[error("{error}")]
-    Load {
-        /// Which.
-        item: Item,
-        /// What is wrong with it.
-        error: Box<ForceError>,
-    },
-    /// The frame stands still.
-    #[error("`{name}` does not move")]
-    Motionless {
-        /// Which point.
-        item: Item,
-        /// Its name.
-        name: String,
-    },
-    /// There is no coordinate and no frame of that name.
-    #[error("`{name}` is neither a coordinate nor a frame")]
-    UnknownOutput {
-        /// Which output.
-        item: Item,
-        /// Its name.
-        name: String,
-    },
+    #[error("{1}")]
+    Load(Item, Box<ForceError>),
+    /// The frame of a point stands still.
+    #[error("`{1}` does not move")]
+    Motionless(Item, String),
+    /// There is no coordinate and no frame of the name of an output.
+    #[error("`{1}` is neither a coordinate nor a frame")]
+    UnknownOutput(Item, String),
     /// A point is wrong.
-    #[error("{error}")]
-    Point {
-        /// Which point.
-        item: Item,
-        /// What is wrong with it.
-        error: PointError,
-    },
+    #[error("{1}")]
+    Point(Item, PointError),
     /// A quantity is wrong.
     #[error("{error}")]
     Quantity {
@@ -188,14 +144,9 @@ pub enum AskError {
         /// The coordinate.
         name: String,
     },
-    /// A range has no length, or its end comes before its beginning where that matters.
-    #[error("the range of `{name}` is empty")]
-    EmptyRange {
-        /// Which.
-        item: Item,
-        /// The coordinate.
-        name: String,
-    },
+    /// The range of a coordinate has no length, or its end comes before its beginning where that matters.
+    #[error("the range of `{1}` is empty")]
+    EmptyRange(Item, String),
     /// A motion begins outside the limits of a joint.
     #[error("the motion begins outside the limits of `{name}`")]
     OutsideLimits {
@@ -209,25 +160,14 @@ pub enum AskError {
         is_angle: bool,
     },
     /// A mapped coordinate is held or freed too.
-    #[error("`{name}` is given a range and also held or freed")]
-    AlsoHeld {
-        /// Which.
-        item: Item,
-        /// The coordinate.
-        name: String,
-    },
+    #[error("`{1}` is given a range and also held or freed")]
+    AlsoHeld(Item, String),
     /// A coordinate that comes round again is mapped, or an angle of a platform moved, over more than a turn.
-    #[error("the range of `{name}` is wider than a full turn")]
-    MoreThanATurn {
-        /// The coordinate.
-        name: String,
-    },
-    /// Nothing moves.
+    #[error("the range of `{0}` is wider than a full turn")]
+    MoreThanATurn(String),
+    /// Nothing moves, though a joint may be driven.
     #[error("no input moves")]
-    NothingMoves {
-        /// The driven joint, if there is one.
-        driven: Option<String>,
-    },
+    NothingMoves(Option<String>),
     /// A motion of so many steps.
     #[error("a motion has 1 to {most} steps, not {given}")]
     Steps {
@@ -244,24 +184,18 @@ pub enum AskError {
         /// How many there can be.
         most: usize,
     },
-    /// Nothing is left to move: as much is held as the mechanism has freedoms.
-    #[error("{}", nothing_left(held))]
-    NothingLeft {
-        /// What is held.
-        held: Vec<String>,
-    },
+    /// Nothing is left to move: this holds as much as the mechanism has freedoms.
+    #[error("{}", nothing_left(.0))]
+    NothingLeft(Vec<String>),
     /// More than one freedom is left.
     #[error("{}", not_one_freedom(.0))]
     NotOneFreedom(QuestionError),
     /// The freedom is not that of one joint or of one coordinate of a platform.
     #[error("the freedom that is left is not that of one joint or one coordinate of a platform")]
     NotOneCoordinate,
-    /// The mechanism does not assemble where the work is to begin.
-    #[error("the mechanism does not assemble where the motion begins: {}", held.join(", "))]
-    NotAssembled {
-        /// What is held there.
-        held: Vec<String>,
-    },
+    /// The mechanism does not assemble with this held, where the work is to begin.
+    #[error("the mechanism does not assemble where the motion begins: {}", .0.join(", "))]
+    NotAssembled(Vec<String>),
     /// There is no mode of that number.
     #[error("{}", no_such_mode(*mode, *modes))]
     NoSuchMode {
@@ -285,12 +219,9 @@ pub enum AskError {
         count(*.0, "freedom")
     )]
     Spinning(usize),
-    /// The mechanism has too many unknowns.
-    #[error("the mechanism has {unknowns} unknowns, too many for this analysis")]
-    TooLarge {
-        /// How many it has.
-        unknowns: usize,
-    },
+    /// The mechanism has so many unknowns, too many.
+    #[error("the mechanism has {0} unknowns, too many for this analysis")]
+    TooLarge(usize),
     /// The nodes of a map are not one number or one for each coordinate, or too few.
     #[error("{}", wrong_grid(nodes, *axes))]
     Grid {
@@ -331,8 +262,8 @@ pub enum AskError {
     #[error("{0}")]
     Store(String),
     /// There is no such study.
-    #[error("{0}")]
-    Study(StudyError),
+    #[error(transparent)]
+    Study(#[from] StudyError),
     /// The work was stopped before its first result.
     #[error("interrupted before the first result")]
     Interrupted,
@@ -369,27 +300,21 @@ impl AskError {
     /// The part of the question that is wrong, if it is one.
     pub fn item(&self) -> Option<Item> {
         match self {
-            AskError::Named { item, .. }
-            | AskError::NotMapped { item, .. }
-            | AskError::Drive { item, .. }
-            | AskError::Load { item, .. }
-            | AskError::Motionless { item, .. }
-            | AskError::UnknownOutput { item, .. }
-            | AskError::Point { item, .. }
+            AskError::Named(item, _)
+            | AskError::NotMapped(item, _)
+            | AskError::Drive(item, _)
+            | AskError::Load(item, _)
+            | AskError::Motionless(item, _)
+            | AskError::UnknownOutput(item, _)
+            | AskError::Point(item, _)
+            | AskError::EmptyRange(item, _)
+            | AskError::AlsoHeld(item, _)
             | AskError::Quantity { item, .. }
             | AskError::Unmeasured { item, .. }
             | AskError::Twice { item, .. }
-            | AskError::EmptyRange { item, .. }
-            | AskError::OutsideLimits { item, .. }
-            | AskError::AlsoHeld { item, .. } => Some(*item),
+            | AskError::OutsideLimits { item, .. } => Some(*item),
             _ => None,
         }
-    }
-}
-
-impl From<StudyError> for AskError {
-    fn from(error: StudyError) -> Self {
-        AskError::Study(error)
     }
 }
 

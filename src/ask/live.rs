@@ -53,28 +53,34 @@ impl Steering {
         let question = asked.resolved()?;
         let quantities = asked.quantities(&question, &[])?;
         let metered = Metered {
-            quantities: &quantities,
-            question: &question,
-            inputs: &[],
+            quantities,
+            inputs: Vec::new(),
             pace: Pace::default(),
             schedule: None,
-            load: &asked.load_of(&question)?,
-            outputs: &[],
+            load: asked.load_of(&question)?,
+            outputs: Vec::new(),
+            question,
         };
-        let mut meter = Meter::new(metered, self.at());
+        let mut meter = Meter::new(&metered, self.at());
         let values = meter.read(self.at(), 0.0).iter();
-        let readings = quantities.iter().zip(values).map(|(quantity, value)| {
-            let timed = quantity.measured().any(|of| match of {
-                Measured::Joint(_, order) | Measured::Place(_, _, order) => *order != Order::Value,
-                Measured::Size(..) => true,
-                _ => false,
+        let readings = metered
+            .quantities
+            .iter()
+            .zip(values)
+            .map(|(quantity, value)| {
+                let timed = quantity.measured().any(|of| match of {
+                    Measured::Joint(_, order) | Measured::Place(_, _, order) => {
+                        *order != Order::Value
+                    }
+                    Measured::Size(..) => true,
+                    _ => false,
+                });
+                Reading {
+                    name: quantity.name.clone(),
+                    unit: quantity.unit,
+                    value: value.filter(|value| !timed && value.is_finite()),
+                }
             });
-            Reading {
-                name: quantity.name.clone(),
-                unit: quantity.unit,
-                value: value.filter(|value| !timed && value.is_finite()),
-            }
-        });
         Ok(readings.collect())
     }
 

@@ -1,6 +1,6 @@
 //! Which of several assemblies is meant: their numbers, and where work begins.
 
-use super::{AskError, Question};
+use super::{AskError, Question, RESTARTS};
 use crate::analysis::assemblies::{
     AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, GenericSolutions,
     LostMode, Wanted,
@@ -52,12 +52,9 @@ pub enum Solved {
 /// Assembled configurations to begin with: numbers of their modes, if they were asked for, and where they are.
 pub type Modes = Vec<(Option<usize>, Configuration<f64>)>;
 
-/// Random starts where one assembly near the start is wanted.
-const RESTARTS: usize = 20;
-
 /// What is worked out where only the numbers of modes are wanted. The numbers depend on what is found, so that
 /// everything that numbers modes searches as hard as [`Question::assemblies`] does.
-const NUMBERED: Wanted = Wanted {
+pub(super) const NUMBERED: Wanted = Wanted {
     certificates: false,
     all_complex: false,
     starts: true,
@@ -134,14 +131,10 @@ impl Question {
         watch: &Watch,
     ) -> Result<Modes, AskError> {
         if self.mode == Mode::Nearest {
-            let newton = Newton::default();
-            let found = Search::new(question, &newton).run(RESTARTS, self.seed, watch);
-            return match found.assembles() {
-                true => Ok(vec![(None, found.attempt.at)]),
-                false if watch.is_stopped() => Err(AskError::Interrupted),
-                false => Err(AskError::NotAssembled {
-                    held: question.held_names(),
-                }),
+            return match self.nearest(question, RESTARTS, watch) {
+                Some(at) => Ok(vec![(None, at)]),
+                None if watch.is_stopped() => Err(AskError::Interrupted),
+                None => Err(AskError::NotAssembled(question.held_names())),
             };
         }
         let report = self.all(question, NUMBERED, watch)?;
@@ -167,6 +160,18 @@ impl Question {
                 modes: report.real,
             }),
         }
+    }
+
+    /// The assembled configuration that Newton's method leads to from the start, or else from so many random starts.
+    pub(super) fn nearest(
+        &self,
+        question: &system::Question,
+        restarts: usize,
+        watch: &Watch,
+    ) -> Option<Configuration<f64>> {
+        let newton = Newton::default();
+        let found = Search::new(question, &newton).run(restarts, self.seed, watch);
+        found.assembles().then_some(found.attempt.at)
     }
 
     /// The only place where work begins.

@@ -3,15 +3,15 @@
 use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 
-use super::quantities::{Course, Extremes, Meter, Metered, Passage, Placed, Seen};
+use super::quantities::{Course, Extremes, Meter, Metered, Passage, Seen};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
-    Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Row, Schedule, Sink,
+    Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Paths, Row, Schedule, Sink,
     Straightness, SweepReport, SweepSettings, dwell, follow, sweep,
 };
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Quantity, Variable};
 use crate::solve::Watch;
-use crate::system::{self, Coordinate, Driven, Held, Load, Lock};
+use crate::system::{Coordinate, Driven, Held};
 
 /// What is sought between the rows of a motion.
 #[derive(Default)]
@@ -27,20 +27,19 @@ pub struct Motions<'q> {
     pub(super) mechanism: &'q Mechanism,
     pub(super) held: Held<f64>,
     pub(super) settings: SweepSettings,
-    /// With the inputs held.
-    pub(super) question: system::Question<'q>,
-    pub(super) quantities: Vec<Quantity>,
+    pub(super) metered: Metered<'q>,
     /// Quantities that may dwell, by their numbers, with tolerances.
     pub(super) dwells: Vec<(usize, f64)>,
-    pub(super) load: Load,
-    pub(super) outputs: Vec<Lock>,
-    /// The inputs; none where the whole curve is followed.
-    pub inputs: Vec<Driven>,
     /// Where each begins, with the number of its mode if one was asked for.
     pub starts: super::Modes,
 }
 
 impl Motions<'_> {
+    /// The inputs; none where the whole curve is followed.
+    pub fn inputs(&self) -> &[Driven] {
+        &self.metered.inputs
+    }
+
     /// The points that are traced.
     pub fn points(&self) -> &[NamedPoint] {
         &self.settings.points
@@ -54,8 +53,8 @@ impl Motions<'_> {
     /// What the columns of quantities are: the time if any is asked for and inputs move, then these.
     pub fn quantities(&self) -> Vec<Variable> {
         let of = |quantity: &Quantity| Variable::new(&quantity.name, quantity.unit);
-        let quantities: Vec<Variable> = self.quantities.iter().map(of).collect();
-        let timed = !quantities.is_empty() && !self.inputs.is_empty();
+        let quantities: Vec<Variable> = self.metered.quantities.iter().map(of).collect();
+        let timed = !quantities.is_empty() && !self.metered.inputs.is_empty();
         let time = timed.then(|| Variable::new("time", SiUnit::SECOND));
         time.into_iter().chain(quantities).collect()
     }
@@ -63,7 +62,7 @@ impl Motions<'_> {
     /// The part of the time that is gone where the inputs are; those that follow a table are past this number of steps.
     fn time(&self, at: &Configuration<f64>, step: usize) -> f64 {
         if let Some(schedule) = &self.settings.schedule {
-            let inputs = schedule.between(&self.inputs, step, self.settings.steps);
+            let inputs = schedule.between(&self.metered.inputs, step, self.settings.steps);
             let size = |of: &Driven| (of.to - of.from).abs() / of.coordinate.scale(self.mechanism);
             let most = (inputs.iter()).max_by(|a, b| size(a).total_cmp(&size(b)));
             let gone = most.map_or(0.0, |of| {
@@ -73,7 +72,12 @@ impl Motions<'_> {
             return (step as f64 + gone.clamp(0.0, 1.0)) / self.settings.steps as f64;
         }
         let joint = |input: &&Driven| matches!(input.coordinate, Coordinate::Joint(_));
-        let measure = self.inputs.iter().find(joint).or(self.inputs.first());
+        let measure = self
+            .metered
+            .inputs
+            .iter()
+            .find(joint)
+            .or(self.metered.inputs.first());
         let part = measure.map_or(0.0, |input| {
             let way = input.to - input.from;
             let gone = input.coordinate.of(at) - input.from;
@@ -123,7 +127,7 @@ impl Motions<'_> {
                 mode: *mode,
                 sentence: String::new(),
                 sweep,
-                pace: (!self.inputs.is_empty()).then_some(self.settings.pace),
+                pace: (!self.metered.inputs.is_empty()).then_some(self.settings.pace),
                 table: self.settings.schedule.as_ref().map(Schedule::rows),
                 extremes: located.extremes,
                 straightness: located.straightness,
@@ -154,26 +158,17 @@ impl Motions<'_> {
         watch: &Watch,
     ) -> (SweepReport, Located) {
         let wanted = self.settings.straightness || !self.dwells.is_empty();
-        if self.quantities.is_empty() && !wanted {
+        if self.metered.quantities.is_empty() && !wanted {
             let moved = self.moved(start, &self.settings, sink, watch);
             return (moved, Located::default());
         }
-        let metered = Metered {
-            quantities: &self.quantities,
-            question: &self.question,
-            inputs: &self.inputs,
-            pace: self.settings.pace,
-            schedule: self.settings.schedule.as_ref(),
-            load: &self.load,
-            outputs: &self.outputs,
-        };
-        let mut meter = Meter::new(metered, start);
+        let mut meter = Meter::new(&self.metered, start);
         let settings = SweepSettings {
             frames: meter.frames().to_vec(),
             ..self.settings.clone()
         };
-        let mut extremes = Extremes::new(self.quantities.len());
-        let timed = !self.inputs.is_empty() && !self.quantities.is_empty();
+        let mut extremes = Extremes::new(self.metered.quantities.len());
+        let timed = !self.metered.inputs.is_empty() && !self.metered.quantities.is_empty();
         let mut values = Vec::new();
         let mut all: Vec<Seen> = Vec::new();
         let steps = self.settings.steps as f64;
@@ -208,7 +203,7 @@ impl Motions<'_> {
         let passage = Passage {
             mechanism: self.mechanism,
             held: &self.held,
-            inputs: &self.inputs,
+            inputs: &self.metered.inputs,
             schedule: self.settings.schedule.as_ref(),
             time: &|at| self.time(at, latest.get()),
         };
@@ -224,7 +219,7 @@ impl Motions<'_> {
                 found.map(|(at, when)| (when, passage.inputs(at)))
             });
             let ((begin, from), (end, to)) = (begin?, end?);
-            let of = &self.quantities[*quantity];
+            let of = &self.metered.quantities[*quantity];
             Some(Dwell {
                 name: of.name.clone(),
                 unit: of.unit,
@@ -237,17 +232,17 @@ impl Motions<'_> {
         let dwells = dwells.collect();
         let points = self.points().iter().filter(|_| self.settings.straightness);
         let straightness = points.filter_map(|named| {
-            let mut placed = Placed::new(self.mechanism, &[named.point.frame]);
+            let mut paths = Paths::new(self.mechanism, std::slice::from_ref(named));
             let mut course = Course::new(passage, &all);
             Straightness::along(&named.name, all.len(), &mut |place| {
-                placed.place(course.at(place)?.0);
-                Some(placed.pose(named.point).position.0)
+                paths.place(course.at(place)?.0);
+                Some(paths.at[0])
             })
         });
         let located = Located {
             straightness: straightness.collect(),
             dwells,
-            extremes: extremes.located(&self.quantities, passage, &mut meter),
+            extremes: extremes.located(&self.metered.quantities, passage, &mut meter),
         };
         (report, located)
     }
@@ -259,12 +254,7 @@ impl Motions<'_> {
         sink: &mut Sink,
         watch: &Watch,
     ) -> SweepReport {
-        let Motions {
-            mechanism,
-            held,
-            inputs,
-            ..
-        } = self;
+        let (mechanism, held, inputs) = (self.mechanism, &self.held, self.inputs());
         match inputs.is_empty() {
             true => follow(mechanism, held, start, settings, sink, watch),
             false => sweep(mechanism, held, inputs, start, settings, sink, watch),

@@ -1,16 +1,13 @@
 //! Quantities over a motion: what is asked for, and what of it can be known.
 
 mod extremes;
-mod found;
 mod meter;
 mod passage;
-mod places;
 mod poles;
 
 pub(super) use extremes::Extremes;
 pub(super) use meter::{Meter, Metered};
 pub(super) use passage::{Course, Passage, Seen};
-pub(super) use places::Placed;
 
 use super::{AskError, Item, Question, Role, Unmeasured};
 use crate::algebra::{Measure, SiUnit};

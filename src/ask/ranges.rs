@@ -27,10 +27,7 @@ impl Question {
             let (coordinate, from) = from.map_err(Role::From.named(index))?;
             let (_, to) = (question.value(name, &input.to)).map_err(Role::To.named(index))?;
             if refuse(from, to) {
-                return Err(AskError::EmptyRange {
-                    item: Role::Input.item(index),
-                    name: name.clone(),
-                });
+                return Err(AskError::EmptyRange(Role::Input.item(index), name.clone()));
             }
             ranges.push(Driven {
                 coordinate,
@@ -49,10 +46,9 @@ impl Question {
     ) -> Result<system::Question<'q>, AskError> {
         for (index, (input, value)) in self.inputs.iter().zip(values).enumerate() {
             question = (question.hold(&input.name, *value)).map_err(|error| match error {
-                QuestionError::Contradiction { .. } => AskError::AlsoHeld {
-                    item: Role::Input.item(index),
-                    name: input.name.clone(),
-                },
+                QuestionError::Contradiction { .. } => {
+                    AskError::AlsoHeld(Role::Input.item(index), input.name.clone())
+                }
                 error => Role::Input.named(index)(error),
             })?;
         }

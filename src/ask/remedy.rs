@@ -1,12 +1,7 @@
 //! Values at which what is missing from a question can be held.
 
-use super::Question;
-use crate::mechanism::Configuration;
-use crate::solve::{Newton, Watch};
-use crate::system::Search;
-
-/// Random starts for an assembly to take values from.
-const RESTARTS: usize = 20;
+use super::{Question, RESTARTS};
+use crate::solve::Watch;
 
 /// A coordinate with a value at which it can be held.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,11 +18,9 @@ impl Question {
     /// Values at which coordinates can be held beside what is held: those of the file if the mechanism assembles with
     /// them, otherwise those that they have where it assembles. `None` if no assembly was found.
     pub fn holdable(&self, names: &[String]) -> Option<Vec<Holdable>> {
-        let found = |question: &Question| -> Option<Configuration<f64>> {
+        let found = |question: &Question| {
             let resolved = question.resolved().ok()?;
-            let newton = Newton::default();
-            let found = Search::new(&resolved, &newton).run(RESTARTS, self.seed, &Watch::none());
-            found.assembles().then_some(found.attempt.at)
+            self.nearest(&resolved, RESTARTS, &Watch::none())
         };
         let with_home = names
             .iter()

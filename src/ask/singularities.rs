@@ -1,7 +1,7 @@
 //! Singularities: at a configuration, along inputs, and as loci.
 
 use super::ranges::{is_too_many, middles, of_platform, still};
-use super::{AskError, Mode, Question, Role};
+use super::{AskError, Mode, Question, Role, check_starts};
 use crate::analysis::singularities::{
     AlongReport, LocusReport, SingularitiesReport, SingularitiesSettings, along, inputs_of, loci,
     singularities,
@@ -11,9 +11,6 @@ use crate::solve::Watch;
 use crate::system::{
     self, Analysed, Coordinate, Held, Lock, PointError, TooLarge, check_count, too_large,
 };
-
-/// Random starts made at most.
-const MOST_STARTS: usize = 1_000_000;
 
 impl Question {
     /// Whether and how the assembled configuration is singular.
@@ -74,7 +71,7 @@ impl Question {
         };
         let (question, held) = self.holding(&middles(&sides))?;
         if let Some(TooLarge { unknowns, .. }) = too_large(&self.mechanism) {
-            return Err(AskError::TooLarge { unknowns });
+            return Err(AskError::TooLarge(unknowns));
         }
         let inputs = inputs(&question)?;
         let question = question.with_spins_still();
@@ -87,12 +84,7 @@ impl Question {
         &self,
         settings: &SingularitiesSettings,
     ) -> Result<SingularitiesSettings, AskError> {
-        if !(1..=MOST_STARTS).contains(&settings.starts) {
-            return Err(AskError::Starts {
-                given: settings.starts,
-                most: MOST_STARTS,
-            });
-        }
+        check_starts(settings.starts)?;
         Ok(SingularitiesSettings {
             seed: self.seed,
             outputs: self.asked_outputs()?,
@@ -112,8 +104,8 @@ impl Question {
                 // beside an origin the orientation is not meant
                 Ok(point) if !point.is_origin() => Ok(Lock::Point(point)),
                 Ok(point) => Ok(Lock::Frame(point.frame)),
-                Err(PointError::NoFrame(name)) => Err(AskError::UnknownOutput { item, name }),
-                Err(error) => Err(AskError::Point { item, error }),
+                Err(PointError::NoFrame(name)) => Err(AskError::UnknownOutput(item, name)),
+                Err(error) => Err(AskError::Point(item, error)),
             }
         });
         let points = self.asked_points()?.into_iter();

@@ -7,9 +7,9 @@ use crate::analysis::sweep::{Row, SweepEnd, SweepReport, SweepSettings, sweep};
 use crate::geometry::Vector3;
 use crate::linear::{Decomposition, norm};
 use crate::mechanism::{Configuration, Mechanism, Point};
-use crate::solve::{Newton, Watch};
+use crate::solve::Watch;
 use crate::system::{
-    self, Coordinate, Driven, FrameTwists, Freedoms, Held, QuestionError, Search, Still, System,
+    self, Coordinate, Driven, FrameTwists, Freedoms, Held, QuestionError, Still, System,
     check_count,
 };
 
@@ -55,20 +55,13 @@ impl Question {
     ) -> Result<Steering, AskError> {
         let asked = self.clone().completed()?;
         let question = asked.resolved()?.near(at).with_spins_still();
-        let newton = Newton::default();
-        let found = Search::new(&question, &newton).run(0, self.seed, watch);
-        match found.assembles() {
-            true => asked.steering_from(found.attempt.at),
-            false => Err(AskError::NotAssembled {
-                held: question.held_names(),
-            }),
+        match asked.nearest(&question, 0, watch) {
+            Some(at) => asked.steering_from(at),
+            None => Err(AskError::NotAssembled(question.held_names())),
         }
     }
 
     /// The same from an assembled configuration, at which the held coordinates may have other values.
-    ///
-    /// # Errors
-    /// If the question is wrong.
     pub fn steering_from(&self, at: Configuration<f64>) -> Result<Steering, AskError> {
         let resolved = self.resolved()?;
         Ok(Steering {
@@ -186,7 +179,10 @@ impl Steering {
         };
         let inputs: Vec<Driven> = inputs.filter(moves).collect();
         if inputs.is_empty() {
-            return self.standing();
+            return SweepReport {
+                rows: 1,
+                ..SweepReport::of(&self.mechanism, &[], SweepEnd::Complete)
+            };
         }
         let (report, end) = self.moved(&inputs, watch);
         self.stopped = None;
@@ -288,23 +284,6 @@ impl Steering {
             )
         });
         self.move_to(&targets.collect::<Vec<_>>(), watch)
-    }
-
-    /// The report of a motion that has nowhere to go.
-    fn standing(&self) -> SweepReport {
-        SweepReport {
-            inputs: Vec::new(),
-            ending: SweepEnd::Complete,
-            rows: 1,
-            met: Vec::new(),
-            more_met: 0,
-            sure_steps: 0,
-            length: 0.0,
-            characteristic_length: self.mechanism.characteristic_length(),
-            paths: Vec::new(),
-            certificate: None,
-            interrupted: false,
-        }
     }
 
     fn moved(&self, inputs: &[Driven], watch: &Watch) -> (SweepReport, Configuration<f64>) {

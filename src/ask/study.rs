@@ -12,11 +12,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub use points::{Points, Spread};
 pub use regions::regions;
 
+use super::modes::NUMBERED;
 use super::quantities::{Meter, Metered};
 use super::study_error::StudyError;
 use super::{AskError, Question, Role, Unmeasured};
 use crate::algebra::{Measure, SiUnit};
-use crate::analysis::assemblies::Wanted;
 use crate::analysis::sweep::Pace;
 use crate::description::{Description, ReplacementError, nearest};
 use crate::mechanism::{Measured, Mechanism, Order, Parameter, Quantity, Variable};
@@ -39,11 +39,12 @@ pub struct Study {
     columns: Vec<Variable>,
 }
 
-/// What is varied.
+/// What is varied: a parameter or a coordinate.
 #[derive(Clone)]
-enum Varied {
-    Parameter(String, Measure),
-    Coordinate(String),
+struct Varied {
+    name: String,
+    unit: SiUnit,
+    is_parameter: bool,
 }
 
 /// Some rows of a study.
@@ -58,9 +59,23 @@ pub struct StudyRows {
 }
 
 impl Varied {
-    fn name(&self) -> &str {
-        match self {
-            Varied::Parameter(name, _) | Varied::Coordinate(name) => name,
+    fn parameter(of: &Parameter) -> Self {
+        Varied {
+            name: of.name.clone(),
+            unit: match of.measure {
+                Measure::Angle => SiUnit::RADIAN,
+                Measure::Length => SiUnit::METRE,
+                _ => SiUnit::ONE,
+            },
+            is_parameter: true,
+        }
+    }
+
+    fn coordinate(name: &str, of: Coordinate, mechanism: &Mechanism) -> Self {
+        Varied {
+            name: name.into(),
+            unit: SiUnit::of_coordinate(of.is_angle(mechanism)),
+            is_parameter: false,
         }
     }
 }
@@ -120,31 +135,31 @@ impl Study {
             if let Some(parameter) = parameter(&mechanism, name)? {
                 let number = |value| number(&mechanism, parameter, value);
                 ranges.push(Spread::Even(number(from)?, number(to)?));
-                varied.push(Varied::Parameter(name.clone(), parameter.measure));
+                varied.push(Varied::parameter(parameter));
                 continue;
             }
-            let (_, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
+            let (of, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
             let (_, to) = (plain.value(name, to)).map_err(Role::To.named(index))?;
             ranges.push(Spread::Even(from, to));
-            varied.push(Varied::Coordinate(name.clone()));
+            varied.push(Varied::coordinate(name, of, &mechanism));
         }
         for (name, deviation) in deviations {
-            if varied.iter().any(|of| of.name() == name) {
+            if varied.iter().any(|of| of.name == *name) {
                 return Err(StudyError::Twice(name.clone()).into());
             }
             let (value, deviation) = match parameter(&mechanism, name)? {
                 Some(parameter) => {
-                    varied.push(Varied::Parameter(name.clone(), parameter.measure));
+                    varied.push(Varied::parameter(parameter));
                     (parameter.value, number(&mechanism, parameter, deviation)?)
                 }
                 None => {
-                    varied.push(Varied::Coordinate(name.clone()));
                     let held = question.hold.iter().rfind(|(held, _)| held == name);
                     let home = "home".into();
-                    let value = held.map_or(&home, |(_, value)| value);
-                    let of = |value| plain.value(name, value).map(|(_, value)| value);
-                    let both = of(value).and_then(|value| Ok((value, of(deviation)?)));
-                    both.map_err(AskError::Question)?
+                    let held = held.map_or(&home, |(_, value)| value);
+                    let value = |value| plain.value(name, value).map_err(AskError::Question);
+                    let ((of, mean), (_, deviation)) = (value(held)?, value(deviation)?);
+                    varied.push(Varied::coordinate(name, of, &mechanism));
+                    (mean, deviation)
                 }
             };
             if deviation.is_nan() || deviation < 0.0 {
@@ -240,24 +255,11 @@ impl Study {
     fn named(&self) -> Result<Vec<Variable>, AskError> {
         let mechanism = self.question.mechanism();
         let mut columns = vec![Variable::plain("row")];
-        let coordinates: Vec<Coordinate> = Coordinate::all(mechanism).collect();
-        columns.extend(self.varied.iter().map(|varied| match varied {
-            Varied::Parameter(name, measure) => Variable::new(
-                name,
-                match measure {
-                    Measure::Angle => SiUnit::RADIAN,
-                    Measure::Length => SiUnit::METRE,
-                    _ => SiUnit::ONE,
-                },
-            ),
-            Varied::Coordinate(name) => {
-                let mut known = coordinates.iter();
-                let angle = known
-                    .find(|of| of.name(mechanism) == *name)
-                    .is_some_and(|of| of.is_angle(mechanism));
-                Variable::new(name, SiUnit::of_coordinate(angle))
-            }
-        }));
+        columns.extend(
+            self.varied
+                .iter()
+                .map(|of| Variable::new(&of.name, of.unit)),
+        );
         columns.push(Variable::plain("assembled"));
         if self.counted {
             columns.push(Variable::plain(ASSEMBLIES));
@@ -297,15 +299,16 @@ impl Study {
     /// The mechanism with the parameters of a point.
     fn made(&self, point: &[f64]) -> Option<Mechanism> {
         let named = self.varied.iter().zip(point);
-        let mut parameters = named.filter_map(|(varied, value)| match varied {
-            Varied::Parameter(name, Measure::Angle) => Some((name, format!("{value:?} rad"))),
-            Varied::Parameter(name, _) => Some((name, format!("{value:?}"))),
-            Varied::Coordinate(_) => None,
-        });
+        let mut parameters = named.filter(|(of, _)| of.is_parameter);
         let changed = parameters.try_fold(
             self.description.clone(),
-            |description, (name, text)| -> Result<Description, ReplacementError> {
-                description.with_parameter(name, &text)
+            |description, (of, value)| -> Result<Description, ReplacementError> {
+                let unit = if of.unit == SiUnit::RADIAN {
+                    " rad"
+                } else {
+                    ""
+                };
+                description.with_parameter(&of.name, &format!("{value:?}{unit}"))
             },
         );
         Mechanism::new(&changed.ok()?).ok()
@@ -313,14 +316,11 @@ impl Study {
 
     /// The question at a point.
     fn at(&self, point: &[f64], mechanism: &Mechanism) -> Question {
-        let coordinates = self.varied.iter().zip(point);
-        let coordinates = coordinates.filter_map(|(varied, value)| match varied {
-            Varied::Coordinate(name) => Some((name, *value)),
-            Varied::Parameter(..) => None,
-        });
+        let named = self.varied.iter().zip(point);
+        let coordinates = named.filter(|(of, _)| !of.is_parameter);
         let asked = self.question.about(mechanism.clone());
-        coordinates.fold(asked, |asked, (name, value)| {
-            asked.let_go(name).hold(name, value)
+        coordinates.fold(asked, |asked, (of, value)| {
+            asked.let_go(&of.name).hold(&of.name, *value)
         })
     }
 }
@@ -383,13 +383,7 @@ impl Question {
         check_count(&held).map_err(AskError::Question)?;
         let still = held.clone().with_spins_still();
         let count = counted.then(|| {
-            let wanted = Wanted {
-                certificates: false,
-                all_complex: false,
-                starts: true,
-                proof: None,
-            };
-            let report = self.all(&still, wanted, watch);
+            let report = self.all(&still, NUMBERED, watch);
             report.ok().map(|report| report.real as f64)
         });
         let start = match self.start(&still, watch) {
@@ -398,16 +392,16 @@ impl Question {
         };
         let (quantities, inputs) = self.measured_by_rates(&held)?;
         let metered = Metered {
-            quantities: &quantities,
-            question: &held,
-            inputs: &inputs,
+            quantities,
+            inputs,
             pace: Pace::default(),
             schedule: None,
-            load: &self.load_of(&held)?,
-            outputs: &self.asked_outputs()?,
+            load: self.load_of(&held)?,
+            outputs: self.asked_outputs()?,
+            question: held,
         };
         let mut values: Vec<Option<f64>> = [Some(1.0)].into_iter().chain(count).collect();
-        values.extend_from_slice(Meter::new(metered, &start).read(&start, 0.0));
+        values.extend_from_slice(Meter::new(&metered, &start).read(&start, 0.0));
         Ok(values)
     }
 }

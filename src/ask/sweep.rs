@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::motions::Motions;
+use super::quantities::Metered;
 use super::ranges::still;
 use super::{AskError, Question, Role};
 use crate::analysis::assemblies::{AssemblySolver, Wanted};
@@ -31,9 +32,8 @@ impl Question {
         let mechanism = &*self.mechanism;
         if self.inputs.is_empty() && !settings.follow {
             let driven = CircuitsReport::input_of(mechanism);
-            return Err(AskError::NothingMoves {
-                driven: driven.map(|joint| mechanism.joints()[joint].name.clone()),
-            });
+            let driven = driven.map(|joint| mechanism.joints()[joint].name.clone());
+            return Err(AskError::NothingMoves(driven));
         }
         if !(1..=MOST_STEPS).contains(&settings.steps) {
             return Err(AskError::Steps {
@@ -53,8 +53,7 @@ impl Question {
         };
         let wide = |input: &&Driven| (input.to - input.from).abs() > TAU * (1.0 + 1e-12);
         if let Some(input) = inputs.iter().filter(angle).find(wide) {
-            let name = input.coordinate.name(mechanism);
-            return Err(AskError::MoreThanATurn { name });
+            return Err(AskError::MoreThanATurn(input.coordinate.name(mechanism)));
         }
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
         let mut question = self.with_inputs(self.resolved()?, &begin)?;
@@ -104,13 +103,17 @@ impl Question {
         Ok(Motions {
             mechanism,
             held,
-            quantities,
             dwells,
-            load: self.load_of(&posed)?,
-            outputs: self.asked_outputs()?,
-            question: posed,
+            metered: Metered {
+                quantities,
+                inputs,
+                pace,
+                schedule: self.schedule.clone(),
+                load: self.load_of(&posed)?,
+                outputs: self.asked_outputs()?,
+                question: posed,
+            },
             settings,
-            inputs,
             starts: self.starts(&question, watch)?,
         })
     }
@@ -127,7 +130,7 @@ impl Question {
         watch: &Watch,
     ) -> Result<SweepReport, AskError> {
         let mut asked = self.clone();
-        if let Err(AskError::NothingLeft { .. }) = asked.one_freedom() {
+        if let Err(AskError::NothingLeft(_)) = asked.one_freedom() {
             let joints = self.mechanism.joints();
             let driven = |name: &str| {
                 let joint = self.mechanism.joint(name);
@@ -226,9 +229,9 @@ impl Question {
             Err(QuestionError::TooFew { mobility, held, .. }) if mobility == held + 1 => {
                 Ok(question)
             }
-            Ok(_) | Err(QuestionError::TooMany { .. }) => Err(AskError::NothingLeft {
-                held: question.held_names(),
-            }),
+            Ok(_) | Err(QuestionError::TooMany { .. }) => {
+                Err(AskError::NothingLeft(question.held_names()))
+            }
             Err(error @ QuestionError::TooFew { .. }) => Err(AskError::NotOneFreedom(error)),
             Err(error) => Err(AskError::Question(error)),
         }

@@ -3,22 +3,18 @@
 use std::f64::consts::TAU;
 
 use super::ranges::{middles, of_platform};
-use super::{AskError, Mode, Question, Role};
+use super::{AskError, Mode, Question, RESTARTS, Role, check_starts};
 use crate::analysis::workspace::{
     WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
 };
 use crate::mechanism::Configuration;
-use crate::solve::{Newton, Watch};
+use crate::solve::Watch;
 use crate::system::{
-    self, Coordinate, Driven, Mobility, QuestionError, Search, TooLarge, check_count, too_large,
+    self, Coordinate, Driven, Mobility, QuestionError, TooLarge, check_count, too_large,
 };
 
 /// Bytes that a map takes at most.
 pub const MOST_BYTES: f64 = 4e9;
-/// Random starts where the home assembly is wanted.
-const RESTARTS: usize = 20;
-/// Random starts made at most.
-const MOST_STARTS: usize = 1_000_000;
 
 impl Question {
     /// Maps the inputs over their ranges. Where coordinates of platforms are mapped or held the actuated joints are
@@ -39,10 +35,7 @@ impl Question {
         let bytes = cell_bytes(&question, axes.len()) as f64;
         let nodes = nodes(&settings.nodes, axes.len(), bytes)?;
         for given in [settings.starts, settings.searched] {
-            if !(1..=MOST_STARTS).contains(&given) {
-                let most = MOST_STARTS;
-                return Err(AskError::Starts { given, most });
-            }
+            check_starts(given)?;
         }
         let known = match self.mode {
             Mode::Nearest => Vec::new(),
@@ -75,9 +68,7 @@ impl Question {
     /// held moves from there to its values.
     fn home(&self, axes: &[Driven], watch: &Watch) -> Result<Option<Configuration<f64>>, AskError> {
         let closed = |question: system::Question, restarts: usize| {
-            let (question, newton) = (question.with_spins_still(), Newton::default());
-            let found = Search::new(&question, &newton).run(restarts, self.seed, watch);
-            found.assembles().then_some(found.attempt.at)
+            self.nearest(&question.with_spins_still(), restarts, watch)
         };
         if !self.is_inverse(axes)? {
             return Ok(closed(self.resolved()?, RESTARTS));
@@ -112,10 +103,8 @@ impl Question {
         let mechanism = &self.mechanism;
         let question = system::Question::new(mechanism);
         for (index, input) in self.inputs.iter().enumerate() {
-            (question.value(&input.name, "home")).map_err(|error| AskError::NotMapped {
-                item: Role::Input.item(index),
-                error: Box::new(error),
-            })?;
+            let wrong = |error| AskError::NotMapped(Role::Input.item(index), Box::new(error));
+            (question.value(&input.name, "home")).map_err(wrong)?;
         }
         // a range that is no number is refused too
         let axes = self.driven(|a, b| a >= b || !(b - a).is_finite())?;
@@ -126,8 +115,7 @@ impl Question {
         };
         let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + 1e-9);
         if let Some(axis) = axes.iter().find(round) {
-            let name = axis.coordinate.name(mechanism);
-            return Err(AskError::MoreThanATurn { name });
+            return Err(AskError::MoreThanATurn(axis.coordinate.name(mechanism)));
         }
         match axes.len() {
             1..=3 => Ok(axes),
@@ -150,15 +138,13 @@ impl Question {
                 Coordinate::Joint(_) | Coordinate::Turn(..) => None,
             };
             if (demanded.clone()).any(|name| *name == input.name || Some(name) == platform) {
-                return Err(AskError::AlsoHeld {
-                    item: Role::Input.item(index),
-                    name: input.name.clone(),
-                });
+                let item = Role::Input.item(index);
+                return Err(AskError::AlsoHeld(item, input.name.clone()));
             }
         }
         let question = self.with_inputs(question, &middles(axes))?;
         if let Some(TooLarge { unknowns, .. }) = too_large(mechanism) {
-            return Err(AskError::TooLarge { unknowns });
+            return Err(AskError::TooLarge(unknowns));
         }
         // roll and yaw turn about one axis there, and do not tell a map
         for axis in axes {

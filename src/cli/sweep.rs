@@ -228,7 +228,7 @@ impl Sweep {
         let all = all.smooth(self.is_drawn());
         let (mechanism, columns) = (&**posed.question.mechanism(), all.columns());
         let quantities = all.quantities();
-        let mut picture = Picture::new(mechanism, &all.inputs, all.points(), &quantities);
+        let mut picture = Picture::new(mechanism, all.inputs(), all.points(), &quantities);
         let out = Lines::new(self.format == Format::Csv);
         let mut csv = Csv::new(out, row_columns(&columns)).map_err(unwritten)?;
         let mut sink = |mode: Option<usize>, row: &Row| {

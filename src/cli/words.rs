@@ -55,7 +55,7 @@ pub fn complaint(
     let written = given.and_then(|given| given.value).unwrap_or_default();
     let option = |other| given.map_or(other, |given| given.option);
     match error {
-        AskError::Named { item, error } => {
+        AskError::Named(item, error) => {
             let said = question::complaint(error);
             let (first, end) = (written.find("..").unwrap_or(written.len()), written.len());
             match item.role {
@@ -70,15 +70,15 @@ pub fn complaint(
             mapped,
             missing,
         } => wrong_count(error, mapped, missing).unwrap_or_else(|| question::complaint(error)),
-        AskError::NotMapped { error, .. } => {
+        AskError::NotMapped(_, error) => {
             no_platform(mechanism, error).unwrap_or_else(|| question::complaint(error))
         }
-        AskError::Drive { error, .. } => driven_complaint(error, option("--rate")),
-        AskError::Load { error, .. } => load_complaint(mechanism, error, option("--load")),
+        AskError::Drive(_, error) => driven_complaint(error, option("--rate")),
+        AskError::Load(_, error) => load_complaint(mechanism, error, option("--load")),
         AskError::Motionless { .. } => said.label("stands still").help(
             "follow a frame of a link or of a platform, e.g. the tip of a chain by its name",
         ),
-        AskError::UnknownOutput { name, .. } => {
+        AskError::UnknownOutput(_, name) => {
             let frames = mechanism.frames().into_iter();
             let frames = frames.map(|frame| mechanism.frame_name(frame));
             let joints = mechanism.joints().iter().map(|joint| joint.name.clone());
@@ -89,7 +89,7 @@ pub fn complaint(
                     .into()
             }))
         }
-        AskError::Point { error, .. } => no_point(mechanism, error),
+        AskError::Point(_, error) => no_point(mechanism, error),
         AskError::Quantity { text, error, .. } => no_quantity(mechanism, text, error),
         AskError::Unmeasured { error, .. } => match error {
             Unmeasured::NoInput => said.label("nothing moves").help(match ranged {
@@ -109,7 +109,7 @@ pub fn complaint(
             ),
         },
         AskError::Duration(_) => said.help("give the time in s, e.g. --duration 2"),
-        AskError::EmptyRange { name, .. } => said.label("empty").at(Part::WholeValue).help(
+        AskError::EmptyRange(_, name) => said.label("empty").at(Part::WholeValue).help(
             match ranged {
                 Ranged::Input => {
                     let from = written.split("..").next().unwrap_or_default();
@@ -136,10 +136,10 @@ pub fn complaint(
             said.label("outside").at(Part::WholeValue).help(help)
         }
         AskError::AlsoHeld { .. } => said.label("also held").help(ONE_OF_THEM),
-        AskError::MoreThanATurn { name } => {
+        AskError::MoreThanATurn(name) => {
             said.help(format!("a turn is all there is, e.g. {name}=-180deg..180deg"))
         }
-        AskError::NothingMoves { driven } => {
+        AskError::NothingMoves(driven) => {
             let name = driven.as_deref().unwrap_or("NAME");
             said.help(format!(
                 "give the inputs their ranges, e.g. --input {name}=0deg..360deg; follow the whole curve \
@@ -152,7 +152,7 @@ pub fn complaint(
             Ranged::Map => format!("give --starts and --search from 1 to {most}"),
             Ranged::Input | Ranged::Locus | Ranged::Vary => format!("give --starts from 1 to {most}"),
         }),
-        AskError::NothingLeft { held } => said.help(match held.is_empty() {
+        AskError::NothingLeft(held) => said.help(match held.is_empty() {
             true => "`linkwork mobility` shows why it cannot move",
             false => "hold one coordinate less",
         }),

@@ -852,7 +852,7 @@ fn what_is_locked_stands_where_the_mechanism_is_closed() {
     // what does not exist is not locked
     let unknown = ask::Question::new(load("four_bar")).lock("theta9");
     let refused = unknown.mobility(&Watch::none());
-    let Err(ask::AskError::Named { item, .. }) = refused else {
+    let Err(ask::AskError::Named(item, _)) = refused else {
         panic!("{refused:?}");
     };
     assert_eq!((item.role, item.index), (ask::Role::Lock, 0));

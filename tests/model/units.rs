@@ -18,7 +18,7 @@ fn four_bar() -> Question {
 
 fn bare(error: &AskError) -> Option<f64> {
     match error {
-        AskError::Named { error, .. } => match &**error {
+        AskError::Named(_, error) => match &**error {
             QuestionError::Value {
                 error: ValueError::Unit(MeasureErrorKind::BareAngle(value)),
                 ..

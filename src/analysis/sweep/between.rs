@@ -40,24 +40,21 @@ impl Between {
             to: of.of(last),
         };
         // how far it goes one way, at the slower side
-        let goes = |(of, scale): &(Coordinate, f64)| {
+        let goes = |of: Coordinate| {
             let steps = [of.of(middle) - of.of(first), of.of(last) - of.of(middle)];
             match steps[0] * steps[1] > 0.0 {
-                true => steps[0].abs().min(steps[1].abs()) / scale,
+                true => steps[0].abs().min(steps[1].abs()) / of.scale(mechanism),
                 false => 0.0,
             }
         };
-        let scale = |of: Coordinate| (of, of.scale(mechanism));
         let prescribed = schedule.is_some()
-            || !inputs.is_empty()
-                && inputs
-                    .iter()
-                    .all(|input| goes(&scale(input.coordinate)) > 1e-12);
+            || !inputs.is_empty() && inputs.iter().all(|input| goes(input.coordinate) > 1e-12);
         let moved = match (prescribed, inputs) {
             (true, _) => inputs.iter().map(|input| along(input.coordinate)).collect(),
             (false, [] | [_]) => {
-                let most = (scales.iter()).max_by(|a, b| goes(a).total_cmp(&goes(b)))?;
-                (goes(most) > 1e-12).then(|| vec![along(most.0)])?
+                let all = Coordinate::all(mechanism);
+                let most = all.max_by(|a, b| goes(*a).total_cmp(&goes(*b)))?;
+                (goes(most) > 1e-12).then(|| vec![along(most)])?
             }
             _ => return None,
         };

@@ -61,7 +61,7 @@ pub struct Uncertified {
 pub(super) struct Certifier<'m> {
     mechanism: &'m Mechanism,
     inputs: &'m [Driven],
-    space: Option<JointSpace>,
+    space: JointSpace,
     latest: Option<Place>,
     certificate: Certificate,
     watch: &'m Watch<'m>,
@@ -78,47 +78,37 @@ struct Place {
 
 impl<'m> Certifier<'m> {
     /// `held` holds the inputs too; it is `None` where one of them has no value.
+    ///
+    /// # Errors
+    /// If no branch of the mechanism can be certified.
     pub fn new(
         mechanism: &'m Mechanism,
         held: Option<Held<f64>>,
         inputs: &'m [Driven],
         start: &Configuration<f64>,
         watch: &'m Watch<'m>,
-    ) -> Self {
-        let space = held.ok_or(Unfit::Turns).and_then(|held| {
-            let moving: Vec<usize> = inputs.iter().filter_map(joint).collect();
-            let space = JointSpace::new(mechanism, &held, &moving, start)?;
-            match space.enclosure.unknowns().len() {
-                0..=MOST_VARIABLES => Ok(space),
-                given => Err(Unfit::Large {
-                    given,
-                    most: MOST_VARIABLES,
-                }),
-            }
-        });
-        let (space, unfit) = match space {
-            Ok(space) => (Some(space), None),
-            Err(unfit) => (None, Some(unfit)),
-        };
-        Certifier {
+    ) -> Result<Self, Unfit> {
+        let moving: Vec<usize> = inputs.iter().filter_map(joint).collect();
+        let held = held.ok_or(Unfit::Turns)?;
+        let space = JointSpace::new(mechanism, &held, &moving, start)?;
+        let given = space.enclosure.unknowns().len();
+        if given > MOST_VARIABLES {
+            let most = MOST_VARIABLES;
+            return Err(Unfit::Large { given, most });
+        }
+        Ok(Certifier {
             mechanism,
             inputs,
             space,
             latest: None,
-            certificate: Certificate {
-                unfit,
-                ..Certificate::default()
-            },
+            certificate: Certificate::default(),
             watch,
-        }
+        })
     }
 
     /// The next row.
     pub fn row(&mut self, at: &Configuration<f64>) {
-        let Some(space) = &mut self.space else {
-            return;
-        };
-        let latest = self.latest.as_ref();
+        let (space, latest) = (&mut self.space, self.latest.as_ref());
         // angles of platforms are known modulo a turn
         let near = |x: f64, angle: bool, known: Option<f64>| match known {
             Some(known) if angle => x + ((known - x) / TAU).round() * TAU,
@@ -179,27 +169,22 @@ impl<'m> Certifier<'m> {
 
     /// Whether one continuous branch leads from one place to another.
     fn holds(&mut self, from: &Place, to: &Place) -> bool {
-        let (Some(space), Some(start), Some(end)) = (&mut self.space, &from.exact, &to.exact)
+        let (Some(start), Some(end), Some(sides)) = (&from.exact, &to.exact, around(from, to))
         else {
-            return false;
-        };
-        let Some(sides) = around(from, to) else {
             return false;
         };
         let inside = |exact: &Sides| {
             let mut pairs = sides.iter().zip(exact);
             pairs.all(|(a, b)| a.low < b.low && b.high < a.high)
         };
-        let moving = Moving::new(space, self.inputs, &from.inputs, &to.inputs);
+        let moving = Moving::new(&mut self.space, self.inputs, &from.inputs, &to.inputs);
         inside(start) && inside(end) && holds_one(&moving, &sides, &mut moving.work())
     }
 
     /// The place between two others, one of which is regular at least.
     fn between(&mut self, from: &Place, to: &Place) -> Option<Place> {
-        let space = self.space.as_mut()?;
-        (from.exact.is_some() || to.exact.is_some())
-            .then(|| Place::between(space, self.inputs, from, to))
-            .flatten()
+        let regular = from.exact.is_some() || to.exact.is_some();
+        regular.then(|| Place::between(&mut self.space, self.inputs, from, to))?
     }
 
     /// Notes a part that is not certified; what is certified between two such parts and not much longer is theirs.
@@ -315,8 +300,9 @@ mod tests {
         for (end, same) in [(1.0, true), (-1.0, false)] {
             let rows = [(1.0, 1.0), (1.2, end)];
             let rows = rows.map(|(crank, side)| assembled(&mechanism, crank, side));
-            let mut certifier =
-                Certifier::new(&mechanism, Some(held.clone()), &inputs, &rows[0], &watch);
+            let held = Some(held.clone());
+            let certifier = Certifier::new(&mechanism, held, &inputs, &rows[0], &watch);
+            let mut certifier = certifier.unwrap();
             rows.iter().for_each(|row| certifier.row(row));
             assert_eq!(certifier.certificate().is_whole(), same);
         }

@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 use super::met::Record;
 use super::paths::Trail;
 use super::rows::Sent;
-use super::{Flow, Sink, SweepEnd, SweepReport, SweepSettings};
+use super::{At, Flow, Row, Sink, SweepEnd, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism, Role};
-use crate::solve::{Place, Progress, Stage, Watch};
+use crate::solve::{Progress, Stage, Watch};
 use crate::system::{Coordinate, Curve, Event, Held, Walk};
 
 /// Steps after which a curve without end is given up.
@@ -48,7 +48,7 @@ pub fn follow(
         })
     };
     let mut sent = Sent::new(mechanism, &settings.points);
-    let mut flow = sent.row(&place.at, None, None, sink);
+    let mut flow = sent.send(Row::of(&place.at), sink);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let mut trail = Trail::new(mechanism, &curve, &settings.points, method);
     let stopped = |()| SweepEnd::Stopped;
@@ -65,7 +65,11 @@ pub fn follow(
                 trail.reach(place, Some(event));
             }
             length = leg.gone_at(curve, place);
-            flow = sent.row(&place.at, None, record.latest(), sink);
+            let row = Row {
+                special: record.latest(),
+                ..Row::of(&place.at)
+            };
+            flow = sent.send(row, sink);
             match event {
                 Event::Closed => return ControlFlow::Break(SweepEnd::Closed),
                 Event::Limit { .. } => return ControlFlow::Break(SweepEnd::Limits),
@@ -75,7 +79,7 @@ pub fn follow(
         trail.reach(&leg.to, None);
         let branches = |(_, event): &(_, Event)| matches!(event, Event::Branches(_));
         if !leg.events.iter().any(branches) {
-            flow = sent.row(&leg.to.at, None, None, sink);
+            flow = sent.send(Row::of(&leg.to.at), sink);
         }
         length = leg.gone_at(curve, &leg.to);
         ControlFlow::Continue(())
@@ -90,11 +94,7 @@ pub fn follow(
 
 /// In the sense in which the first joint that is driven, or else the first that moves, grows; where
 /// none moves, the first coordinate of a platform.
-pub(super) fn forwards(
-    mechanism: &Mechanism,
-    curve: &Curve,
-    place: Place<Configuration<f64>>,
-) -> Place<Configuration<f64>> {
+pub(super) fn forwards(mechanism: &Mechanism, curve: &Curve, place: At) -> At {
     let rate = |joint: usize| {
         curve
             .column(joint)
@@ -114,11 +114,7 @@ pub(super) fn forwards(
 }
 
 /// The limit that a walk ends at; `None` if it closes.
-fn first_end(
-    walk: &mut Walk,
-    curve: &mut Curve,
-    watch: &Watch,
-) -> Option<Place<Configuration<f64>>> {
+fn first_end(walk: &mut Walk, curve: &mut Curve, watch: &Watch) -> Option<At> {
     let mut steps = 0;
     let end = walk.follow(curve, |_, leg| {
         if watch.stops(Stage::Steps, steps, None) || steps == MOST_STEPS {

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{InputReport, SweepEnd, SweepReport};
+use super::{At, SweepEnd, SweepReport};
 use crate::algebra::SiUnit;
+use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role};
-use crate::solve::{Continuation, Place};
+use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
 /// Something special that was met, with where it is.
@@ -106,7 +107,7 @@ impl<'m> Record<'m> {
         }
     }
 
-    pub fn meet(&mut self, curve: &Curve, place: &Place<Configuration<f64>>, event: &Event) {
+    pub fn meet(&mut self, curve: &Curve, place: &At, event: &Event) {
         let mechanism = self.mechanism;
         let name = |joint: usize| mechanism.joints()[joint].name.clone();
         let driven = |joint: usize| {
@@ -152,7 +153,7 @@ impl<'m> Record<'m> {
                 (MetKind::Cusp { point }, None)
             }
             Event::Branches(point) => {
-                let along = |d: &Vec<f64>| crate::linear::dot(d, &place.tangent).abs();
+                let along = |d: &Vec<f64>| dot(d, &place.tangent).abs();
                 let most = point.directions.iter().map(along).fold(0.0, f64::max);
                 let branches = point.directions.iter().map(|direction| Passing {
                     followed: along(direction) == most,
@@ -239,23 +240,13 @@ impl<'m> Record<'m> {
     }
 
     pub fn report(self, ending: SweepEnd, rows: usize, length: f64) -> SweepReport {
-        let mechanism = self.mechanism;
-        let inputs = self
-            .inputs
-            .iter()
-            .map(|input| InputReport::of(mechanism, input));
         SweepReport {
-            inputs: inputs.collect(),
-            ending,
             rows,
             met: self.met,
             more_met: self.more,
             sure_steps: self.steps,
             length,
-            characteristic_length: mechanism.characteristic_length(),
-            paths: Vec::new(),
-            certificate: None,
-            interrupted: false,
+            ..SweepReport::of(self.mechanism, &self.inputs, ending)
         }
     }
 }

@@ -5,7 +5,6 @@ mod crossings;
 use serde::{Deserialize, Serialize};
 
 use super::At;
-use super::points::Paths;
 use crate::geometry::Vector3;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement, Variable};
@@ -46,9 +45,8 @@ const STILL: f64 = 1e-9;
 
 /// A point whose path is looked at.
 pub(super) struct Tracer {
-    name: String,
+    point: NamedPoint,
     variables: Vec<Variable>,
-    paths: Paths,
     twists: FrameTwists<f64>,
     placement: Placement<f64>,
     length: f64,
@@ -59,9 +57,8 @@ impl Tracer {
         let (dimensions, unknowns) = (mechanism.dimensions(), curve.system().unknowns());
         let twists = FrameTwists::new(dimensions, unknowns, &[point.point.frame]);
         Tracer {
-            name: point.name.clone(),
+            point: point.clone(),
             variables: Variable::joints(mechanism),
-            paths: Paths::new(mechanism, std::slice::from_ref(point)),
             placement: twists.placement(),
             twists,
             length: mechanism.characteristic_length(),
@@ -70,14 +67,14 @@ impl Tracer {
 
     /// Where the point is, in m.
     fn position(&mut self, at: &Configuration<f64>) -> Vector3<f64> {
-        self.paths.place(at);
-        Vector3(self.paths.at[0])
+        self.twists.place(at, &mut self.placement);
+        let frame = self.twists.frame(0, &self.placement);
+        self.point.point.placed(frame)
     }
 
     /// Its velocity along the tangent, in characteristic lengths.
     fn velocity(&mut self, place: &At) -> Vector3<f64> {
         let position = self.position(&place.at);
-        self.twists.place(&place.at, &mut self.placement);
         let arm = position - self.twists.origin(0, &self.placement);
         let twist = self.twists.twist(0, &self.placement, &place.tangent);
         (twist.velocity + twist.omega.cross(&arm)).times(1.0 / self.length)
@@ -228,7 +225,7 @@ impl Tracer {
         curves: &[(&[At], bool)],
     ) -> PathReport {
         PathReport {
-            point: self.name.clone(),
+            point: self.point.name.clone(),
             variables: self.variables.clone(),
             cusps,
             double_points: double_points(self, curve, method, curves),

@@ -3,7 +3,7 @@
 use crate::mechanism::{Configuration, Kinematics, Mechanism, NamedPoint, Placement, Point};
 
 /// Where traced points are, without allocating.
-pub(super) struct Paths {
+pub struct Paths {
     kinematics: Kinematics<f64>,
     placement: Placement<f64>,
     points: Vec<Point>,

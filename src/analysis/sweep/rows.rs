@@ -3,12 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::points::Paths;
-use super::{Flow, Law, MetKind, Row, SweepSettings};
-use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement};
-use crate::solve::{Continuation, Place};
+use super::{At, Flow, Law, Row, SweepSettings};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint};
+use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve, Driven, Held, MotionTracker, System};
-
-type At = Place<Configuration<f64>>;
 
 /// Produces the rows at equal parts of the segment.
 pub(super) struct Rows {
@@ -23,7 +21,7 @@ pub(super) struct Rows {
     next: i64,
     /// Whether the inputs move towards the end of the segment.
     forward: bool,
-    sent: Sent,
+    pub sent: Sent,
     method: Continuation,
 }
 
@@ -66,30 +64,15 @@ impl Rows {
         }
     }
 
-    pub fn count(&self) -> usize {
-        self.sent.count
-    }
-
     pub fn first(&mut self, place: &At, sink: &mut Flow) -> ControlFlow<()> {
         // the inputs are where they were put, not where rounding leaves them
         let mut at = place.at.clone();
         self.put(&mut at, 0.0);
-        self.sent.row(&at, Some(0), None, sink)
-    }
-
-    /// A special place, between two rows.
-    pub fn special(
-        &mut self,
-        place: &At,
-        kind: Option<&MetKind>,
-        sink: &mut Flow,
-    ) -> ControlFlow<()> {
-        self.sent.row(&place.at, None, kind, sink)
-    }
-
-    /// A place that is passed on the way.
-    pub fn passed(&mut self, place: &At, sink: &mut Flow) -> ControlFlow<()> {
-        self.sent.passed(&place.at, sink)
+        let row = Row {
+            step: Some(0),
+            ..Row::of(&at)
+        };
+        self.sent.send(row, sink)
     }
 
     /// The rows between two places with no fold between them.
@@ -123,8 +106,12 @@ impl Rows {
             self.next += if self.forward { 1 } else { -1 };
             if self.track(curve, from, &reach, part) {
                 if let Some(tracker) = &self.tracker {
-                    let (at, placement) = (tracker.configuration(), tracker.placement());
-                    self.sent.placed(at, placement, step, sink)?;
+                    let row = Row {
+                        step,
+                        placement: Some(tracker.placement()),
+                        ..Row::of(tracker.configuration())
+                    };
+                    self.sent.send(row, sink)?;
                 }
                 continue;
             }
@@ -135,7 +122,11 @@ impl Rows {
             if let Some(tracker) = &mut self.tracker {
                 tracker.restart(&place.at);
             }
-            self.sent.row(&place.at, step, None, sink)?;
+            let row = Row {
+                step,
+                ..Row::of(&place.at)
+            };
+            self.sent.send(row, sink)?;
         }
     }
 
@@ -195,57 +186,16 @@ impl Sent {
         }
     }
 
+    /// Sends a row with its number and the traced points.
     #[inline]
-    pub fn row(
-        &mut self,
-        at: &Configuration<f64>,
-        step: Option<usize>,
-        special: Option<&MetKind>,
-        sink: &mut Flow,
-    ) -> ControlFlow<()> {
+    pub fn send(&mut self, row: Row, sink: &mut Flow) -> ControlFlow<()> {
         let number = self.count;
-        self.count += 1;
-        self.send(at, None, (number, step), special, false, sink)
-    }
-
-    /// A row whose frames are placed.
-    #[inline]
-    pub fn placed(
-        &mut self,
-        at: &Configuration<f64>,
-        placement: &Placement<f64>,
-        step: Option<usize>,
-        sink: &mut Flow,
-    ) -> ControlFlow<()> {
-        let number = self.count;
-        self.count += 1;
-        self.send(at, Some(placement), (number, step), None, false, sink)
-    }
-
-    pub fn passed(&mut self, at: &Configuration<f64>, sink: &mut Flow) -> ControlFlow<()> {
-        self.send(at, None, (self.count, None), None, true, sink)
-    }
-
-    #[inline]
-    fn send(
-        &mut self,
-        at: &Configuration<f64>,
-        placement: Option<&Placement<f64>>,
-        (number, step): (usize, Option<usize>),
-        special: Option<&MetKind>,
-        between: bool,
-        sink: &mut Flow,
-    ) -> ControlFlow<()> {
-        self.paths.place(at);
+        self.count += usize::from(!row.between);
+        self.paths.place(row.configuration);
         sink(&Row {
             number,
-            step,
-            configuration: at,
-            placement,
             points: &self.paths.at,
-            quantities: &[],
-            special,
-            between,
+            ..row
         })
     }
 }

@@ -2,8 +2,7 @@
 
 use super::points::Paths;
 use super::{
-    InputReport, MetKind, PathPoint, PathReport, Row, Sink, SweepEnd, SweepReport, SweepSettings,
-    sweep,
+    MetKind, PathPoint, PathReport, Row, Sink, SweepEnd, SweepReport, SweepSettings, sweep,
 };
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Watch;
@@ -69,9 +68,7 @@ impl Schedule {
             6.0 * (a * u + b * v) / h,
         ]
     }
-}
 
-impl Schedule {
     /// The inputs from where one of equal steps in time begins to where it ends.
     pub fn between(&self, inputs: &[Driven], step: usize, steps: usize) -> Vec<Driven> {
         let inputs = inputs.iter().enumerate().map(|(i, input)| {
@@ -104,20 +101,7 @@ impl Schedule {
         };
         let mut traced = Paths::new(mechanism, &settings.points);
         let mut at = start.clone();
-        let reports = inputs.iter().map(|input| InputReport::of(mechanism, input));
-        let mut whole = SweepReport {
-            inputs: reports.collect(),
-            ending: SweepEnd::Complete,
-            rows: 0,
-            met: Vec::new(),
-            more_met: 0,
-            sure_steps: 0,
-            length: 0.0,
-            characteristic_length: mechanism.characteristic_length(),
-            paths: Vec::new(),
-            certificate: None,
-            interrupted: false,
-        };
+        let mut whole = SweepReport::of(mechanism, inputs, SweepEnd::Complete);
         for step in 0..settings.steps {
             let moved = self.between(inputs, step, settings.steps);
             let begin = at.clone();
@@ -141,14 +125,8 @@ impl Schedule {
             if moved.iter().all(|input| input.from == input.to) {
                 for step in [0, 1] {
                     take(&Row {
-                        number: 0,
                         step: Some(step),
-                        configuration: &begin,
-                        placement: None,
-                        points: &[],
-                        quantities: &[],
-                        special: None,
-                        between: false,
+                        ..Row::of(&begin)
                     });
                 }
                 continue;

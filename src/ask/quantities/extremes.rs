@@ -22,8 +22,6 @@ pub(in super::super) struct Extremes {
 struct Side {
     /// The greatest value at a row at all, where it is, and when.
     row: Option<(f64, Configuration<f64>, f64)>,
-    /// Whether that is the row seen last, which is not copied yet.
-    latest: bool,
     peaks: Vec<Peak>,
 }
 
@@ -74,15 +72,7 @@ impl Extremes {
             }),
         }
         self.seen += 1;
-        let before = self.rows.len().checked_sub(2).map(|k| &self.rows[k]);
         for (i, sides) in self.sides.iter_mut().enumerate() {
-            if let Some(before) = before {
-                for (side, sense) in sides.iter_mut().zip(SENSES) {
-                    if side.latest && !values[i].is_some_and(|x| side.is_below(sense * x)) {
-                        side.settle(before);
-                    }
-                }
-            }
             if let Some(value) = values[i] {
                 let [low, high] = &mut self.allowed[i];
                 if low <= high {
@@ -125,12 +115,6 @@ impl Extremes {
         passage: Passage,
         meter: &mut Meter,
     ) -> Vec<Extremum> {
-        if let Some(last) = self.rows.last() {
-            let sides = self.sides.iter_mut().flatten();
-            sides
-                .filter(|side| side.latest)
-                .for_each(|side| side.settle(last));
-        }
         // beside the last row there may be more too, as beside the first
         for (i, sides) in self.sides.iter_mut().enumerate() {
             for (side, sense) in sides.iter_mut().zip(SENSES) {
@@ -312,24 +296,14 @@ fn heights(rows: &[Seen], quantity: usize, sense: f64) -> Option<[f64; 3]> {
 }
 
 impl Side {
-    fn is_below(&self, height: f64) -> bool {
-        self.row.as_ref().is_none_or(|(most, ..)| height > *most)
-    }
-
     fn reach(&mut self, height: f64, at: &Configuration<f64>, time: f64) {
         match &mut self.row {
-            Some((most, ..)) if height > *most => (*most, self.latest) = (height, true),
+            Some((most, place, when)) if height > *most => {
+                (*most, *when) = (height, time);
+                place.clone_from(at);
+            }
             Some(_) => {}
             none => *none = Some((height, at.clone(), time)),
-        }
-    }
-
-    /// Takes over the row where it is greatest.
-    fn settle(&mut self, at: &Seen) {
-        self.latest = false;
-        if let Some((_, place, when)) = &mut self.row {
-            place.clone_from(&at.at);
-            *when = at.time;
         }
     }
 

@@ -1,42 +1,52 @@
 //! Quantities at the configurations of a motion, from the engines of the analyses.
 
+mod found;
+
 use std::f64::consts::{PI, TAU};
 
-use super::found::Found;
-use super::places::{Placed, Places, PlacesAt};
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::singularities::SingularityMeter;
 use crate::analysis::sweep::{Pace, Schedule};
 use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
 };
-use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Placement, Point, Quantity};
+use crate::mechanism::{
+    Configuration, Figure, Frame, Kinematics, Measured, Order, Placement, Point, Quantity,
+};
 use crate::number::Dual;
-use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Motion, Neighbourhood};
+use crate::system::{
+    self, Coordinate, Driven, FrameTwists, Held, Load, Loaded, Lock, Motion, Neighbourhood, System,
+    Unknown,
+};
+use found::Here;
 
 /// What a meter is for.
+#[derive(Clone, Debug)]
 pub(in super::super) struct Metered<'q> {
-    pub quantities: &'q [Quantity],
+    pub quantities: Vec<Quantity>,
     /// The question with the inputs held.
-    pub question: &'q system::Question<'q>,
-    pub inputs: &'q [Driven],
+    pub question: system::Question<'q>,
+    pub inputs: Vec<Driven>,
     pub pace: Pace,
-    pub schedule: Option<&'q Schedule>,
-    pub load: &'q Load,
-    pub outputs: &'q [Lock],
+    pub schedule: Option<Schedule>,
+    pub load: Load,
+    pub outputs: Vec<Lock>,
 }
 
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
 /// once; rates, forces and Jacobian come from one factorisation of the closures.
 pub(in super::super) struct Meter<'q> {
-    of: Metered<'q>,
+    of: &'q Metered<'q>,
     /// For each held coordinate the number of its input and how far that goes, if it is one.
     ways: Vec<Option<(usize, f64)>>,
     turns: Vec<bool>,
-    places: Places,
+    /// The points, how they move, and how that changes.
+    twists: FrameTwists<f64>,
+    motions: Option<FrameTwists<Dual<f64>>>,
     /// Its frames beside those of the closures, and where these are, if no rates are wanted.
     frames: Vec<Frame>,
-    placed: Placed,
+    kinematics: Kinematics<f64>,
+    placement: Placement<f64>,
     /// Frames of links that spin about a line of their own: rates beside it are not determined.
     loose: Vec<Frame>,
     motion: Option<Motion>,
@@ -121,8 +131,8 @@ impl Wants {
 }
 
 impl<'q> Meter<'q> {
-    pub fn new(of: Metered<'q>, start: &Configuration<f64>) -> Self {
-        let question = of.question;
+    pub fn new(of: &'q Metered<'q>, start: &Configuration<f64>) -> Self {
+        let question = &of.question;
         let mechanism = question.mechanism();
         let all = || of.quantities.iter().flat_map(Quantity::measured);
         let wants = Wants::of(all());
@@ -165,26 +175,31 @@ impl<'q> Meter<'q> {
             .iter()
             .filter(|frame| !spins.lines_of(**frame).is_empty());
         let loose = loose.copied().collect();
-        frames.extend(Outputs::frames(&outputs).chain(Loaded::frames(of.load)));
+        frames.extend(Outputs::frames(&outputs).chain(Loaded::frames(&of.load)));
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
         let motion = moves.then(|| Motion::placing(mechanism, &coordinates, &frames, hold));
-        let placed = Placed::new(mechanism, &frames);
-        let kinematics = motion
-            .as_ref()
-            .map_or(placed.kinematics(), Motion::kinematics);
+        let (dimensions, nothing) = (mechanism.dimensions(), Held::nothing(mechanism));
+        let placing = System::placing(mechanism, dimensions, &nothing, &frames);
+        let placing = placing.kinematics().clone();
+        let kinematics = motion.as_ref().map_or(&placing, Motion::kinematics);
         let loaded = (motion.as_ref().filter(|_| wants.forces))
-            .map(|motion| Loaded::new(mechanism, motion.unknowns(), of.load, kinematics));
+            .map(|motion| Loaded::new(mechanism, motion.unknowns(), &of.load, kinematics));
         let transmission = wants.transmission.then(|| {
             let mut near = Neighbourhood::new(mechanism);
             TransmissionAngles::new(&mut near, start, &coordinates, kinematics)
         });
-        let moving = motion.as_ref().map(|motion| (motion, wants.order));
-        let places = Places::new(mechanism, points, kinematics, moving);
+        let unknowns: &[Unknown] = motion.as_ref().map_or(&[], Motion::unknowns);
+        let twists = FrameTwists::sharing(kinematics, dimensions, unknowns, &points);
+        let changing = motion
+            .as_ref()
+            .filter(|_| wants.order == Order::Acceleration);
+        let motions = changing.map(|motion| FrameTwists::moving(mechanism, motion, &points));
         let numbered = names.iter().map(|name| match name {
             Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
-                (*name, places.number(*point).unwrap_or(0))
+                let number = points.iter().position(|known| known == point);
+                (*name, number.unwrap_or(0))
             }
             _ => (*name, 0),
         });
@@ -222,9 +237,11 @@ impl<'q> Meter<'q> {
             wanted: wanted.collect(),
             angles: Vec::new(),
             figures: Vec::new(),
-            places,
+            twists,
+            motions,
             frames,
-            placed,
+            placement: placing.placement(),
+            kinematics: placing,
             loose,
             loaded,
             transmission,
@@ -233,7 +250,7 @@ impl<'q> Meter<'q> {
                 let distances = Figure::ALL.into_iter().filter(|figure| {
                     figure.is_distance() && all().any(|of| *of == Measured::Figure(*figure))
                 });
-                let meter = SingularityMeter::new(mechanism, &inputs, of.outputs, start);
+                let meter = SingularityMeter::new(mechanism, &inputs, &of.outputs, start);
                 (meter, distances.collect())
             }),
             motion,
@@ -264,7 +281,7 @@ impl<'q> Meter<'q> {
         let [_, rate, change] = self.of.pace.at(time);
         let [rates, changes] = &mut self.driven;
         for (i, way) in self.ways.iter().enumerate() {
-            (rates[i], changes[i]) = match (way, self.of.schedule) {
+            (rates[i], changes[i]) = match (way, &self.of.schedule) {
                 (None, _) => (0.0, 0.0),
                 (Some((_, way)), None) => (way * rate, way * change),
                 (Some((input, _)), Some(schedule)) => {
@@ -276,7 +293,7 @@ impl<'q> Meter<'q> {
         let (mut moves, responses) = (false, &mut self.responses);
         match &mut self.motion {
             None if placement.is_some() => {}
-            None => self.placed.place(at),
+            None => self.kinematics.place(at, &mut self.placement),
             Some(motion) => {
                 motion.placed_at(at, placement);
                 moves = motion.is_determined();
@@ -297,7 +314,7 @@ impl<'q> Meter<'q> {
             }
         }
         let motion = self.motion.as_ref();
-        let known = placement.unwrap_or(self.placed.placement());
+        let known = placement.unwrap_or(&self.placement);
         let placement = motion.map_or(known, Motion::placement);
         self.forces.clear();
         if let Some(loaded) = self.loaded.as_mut().filter(|_| moves) {
@@ -340,26 +357,17 @@ impl<'q> Meter<'q> {
         if let Some(transmission) = &self.transmission {
             self.angles.extend(transmission.angles(placement));
         }
-        let found = Found {
-            mechanism: self.of.question.mechanism(),
-            places: PlacesAt {
-                places: &self.places,
-                at,
-                placement,
-                motion,
-            },
-            loose: &self.loose,
+        let here = Here {
+            at,
+            placement,
             moves,
             rates: motion.map_or([0.0; 2], Motion::largest),
-            coordinates: motion.map_or(&[], Motion::coordinates),
-            forces: &self.forces,
-            transmission: self.transmission.as_ref(),
-            angles: &self.angles,
-            figures: &self.figures,
         };
-        for (known, (name, number)) in self.known.iter_mut().zip(&self.names) {
-            *known = found.value(name, *number);
+        let mut known = std::mem::take(&mut self.known);
+        for (known, (name, number)) in known.iter_mut().zip(&self.names) {
+            *known = self.value(&here, name, *number);
         }
+        self.known = known;
         for (i, program) in self.programs.iter().enumerate() {
             let (value, noise) = evaluated(program, &self.known);
             let value = value.map(|value| match (self.turns[i], self.before[i]) {

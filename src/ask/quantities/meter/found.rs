@@ -1,0 +1,162 @@
+//! What names in quantities stand for at one configuration.
+
+use super::Meter;
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Measured, Order, Placement, Point, PoseCoordinate};
+use crate::system::Coordinate;
+
+/// A configuration and what is known of its motion.
+pub(super) struct Here<'a> {
+    pub at: &'a Configuration<f64>,
+    pub placement: &'a Placement<f64>,
+    /// Whether rates are determined.
+    pub moves: bool,
+    /// The largest rate and acceleration, in rad and characteristic lengths.
+    pub rates: [f64; 2],
+}
+
+impl Here<'_> {
+    fn tells(&self, order: Order) -> bool {
+        self.moves || order == Order::Value
+    }
+}
+
+impl Meter<'_> {
+    /// The value of a name, not a number where it is not determined, and how far it may be off; with the number of the
+    /// point, if it is of one.
+    pub(super) fn value(&self, here: &Here, of: &Measured, i: usize) -> [f64; 2] {
+        let value = self.known(here, of, i).unwrap_or(f64::NAN);
+        [value, self.off(here, of, i, value)]
+    }
+
+    /// How far the value of a name may be off: configurations are closed to 1e-12.
+    fn off(&self, here: &Here, of: &Measured, i: usize, value: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let [rate, change] = here.rates;
+        let most = |order: Order| match order {
+            Order::Value => 1.0,
+            Order::Velocity => rate,
+            Order::Acceleration => change.max(rate * rate),
+        };
+        let mechanism = self.of.question.mechanism();
+        let length = mechanism.characteristic_length();
+        let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
+        let size = match *of {
+            Measured::Parameter(_) => 0.0,
+            Measured::Joint(joint, order) => {
+                mechanism.dimensions().joint_scales[joint] * most(order)
+            }
+            Measured::Place(_, c, order) => scale(c.is_angle()) * most(order),
+            Measured::Size(_, order) => length * most(order),
+            Measured::Transmission(_) => 10.0,
+            Measured::Force(_) | Measured::PlatformForce(..) => self
+                .forces
+                .iter()
+                .fold(0.0, |most: f64, x| most.max(x.abs())),
+            // κ = |v × a| / |v|³ by δv and δa
+            Measured::Curvature(point) => {
+                let [v, a] = [Order::Velocity, Order::Acceleration]
+                    .map(|order| self.vector(here, point, i, order).map_or(0.0, |v| v.norm()));
+                length * (change.max(rate * rate) + rate * a / v) / (v * v)
+            }
+            Measured::Figure(_) if value.is_nan() => 0.0,
+            Measured::Figure(_) => value.abs(),
+        };
+        ROUNDING * size
+    }
+
+    fn known(&self, here: &Here, of: &Measured, i: usize) -> Option<f64> {
+        let mechanism = self.of.question.mechanism();
+        match *of {
+            Measured::Parameter(parameter) => Some(mechanism.parameters()[parameter].value),
+            Measured::Joint(joint, Order::Value) => Some(here.at.joints[joint]),
+            Measured::Joint(joint, order) => {
+                let known = self.motion.as_ref().filter(|_| here.moves)?.known();
+                let rates = known[usize::from(order == Order::Acceleration)];
+                Some(rates[joint] * mechanism.dimensions().joint_scales[joint])
+            }
+            Measured::Place(point, coordinate, order) => {
+                let loose = order > Order::Value
+                    && (coordinate.is_angle() || !point.is_origin())
+                    && self.loose.contains(&point.frame);
+                let known = here.tells(order) && !loose;
+                known.then(|| self.coordinate(here, i, coordinate, order))?
+            }
+            Measured::Size(point, order) => Some(self.vector(here, point, i, order)?.norm()),
+            // κ = |v × a| / |v|³
+            Measured::Curvature(point) => {
+                let velocity = self.vector(here, point, i, Order::Velocity)?;
+                let size = velocity.norm();
+                if size <= self.off(here, &Measured::Size(point, Order::Velocity), i, size) {
+                    return None;
+                }
+                let across = velocity.cross(&self.vector(here, point, i, Order::Acceleration)?);
+                Some(across.norm() / size.powi(3))
+            }
+            Measured::Force(joint) => self.force(Coordinate::Joint(joint)),
+            Measured::PlatformForce(platform, c) => self.force(Coordinate::Pose(platform, c)),
+            Measured::Transmission(closure) => {
+                let name = closure.map(|closure| &*mechanism.closures()[closure].name);
+                let loops = self.transmission.as_ref()?.loops().zip(&self.angles);
+                let of_it = loops.filter(|(closure, _)| name.is_none_or(|name| name == *closure));
+                of_it.filter_map(|(_, angle)| *angle).reduce(f64::min)
+            }
+            Measured::Figure(figure) => {
+                let mut known = self.figures.iter();
+                known.find(|(of, _)| *of == figure)?.1
+            }
+        }
+    }
+
+    /// Place, velocity or acceleration of a point, by its number.
+    fn vector(&self, here: &Here, point: Point, i: usize, order: Order) -> Option<Vector3<f64>> {
+        let loose = order > Order::Value && !point.is_origin() && self.loose.contains(&point.frame);
+        let known = here.tells(order) && !loose;
+        known.then(|| self.moved(here, i, order))?
+    }
+
+    /// A coordinate of the point of that number, or of the orientation of its frame.
+    fn coordinate(&self, here: &Here, i: usize, c: PoseCoordinate, order: Order) -> Option<f64> {
+        if !c.is_angle() {
+            return Some(self.moved(here, i, order)?.0[c as usize]);
+        }
+        let frame = self.twists.frame(i, here.placement);
+        match order {
+            Order::Value => Some(c.of(frame)),
+            Order::Velocity => {
+                let rates = self.motion.as_ref()?.known()[0];
+                let turn = self.twists.twist(i, here.placement, rates).omega;
+                Some(c.turned(frame, &turn))
+            }
+            Order::Acceleration => {
+                let motions = self.motions.as_ref()?;
+                let (rates, placement) = self.motion.as_ref()?.changes();
+                let turn = motions.twist(i, placement, rates).omega;
+                Some(c.turned(motions.frame(i, placement), &turn).slope)
+            }
+        }
+    }
+
+    /// Where the point of that number is, or how it moves.
+    fn moved(&self, here: &Here, i: usize, order: Order) -> Option<Vector3<f64>> {
+        match order {
+            Order::Value => Some(self.twists.origin(i, here.placement)),
+            Order::Velocity => {
+                let rates = self.motion.as_ref()?.known()[0];
+                Some(self.twists.twist(i, here.placement, rates).velocity)
+            }
+            Order::Acceleration => {
+                let (rates, placement) = self.motion.as_ref()?.changes();
+                let twist = self.motions.as_ref()?.twist(i, placement, rates);
+                Some(Vector3(twist.velocity.0.map(|part| part.slope)))
+            }
+        }
+    }
+
+    fn force(&self, of: Coordinate) -> Option<f64> {
+        let coordinates = self.motion.as_ref()?.coordinates();
+        let place = coordinates.iter().position(|known| *known == of)?;
+        let force = self.forces.get(place).copied();
+        force.filter(|force| !force.is_nan())
+    }
+}
