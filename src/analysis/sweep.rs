@@ -305,7 +305,7 @@ pub fn sweep(
         if watch.stops(Stage::Motion, done as usize, steps) {
             return ControlFlow::Break(SweepEnd::Stopped);
         }
-        record.steps += 1;
+        record.so_far.sure_steps += 1;
         let stopped = |()| SweepEnd::Stopped;
         let mut from = &leg.from;
         let events = trail.events(curve, leg);

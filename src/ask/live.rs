@@ -1,7 +1,7 @@
 //! What is read off a mechanism while it is moved by hand: quantities, forces, freedoms gained.
 
 use super::quantities::{Meter, Metered};
-use super::{AskError, Range, Steering};
+use super::{AskError, Steering};
 use crate::algebra::SiUnit;
 use crate::analysis::singularities::SingularitiesReport;
 use crate::analysis::statics::StaticsReport;
@@ -42,16 +42,9 @@ impl Steering {
         if !list.trim().is_empty() {
             asked = asked.report(list);
         }
-        // what is held decides the configuration, as inputs do
-        asked.inputs = (asked.hold.iter())
-            .map(|(name, value)| Range {
-                name: name.clone(),
-                from: value.clone(),
-                to: value.clone(),
-            })
-            .collect();
         let question = asked.resolved()?;
-        let quantities = asked.quantities(&question, &[])?;
+        // what is held decides the configuration, as inputs do
+        let quantities = asked.quantities(&question, !asked.hold.is_empty(), &[])?;
         let metered = Metered {
             quantities,
             inputs: Vec::new(),

@@ -199,19 +199,8 @@ impl Follower<'_> {
         tracker: &mut MotionTracker<T>,
         value: impl Fn(usize) -> T,
     ) -> bool {
-        for (i, &coordinate) in self.coordinates.iter().enumerate() {
-            if let Coordinate::Pose(platform, of) = coordinate {
-                tracker.set_target(platform, of, value(i));
-            }
-        }
-        let report = tracker.solve(|at| {
-            for (i, &coordinate) in self.coordinates.iter().enumerate() {
-                if let Coordinate::Joint(joint) = coordinate {
-                    at.joints[joint] = value(i);
-                }
-            }
-        });
-        report.solved
+        let held = self.coordinates.iter().copied();
+        tracker.solve_at(held, value).solved
     }
 
     /// How far it is from one row of values to another, in rad or characteristic lengths.
@@ -257,8 +246,12 @@ impl Follower<'_> {
                     // one by one, each from where its lane was last, or else from the beginning
                     false => {
                         let to = self.row(row(lane, k));
+                        let mut start = self.start.clone();
                         let reached = self.goes(&mut single, at, to)
-                            || self.goes_from_start(&mut single, at, to);
+                            || self.goes(&mut single, &mut start, to) && {
+                                *at = start;
+                                true
+                            };
                         moved |= reached;
                         reached
                     }
@@ -272,20 +265,6 @@ impl Follower<'_> {
                 wide.restart(&Configuration::beside(|lane| &at[lane]));
             }
         }
-    }
-
-    fn goes_from_start(
-        &self,
-        tracker: &mut MotionTracker,
-        at: &mut Configuration<f64>,
-        to: &[f64],
-    ) -> bool {
-        let mut start = self.start.clone();
-        let went = self.goes(tracker, &mut start, to);
-        if went {
-            *at = start;
-        }
-        went
     }
 
     /// Goes the straight way from a configuration to held values; stays there if the way cannot be followed.

@@ -15,16 +15,18 @@ use crate::mechanism::{Figure, Measured, NamedPoint, Order, Quantity};
 use crate::system::{self, Coordinate, Lock, QuestionError, free_outputs};
 
 impl Question {
-    /// The quantities that are asked for; without any those that the file names and that can be known.
+    /// The quantities that are asked for; without any those that the file names and that can be known where what is held
+    /// moves or not.
     pub(super) fn quantities(
         &self,
         held: &system::Question,
+        moving: bool,
         points: &[NamedPoint],
     ) -> Result<Vec<Quantity>, AskError> {
         let mechanism = &*self.mechanism;
         if self.reports.is_empty() {
             let outputs = mechanism.outputs().iter();
-            let known = outputs.filter(|output| self.unknown_in(held, output).is_none());
+            let known = outputs.filter(|output| self.unknown_in(held, moving, output).is_none());
             return Ok(known.cloned().collect());
         }
         let mut quantities = Vec::new();
@@ -32,7 +34,7 @@ impl Question {
             let item = Role::Quantity.item(index);
             for text in Quantity::split(list) {
                 for (name, text) in self.expanded(&text, held, points) {
-                    quantities.push(self.quantity(held, item, &name, &text)?);
+                    quantities.push(self.quantity((held, moving), item, &name, &text)?);
                 }
             }
         }
@@ -42,7 +44,7 @@ impl Question {
     /// The quantity of that name in the file, or that of a text.
     fn quantity(
         &self,
-        held: &system::Question,
+        (held, moving): (&system::Question, bool),
         item: Item,
         name: &str,
         text: &str,
@@ -58,7 +60,7 @@ impl Question {
             text: text.to_owned(),
             error: Box::new(error),
         })?;
-        match self.unknown_in(held, &quantity) {
+        match self.unknown_in(held, moving, &quantity) {
             Some(error) => Err(AskError::Unmeasured {
                 item,
                 quantity: quantity.name,
@@ -74,6 +76,7 @@ impl Question {
         held: &system::Question,
         quantities: &mut Vec<Quantity>,
     ) -> Result<Vec<(usize, f64)>, AskError> {
+        let moving = !self.inputs.is_empty();
         let dwells = self.dwells.iter().enumerate();
         let dwells = dwells.map(|(index, (text, tolerance))| {
             let known = quantities.iter().position(|known| known.name == *text);
@@ -81,7 +84,7 @@ impl Question {
                 Some(place) => place,
                 None => {
                     let item = Role::Dwell.item(index);
-                    quantities.push(self.quantity(held, item, text, text)?);
+                    quantities.push(self.quantity((held, moving), item, text, text)?);
                     quantities.len() - 1
                 }
             };
@@ -97,22 +100,27 @@ impl Question {
                 error,
             });
             let number = number.map_err(Role::Dwell.named(index))?;
-            match self.inputs.is_empty() {
-                true => Err(AskError::Unmeasured {
+            match moving {
+                true => Ok((place, number.abs())),
+                false => Err(AskError::Unmeasured {
                     item: Role::Dwell.item(index),
                     quantity: text.clone(),
                     error: Unmeasured::NoInput,
                 }),
-                false => Ok((place, number.abs())),
             }
         });
         dwells.collect()
     }
 
     /// Why a quantity cannot be known.
-    fn unknown_in(&self, held: &system::Question, quantity: &Quantity) -> Option<Unmeasured> {
+    fn unknown_in(
+        &self,
+        held: &system::Question,
+        moving: bool,
+        quantity: &Quantity,
+    ) -> Option<Unmeasured> {
         let mut parts = quantity.measured();
-        parts.find_map(|measured| self.unmeasured(held, measured))
+        parts.find_map(|measured| self.unmeasured(held, moving, measured))
     }
 
     /// Name and text of a quantity: `NAME=EXPRESSION`, or an expression that is its own name. `velocity` and
@@ -143,14 +151,19 @@ impl Question {
     }
 
     /// Why what a name stands for cannot be known.
-    fn unmeasured(&self, held: &system::Question, measured: &Measured) -> Option<Unmeasured> {
+    fn unmeasured(
+        &self,
+        held: &system::Question,
+        moving: bool,
+        measured: &Measured,
+    ) -> Option<Unmeasured> {
         let moves = match measured {
             Measured::Parameter(_) => false,
             Measured::Joint(_, order) | Measured::Place(_, _, order) => *order != Order::Value,
             Measured::Figure(figure) => *figure != Figure::Constraint,
             _ => true,
         };
-        if moves && self.inputs.is_empty() {
+        if moves && !moving {
             return Some(Unmeasured::NoInput);
         }
         let of = match *measured {

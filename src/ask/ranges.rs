@@ -74,8 +74,3 @@ pub(super) fn of_platform(mechanism: &Mechanism, coordinate: &Coordinate) -> boo
         Coordinate::Pose(..) | Coordinate::Turn(..) => true,
     }
 }
-
-/// Whether more is held than can be.
-pub(super) fn is_too_many<T>(count: &Result<T, QuestionError>) -> bool {
-    matches!(count, Err(QuestionError::TooMany { .. }))
-}

@@ -1,6 +1,6 @@
 //! Singularities: at a configuration, along inputs, and as loci.
 
-use super::ranges::{is_too_many, middles, of_platform, still};
+use super::ranges::{middles, of_platform, still};
 use super::{AskError, Mode, Question, Role, check_starts};
 use crate::analysis::singularities::{
     AlongReport, LocusReport, SingularitiesReport, SingularitiesSettings, along, inputs_of, loci,
@@ -9,7 +9,8 @@ use crate::analysis::singularities::{
 use crate::mechanism::Point;
 use crate::solve::Watch;
 use crate::system::{
-    self, Analysed, Coordinate, Held, Lock, PointError, TooLarge, check_count, too_large,
+    self, Analysed, Coordinate, Held, Lock, PointError, QuestionError, TooLarge, check_count,
+    too_large,
 };
 
 impl Question {
@@ -130,7 +131,7 @@ impl Question {
             .held_coordinates()
             .iter()
             .any(|of| of_platform(&self.mechanism, of));
-        if inverse && is_too_many(&count) {
+        if inverse && matches!(count, Err(QuestionError::TooMany { .. })) {
             posed = with_inputs(self.released()?)?;
             count = check_count(&posed.0);
         }

@@ -354,15 +354,7 @@ impl Question {
             to: rate,
         });
         let inputs: Vec<Driven> = inputs.collect();
-        let mut asked = self.clone();
-        asked.inputs = (drive.coordinates.iter())
-            .map(|of| super::Range {
-                name: of.name(&self.mechanism),
-                from: 0.0.into(),
-                to: 1.0.into(),
-            })
-            .collect();
-        let quantities = asked.quantities(held, &[])?;
+        let quantities = self.quantities(held, !drive.coordinates.is_empty(), &[])?;
         let at_rest = quantities
             .iter()
             .find(|of| !drive.given && of.measured().any(moves));

@@ -98,7 +98,7 @@ impl Question {
             points: [&settings.points[..], &self.named_points()?].concat(),
             ..settings.clone()
         };
-        let mut quantities = self.quantities(&posed, &settings.points)?;
+        let mut quantities = self.quantities(&posed, !inputs.is_empty(), &settings.points)?;
         let dwells = self.tolerances(&posed, &mut quantities)?;
         Ok(Motions {
             mechanism,

@@ -118,24 +118,10 @@ impl Between {
 
     /// Goes on to a part of the way, if that leads to a configuration near the rows.
     fn go(&mut self, part: f64) -> bool {
-        let schedule = self.schedule.as_ref();
-        let value = |(i, input): (usize, &Driven)| match schedule {
+        let moved = self.moved.iter().map(|input| input.coordinate);
+        let report = self.tracker.solve_at(moved, |i| match &self.schedule {
             Some((schedule, [from, to])) => schedule.at(i, from + part * (to - from))[0],
-            None => input.at(part),
-        };
-        for (i, input) in self.moved.iter().enumerate() {
-            if let Coordinate::Pose(platform, coordinate) = input.coordinate {
-                self.tracker
-                    .set_target(platform, coordinate, value((i, input)));
-            }
-        }
-        let moved = &self.moved;
-        let report = self.tracker.solve(|at| {
-            for (i, input) in moved.iter().enumerate() {
-                if let Coordinate::Joint(joint) = input.coordinate {
-                    at.joints[joint] = value((i, input));
-                }
-            }
+            None => self.moved[i].at(part),
         });
         report.solved && self.far(self.tracker.configuration()) <= self.reach
     }

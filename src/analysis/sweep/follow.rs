@@ -55,8 +55,8 @@ pub fn follow(
     let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         flow.map_break(stopped)?;
-        record.steps += 1;
-        if record.steps > MOST_STEPS {
+        record.so_far.sure_steps += 1;
+        if record.so_far.sure_steps > MOST_STEPS {
             return ControlFlow::Break(SweepEnd::Stopped);
         }
         for (place, event) in &trail.events(curve, leg) {

@@ -87,9 +87,8 @@ pub(super) struct Record<'m> {
     mechanism: &'m Mechanism,
     inputs: Vec<Driven>,
     points: &'m [NamedPoint],
-    met: Vec<Met>,
-    more: usize,
-    pub steps: usize,
+    /// What the motion has come to so far.
+    pub so_far: SweepReport,
 }
 
 /// What is listed at most.
@@ -101,9 +100,7 @@ impl<'m> Record<'m> {
             mechanism,
             inputs: inputs.to_vec(),
             points,
-            met: Vec::new(),
-            more: 0,
-            steps: 0,
+            so_far: SweepReport::of(mechanism, inputs, SweepEnd::Stopped),
         }
     }
 
@@ -169,13 +166,13 @@ impl<'m> Record<'m> {
             }
         };
         let at = &place.at;
-        if self.met.len() >= MOST {
-            self.more += 1;
+        if self.so_far.met.len() >= MOST {
+            self.so_far.more_met += 1;
             return;
         }
         let part = (!self.inputs.is_empty()).then(|| curve.part(at));
         let inputs = self.inputs.iter().map(|input| input.coordinate.of(at));
-        self.met.push(Met {
+        self.so_far.met.push(Met {
             kind,
             part,
             inputs: inputs.collect(),
@@ -195,7 +192,7 @@ impl<'m> Record<'m> {
     }
 
     pub fn latest(&self) -> Option<&MetKind> {
-        self.met.last().map(|met| &met.kind)
+        self.so_far.met.last().map(|met| &met.kind)
     }
 
     /// A joint that is outside its limits.
@@ -222,7 +219,8 @@ impl<'m> Record<'m> {
         match why {
             NoStart::NotClosed => return self.report(SweepEnd::Lost, 0, 0.0),
             NoStart::OutsideLimits(joint) => {
-                self.met.extend(self.outside(joint, start));
+                let outside = self.outside(joint, start);
+                self.so_far.met.extend(outside);
                 return self.report(SweepEnd::OutsideLimits, 0, 0.0);
             }
             NoStart::Singular => {}
@@ -231,7 +229,7 @@ impl<'m> Record<'m> {
             let place = point.place(curve, &vec![0.0; curve.system().unknowns().len()]);
             self.meet(curve, &place, &Event::Branches(Box::new(point)));
             if let Some(MetKind::Crossing { branches, .. }) =
-                self.met.last_mut().map(|m| &mut m.kind)
+                self.so_far.met.last_mut().map(|m| &mut m.kind)
             {
                 branches.iter_mut().for_each(|b| b.followed = false);
             }
@@ -241,12 +239,10 @@ impl<'m> Record<'m> {
 
     pub fn report(self, ending: SweepEnd, rows: usize, length: f64) -> SweepReport {
         SweepReport {
+            ending,
             rows,
-            met: self.met,
-            more_met: self.more,
-            sure_steps: self.steps,
             length,
-            ..SweepReport::of(self.mechanism, &self.inputs, ending)
+            ..self.so_far
         }
     }
 }

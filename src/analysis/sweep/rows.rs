@@ -150,19 +150,8 @@ impl Rows {
         if reach.singular {
             return false;
         }
-        for input in &self.inputs {
-            if let Coordinate::Pose(platform, coordinate) = input.coordinate {
-                tracker.set_target(platform, coordinate, input.at(part));
-            }
-        }
-        let inputs = &self.inputs;
-        let report = tracker.solve(|at| {
-            for input in inputs {
-                if let Coordinate::Joint(joint) = input.coordinate {
-                    at.joints[joint] = input.at(part);
-                }
-            }
-        });
+        let moved = self.inputs.iter().map(|input| input.coordinate);
+        let report = tracker.solve_at(moved, |i| self.inputs[i].at(part));
         if !report.solved {
             return false;
         }

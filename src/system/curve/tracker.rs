@@ -1,7 +1,7 @@
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Placement, PoseCoordinate};
+use crate::mechanism::{Configuration, Placement};
 use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
-use crate::system::{System, Work};
+use crate::system::{Coordinate, System, Work};
 
 /// Follows a mechanism while its held coordinates move: one short solve for each change of them.
 ///
@@ -54,11 +54,6 @@ impl<T: Factorable> MotionTracker<T> {
         self.system.placement(&self.work)
     }
 
-    /// Asks for another value, in m or rad, of a platform coordinate held alone.
-    pub fn set_target(&mut self, platform: usize, coordinate: PoseCoordinate, value: T) {
-        self.system.set_target(platform, coordinate, value);
-    }
-
     /// Lets `hold` change the held joints and poses, and finds the free ones. Nothing allocates. `solved` is said only
     /// of a residual evaluated at the configuration returned.
     #[inline]
@@ -70,6 +65,27 @@ impl<T: Factorable> MotionTracker<T> {
             &mut self.trail,
             &mut self.work,
         )
+    }
+
+    /// Gives held joints and platform coordinates held alone values in m or rad, by their numbers, and finds the rest.
+    #[inline]
+    pub fn solve_at(
+        &mut self,
+        held: impl Iterator<Item = Coordinate> + Clone,
+        value: impl Fn(usize) -> T,
+    ) -> WarmReport {
+        for (i, coordinate) in held.clone().enumerate() {
+            if let Coordinate::Pose(platform, coordinate) = coordinate {
+                self.system.set_target(platform, coordinate, value(i));
+            }
+        }
+        self.solve(|at| {
+            for (i, coordinate) in held.enumerate() {
+                if let Coordinate::Joint(joint) = coordinate {
+                    at.joints[joint] = value(i);
+                }
+            }
+        })
     }
 
     /// Goes on from another configuration, which ought to be assembled.
