@@ -16,7 +16,7 @@ use crate::mechanism::Mechanism;
 
 pub use cognates::{CognateError, cognates};
 pub use coordinates::to_axes;
-pub use cut::CutError;
+pub use cut::{CutError, possible_cuts};
 
 /// What is to be changed.
 #[derive(Clone, Debug, Default)]
@@ -126,9 +126,4 @@ pub fn convert(
     });
     Mechanism::new(&conversion.description).map_err(ConvertError::Wrong)?;
     Ok(conversion)
-}
-
-/// The joints at which a mechanism can be broken instead, in the order of the file.
-pub fn possible_cuts(mechanism: &Mechanism, description: &Description) -> Vec<String> {
-    cut::possible(mechanism, description)
 }

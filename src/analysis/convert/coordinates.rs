@@ -367,50 +367,31 @@ impl Drawing<'_> {
             let frames = self.mechanism.closures()[index].frames;
             let at = frames.map(|frame| self.places[&frame].clone());
             let between = frames.map(|frame| self.body(frame));
+            if named.value.kind == ClosureKind::Distance {
+                self.rod(index, at.each_ref().map(|steps| point_of(steps)), between);
+                continue;
+            }
+            let mut kinds = AxisKind::ALL.into_iter();
+            let kind = (kinds.find(|kind| kind.closure() == Some(named.value.kind)))
+                .expect("every closure restores some joint");
             let turned = at.iter().any(|steps| turned_by_parameters(steps));
-            let [first, second] = at;
-            let along = |steps: &Steps| match turned {
-                true => AxisPlace::Frame(steps.clone()),
-                false => AxisPlace::Along(Some(point_of(steps)), axis_along(steps, Axis::Z, 1.0)),
-            };
-            let (kind, places) = match named.value.kind {
-                ClosureKind::Spherical => {
-                    let centre = |steps: &Steps| AxisPlace::Centre(point_of(steps));
-                    (AxisKind::Spherical, [&first, &second].map(centre))
+            let [place, second] = [0, 1].map(|side| {
+                use AxisKind::{Cylindrical, Planar, Revolute, Spherical, Universal};
+                let steps = &at[side];
+                let along = |axis: Axis| axis_along(steps, axis, 1.0);
+                match kind {
+                    Spherical => AxisPlace::Centre(point_of(steps)),
+                    // the axis that the other body has is any perpendicular one
+                    Universal => {
+                        let axes = [[Axis::Z, Axis::X], [Axis::X, Axis::Z]][side];
+                        AxisPlace::Cross(point_of(steps), axes.map(along))
+                    }
+                    Revolute | Cylindrical | Planar if !turned => {
+                        AxisPlace::Along(Some(point_of(steps)), along(Axis::Z))
+                    }
+                    _ => AxisPlace::Frame(steps.clone()),
                 }
-                ClosureKind::Distance => {
-                    self.rod(
-                        index,
-                        [&first, &second].map(|steps| point_of(steps)),
-                        between,
-                    );
-                    continue;
-                }
-                ClosureKind::Revolute => (AxisKind::Revolute, [&first, &second].map(along)),
-                ClosureKind::Cylindrical => (AxisKind::Cylindrical, [&first, &second].map(along)),
-                ClosureKind::Planar => (AxisKind::Planar, [&first, &second].map(along)),
-                // the axis that the other body has is any perpendicular one
-                ClosureKind::Universal => {
-                    let cross = |steps: &Steps, axes: [Axis; 2]| {
-                        let along = axes.map(|axis| axis_along(steps, axis, 1.0));
-                        AxisPlace::Cross(point_of(steps), along)
-                    };
-                    let places = [
-                        cross(&first, [Axis::Z, Axis::X]),
-                        cross(&second, [Axis::X, Axis::Z]),
-                    ];
-                    (AxisKind::Universal, places)
-                }
-                kind => {
-                    let kind = match kind {
-                        ClosureKind::Prismatic => AxisKind::Prismatic,
-                        _ => AxisKind::Fixed,
-                    };
-                    let frame = |steps: &Steps| AxisPlace::Frame(steps.clone());
-                    (kind, [&first, &second].map(frame))
-                }
-            };
-            let [place, second] = places;
+            });
             let name = self.free(&named.name.value);
             let mut joint = AxisDescription::new(kind, place);
             joint.between = Some(between.map(Spanned::nowhere));

@@ -36,7 +36,7 @@ struct Place {
 }
 
 /// The joints at which a mechanism can be broken instead, in the order of the file.
-pub(super) fn possible(mechanism: &Mechanism, description: &Description) -> Vec<String> {
+pub fn possible_cuts(mechanism: &Mechanism, description: &Description) -> Vec<String> {
     let possible = names_of(&description.joints).filter(|name| {
         let place = find(mechanism, description, name);
         place.is_ok_and(|place| closing(mechanism, &place, name).is_ok())
@@ -51,15 +51,7 @@ pub(super) fn cut(
 ) -> Result<Conversion, CutError> {
     let place = find(mechanism, description, joint)?;
     let (closure, side) = closing(mechanism, &place, joint)?;
-    let motion = ClosureRows::of(mechanism, description, closure, side);
-    Ok(rebuild(
-        mechanism,
-        description,
-        &place,
-        closure,
-        side,
-        &motion,
-    ))
+    Ok(rebuild(mechanism, description, &place, closure, side))
 }
 
 fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<Place, CutError> {
@@ -174,8 +166,8 @@ fn rebuild(
     place: &Place,
     closure: usize,
     side: usize,
-    motion: &ClosureRows,
 ) -> Conversion {
+    let motion = ClosureRows::of(mechanism, description, closure, side);
     let convention = mechanism.chains()[place.chain].convention;
     let Named { name, value: chain } = &description.chains[place.chain];
     let (old, r) = (&chain.rows, place.row);

@@ -32,9 +32,7 @@ pub(super) fn closed(
             (way(axes, &cuts, &balls, &built), built)
         })
         .collect();
-    compared.sort_by(|(a, _), (b, _)| {
-        (a.longest, a.entries, a.prismatic).cmp(&(b.longest, b.entries, b.prismatic))
-    });
+    compared.sort_by_key(|(way, _)| (way.longest, way.entries, way.prismatic));
     let ways_compared = compared.iter().map(|(way, _)| way.clone()).collect();
     let (best, built) = compared.swap_remove(0);
     let named = |j: &usize| axes.joints[*j].name.value.clone();
