@@ -112,35 +112,21 @@ impl Question {
             }
             found
         });
+        let width = columns.len();
         let mut many = Many {
             names: columns.iter().map(|of| of.name(mechanism)).collect(),
-            values: Vec::with_capacity(rows * columns.len()),
-            reached: Vec::with_capacity(rows),
+            values: vec![f64::NAN; rows * width],
+            reached: vec![false; rows],
             interrupted: watch.is_stopped(),
         };
-        for block in found {
-            many.values.extend(block.values);
-            many.reached.extend(block.reached);
+        let found = found.iter();
+        let found = found.flat_map(|block| block.values.chunks(width).zip(&block.reached));
+        for (place, (values, reached)) in found.enumerate() {
+            let row = follower.number(place);
+            many.values[row * width..(row + 1) * width].copy_from_slice(values);
+            many.reached[row] = *reached;
         }
-        many.put_back(&follower.order);
         Ok(many)
-    }
-}
-
-impl Many {
-    /// Gives rows that were followed in another order their places.
-    fn put_back(&mut self, order: &[u32]) {
-        if order.is_empty() {
-            return;
-        }
-        let width = self.names.len();
-        let (values, reached) = (self.values.clone(), self.reached.clone());
-        for (from, &to) in order.iter().enumerate() {
-            let to = to as usize;
-            self.reached[to] = reached[from];
-            let row = &values[from * width..(from + 1) * width];
-            self.values[to * width..(to + 1) * width].copy_from_slice(row);
-        }
     }
 }
 
@@ -171,8 +157,13 @@ impl<'a> Found<'a> {
 }
 
 impl Follower<'_> {
+    /// The number of the row that is followed at a place.
+    fn number(&self, place: usize) -> usize {
+        (self.order.get(place)).map_or(place, |row| *row as usize)
+    }
+
     fn row(&self, place: usize) -> &[f64] {
-        let row = (self.order.get(place)).map_or(place, |row| *row as usize);
+        let row = self.number(place);
         let width = self.coordinates.len();
         &self.values[row * width..(row + 1) * width]
     }

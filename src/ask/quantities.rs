@@ -26,7 +26,7 @@ impl Question {
         let mechanism = &*self.mechanism;
         if self.reports.is_empty() {
             let outputs = mechanism.outputs().iter();
-            let known = outputs.filter(|output| self.unknown_in(held, moving, output).is_none());
+            let known = outputs.filter(|output| self.unmeasured(held, moving, output).is_none());
             return Ok(known.cloned().collect());
         }
         let mut quantities = Vec::new();
@@ -60,7 +60,7 @@ impl Question {
             text: text.to_owned(),
             error: Box::new(error),
         })?;
-        match self.unknown_in(held, moving, &quantity) {
+        match self.unmeasured(held, moving, &quantity) {
             Some(error) => Err(AskError::Unmeasured {
                 item,
                 quantity: quantity.name,
@@ -112,17 +112,6 @@ impl Question {
         dwells.collect()
     }
 
-    /// Why a quantity cannot be known.
-    fn unknown_in(
-        &self,
-        held: &system::Question,
-        moving: bool,
-        quantity: &Quantity,
-    ) -> Option<Unmeasured> {
-        let mut parts = quantity.measured();
-        parts.find_map(|measured| self.unmeasured(held, moving, measured))
-    }
-
     /// Name and text of a quantity: `NAME=EXPRESSION`, or an expression that is its own name. `velocity` and
     /// `acceleration` alone are those of all traced points, or else of all joints that are not held.
     fn expanded(
@@ -150,50 +139,52 @@ impl Question {
         named.map(|text| (text.clone(), text)).collect()
     }
 
-    /// Why what a name stands for cannot be known.
+    /// Why a quantity cannot be known.
     fn unmeasured(
         &self,
         held: &system::Question,
         moving: bool,
-        measured: &Measured,
+        quantity: &Quantity,
     ) -> Option<Unmeasured> {
-        let moves = match measured {
-            Measured::Parameter(_) => false,
-            Measured::Joint(_, order) | Measured::Place(_, _, order) => *order != Order::Value,
-            Measured::Figure(figure) => *figure != Figure::Constraint,
-            _ => true,
-        };
-        if moves && !moving {
-            return Some(Unmeasured::NoInput);
-        }
-        let of = match *measured {
-            Measured::Figure(Figure::Determinant) => {
-                let outputs = free_outputs(&self.mechanism, &held.driven_coordinates(), &[]);
-                let counted = |point: bool| {
-                    let of_kind = outputs.iter();
-                    of_kind
-                        .filter(|of| matches!(of, Lock::Point(_)) == point)
-                        .map(|of| of.rows())
-                        .sum::<usize>()
-                };
-                let rows = match counted(false) {
-                    0 => counted(true),
-                    rows => rows,
-                };
-                let columns = held.driven_coordinates().len();
-                return (rows != columns).then_some(Unmeasured::NotSquare { rows, columns });
+        quantity.measured().find_map(|measured| {
+            let moves = match measured {
+                Measured::Parameter(_) => false,
+                Measured::Joint(_, order) | Measured::Place(_, _, order) => *order != Order::Value,
+                Measured::Figure(figure) => *figure != Figure::Constraint,
+                _ => true,
+            };
+            if moves && !moving {
+                return Some(Unmeasured::NoInput);
             }
-            Measured::Force(joint) => Coordinate::Joint(joint),
-            Measured::PlatformForce(platform, c) => Coordinate::Pose(platform, c),
-            _ => return None,
-        };
-        match held.driven_coordinates().contains(&of) {
-            true if self.wrenches.is_empty() && self.loads.is_empty() => Some(Unmeasured::NoLoad),
-            true => None,
-            false => Some(Unmeasured::NotHeld {
-                name: of.name(&self.mechanism),
-                held: held.held_names(),
-            }),
-        }
+            let of = match *measured {
+                Measured::Figure(Figure::Determinant) => {
+                    let outputs = free_outputs(&self.mechanism, &held.driven_coordinates(), &[]);
+                    let counted = |point: bool| -> usize {
+                        let is_point = |of: &Lock| matches!(of, Lock::Point(_));
+                        let of_kind = outputs.iter().filter(|of| is_point(of) == point);
+                        of_kind.map(|of| of.rows()).sum()
+                    };
+                    let rows = match counted(false) {
+                        0 => counted(true),
+                        rows => rows,
+                    };
+                    let columns = held.driven_coordinates().len();
+                    return (rows != columns).then_some(Unmeasured::NotSquare { rows, columns });
+                }
+                Measured::Force(joint) => Coordinate::Joint(joint),
+                Measured::PlatformForce(platform, c) => Coordinate::Pose(platform, c),
+                _ => return None,
+            };
+            match held.driven_coordinates().contains(&of) {
+                true if self.wrenches.is_empty() && self.loads.is_empty() => {
+                    Some(Unmeasured::NoLoad)
+                }
+                true => None,
+                false => Some(Unmeasured::NotHeld {
+                    name: of.name(&self.mechanism),
+                    held: held.held_names(),
+                }),
+            }
+        })
     }
 }

@@ -199,18 +199,15 @@ impl Question {
         if report.may_lack_some() || report.not_isolated > 0 {
             return None;
         }
-        let real = report.assemblies.iter().map(|of| {
-            let values = of.joints.0.iter().map(|(_, x)| [*x, 0.0]);
-            values.collect::<Vec<_>>()
-        });
-        let complex = report.complex_assemblies.iter().map(|of| {
-            let values = of.joints.0.iter().map(|(_, x)| *x);
-            values.collect::<Vec<_>>()
-        });
-        let mut places: Vec<Vec<[f64; 2]>> = Vec::new();
-        for joints in real.chain(complex) {
-            // the slides in the plane
-            let place = joints[joints.len() - 2..].to_vec();
+        // the slides in the plane
+        let real = (report.assemblies.iter())
+            .filter_map(|of| of.joints.0.last_chunk())
+            .map(|[(_, x), (_, y)]| [[*x, 0.0], [*y, 0.0]]);
+        let complex = (report.complex_assemblies.iter())
+            .filter_map(|of| of.joints.0.last_chunk())
+            .map(|[(_, x), (_, y)]| [*x, *y]);
+        let mut places: Vec<[[f64; 2]; 2]> = Vec::new();
+        for place in real.chain(complex) {
             let known = places.iter().any(|other| {
                 let parts = other.iter().flatten().zip(place.iter().flatten());
                 parts.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < SAME * length

@@ -129,7 +129,7 @@ pub(super) struct Trail {
     tracers: Vec<Tracer>,
     method: Continuation,
     places: Vec<At>,
-    cusps: Vec<Vec<At>>,
+    cusps: Vec<Vec<PathPoint>>,
 }
 
 impl Trail {
@@ -176,25 +176,20 @@ impl Trail {
     /// Goes on to a place, past what was met there.
     pub fn reach(&mut self, place: &At, event: Option<&Event>) {
         match event {
-            Some(Event::Root(number)) => self.cusps[*number].push(place.clone()),
+            Some(Event::Root(number)) => {
+                let cusp = self.tracers[*number].passed(&[(place, 1)]);
+                self.cusps[*number].push(cusp);
+            }
             _ if !self.tracers.is_empty() => self.places.push(place.clone()),
             _ => {}
         }
     }
 
     pub fn reports(self, curve: &mut Curve, closed: bool) -> Vec<PathReport> {
-        let Trail {
-            tracers,
-            method,
-            places,
-            cusps,
-        } = self;
-        let of_point = tracers.into_iter().zip(cusps);
-        let reports = of_point.map(|(mut tracer, cusps)| {
-            let cusps = cusps.iter().map(|place| tracer.passed(&[(place, 1)]));
-            let cusps = cusps.collect();
-            tracer.told_all(cusps, curve, &method, &[(&places[..], closed)])
-        });
+        let curves = [(&self.places[..], closed)];
+        let of_point = self.tracers.into_iter().zip(self.cusps);
+        let reports = of_point
+            .map(|(mut tracer, cusps)| tracer.told_all(cusps, curve, &self.method, &curves));
         reports.collect()
     }
 }
