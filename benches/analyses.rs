@@ -11,8 +11,8 @@ use std::time::Duration;
 
 use criterion::Criterion;
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
-use linkwork::analysis::statics::{StaticsSettings, statics};
-use linkwork::analysis::velocity::{VelocitySettings, velocity};
+use linkwork::analysis::statics::statics;
+use linkwork::analysis::velocity::velocity;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
@@ -78,14 +78,12 @@ fn main() {
     for (name, mechanism) in all.iter().filter(|(name, _)| name == "three_rps") {
         let question = Question::new(mechanism);
         let drive = Drive::still(&question);
-        let settings = VelocitySettings::default();
         group.bench_function(format!("velocity {name}"), |b| {
-            b.iter(|| velocity(black_box(&question), &drive, &settings, &Watch::none()))
+            b.iter(|| velocity(black_box(&question), &drive, &[], &Watch::none()))
         });
         let load = Load::default();
-        let settings = StaticsSettings::default();
         group.bench_function(format!("statics {name}"), |b| {
-            b.iter(|| statics(black_box(&question), &load, &settings, &Watch::none()))
+            b.iter(|| statics(black_box(&question), &load, &Watch::none()))
         });
     }
     group.finish();

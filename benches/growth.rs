@@ -15,11 +15,11 @@ use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
 use linkwork::analysis::statics::statics;
 use linkwork::analysis::sweep::{SweepEnd, SweepSettings, sweep};
-use linkwork::analysis::velocity::{VelocitySettings, velocity};
+use linkwork::analysis::velocity::velocity;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
-use linkwork::system::{Closing, Coordinate, Drive, Driven, Held, Load, Question};
+use linkwork::system::{Coordinate, Drive, Driven, Held, Load, Question};
 
 /// Crank-rockers in a row; the rocker of one is the crank of the next.
 fn row(loops: usize) -> String {
@@ -67,14 +67,13 @@ fn measured(loops: usize) -> Vec<f64> {
     let settings = MobilitySettings::default();
     let report = timed(times_of, || mobility(&question, &settings, &none));
     assert_eq!(report.closed().expect("it closes").mobility, 1);
-    let (settings, drive) = (VelocitySettings::default(), Drive::still(&question));
-    let report = timed(times_of, || velocity(&question, &drive, &settings, &none));
+    let drive = Drive::still(&question);
+    let report = timed(times_of, || velocity(&question, &drive, &[], &none));
     assert!(report.expect("one input").closed().is_some());
     let mut load = Load::default();
     let last = mechanism.joint(&format!("r{loops}"));
     load.joints.push((last.expect("the last rocker"), 1.0));
-    let closing = Closing::default();
-    let report = timed(times_of, || statics(&question, &load, &closing, &none));
+    let report = timed(times_of, || statics(&question, &load, &none));
     assert!(
         report
             .expect("one input")

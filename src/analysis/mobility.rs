@@ -22,6 +22,7 @@ use crate::system::{
     Unknown, random_configuration,
 };
 
+use branches::{STEP, Search};
 pub use loops::LoopCount;
 pub use redundancy::{Redundancy, Wrench};
 pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityReport};
@@ -29,17 +30,6 @@ pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityRepor
 /// How to look for freedoms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilitySettings {
-    /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
-    /// motion that is only infinitesimal to second order leaves a gap of about its square.
-    pub step: f64,
-    /// Directions of motion that are tried; all must be free for the mechanism to be regular.
-    pub directions: usize,
-    /// Length of the steps by which branches are sought where it is not.
-    pub branch_step: f64,
-    /// Steps per infinitesimal freedom by which branches are sought.
-    pub branch_trials: usize,
-    /// Random starts from which assemblies of another mobility are sought; none in large mechanisms.
-    pub elsewhere: usize,
     /// Seed of all random directions and starts.
     pub seed: u64,
     /// Coordinates that stand still where the mechanism is closed, as those of actuators that are locked.
@@ -49,11 +39,6 @@ pub struct MobilitySettings {
 impl Default for MobilitySettings {
     fn default() -> Self {
         MobilitySettings {
-            step: 0.05,
-            directions: 3,
-            branch_step: 0.02,
-            branch_trials: 8,
-            elsewhere: 8,
             seed: 1,
             locked: Vec::new(),
         }
@@ -84,8 +69,12 @@ pub fn mobility(
         locked,
         idle_beside,
     } = tangent.lasting(&mut near);
-    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
-    let found = branches::find(&mut near, &tangent, (settings, watch), &mut rng);
+    let mut search = Search {
+        near: &mut near,
+        watch,
+        rng: Pcg64Mcg::seed_from_u64(settings.seed),
+    };
+    let found = search.find(&tangent);
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
     let moving = |moved: &[bool]| -> Vec<String> {
         let unknowns = near.system().unknowns().iter().zip(moved);
@@ -133,7 +122,6 @@ pub fn mobility(
         redundant: rows - tangent.decomposition.rank(),
         spinning_joints: idle_joints.iter().filter(spins).cloned().collect(),
         idle_joints,
-        outside_limits: closed.outside_limits(mechanism),
         moving_joints,
         gimbal_locked_joints,
         gimbal_locked: locked.len(),
@@ -145,7 +133,7 @@ pub fn mobility(
         elsewhere: Vec::new(),
         elsewhere_starts: match unknowns > ELSEWHERE_LIMIT {
             true => 0,
-            false => settings.elsewhere,
+            false => ELSEWHERE,
         },
         unknowns: unknowns - slides,
         equations: rows - slides,
@@ -156,60 +144,62 @@ pub fn mobility(
         twists: near.twist_spaces(&tangent.at, &tangent.motions, &tangent.idle),
         condition: tangent.decomposition.condition(),
         singular_at: match found.character {
-            Character::Regular => near.singular_within(&tangent, settings.step),
+            Character::Regular => near.singular_within(&tangent, STEP),
             _ => None,
         },
         length: mechanism.characteristic_length(),
-        given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
-        moved: closed.moved,
-        kept: closed.kept,
+        pose: closed.pose(mechanism),
         gap_after_step: found.gap,
         interrupted: false,
     };
-    report.elsewhere = elsewhere(
-        &mut near,
-        (&held, &closed.configuration),
-        (settings, watch),
-        &report,
-    );
+    // always the same starts: whether the mobility depends on the assembly is a property of the mechanism
+    let search = Search {
+        near: &mut near,
+        watch,
+        rng: Pcg64Mcg::seed_from_u64(1),
+    };
+    report.elsewhere = elsewhere(search, (&held, &closed.configuration), &report);
     report.interrupted = watch.is_stopped();
     Analysed::Closed(report)
 }
+
+/// Random starts from which assemblies of another mobility are sought.
+const ELSEWHERE: usize = 8;
 
 /// Unknowns beyond which no assemblies of another mobility are sought: hardly a start would close.
 const ELSEWHERE_LIMIT: usize = 100;
 
 /// Regular assemblies of another mobility than `here`, one for each.
 fn elsewhere(
-    near: &mut Neighbourhood,
+    mut search: Search,
     (held, locked_at): (&Held<f64>, &Configuration<f64>),
-    (settings, watch): (&MobilitySettings, &Watch),
     here: &MobilityReport,
 ) -> Vec<Elsewhere> {
-    // always the same starts: whether the mobility depends on the assembly is a property of the mechanism
-    let rng = &mut Pcg64Mcg::seed_from_u64(1);
-    let mechanism = near.mechanism();
+    let mechanism = search.near.mechanism();
     let slides = mechanism.slides_of_points();
     let mut found: Vec<Elsewhere> = Vec::new();
     for start in 0..here.elsewhere_starts {
-        if watch.stops(Stage::Starts, start, Some(here.elsewhere_starts)) {
+        if search
+            .watch
+            .stops(Stage::Starts, start, Some(here.elsewhere_starts))
+        {
             break;
         }
-        let mut start = random_configuration(mechanism, &mechanism.home(), rng);
+        let mut start = random_configuration(mechanism, &mechanism.home(), &mut search.rng);
         held.keep(locked_at, &mut start);
-        let Some(at) = near.solve(&Newton::default(), start) else {
+        let Some(at) = search.near.solve(&Newton::default(), start) else {
             continue;
         };
-        if here.character == Character::Regular && near.rank(&at) == here.rank + slides {
+        if here.character == Character::Regular && search.near.rank(&at) == here.rank + slides {
             continue;
         }
-        let tangent = near.tangent(at).lasting(near).tangent;
+        let tangent = search.near.tangent(at).lasting(search.near).tangent;
         let freedoms = tangent.motions.len();
         if freedoms == here.mobility || found.iter().any(|other| other.mobility == freedoms) {
             continue;
         }
         // a random start meets a singular point with probability zero, a shaky assembly it may meet
-        if freedoms > 0 && !branches::is_regular(near, &tangent, settings.step, 2, rng) {
+        if freedoms > 0 && !search.is_regular(&tangent, STEP, 2) {
             continue;
         }
         found.push(Elsewhere {

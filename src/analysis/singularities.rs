@@ -25,13 +25,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, Variable};
-use crate::solve::{Continuation, Watch};
+use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Driven, Lock, Moved, Question, QuestionError, WidestGap,
-    check_angle, check_angles, too_large,
+    Analysed, Closing, Coordinate, Driven, GivenPose, Lock, Question, QuestionError, check_angle,
+    check_angles, too_large,
 };
-use classify::Classifier;
-pub(crate) use classify::SingularityMeter;
+pub(crate) use classify::Classifier;
 use outputs::{coupled, outputs_of};
 
 /// How to look for singularities.
@@ -46,8 +45,6 @@ pub struct SingularitiesSettings {
     pub follow: bool,
     /// Random starts for loci; up to ten times as many while new curves are likely.
     pub starts: usize,
-    /// How carefully curves are followed.
-    pub continuation: Continuation,
 }
 
 impl Default for SingularitiesSettings {
@@ -57,7 +54,6 @@ impl Default for SingularitiesSettings {
             outputs: Vec::new(),
             follow: false,
             starts: 400,
-            continuation: Continuation::default(),
         }
     }
 }
@@ -81,16 +77,9 @@ pub struct SingularitiesReport {
     pub singularity: Singularity,
     /// The length that makes the matrices dimensionless, in m.
     pub normalising_length: f64,
-    /// The widest gap of the pose given, before it was closed.
-    pub given_gap: Option<WidestGap>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than
-    /// rounded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-    /// Whether what the file holds kept its values when the mechanism was closed.
-    pub kept: bool,
-    /// Names of the joints that are outside their limits.
-    pub outside_limits: Vec<String>,
+    /// How the pose given was closed.
+    #[serde(flatten)]
+    pub pose: GivenPose,
 }
 
 /// A coordinate and the values between which it moves, or which bound a side of a box.
@@ -168,9 +157,6 @@ pub fn singularities(
         joints: at.joints.clone(),
         singularity: classifier.at(at),
         normalising_length: mechanism.characteristic_length(),
-        outside_limits: closed.outside_limits(mechanism),
-        given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
-        moved: closed.moved,
-        kept: closed.kept,
+        pose: closed.pose(mechanism),
     }))
 }

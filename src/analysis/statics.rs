@@ -11,14 +11,11 @@ use crate::linear::{RANK_TOLERANCE, add, norm};
 use crate::mechanism::Mechanism;
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Equilibrium, Load, Moved, Neighbourhood, Question,
-    QuestionError, Unknown, WidestGap, check_angles,
+    Analysed, Closing, Coordinate, Equilibrium, GivenPose, Load, Neighbourhood, Question,
+    QuestionError, Unknown, check_angles,
 };
 
 pub use reactions::Reaction;
-
-/// How to look for the assembled configuration.
-pub type StaticsSettings = Closing;
 
 /// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
 /// forces in N, moments in N·m, points in m.
@@ -32,8 +29,7 @@ pub struct StaticsReport {
     pub loads: Vec<AppliedWrench>,
     /// The loads on joints.
     pub joint_loads: Vec<Force>,
-    /// What would move because nothing balances the load; empty in equilibrium. The forces below
-    /// are then those that come nearest.
+    /// What would move as nothing balances the load, which the forces below then come nearest to.
     pub unbalanced: Vec<String>,
     /// Freedoms gained at a singular configuration: motions that nothing held resists.
     pub gained: usize,
@@ -50,16 +46,9 @@ pub struct StaticsReport {
     pub condition: f64,
     /// The length that makes forces comparable with moments, in m.
     pub normalising_length: f64,
-    /// The widest gap of the pose given, before it was closed.
-    pub given_gap: Option<WidestGap>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than
-    /// rounded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-    /// Whether what the file holds kept its values when the mechanism was closed.
-    pub kept: bool,
-    /// Names of the joints that are outside their limits.
-    pub outside_limits: Vec<String>,
+    /// How the pose given was closed.
+    #[serde(flatten)]
+    pub pose: GivenPose,
 }
 
 /// A wrench at a point.
@@ -100,11 +89,10 @@ pub struct Force {
 pub fn statics(
     question: &Question,
     load: &Load,
-    settings: &StaticsSettings,
     watch: &Watch,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
-    let closed = match settings.determined(question, watch)? {
+    let closed = match Closing::default().determined(question, watch)? {
         Ok(closed) => closed,
         Err(answer) => return Ok(answer),
     };
@@ -125,18 +113,21 @@ pub fn statics(
         left,
     } = Equilibrium::of(&near, at, &held, load);
     let none = Load::default();
-    let changes: Vec<reactions::Reactions> = (stresses.iter())
+    let changes: Vec<Vec<Reaction>> = (stresses.iter())
         .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
         .collect();
     let length = mechanism.characteristic_length();
     // in a large mechanism closures alone are loaded least: its states of stress are not all known
     if !near.system().is_large() {
         let found = reactions::of(&mut near, at, load, &forces[..rows]);
-        for (share, stress) in found.least(&changes, length).iter().zip(&stresses) {
+        let shares = reactions::least(&found, &changes, length);
+        for (share, stress) in shares.iter().zip(&stresses) {
             add(&mut forces, *share, stress);
         }
     }
-    let found = reactions::of(&mut near, at, load, &forces[..rows]);
+    let mut closures = reactions::of(&mut near, at, load, &forces[..rows]);
+    reactions::mark(&mut closures, &changes, length);
+    let mut joints = closures.split_off(mechanism.closures().len());
 
     let actuators = held.iter().enumerate().map(|(i, &coordinate)| Force {
         name: coordinate.name(mechanism),
@@ -145,7 +136,6 @@ pub fn statics(
         unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
     });
     let actuators = actuators.collect();
-    let (mut closures, mut joints) = found.marked(&changes, length);
     // what makes coordinates of points joints carries only what holds these
     closures.truncate(mechanism.own_parts()[1]);
     let of_points = mechanism.joints().iter().enumerate();
@@ -181,10 +171,7 @@ pub fn statics(
         self_stresses: rows + held.len() - rank,
         condition,
         normalising_length: mechanism.characteristic_length(),
-        outside_limits: closed.outside_limits(mechanism),
-        given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
-        moved: closed.moved,
-        kept: closed.kept,
+        pose: closed.pose(mechanism),
     }))
 }
 

@@ -14,8 +14,8 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Drive, Lock, Motion, Moved, Neighbourhood, Question,
-    QuestionError, Tangent, Unknown, WidestGap, check_angles, free_outputs, moving,
+    Analysed, Closing, Coordinate, Drive, GivenPose, Lock, Motion, Neighbourhood, Question,
+    QuestionError, Tangent, Unknown, check_angles, free_outputs, moving,
 };
 
 pub(crate) use frames::Spins;
@@ -24,17 +24,7 @@ pub(crate) use jacobian::{Normalised, Outputs, condition};
 pub(crate) use planar::TransmissionAngles;
 pub use planar::{InstantCentre, Transmission};
 
-/// How to look for the assembled configuration, and which points to follow.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct VelocitySettings {
-    /// How to close the mechanism.
-    pub closing: Closing,
-    /// Points beside the origins of the platforms that are followed.
-    pub points: Vec<Point>,
-}
-
-/// How an assembled mechanism moves. All vectors are in ground; angles in rad, lengths in m, time
-/// in s.
+/// How an assembled mechanism moves. Vectors are in ground; angles in rad, lengths in m, time in s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VelocityReport {
     /// The mechanism's name.
@@ -61,16 +51,9 @@ pub struct VelocityReport {
     pub normalising_length: f64,
     /// The largest rate at which a closure would open, dimensionless: rounding.
     pub mismatch: Option<f64>,
-    /// The widest gap of the pose given, before it was closed.
-    pub given_gap: Option<WidestGap>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than
-    /// rounded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-    /// Whether what the file holds kept its values when the mechanism was closed.
-    pub kept: bool,
-    /// Names of the joints that are outside their limits.
-    pub outside_limits: Vec<String>,
+    /// How the pose given was closed.
+    #[serde(flatten)]
+    pub pose: GivenPose,
 }
 
 impl VelocityReport {
@@ -164,8 +147,7 @@ pub struct Accuracy {
     pub configuration: f64,
     /// Change of the rates for that, relative to the largest. Above 0.01 none are given.
     pub rates: f64,
-    /// Change of the accelerations relative to the largest of them or of the squared rates. Above 0.01
-    /// none are given.
+    /// The same of the accelerations, relative to the largest or to the squared rates.
     pub accelerations: f64,
 }
 
@@ -185,7 +167,8 @@ impl Accuracy {
 }
 
 /// Finds how everything moves when the held coordinates of a question move as given, at the
-/// assembled configuration near the start of the question.
+/// assembled configuration near the start of the question. `points` beside the origins of the
+/// platforms are followed too.
 ///
 /// Rates solve J ẋ = −H ḣ with J and H the derivatives of the closure equations by free and held
 /// coordinates, accelerations the same equations once more differentiated.
@@ -197,11 +180,11 @@ impl Accuracy {
 pub fn velocity(
     question: &Question,
     drive: &Drive,
-    settings: &VelocitySettings,
+    points: &[Point],
     watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    let closed = match settings.closing.determined(question, watch)? {
+    let closed = match Closing::default().determined(question, watch)? {
         Ok(closed) => closed,
         Err(answer) => return Ok(answer),
     };
@@ -212,8 +195,8 @@ pub fn velocity(
     let rest = held.tangent(at.clone());
     let (spins, spinning) = (Spins::of(&held, &rest), spinning(&held, &rest));
     let mut outputs = free_outputs(mechanism, &drive.coordinates, &spinning);
-    outputs.extend(jacobian::followed(&outputs, &settings.points));
-    let points = frames::followed(mechanism, &settings.points);
+    outputs.extend(jacobian::followed(&outputs, points));
+    let points = frames::followed(mechanism, points);
     let mut frames: Vec<Frame> = points.iter().map(|point| point.frame).collect();
     frames.extend(Outputs::frames(&outputs).chain(TransmissionAngles::frames(mechanism)));
     let mut motion = Motion::placing(mechanism, &drive.coordinates, &frames, |held| held);
@@ -281,10 +264,7 @@ pub fn velocity(
         centres,
         normalising_length: mechanism.characteristic_length(),
         mismatch,
-        outside_limits: closed.outside_limits(mechanism),
-        given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
-        moved: closed.moved,
-        kept: closed.kept,
+        pose: closed.pose(mechanism),
     }))
 }
 

@@ -5,8 +5,8 @@ use crate::algebra::EvaluationError;
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
-use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
-use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
+use crate::analysis::statics::{StaticsReport, statics};
+use crate::analysis::velocity::{VelocityReport, velocity};
 use crate::mechanism::{Body, NamedPoint, Point, PoseCoordinate};
 use crate::solve::Watch;
 use crate::system::{
@@ -33,7 +33,6 @@ impl Question {
         let settings = MobilitySettings {
             seed: self.seed,
             locked: self.locked(watch)?,
-            ..MobilitySettings::default()
         };
         Ok(mobility(&self.resolved()?, &settings, watch))
     }
@@ -42,20 +41,16 @@ impl Question {
     /// Points of the question are followed.
     pub fn velocity(&self, watch: &Watch) -> Result<Analysed<VelocityReport>, AskError> {
         let question = self.resolved()?;
-        let settings = VelocitySettings {
-            points: self.followed()?,
-            ..VelocitySettings::default()
-        };
+        let points = self.followed()?;
         let drive = self.drive(&question)?;
-        velocity(&question, &drive, &settings, watch).map_err(AskError::Question)
+        velocity(&question, &drive, &points, watch).map_err(AskError::Question)
     }
 
     /// The forces that balance the wrenches and loads of the question.
     pub fn statics(&self, watch: &Watch) -> Result<Analysed<StaticsReport>, AskError> {
         let question = self.resolved()?;
         let load = self.load_of(&question)?;
-        let settings = StaticsSettings::default();
-        statics(&question, &load, &settings, watch).map_err(AskError::Question)
+        statics(&question, &load, watch).map_err(AskError::Question)
     }
 
     /// The wrenches and loads.

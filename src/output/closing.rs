@@ -5,7 +5,7 @@ use super::quantity::{degrees, form, metres, quantity};
 use super::report::{Remarks, Report, Rows};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::system::{Analysed, Moved, NotClosed, TooLarge, WidestGap};
+use crate::system::{Analysed, GivenPose, Moved, NotClosed, TooLarge};
 
 /// `0.213 m and 4.2°`
 pub(super) fn gap(distance: f64, angle: f64) -> String {
@@ -23,14 +23,14 @@ pub(super) const SQUARED_LENGTHS: &str = "a rod of length L whose ends are d apa
      closest is where the sum of the squares of all closure rows is least";
 
 /// How far the pose given was off.
-pub(super) fn given(given: Option<&WidestGap>, kept: bool) -> Option<String> {
-    let moved = match kept {
+pub(super) fn given(pose: &GivenPose) -> Option<String> {
+    let moved = match pose.kept {
         true => "",
         false => {
             ", which moved actuated joints too, because it closes nowhere with their values in the file"
         }
     };
-    given.map(|given| {
+    pose.given_gap.as_ref().map(|given| {
         format!(
             "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{moved}.",
             given.closure,
@@ -41,13 +41,14 @@ pub(super) fn given(given: Option<&WidestGap>, kept: bool) -> Option<String> {
 
 /// Whether an answer is about the values that the file holds: those of a rounded pose may change a
 /// little, but a file that cannot be assembled was answered for another mechanism.
-pub fn is_about_the_file(kept: bool, given: Option<&WidestGap>, length: f64) -> bool {
-    kept || given.is_none_or(|given| !given.is_wide(length))
+pub fn is_about_the_file(pose: &GivenPose, length: f64) -> bool {
+    let given = pose.given_gap.as_ref();
+    pose.kept || given.is_none_or(|given| !given.is_wide(length))
 }
 
 /// The answer, which begins with how far the pose given had to move if that is more than rounding.
-pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
-    match moved.filter(|moved| !moved.is_small()) {
+pub(super) fn after_moving(pose: &GivenPose, answer: String) -> String {
+    match pose.moved.as_ref().filter(|moved| !moved.is_small()) {
         Some(moved) => format!(
             "The pose given is not assembled, and the nearest assembly is not beside it: {}. {answer}",
             way(moved)
@@ -56,13 +57,14 @@ pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
     }
 }
 
-/// How far the guesses moved to an assembly beside them.
-pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
-    let moved = moved.filter(|moved| moved.is_small())?;
-    Some(format!(
-        "assembled beside the pose given: {}, the most",
-        way(moved)
-    ))
+/// How far the pose given was off, and how far guesses moved to an assembly beside them.
+pub(super) fn notes(pose: &GivenPose) -> impl Iterator<Item = String> {
+    let beside = pose.moved.as_ref().filter(|moved| moved.is_small());
+    let beside = beside.map(|moved| {
+        let way = way(moved);
+        format!("assembled beside the pose given: {way}, the most")
+    });
+    given(pose).into_iter().chain(beside)
 }
 
 fn way(moved: &Moved) -> String {

@@ -19,7 +19,7 @@ impl Report for MobilityReport {
     }
 
     fn is_yes(&self) -> bool {
-        closing::is_about_the_file(self.kept, self.given.as_ref(), self.length)
+        closing::is_about_the_file(&self.pose, self.length)
     }
 
     fn document(&self) -> Document {
@@ -33,15 +33,14 @@ impl Report for MobilityReport {
             false => twist_table(&[]),
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
-        let answer = closing::after_moving(self.moved.as_ref(), words::mobility(self));
+        let answer = closing::after_moving(&self.pose, words::mobility(self));
         let document = Document::new(&self.mechanism, answer)
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
             .notes(idle)
             .notes(words::locked(self))
             .notes(elsewhere)
-            .notes(closing::given(self.given.as_ref(), self.kept))
-            .notes(closing::beside(self.moved.as_ref()))
+            .notes(closing::notes(&self.pose))
             .section(joints(self))
             .section(
                 Section::new(
@@ -68,7 +67,7 @@ impl Report for MobilityReport {
     }
 
     fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.outside_limits))
+        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
     }
 
     fn remarks(&self) -> Remarks {

@@ -24,27 +24,24 @@ impl Report for SingularitiesReport {
     fn document(&self) -> Document {
         let singularity = &self.singularity;
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
-        let moved = self.moved.as_ref();
-        let answer = closing::after_moving(moved, answer);
+        let answer = closing::after_moving(&self.pose, answer);
         let at = values(&self.variables, &self.joints);
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
         Document::new(&self.mechanism, answer)
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
-            .notes(closing::given(self.given_gap.as_ref(), self.kept))
-            .notes(closing::beside(moved))
+            .notes(closing::notes(&self.pose))
             .notes(at)
             .sections(details(singularity))
             .section(distances(&singularity.distances, self.normalising_length))
     }
 
     fn is_yes(&self) -> bool {
-        let (gap, length) = (self.given_gap.as_ref(), self.normalising_length);
-        closing::is_about_the_file(self.kept, gap, length)
+        closing::is_about_the_file(&self.pose, self.normalising_length)
     }
 
     fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.outside_limits))
+        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
     }
 
     fn remarks(&self) -> Remarks {

@@ -10,7 +10,6 @@ use crate::description::{count, listed};
 
 impl Report for StaticsReport {
     fn document(&self) -> Document {
-        let gap = closing::given(self.given_gap.as_ref(), self.kept);
         let loads = Section::new("Loads").table(loads(self));
         let on_joints = Section::new("Loads on joints").table(forces(&self.joint_loads));
         let held =
@@ -22,27 +21,26 @@ impl Report for StaticsReport {
             "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
         );
         let length = self.normalising_length;
-        let answer = closing::after_moving(self.moved.as_ref(), sentence(self));
+        let answer = closing::after_moving(&self.pose, sentence(self));
         Document::new(&self.mechanism, answer)
             .note(format!(
                 "without weight and friction; condition number {}, forces times {} compared with moments",
                 size(self.condition),
                 metres(length)
             ))
-            .notes(gap)
-            .notes(closing::beside(self.moved.as_ref()))
+            .notes(closing::notes(&self.pose))
             .sections([loads, on_joints, held])
             .section(closures.table(reactions(&self.closures, length)))
             .section(joints.table(reactions(&self.joints, length)))
     }
 
     fn is_yes(&self) -> bool {
-        let (gap, length) = (self.given_gap.as_ref(), self.normalising_length);
-        self.unbalanced.is_empty() && closing::is_about_the_file(self.kept, gap, length)
+        self.unbalanced.is_empty()
+            && closing::is_about_the_file(&self.pose, self.normalising_length)
     }
 
     fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.outside_limits))
+        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
     }
 }
 

@@ -13,12 +13,10 @@ use crate::description::{count, listed};
 
 impl Report for VelocityReport {
     fn document(&self) -> Document {
-        let gap = closing::given(self.given_gap.as_ref(), self.kept);
         let jacobian = self.jacobian.as_ref();
-        let answer = closing::after_moving(self.moved.as_ref(), sentence(self));
+        let answer = closing::after_moving(&self.pose, sentence(self));
         Document::new(&self.mechanism, answer)
-            .notes(gap)
-            .notes(closing::beside(self.moved.as_ref()))
+            .notes(closing::notes(&self.pose))
             .section(Section::new("Joints").table(joints(self)))
             .sections(self.frames.iter().map(frame))
             .sections(jacobian.map(|j| matrix(j, self.normalising_length)))
@@ -27,12 +25,11 @@ impl Report for VelocityReport {
     }
 
     fn is_yes(&self) -> bool {
-        let (gap, length) = (self.given_gap.as_ref(), self.normalising_length);
-        self.is_determined() && closing::is_about_the_file(self.kept, gap, length)
+        self.is_determined() && closing::is_about_the_file(&self.pose, self.normalising_length)
     }
 
     fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.outside_limits))
+        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
     }
 }
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
-use linkwork::analysis::statics::{StaticsSettings, statics};
-use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
+use linkwork::analysis::statics::statics;
+use linkwork::analysis::velocity::{VelocityReport, velocity};
 use linkwork::mechanism::{Mechanism, Point};
 use linkwork::solve::Watch;
 use linkwork::system::{Drive, Load, Question};
@@ -39,19 +39,10 @@ fn load(name: &str) -> Mechanism {
 
 fn moving(mechanism: &Mechanism, points: &[&str]) -> VelocityReport {
     let question = Question::new(mechanism);
-    let settings = VelocitySettings {
-        points: (points.iter())
-            .map(|name| Point::read(mechanism, name).unwrap())
-            .collect(),
-        ..VelocitySettings::default()
-    };
-    let report = velocity(
-        &question,
-        &Drive::still(&question),
-        &settings,
-        &Watch::none(),
-    )
-    .unwrap();
+    let points: Vec<Point> = (points.iter())
+        .map(|name| Point::read(mechanism, name).unwrap())
+        .collect();
+    let report = velocity(&question, &Drive::still(&question), &points, &Watch::none()).unwrap();
     report.closed().expect("closes")
 }
 
@@ -115,15 +106,14 @@ fn points_followed_leave_condition_and_manipulability_alone() {
 fn a_spinning_rod_has_no_determined_rates_and_limits_are_said() {
     let mechanism = parsed("spinning_rod", SPINNING_ROD);
     let report = moving(&mechanism, &[]);
-    assert_eq!(report.outside_limits, ["t"]);
+    assert_eq!(report.pose.outside_limits, ["t"]);
     for joint in &report.joints {
         let determined = joint.name != "c";
         assert_eq!(joint.rate.is_some(), determined, "{joint:?}");
     }
     let question = Question::new(&mechanism);
-    let settings = StaticsSettings::default();
-    let forces = statics(&question, &Load::default(), &settings, &Watch::none()).unwrap();
-    assert_eq!(forces.closed().expect("closes").outside_limits, ["t"]);
+    let forces = statics(&question, &Load::default(), &Watch::none()).unwrap();
+    assert_eq!(forces.closed().expect("closes").pose.outside_limits, ["t"]);
 }
 
 #[test]
@@ -131,8 +121,7 @@ fn statics_counts_freedoms_gained() {
     for (name, gained) in [("parallelogram", true), ("four_bar", false)] {
         let mechanism = load(name);
         let question = Question::new(&mechanism);
-        let settings = StaticsSettings::default();
-        let report = statics(&question, &Load::default(), &settings, &Watch::none()).unwrap();
+        let report = statics(&question, &Load::default(), &Watch::none()).unwrap();
         let report = report.closed().expect("closes");
         assert_eq!(report.gained > 0, gained, "{name}");
     }

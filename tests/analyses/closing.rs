@@ -64,8 +64,8 @@ fn a_guess_that_closes_is_used_whole() {
                 let found = joints.iter().find(|(n, _)| n.as_str() == name).unwrap().1;
                 assert!(turned(found, value) < 1e-6, "{name} {found} {value}");
             }
-            assert!(report.given.is_some());
-            let moved = report.moved.as_ref().expect("by rounding");
+            assert!(report.pose.given_gap.is_some());
+            let moved = report.pose.moved.as_ref().expect("by rounding");
             assert!(moved.is_small() && moved.distance < 1e-6, "{moved:?}");
         }
     }
@@ -76,7 +76,7 @@ fn a_guess_that_has_to_move_far_is_told_before_the_answer() {
     let mechanism = four_bar();
     let [at, _] = assemblies(1.0);
     let report = report(&guessed(&mechanism, at, 1.5));
-    let moved = report.moved.clone().expect("it moved");
+    let moved = report.pose.moved.clone().expect("it moved");
     assert!(!moved.is_small(), "{moved:?}");
     let said = report.document().answer;
     assert!(

@@ -717,14 +717,14 @@ fn joints_that_cannot_move_are_named() {
 #[test]
 fn the_gap_of_the_pose_given_is_told_and_an_exact_pose_has_none() {
     // the links of the file end 28 mm apart
-    let given = report("four_bar").given.unwrap();
+    let given = report("four_bar").pose.given_gap.unwrap();
     assert_eq!(given.closure, "joint3");
     let mechanism = load("four_bar");
     let closure = &mechanism.closures()[0];
     let [a, b] = mechanism.poses(closure.frames, &mechanism.home());
     let gap = b.position - a.position;
     assert!((given.distance - gap.dot(&gap).sqrt()).abs() < 1e-12);
-    assert_eq!(report("stewart_gough_6sps").given, None);
+    assert_eq!(report("stewart_gough_6sps").pose.given_gap, None);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use linkwork::algebra::SiUnit;
-use linkwork::analysis::statics::{Reaction, StaticsReport, StaticsSettings, statics};
-use linkwork::analysis::velocity::{VelocitySettings, velocity};
+use linkwork::analysis::statics::{Reaction, StaticsReport, statics};
+use linkwork::analysis::velocity::velocity;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::{Body, Configuration, Convention, Frame, Mechanism, Point};
 use linkwork::solve::Watch;
@@ -30,7 +30,7 @@ fn every_mechanism() -> Vec<Mechanism> {
 }
 
 fn report(question: &Question, load: &Load) -> StaticsReport {
-    let answer = statics(question, load, &StaticsSettings::default(), &Watch::none()).unwrap();
+    let answer = statics(question, load, &Watch::none()).unwrap();
     answer.closed().expect("closes")
 }
 
@@ -55,11 +55,7 @@ fn loads(mechanism: &Mechanism) -> Load {
 
 /// The assembled configuration the answers are about.
 fn closed(question: &Question) -> Configuration<f64> {
-    let settings = VelocitySettings {
-        points: vec![],
-        ..VelocitySettings::default()
-    };
-    let found = velocity(question, &Drive::still(question), &settings, &Watch::none()).unwrap();
+    let found = velocity(question, &Drive::still(question), &[], &Watch::none()).unwrap();
     let found = found.closed().unwrap();
     let mut at = question.mechanism().home();
     at.joints = found.joints.iter().map(|joint| joint.value).collect();
@@ -199,15 +195,12 @@ fn drives_and_loads_do_no_work_together_in_any_motion() {
     for mechanism in every_mechanism() {
         let question = Question::new(&mechanism);
         let load = loads(&mechanism);
-        let settings = VelocitySettings {
-            points: load.wrenches.iter().map(|(point, ..)| *point).collect(),
-            ..VelocitySettings::default()
-        };
+        let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
         let mut drive = Drive::still(&question);
         for input in 0..drive.rates.len() {
             drive.rates.fill(0.0);
             drive.rates[input] = 1.0;
-            let moving = velocity(&question, &drive, &settings, &Watch::none())
+            let moving = velocity(&question, &drive, &points, &Watch::none())
                 .unwrap()
                 .closed()
                 .unwrap();

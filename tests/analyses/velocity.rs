@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
 use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings, Outcome, assemble};
-use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
+use linkwork::analysis::velocity::{VelocityReport, velocity};
 use linkwork::description::Description;
 use linkwork::geometry::{Pose, Vector3};
 use linkwork::mechanism::{Frame, Mechanism, Point};
@@ -31,11 +31,8 @@ fn every_mechanism() -> Vec<Mechanism> {
         .collect()
 }
 
-fn all_frames(mechanism: &Mechanism) -> VelocitySettings {
-    VelocitySettings {
-        points: mechanism.frames().iter().flat_map(beside).collect(),
-        ..VelocitySettings::default()
-    }
+fn all_frames(mechanism: &Mechanism) -> Vec<Point> {
+    mechanism.frames().iter().flat_map(beside).collect()
 }
 
 /// The origin of a frame and a point off all its axes.
@@ -46,8 +43,8 @@ fn beside(frame: &Frame) -> [Point; 2] {
 }
 
 fn report(question: &Question, drive: &Drive) -> VelocityReport {
-    let settings = all_frames(question.mechanism());
-    let answer = velocity(question, drive, &settings, &Watch::none()).unwrap();
+    let points = all_frames(question.mechanism());
+    let answer = velocity(question, drive, &points, &Watch::none()).unwrap();
     answer.closed().expect("closes")
 }
 
@@ -181,12 +178,7 @@ fn a_platform_can_be_driven_and_the_legs_follow_inversely() {
         .unwrap()
         .hold("top", "home")
         .unwrap();
-    let backward = velocity(
-        &inverse,
-        &Drive::still(&inverse),
-        &VelocitySettings::default(),
-        &Watch::none(),
-    );
+    let backward = velocity(&inverse, &Drive::still(&inverse), &[], &Watch::none());
     let backward = backward.unwrap().closed().unwrap().jacobian.unwrap();
     let columns: Vec<&str> = backward.columns.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(
@@ -786,17 +778,8 @@ fn a_stretched_arm_loses_a_freedom_and_says_so() {
         let question = Question::new(&mechanism);
         let question = question.hold(&joints[0], "30 deg").unwrap();
         let question = question.hold(&joints[1], elbow).unwrap();
-        let settings = VelocitySettings {
-            points: vec![Frame::Tip { chain: 0 }.into()],
-            ..VelocitySettings::default()
-        };
-        let found = velocity(
-            &question,
-            &Drive::still(&question),
-            &settings,
-            &Watch::none(),
-        )
-        .unwrap();
+        let points = [Frame::Tip { chain: 0 }.into()];
+        let found = velocity(&question, &Drive::still(&question), &points, &Watch::none()).unwrap();
         let jacobian = found.closed().unwrap().jacobian.unwrap();
         // the velocity of the tip alone
         let rows = jacobian.rows.len();
@@ -863,14 +846,7 @@ fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
         for (joint, value) in mechanism.joints().iter().zip(&legs.configuration().joints) {
             direct = direct.hold(&joint.name, format!("{value:?}")).unwrap();
         }
-        match velocity(
-            &direct,
-            &Drive::still(&direct),
-            &VelocitySettings::default(),
-            &Watch::none(),
-        )
-        .unwrap()
-        {
+        match velocity(&direct, &Drive::still(&direct), &[], &Watch::none()).unwrap() {
             Analysed::Closed(report) => report.gain.map_or(0, |gain| gain.freedoms),
             other => panic!("{other:?}"),
         }

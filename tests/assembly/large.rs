@@ -4,11 +4,11 @@ use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::analysis::mobility::{Character, MobilityReport, MobilitySettings, mobility};
 use linkwork::analysis::statics::statics;
 use linkwork::analysis::sweep::{Row, SweepEnd, SweepSettings, sweep};
-use linkwork::analysis::velocity::{VelocitySettings, velocity};
+use linkwork::analysis::velocity::velocity;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::{Progress, Watch};
-use linkwork::system::{Closing, Coordinate, Drive, Driven, Held, Load, Question};
+use linkwork::system::{Coordinate, Drive, Driven, Held, Load, Question};
 
 /// `loops` crank-rockers in a row; the rocker angle of one is the crank angle of the next.
 fn row_of_four_bars(loops: usize) -> Mechanism {
@@ -142,12 +142,7 @@ fn the_rates_of_a_long_row_are_those_of_its_loops_one_by_one() {
     let question = Question::new(&row);
     let mut drive = Drive::still(&question);
     drive.rates = vec![1.0];
-    let answer = velocity(
-        &question,
-        &drive,
-        &VelocitySettings::default(),
-        &Watch::none(),
-    );
+    let answer = velocity(&question, &drive, &[], &Watch::none());
     let report = answer.expect("one input").closed().expect("it closes");
     let of = |name: String| {
         let joint = report.joints.iter().find(|joint| joint.name == name);
@@ -184,7 +179,7 @@ fn the_torque_that_holds_a_long_row_is_that_of_virtual_work() {
     let joint = |name: String| row.joint(&name).expect("a joint of the row");
     let mut load = Load::default();
     load.joints.push((joint(format!("r{MANY}")), 3.0));
-    let answer = statics(&question, &load, &Closing::default(), &Watch::none());
+    let answer = statics(&question, &load, &Watch::none());
     let report = answer.expect("one input").closed().expect("it closes");
     assert!(report.balanced);
     // of the five equations of a planar loop three carry loads across the plane

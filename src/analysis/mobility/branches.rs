@@ -2,16 +2,28 @@
 
 mod walk;
 
-use rand::Rng;
+use rand_pcg::Pcg64Mcg;
 
-use super::{Character, MobilitySettings};
+use super::Character;
 use crate::linear::orthonormal;
 use crate::solve::{Stage, Watch};
 use crate::system::{Cone, Neighbourhood, Tangent, combination, independent_parts};
 use walk::{Directions, MOVED_ON_A_BRANCH, Seen, Walk, contains, same};
 
-/// A joint that a finite step along free motions moves by more than this moves: at a dead point its
-/// rate is zero, and a step of 0.05 moves it to second order.
+/// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
+/// motion that is only infinitesimal to second order leaves a gap of about its square.
+pub(super) const STEP: f64 = 0.05;
+
+/// Directions of motion that are tried; all must be free for the mechanism to be regular.
+const DIRECTIONS: usize = 3;
+
+/// Length of the steps by which branches are sought where it is not.
+const BRANCH_STEP: f64 = 0.02;
+
+/// Steps per infinitesimal freedom by which branches are sought.
+const BRANCH_TRIALS: usize = 8;
+
+/// What a joint moves by at least in a finite step: at a dead point it moves to second order only.
 const MOVED: f64 = 1e-7;
 
 /// Branches whose tangents at the meeting point differ by less than this are one.
@@ -55,241 +67,217 @@ struct Part {
     complete: bool,
 }
 
-/// Finds the finite motions.
-pub(super) fn find(
-    near: &mut Neighbourhood,
-    tangent: &Tangent,
-    (settings, watch): (&MobilitySettings, &Watch),
-    rng: &mut impl Rng,
-) -> Finite {
-    let freedoms = tangent.motions.len();
-    let whole = free(near, tangent, settings, rng);
-    let gap = match &whole {
-        Ok((_, gap)) => Some(*gap),
-        Err(gap) => *gap,
-    };
-    if let Ok((moved, _)) = whole {
-        return Finite {
-            freedoms,
-            character: match freedoms {
-                0 => Character::Structure,
-                _ => Character::Regular,
+/// The search for the finite motions through configurations of a mechanism.
+pub(super) struct Search<'s, 'm> {
+    pub near: &'s mut Neighbourhood<'m>,
+    pub watch: &'s Watch<'s>,
+    pub rng: Pcg64Mcg,
+}
+
+impl Search<'_, '_> {
+    pub fn find(&mut self, tangent: &Tangent) -> Finite {
+        let freedoms = tangent.motions.len();
+        let whole = self.free(tangent);
+        let gap = match &whole {
+            Ok((_, gap)) => Some(*gap),
+            Err(gap) => *gap,
+        };
+        if let Ok((moved, _)) = whole {
+            return Finite {
+                freedoms,
+                character: match freedoms {
+                    0 => Character::Structure,
+                    _ => Character::Regular,
+                },
+                branches: vec![],
+                count: freedoms.min(1),
+                complete: true,
+                moved,
+                gap,
+            };
+        }
+        let owns = independent_parts(self.near.mechanism(), self.near.system().unknowns());
+        let one = owns.len() == 1;
+        let parts = owns.iter().filter_map(|own| {
+            let tangent = tangent.clone().within(own);
+            (!tangent.motions.is_empty()).then(|| self.part(own, &tangent, one))
+        });
+        let parts: Vec<Part> = parts.collect();
+        let gains = |branch: &Branch| branch.freedoms;
+        let most = |part: &Part| part.branches.iter().map(gains).max().unwrap_or(0);
+        let least = |part: &Part| part.branches.iter().map(gains).min().unwrap_or(0);
+        let count = (parts.iter()).fold(1usize, |product, part| {
+            product.saturating_mul(part.branches.len().max(1))
+        });
+        let branches = products(&parts, tangent);
+        let mut moved = vec![false; tangent.columns()];
+        for branch in parts.iter().flat_map(|part| &part.branches) {
+            let all = moved.iter_mut().zip(&branch.moved);
+            all.for_each(|(any, moved)| *any |= moved);
+        }
+        let character = match () {
+            () if parts.iter().all(|part| part.regular) => Character::Regular,
+            () if branches.is_empty() && !self.watch.is_stopped() => Character::Shaky,
+            () if parts.iter().any(|part| most(part) != least(part)) => Character::Kinematotropic,
+            () if count > 1 => Character::Bifurcation,
+            () => Character::Singular,
+        };
+        Finite {
+            freedoms: parts.iter().map(most).sum(),
+            complete: parts.iter().all(|part| part.complete),
+            count: match branches.len() {
+                0 => 0,
+                _ => count,
             },
-            branches: vec![],
-            count: freedoms.min(1),
-            complete: true,
+            branches: match character {
+                Character::Regular => vec![],
+                _ => branches,
+            },
+            character,
             moved,
             gap,
+        }
+    }
+
+    /// What moves, and the gap that is left, if random directions are all free; else the gap of one.
+    fn free(&mut self, tangent: &Tangent) -> Result<(Vec<bool>, f64), Option<f64>> {
+        let mut moved = vec![false; tangent.columns()];
+        let mut gap: f64 = 0.0;
+        let directions = match tangent.motions.is_empty() {
+            true => 0,
+            false => DIRECTIONS,
         };
+        for _ in 0..directions {
+            let direction = combination(&tangent.motions, &mut self.rng);
+            let step = (self.near).free_step(tangent, &direction, STEP)?;
+            gap = gap.max(step.gap);
+            let way = self.near.system().difference(&tangent.at, &step.at);
+            see(&mut moved, &way, MOVED);
+        }
+        Ok((moved, gap))
     }
-    let owns = independent_parts(near.mechanism(), near.system().unknowns());
-    let one = owns.len() == 1;
-    let parts = owns.iter().filter_map(|own| {
-        let tangent = tangent.clone().within(own);
-        (!tangent.motions.is_empty())
-            .then(|| part(near, own, &tangent, one, (settings, watch), rng))
-    });
-    let parts: Vec<Part> = parts.collect();
-    let gains = |branch: &Branch| branch.freedoms;
-    let most = |part: &Part| part.branches.iter().map(gains).max().unwrap_or(0);
-    let least = |part: &Part| part.branches.iter().map(gains).min().unwrap_or(0);
-    let count = (parts.iter()).fold(1usize, |product, part| {
-        product.saturating_mul(part.branches.len().max(1))
-    });
-    let branches = products(&parts, tangent);
-    let mut moved = vec![false; tangent.columns()];
-    for branch in parts.iter().flat_map(|part| &part.branches) {
-        let all = moved.iter_mut().zip(&branch.moved);
-        all.for_each(|(any, moved)| *any |= moved);
-    }
-    let character = match () {
-        () if parts.iter().all(|part| part.regular) => Character::Regular,
-        () if branches.is_empty() && !watch.is_stopped() => Character::Shaky,
-        () if parts.iter().any(|part| most(part) != least(part)) => Character::Kinematotropic,
-        () if count > 1 => Character::Bifurcation,
-        () => Character::Singular,
-    };
-    Finite {
-        freedoms: parts.iter().map(most).sum(),
-        complete: parts.iter().all(|part| part.complete),
-        count: match branches.len() {
-            0 => 0,
-            _ => count,
-        },
-        branches: match character {
-            Character::Regular => vec![],
-            _ => branches,
-        },
-        character,
-        moved,
-        gap,
-    }
-}
 
-/// What moves, and the gap that is left, if random directions of motion are all free, so that every
-/// direction is; else the gap of one that is not.
-fn free(
-    near: &mut Neighbourhood,
-    tangent: &Tangent,
-    settings: &MobilitySettings,
-    rng: &mut impl Rng,
-) -> Result<(Vec<bool>, f64), Option<f64>> {
-    let mut moved = vec![false; tangent.columns()];
-    let mut gap: f64 = 0.0;
-    let directions = match tangent.motions.is_empty() {
-        true => 0,
-        false => settings.directions.max(1),
-    };
-    for _ in 0..directions {
-        let direction = combination(&tangent.motions, rng);
-        let step = near.free_step(tangent, &direction, settings.step)?;
-        gap = gap.max(step.gap);
-        let way = near.system().difference(&tangent.at, &step.at);
-        see(&mut moved, &way, MOVED);
+    /// Whether random directions of motion are all free, so that every direction is.
+    pub fn is_regular(&mut self, tangent: &Tangent, distance: f64, directions: usize) -> bool {
+        (0..directions).all(|_| {
+            let direction = combination(&tangent.motions, &mut self.rng);
+            self.near.free_step(tangent, &direction, distance).is_ok()
+        })
     }
-    Ok((moved, gap))
-}
 
-/// Whether random directions of motion are all free, so that every direction is.
-pub(super) fn is_regular(
-    near: &mut Neighbourhood,
-    tangent: &Tangent,
-    distance: f64,
-    directions: usize,
-    rng: &mut impl Rng,
-) -> bool {
-    (0..directions).all(|_| {
-        let direction = combination(&tangent.motions, rng);
-        near.free_step(tangent, &direction, distance).is_ok()
-    })
+    /// The branches of an independent part, which is known to be singular if it is the `only` one.
+    fn part(&mut self, own: &[bool], tangent: &Tangent, only: bool) -> Part {
+        if !only && let Ok((moved, _)) = self.free(tangent) {
+            let branch = Branch {
+                freedoms: tangent.motions.len(),
+                motions: tangent.motions.clone(),
+                moved,
+                ..Branch::default()
+            };
+            return Part {
+                branches: vec![branch],
+                regular: true,
+                complete: true,
+            };
+        }
+        self.singular(own, tangent)
+    }
+
+    /// The branches of a singular part that small steps settle on: until these find nothing new.
+    fn singular(&mut self, own: &[bool], tangent: &Tangent) -> Part {
+        /// Most steps, per infinitesimal freedom and [`BRANCH_TRIALS`].
+        const LONGEST: usize = 12;
+        let n = tangent.motions.len();
+        let watch = self.watch;
+        let cone = Cone::of(self.near, tangent);
+        if let Some(set) = cone.set(self.near, tangent, BRANCH_STEP, &mut self.rng) {
+            let mut moved = vec![false; tangent.columns()];
+            for at in &set.beside {
+                let way = self.near.system().difference(&tangent.at, at);
+                see(&mut moved, &way, MOVED_ON_A_BRANCH * BRANCH_STEP);
+            }
+            let branch = Branch {
+                freedoms: set.motions.len(),
+                motions: set.motions,
+                moved,
+                ..Branch::default()
+            };
+            let finite = Some(branch).filter(|branch| branch.freedoms > 0);
+            return Part {
+                branches: finite.into_iter().collect(),
+                regular: false,
+                complete: true,
+            };
+        }
+        let mut walk = Walk {
+            search: self,
+            own,
+            from: tangent,
+            seen: Vec::new(),
+        };
+        let mut limits: Vec<Limit> = Vec::new();
+        let mut share = 0.0;
+        let (mut tried, mut fruitless) = (0, 0);
+        'rounds: while share < 1.0 {
+            let mut ahead = match tried == 0 || cone.is_all() {
+                true => Directions::new(&cone, tangent),
+                false => Directions::on_cone(&cone, tangent),
+            };
+            let before = tried;
+            while let Some(direction) = ahead.next(&cone, tangent, &mut walk.search.rng) {
+                if watch.stops(Stage::Branches, tried, None) {
+                    break 'rounds;
+                }
+                tried += 1;
+                fruitless += 1;
+                // on the cone a step along a branch that is known leads onto that
+                let known = |limit: &Limit| {
+                    let direction = std::slice::from_ref(&direction);
+                    !limit.curved && contains(&limit.motions, direction, SAME_THERE)
+                };
+                if !cone.is_all() && limits.iter().any(known) {
+                    continue;
+                }
+                walk.explore(&direction);
+                if walk.seen.len() > limits.len() {
+                    fruitless = 0;
+                    for number in limits.len()..walk.seen.len() {
+                        let motions = walk.limit(number);
+                        let curved =
+                            walk.seen[number].regular && is_curved(&mut walk, &cone, &motions);
+                        limits.push(Limit { motions, curved });
+                    }
+                    share = branches(&cone, n, &walk.seen, &limits).1;
+                    if share >= 1.0 {
+                        break;
+                    }
+                }
+            }
+            if tried == before {
+                break;
+            }
+            // where most of what is possible was found, the rest is probably real too
+            let patience = if share >= 0.5 { 4 } else { 1 };
+            let rounds = if cone.is_all() { 2 } else { 1 };
+            let enough = patience * (rounds * BRANCH_TRIALS * n).max(4 * walk.seen.len());
+            if n < 2 || fruitless >= enough || tried >= LONGEST * BRANCH_TRIALS * n {
+                break;
+            }
+        }
+        // joints that were seen to move since
+        let (branches, share) = branches(&cone, n, &walk.seen, &limits);
+        Part {
+            regular: false,
+            // a function of one variable that vanishes nowhere nearby has no zero there
+            complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
+            branches,
+        }
+    }
 }
 
 fn see(moved: &mut [bool], step: &[f64], clearly: f64) {
     for (moved, step) in moved.iter_mut().zip(step) {
         *moved |= step.abs() > clearly;
-    }
-}
-
-/// The branches of an independent part, which is known to be singular if it is the `only` one.
-fn part(
-    near: &mut Neighbourhood,
-    own: &[bool],
-    tangent: &Tangent,
-    only: bool,
-    (settings, watch): (&MobilitySettings, &Watch),
-    rng: &mut impl Rng,
-) -> Part {
-    if !only && let Ok((moved, _)) = free(near, tangent, settings, rng) {
-        let branch = Branch {
-            freedoms: tangent.motions.len(),
-            motions: tangent.motions.clone(),
-            moved,
-            ..Branch::default()
-        };
-        return Part {
-            branches: vec![branch],
-            regular: true,
-            complete: true,
-        };
-    }
-    singular(near, own, tangent, (settings, watch), rng)
-}
-
-/// The branches of a singular part that small steps in many directions settle on: in so many that
-/// the last of them find nothing new, or until there can be no more.
-fn singular(
-    near: &mut Neighbourhood,
-    own: &[bool],
-    tangent: &Tangent,
-    (settings, watch): (&MobilitySettings, &Watch),
-    rng: &mut impl Rng,
-) -> Part {
-    /// Most steps, per infinitesimal freedom and [`MobilitySettings::branch_trials`].
-    const LONGEST: usize = 12;
-    let n = tangent.motions.len();
-    let cone = Cone::of(near, tangent);
-    if let Some(set) = cone.set(near, tangent, settings.branch_step, rng) {
-        let mut moved = vec![false; tangent.columns()];
-        for at in &set.beside {
-            let way = near.system().difference(&tangent.at, at);
-            see(&mut moved, &way, MOVED_ON_A_BRANCH * settings.branch_step);
-        }
-        let branch = Branch {
-            freedoms: set.motions.len(),
-            motions: set.motions,
-            moved,
-            ..Branch::default()
-        };
-        let finite = Some(branch).filter(|branch| branch.freedoms > 0);
-        return Part {
-            branches: finite.into_iter().collect(),
-            regular: false,
-            complete: true,
-        };
-    }
-    let mut walk = Walk {
-        near,
-        own,
-        from: tangent,
-        settings,
-        rng,
-        seen: Vec::new(),
-    };
-    let mut limits: Vec<Limit> = Vec::new();
-    let mut share = 0.0;
-    let (mut tried, mut fruitless) = (0, 0);
-    'rounds: while share < 1.0 {
-        let mut ahead = match tried == 0 || cone.is_all() {
-            true => Directions::new(&cone, tangent, settings.branch_trials),
-            false => Directions::on_cone(&cone, tangent, settings.branch_trials),
-        };
-        let before = tried;
-        while let Some(direction) = ahead.next(&cone, tangent, walk.rng) {
-            if watch.stops(Stage::Branches, tried, None) {
-                break 'rounds;
-            }
-            tried += 1;
-            fruitless += 1;
-            // on the cone a step along a branch that is known leads onto that
-            let known = |limit: &Limit| {
-                let direction = std::slice::from_ref(&direction);
-                !limit.curved && contains(&limit.motions, direction, SAME_THERE)
-            };
-            if !cone.is_all() && limits.iter().any(known) {
-                continue;
-            }
-            walk.explore(&direction);
-            if walk.seen.len() > limits.len() {
-                fruitless = 0;
-                for number in limits.len()..walk.seen.len() {
-                    let motions = walk.limit(number);
-                    let curved = walk.seen[number].regular && is_curved(&mut walk, &cone, &motions);
-                    limits.push(Limit { motions, curved });
-                }
-                share = branches(&cone, n, &walk.seen, &limits).1;
-                if share >= 1.0 {
-                    break;
-                }
-            }
-        }
-        if tried == before {
-            break;
-        }
-        // where most of what is possible was found, the rest is probably real too
-        let patience = if share >= 0.5 { 4 } else { 1 };
-        let rounds = if cone.is_all() { 2 } else { 1 };
-        let enough = patience * (rounds * settings.branch_trials * n).max(4 * walk.seen.len());
-        if n < 2 || fruitless >= enough || tried >= LONGEST * settings.branch_trials * n {
-            break;
-        }
-    }
-    // joints that were seen to move since
-    let (branches, share) = branches(&cone, n, &walk.seen, &limits);
-    Part {
-        regular: false,
-        // a function of one variable that vanishes nowhere nearby has no zero there
-        complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
-        branches,
     }
 }
 
@@ -300,10 +288,8 @@ struct Limit {
     curved: bool,
 }
 
-/// Whether the tangent of a branch at the meeting point is that of a curved cone there: then not
-/// all of it is on the cone, and steps along it lead elsewhere.
-fn is_curved<R: Rng>(walk: &mut Walk<R>, cone: &Cone, motions: &[Vec<f64>]) -> bool {
-    /// Length of the steps.
+/// Whether the tangent of a branch at the meeting point is a curved cone: steps leave its span.
+fn is_curved(walk: &mut Walk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
     const STEP: f64 = 0.02;
     if !cone.is_all() {
         return !cone.contains_all(motions);

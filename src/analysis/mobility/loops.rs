@@ -58,8 +58,7 @@ pub(super) fn count(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<Lo
         .collect()
 }
 
-/// The twist of each freedom of a loop: a variable that stands in several rows is one freedom, and
-/// its twists along the way around add up.
+/// The twist of each freedom of a loop; those of a variable that stands in several rows add up.
 fn twists(found: &MechanismLoop) -> Vec<[f64; 6]> {
     let mut twists: Vec<[f64; 6]> = Vec::new();
     let mut variables: Vec<(usize, usize)> = Vec::new();

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::loops::LoopCount;
 use super::redundancy::Redundancy;
 use crate::mechanism::Variable;
-use crate::system::{Moved, Named, TwistSpace, WidestGap};
+use crate::system::{GivenPose, Named, TwistSpace};
 
 /// What an assembled mechanism can do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,8 +19,7 @@ pub struct MobilityReport {
     pub locked: Vec<String>,
     /// Finite freedoms at the configuration without local ones: the largest dimension of a branch.
     pub mobility: usize,
-    /// Kutzbach's count: joint variables and 6 for each platform less closure equations, where what is
-    /// locked is no variable.
+    /// Kutzbach's count: variables that are not locked and 6 for each platform less closure equations.
     pub kutzbach: i64,
     /// Rank of the closure Jacobian with nothing held but what is locked.
     pub rank: usize,
@@ -32,8 +31,7 @@ pub struct MobilityReport {
     pub idle_joints: Vec<String>,
     /// Those of the idle joints that spin a link about its own axis.
     pub spinning_joints: Vec<String>,
-    /// Joints that only turn in place at the configuration, though they move links beside it:
-    /// those in gimbal lock.
+    /// Joints in gimbal lock: they turn in place at the configuration and move links beside it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gimbal_locked_joints: Vec<String>,
     /// How many freedoms are lost so at the configuration.
@@ -78,19 +76,10 @@ pub struct MobilityReport {
     /// The characteristic length that makes it dimensionless, in m.
     #[serde(rename = "normalising_length")]
     pub length: f64,
-    /// The widest gap of the pose given, before it was closed.
-    #[serde(rename = "given_gap")]
-    pub given: Option<WidestGap>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than
-    /// rounded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-    /// Whether joints held by the file kept their values when the mechanism was closed.
-    pub kept: bool,
-    /// Names of the joints that are outside their limits.
-    pub outside_limits: Vec<String>,
-    /// What is left of the closure equations after a finite step along the infinitesimal freedoms,
-    /// dimensionless; `None` if the step does not settle.
+    /// How the pose given was closed.
+    #[serde(flatten)]
+    pub pose: GivenPose,
+    /// What a finite step leaves of the closure equations, dimensionless; `None` if it does not settle.
     pub gap_after_step: Option<f64>,
     /// Whether the work was stopped before it was done: branches and other assemblies may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -155,8 +144,7 @@ pub struct BranchReport {
     pub twists: Vec<TwistSpace>,
     /// Whether these motions are a curved cone that its `twists` span: not each of them is possible.
     pub cone: bool,
-    /// Whether `twists` are known to about the length of a step only: those of a branch of several
-    /// freedoms that is shaky throughout.
+    /// Whether `twists` are only known to about the length of a step: the branch is shaky throughout.
     pub approximate: bool,
 }
 

@@ -122,7 +122,7 @@ pub fn along(
     };
     let mut start = start.clone();
     let mut curve = Curve::along(mechanism, held, moved.to_vec());
-    let method = &settings.continuation;
+    let method = &Continuation::default();
     let begun = curve.begin(mechanism, &mut start, method);
     if let Err(NoStart::OutsideLimits(joint)) = begun {
         report.limit = Some(mechanism.joints()[joint].name.clone());
@@ -199,7 +199,6 @@ pub fn along(
 /// Parts of the segment in reports of progress.
 const PARTS: u16 = 1000;
 
-/// Something in a step.
 struct Met {
     place: At,
     along: f64,
@@ -207,7 +206,6 @@ struct Met {
     branches: bool,
     /// The direct or the inverse matrix loses rank.
     vanishes: bool,
-    /// What ends the motion.
     end: Option<Event>,
 }
 

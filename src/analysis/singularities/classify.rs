@@ -8,7 +8,6 @@ use crate::linear::{Decomposition, orthonormal, remove, singular_values};
 use crate::mechanism::{Configuration, Figure, Mechanism};
 use crate::system::{
     Coordinate, Lock, Locked, Mobility, Neighbourhood, STILL, Screw, TwistSpace, Unknown,
-    default_outputs,
 };
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
@@ -64,8 +63,8 @@ pub struct Singularity {
 pub struct Movement {
     /// How many are independent.
     pub freedoms: usize,
-    /// The joints that move, with their rates if there is only one motion: components of a unit
-    /// vector, in rad and characteristic lengths.
+    /// The joints that move; rates of a single motion are parts of a unit vector, rad and
+    /// characteristic lengths.
     pub joints: Vec<Moving>,
     /// The motions of the platforms, or of the links at the closures.
     pub twists: Vec<TwistSpace>,
@@ -108,39 +107,6 @@ impl Singularity {
     }
 }
 
-/// The distances from singularities along a motion.
-pub(crate) struct SingularityMeter<'m>(Classifier<'m>);
-
-impl<'m> SingularityMeter<'m> {
-    /// For inputs and outputs; without outputs those of the [default](crate::system::default_outputs). What vanishes
-    /// everywhere is decided near an assembled configuration.
-    pub fn new(
-        mechanism: &'m Mechanism,
-        inputs: &[Coordinate],
-        outputs: &[Lock],
-        at: &Configuration<f64>,
-    ) -> Self {
-        let outputs = match outputs {
-            [] => default_outputs(mechanism, inputs),
-            outputs => outputs.to_vec(),
-        };
-        SingularityMeter(Classifier::new(mechanism, inputs, &outputs, at))
-    }
-
-    /// The distance from singularities of the closures, with the inputs at rest, or with the outputs at rest.
-    pub fn at(&mut self, of: Figure, at: &Configuration<f64>) -> Option<f64> {
-        let matrix = match of {
-            Figure::Direct => DIRECT,
-            Figure::Inverse => INVERSE,
-            _ => CLOSURES,
-        };
-        let locked = &mut self.0.matrices[matrix];
-        let entries = locked.jacobian(at);
-        let values = singular_values(locked.rows(), locked.columns(), &entries);
-        self.0.least(matrix, &values)
-    }
-}
-
 /// The dimensions of the null spaces of the four matrices.
 type Nullities = [usize; 4];
 
@@ -151,7 +117,7 @@ pub(super) const INVERSE: usize = 2;
 const BOTH: usize = 3;
 
 /// Classifies singularities for one choice of inputs and outputs.
-pub(super) struct Classifier<'m> {
+pub(crate) struct Classifier<'m> {
     near: Neighbourhood<'m>,
     pub matrices: [Locked; 4],
     /// The outputs, rows at the end of [J; O].
@@ -262,6 +228,20 @@ impl<'m> Classifier<'m> {
             distances: self.distances(&matrices),
             compared: self.beside.is_some(),
         }
+    }
+
+    /// The distance from singularities of the closures, with the inputs at rest, or with the outputs
+    /// at rest.
+    pub fn distance(&mut self, of: Figure, at: &Configuration<f64>) -> Option<f64> {
+        let matrix = match of {
+            Figure::Direct => DIRECT,
+            Figure::Inverse => INVERSE,
+            _ => CLOSURES,
+        };
+        let locked = &mut self.matrices[matrix];
+        let entries = locked.jacobian(at);
+        let values = singular_values(locked.rows(), locked.columns(), &entries);
+        self.least(matrix, &values)
     }
 
     /// The smallest singular values that do not vanish everywhere.

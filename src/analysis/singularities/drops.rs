@@ -7,7 +7,6 @@ use crate::system::{Curve, Locked};
 
 type At = Place<Configuration<f64>>;
 
-/// The matrix at a place.
 struct Sample {
     place: At,
     matrix: Vec<f64>,

@@ -5,8 +5,7 @@ use crate::system::{ConfigurationCurve, Driven, LocusCurve, Region, Singular, Tr
 
 type At = Place<Singular>;
 
-/// Least and greatest value of each coordinate on a curve, rad or m: at its ends, at crossings, and where
-/// its unit tangent has no component along the coordinate, a root that is located to rounding.
+/// Least and greatest value of each coordinate on a curve, rad or m: at ends, crossings and turns.
 pub(super) fn extents(
     curve: &mut LocusCurve,
     region: &Region,

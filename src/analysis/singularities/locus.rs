@@ -9,7 +9,7 @@ use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, PoseCoordinate, Variable};
-use crate::solve::{Place, Progress, Stage, Watch};
+use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{
     Coordinate, Driven, Held, Lock, LocusCurve, LocusEnd, Question, Region, Singular, Traced,
 };
@@ -129,12 +129,13 @@ pub fn loci(
     if still.len() != spins {
         return Err(spins);
     }
+    let method = Continuation::default();
     let mut search = Search {
         region: Region {
             mechanism,
             held,
             sides: &sides,
-            method: &settings.continuation,
+            method: &method,
             watch,
             now: Progress::of(Stage::Loci),
         },
@@ -171,18 +172,17 @@ pub fn loci(
     let inputs = inputs.iter().copied().map(Lock::Coordinate);
     let direct: Vec<Lock> = inputs.chain(joints.iter().copied()).collect();
     let inverse = [&outputs[..], &joints].concat();
-    let mut found: Vec<(usize, Found)> = Vec::new();
+    let mut found: Vec<Found> = Vec::new();
     let kinds = [(Kind::Direct, &direct), (Kind::Inverse, &inverse)];
     for (i, (kind, locks)) in kinds.into_iter().enumerate() {
         // outputs that leave some motion undetermined everywhere have no such locus
         if regular[i] + spins < columns {
             continue;
         }
-        found.push((i, search.of(kind, locks)));
+        found.push(search.of(kind, locks));
     }
-    let crossings: Vec<Vec<Configuration<f64>>> =
-        found.iter().map(|(_, found)| found.crossings()).collect();
-    for (number, (_, found)) in found.iter_mut().enumerate() {
+    let crossings: Vec<Vec<Configuration<f64>>> = found.iter().map(Found::crossings).collect();
+    for (number, found) in found.iter_mut().enumerate() {
         let others = crossings.iter().enumerate();
         for (_, at) in others.filter(|(other, _)| *other != number) {
             for at in at.iter().take_while(|_| !watch.is_stopped()) {
@@ -190,7 +190,8 @@ pub fn loci(
             }
         }
     }
-    for (i, found) in found {
+    for found in found {
+        let i = found.kind as usize;
         report.sought[i] = true;
         report.starts[i] = found.starts;
         report.arrived[i] = found.arrived;

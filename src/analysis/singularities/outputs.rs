@@ -10,8 +10,7 @@ use crate::system::{
     Coordinate, Driven, Held, Lock, Locked, Mobility, default_outputs, platform_outputs,
 };
 
-/// The outputs: those of the settings; else the coordinates of platforms that the question is
-/// about; else the [default](default_outputs).
+/// The outputs: of the settings, else coordinates of platforms asked about, else the default.
 pub(super) fn outputs_of(
     mechanism: &Mechanism,
     held: &Held<f64>,

@@ -151,10 +151,8 @@ impl<'t> Projection<'t> {
     }
 }
 
-/// Curves that lie over one another in the box, by their numbers: in each group the first passes
-/// over all the others, and is the shortest that does.
-///
-/// A curve along which the configuration stands still is no locus of its own where others cross there.
+/// Curves that lie over one another in the box, by their numbers: the first of each group passes over
+/// all the others, and is the shortest that does. One that stands still where others cross is left out.
 pub(super) fn groups(
     curve: &mut LocusCurve,
     region: &Region,

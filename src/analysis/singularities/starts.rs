@@ -15,7 +15,6 @@ use crate::system::{
 /// While more curves are likely, at most so many times the starts of the settings are made.
 const MORE: usize = 10;
 
-/// A search for loci in a box.
 pub(super) struct Search<'m> {
     pub region: Region<'m>,
     pub start: Configuration<f64>,
@@ -39,18 +38,7 @@ pub(super) struct Found {
     pub last_new: Option<usize>,
 }
 
-/// The singular configuration that Gauss–Newton steps lead to from a start.
-///
-/// Where the determinant has an extremum of zero, as for a 5-bar whose cranks part as far as its couplers reach, the locus
-/// is an isolated point: the augmented system loses rank, and each step halves the distance only.
-struct Arrival {
-    /// On a curve; of an isolated point the tangent has no meaning.
-    place: Place<Singular>,
-    isolated: bool,
-}
-
-/// Whether more starts are likely to lead to new curves: the chance of a new one is about the share of curves met once
-/// (Good 1953). Isolated points are met too seldom to count.
+/// Whether more starts are likely to lead to new curves, by the share of curves met once (Good 1953).
 fn more_is_likely(found: &Found) -> bool {
     /// Fewer arrivals say nothing.
     const ARRIVALS: usize = 20;
@@ -59,7 +47,6 @@ fn more_is_likely(found: &Found) -> bool {
 }
 
 impl Found {
-    /// Configurations where its curves cross.
     pub fn crossings(&self) -> Vec<Configuration<f64>> {
         let crossings = self.known.iter().flat_map(|(traced, _)| &traced.crossings);
         crossings.map(|place| place.at.at.clone()).collect()
@@ -124,11 +111,19 @@ impl Search<'_> {
         }
     }
 
-    /// The singular configuration in the box that steps lead to.
-    fn arrival(&self, curve: &mut LocusCurve, at: Configuration<f64>) -> Option<Arrival> {
+    /// The singular configuration in the box that Gauss–Newton steps lead to, and whether it is isolated; its tangent
+    /// then has no meaning.
+    ///
+    /// Where the determinant has an extremum of zero, as for a 5-bar whose cranks part as far as its couplers reach, the
+    /// locus is an isolated point: the augmented system loses rank, and each step halves the distance only.
+    fn arrival(
+        &self,
+        curve: &mut LocusCurve,
+        at: Configuration<f64>,
+    ) -> Option<(Place<Singular>, bool)> {
         /// The last step, and about as far an isolated point.
         const NEAR: f64 = 1e-3;
-        let method = &self.settings.continuation;
+        let method = self.region.method;
         let poses = at.platforms.iter();
         let mut parts =
             poses.flat_map(|pose| pose.position.0.into_iter().chain(pose.orientation.0));
@@ -154,13 +149,16 @@ impl Search<'_> {
             Err(_) => return None,
         };
         self.bring_home(&mut place.at.at);
-        (self.region.inside(&place.at.at)).then_some(Arrival { place, isolated })
+        (self.region.inside(&place.at.at)).then_some((place, isolated))
     }
 
     /// The number of the known locus through a place, which is known from now on.
-    fn locus_through(&self, found: &mut Found, arrival: Arrival) -> Option<usize> {
-        let method = &self.settings.continuation;
-        let Arrival { place, isolated } = arrival;
+    fn locus_through(
+        &self,
+        found: &mut Found,
+        (place, isolated): (Place<Singular>, bool),
+    ) -> Option<usize> {
+        let method = self.region.method;
         let curve = &mut found.curve;
         let mut curves = found.known.iter();
         let known = curves.position(|(traced, _)| met_at(curve, traced, &place, method).is_some());
@@ -219,7 +217,6 @@ impl Search<'_> {
         self.region.mechanism.turn_to_limits(&mut at.joints);
     }
 
-    /// Whether a configuration lies in the box or near it.
     fn near_box(&self, at: &Configuration<f64>) -> bool {
         /// Part of the box.
         const BESIDE: f64 = 0.1;

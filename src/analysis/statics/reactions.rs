@@ -30,29 +30,7 @@ pub struct Reaction {
     pub unique: [bool; 6],
 }
 
-/// Reactions of closures and of joints.
-pub(super) struct Reactions {
-    closures: Vec<Reaction>,
-    joints: Vec<Reaction>,
-}
-
-/// Force, moment about the origin of ground.
-#[derive(Clone, Copy)]
-struct AtOrigin {
-    force: Vector3<f64>,
-    moment: Vector3<f64>,
-}
-
-impl AtOrigin {
-    fn new(point: Vector3<f64>, force: Vector3<f64>, moment: Vector3<f64>) -> Self {
-        AtOrigin {
-            force,
-            moment: moment + point.cross(&force),
-        }
-    }
-}
-
-/// The reactions for multipliers λ of the closure rows, in N·m.
+/// The reactions of closures, then of joints, for multipliers λ of the closure rows, in N·m.
 ///
 /// A closure exerts Σ λ·row on its second body and the opposite on its first. A joint balances all
 /// that acts on the bodies beyond it.
@@ -61,15 +39,19 @@ pub(super) fn of(
     at: &Configuration<f64>,
     load: &Load,
     multipliers: &[f64],
-) -> Reactions {
+) -> Vec<Reaction> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
-    let mut acting: Vec<(Body, AtOrigin)> = Vec::new();
+    // force, moment about the origin of ground
+    let at_origin = |point: Vector3<f64>, force: Vector3<f64>, moment: Vector3<f64>| {
+        [force, moment + point.cross(&force)]
+    };
+    let mut acting: Vec<(Body, [Vector3<f64>; 2])> = Vec::new();
     for &(point, force, moment) in &load.wrenches {
-        let wrench = AtOrigin::new(point.at(mechanism, at), Vector3(force), Vector3(moment));
+        let wrench = at_origin(point.at(mechanism, at), Vector3(force), Vector3(moment));
         acting.push((mechanism.body(point.frame), wrench));
     }
-    let mut closures = Vec::new();
+    let mut reactions = Vec::new();
     let wrenches = near.closure_wrenches(at);
     for (closure, wrenches) in mechanism.closures().iter().zip(wrenches) {
         let (mut force, mut moment) = (Vector3::zero(), Vector3::zero());
@@ -81,9 +63,9 @@ pub(super) fn of(
         }
         let [first, second] = closure.frames.map(|frame| mechanism.body(frame));
         let [start, end] = wrenches.points;
-        acting.push((second, AtOrigin::new(end, force, moment)));
-        acting.push((first, AtOrigin::new(start, -force, -moment)));
-        closures.push(Reaction {
+        acting.push((second, at_origin(end, force, moment)));
+        acting.push((first, at_origin(start, -force, -moment)));
+        reactions.push(Reaction {
             name: closure.name.clone(),
             variables: vec![],
             from: mechanism.body_name(first),
@@ -96,12 +78,12 @@ pub(super) fn of(
     }
     // a joint carries what acts on its link and on all that stands on it
     let mut carried: HashMap<Body, [Vector3<f64>; 2]> = HashMap::new();
-    for (on, wrench) in &acting {
-        let mut body = *on;
+    for &(on, wrench) in &acting {
+        let mut body = on;
         while let Body::Link { chain, row } = body {
             let [force, moment] = carried.entry(body).or_insert([Vector3::zero(); 2]);
-            *force += -wrench.force;
-            *moment += -wrench.moment;
+            *force += -wrench[0];
+            *moment += -wrench[1];
             body = parent(mechanism, chain, row);
         }
     }
@@ -117,7 +99,7 @@ pub(super) fn of(
     let frames: Vec<Frame> = links.iter().map(frame).collect();
     let poses = mechanism.placed(&frames, at);
     let joints = links.into_iter().zip(frames).zip(poses);
-    let joints = joints.map(|(((body, chain, row), frame), pose)| {
+    reactions.extend(joints.map(|(((body, chain, row), frame), pose)| {
         let point = pose.position;
         let still = [Vector3::zero(); 2];
         let [force, moment] = carried.get(&body).copied().unwrap_or(still);
@@ -135,11 +117,8 @@ pub(super) fn of(
             moment: (moment - point.cross(&force)).0,
             unique: [true; 6],
         }
-    });
-    Reactions {
-        joints: joints.collect(),
-        closures,
-    }
+    }));
+    reactions
 }
 
 /// The body that carries the joint of a row.
@@ -150,38 +129,30 @@ fn parent(mechanism: &Mechanism, chain: usize, row: usize) -> Body {
     })
 }
 
-impl Reactions {
-    /// How much of each state of stress to add for the least sum of squares, moments and forces
-    /// times `length`, over all closures and joints.
-    pub fn least(&self, stresses: &[Reactions], length: f64) -> Vec<f64> {
-        let columns: Vec<f64> = stresses.iter().flat_map(|s| s.stacked(length)).collect();
-        let opposite: Vec<f64> = self.stacked(length).map(|x| -x).collect();
-        Decomposition::of(opposite.len(), stresses.len(), &columns).solve(&opposite)
-    }
+/// How much of each state of stress to add for the least sum of squares of all reactions.
+pub(super) fn least(found: &[Reaction], stresses: &[Vec<Reaction>], length: f64) -> Vec<f64> {
+    let columns: Vec<f64> = stresses.iter().flat_map(|s| stacked(s, length)).collect();
+    let opposite: Vec<f64> = stacked(found, length).map(|x| -x).collect();
+    Decomposition::of(opposite.len(), stresses.len(), &columns).solve(&opposite)
+}
 
-    fn stacked(&self, length: f64) -> impl Iterator<Item = f64> {
-        let reactions = self.closures.iter().chain(&self.joints);
-        reactions.flat_map(move |reaction| {
-            let force = reaction.force.map(|f| f * length);
-            force.into_iter().chain(reaction.moment)
-        })
-    }
+fn stacked(reactions: &[Reaction], length: f64) -> impl Iterator<Item = f64> {
+    reactions.iter().flat_map(move |reaction| {
+        let force = reaction.force.map(|f| f * length);
+        force.into_iter().chain(reaction.moment)
+    })
+}
 
-    /// Closures and joints, with what changes in states of stress without load marked.
-    pub fn marked(mut self, changes: &[Reactions], length: f64) -> (Vec<Reaction>, Vec<Reaction>) {
-        for change in changes {
-            let (closures, joints) = (&mut self.closures, &mut self.joints);
-            let closures = closures.iter_mut().zip(&change.closures);
-            let joints = joints.iter_mut().zip(&change.joints);
-            for (reaction, change) in closures.chain(joints) {
-                for i in 0..3 {
-                    // a stress of unit norm is one of 1 N·m
-                    let (force, moment) = (change.force[i] * length, change.moment[i]);
-                    reaction.unique[i] &= force.abs() <= RANK_TOLERANCE;
-                    reaction.unique[3 + i] &= moment.abs() <= RANK_TOLERANCE;
-                }
+/// Marks what changes in states of stress without load.
+pub(super) fn mark(found: &mut [Reaction], changes: &[Vec<Reaction>], length: f64) {
+    for change in changes {
+        for (reaction, change) in found.iter_mut().zip(change) {
+            for i in 0..3 {
+                // a stress of unit norm is one of 1 N·m
+                let (force, moment) = (change.force[i] * length, change.moment[i]);
+                reaction.unique[i] &= force.abs() <= RANK_TOLERANCE;
+                reaction.unique[3 + i] &= moment.abs() <= RANK_TOLERANCE;
             }
         }
-        (self.closures, self.joints)
     }
 }

@@ -29,7 +29,6 @@ impl Spins {
         }
     }
 
-    /// Whether no link spins.
     pub fn is_empty(&self) -> bool {
         self.lines.iter().all(|(_, lines)| lines.is_empty())
     }

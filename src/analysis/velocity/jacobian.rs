@@ -24,8 +24,7 @@ pub struct InputOutput {
     pub rank: usize,
     /// Freedoms lost: inputs, or outputs if they are fewer, less the rank.
     pub loss: usize,
-    /// Largest over smallest singular value of the normalised Jacobian; `None` (infinite) if some
-    /// freedom is lost.
+    /// Largest over smallest singular value, normalised; `None` (infinite) if a freedom is lost.
     pub condition: Option<f64>,
     /// Product of its singular values, √det(J Jᵀ) or √det(Jᵀ J) (Yoshikawa 1985).
     pub manipulability: f64,
@@ -133,7 +132,6 @@ pub(crate) struct Normalised {
 }
 
 impl Normalised {
-    /// Its determinant if it is square.
     pub fn determinant(&self) -> Option<f64> {
         (self.rows == self.columns).then(|| determinant(self.rows, &self.entries))
     }

@@ -63,10 +63,8 @@ type Spot = (usize, Point);
 
 /// Three joints of a loop in a plane: between driven link and coupler, coupler and output link, and what holds that.
 struct Dyad {
-    closure: String,
-    driven: String,
-    output: String,
-    between: String,
+    /// What is reported of it, but for the angles.
+    names: Transmission,
     first: Spot,
     second: Spot,
     post: Post,
@@ -76,7 +74,6 @@ struct Dyad {
 
 /// What holds an output link.
 enum Post {
-    /// A hinge.
     Hinge(Spot),
     /// A slide along a direction of a frame.
     Slide(usize, Vector3<f64>),
@@ -99,16 +96,11 @@ impl TransmissionAngles {
         kinematics: &Kinematics<f64>,
     ) -> Self {
         let mechanism = near.mechanism();
-        let ends = near
-            .closure_wrenches(at)
-            .into_iter()
-            .map(|wrenches| wrenches.points);
-        let ends: Vec<[Vector3<f64>; 2]> = ends.collect();
-        let found = loops(near, at).into_iter();
-        let closures = mechanism.closures().iter().enumerate();
-        let rods = closures.filter(|(_, closure)| closure.kind == ClosureKind::Distance);
-        let rods = rods.map(|(place, rod)| (&*rod.name, ends[place]));
+        let closures = mechanism.closures().iter().zip(near.closure_wrenches(at));
+        let rods = closures.filter(|(closure, _)| closure.kind == ClosureKind::Distance);
+        let rods = rods.map(|(rod, wrenches)| (&*rod.name, wrenches.points));
         let rods: HashMap<&str, [Vector3<f64>; 2]> = rods.collect();
+        let found = loops(near, at).into_iter();
         let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &rods)));
         let found: Vec<HingedLoop> = found.collect();
         let joints = 0..mechanism.joints().len();
@@ -151,7 +143,7 @@ impl TransmissionAngles {
 
     /// The closures of the loops, in the order of their angles.
     pub fn loops(&self) -> impl Iterator<Item = &str> {
-        self.dyads.iter().map(|dyad| &*dyad.closure)
+        self.dyads.iter().map(|dyad| &*dyad.names.closure)
     }
 
     /// All of them with their names.
@@ -159,12 +151,9 @@ impl TransmissionAngles {
         let found = self.dyads.iter().filter_map(|dyad| {
             let pressure_angle = self.pressure(dyad, placement)?;
             Some(Transmission {
-                closure: dyad.closure.clone(),
-                driven: dyad.driven.clone(),
-                output: dyad.output.clone(),
-                between: dyad.between.clone(),
                 transmission_angle: FRAC_PI_2 - pressure_angle,
                 pressure_angle,
+                ..dyad.names.clone()
             })
         });
         found.collect()
@@ -235,8 +224,7 @@ struct Known {
 }
 
 impl Known {
-    /// For each part of a loop whether its relative motion is known: a joint's by its variables, that of a hinge at the cut
-    /// also by the turns around the loop, whose sum is zero.
+    /// For each part of a loop whether its motion is known: of a hinge at the cut also by the other turns.
     fn parts(&self, one: &HingedLoop) -> Vec<bool> {
         let parts = &one.all.parts;
         let is_known = |part: &LoopPart| match part.closure {
@@ -366,10 +354,14 @@ fn dyads_of(
                 others.reverse();
             }
             Some(Dyad {
-                closure: all.closure.clone(),
-                driven: name(mechanism, &parts[i]),
-                output: name(mechanism, &parts[others[2]]),
-                between: name(mechanism, &parts[others[1]]),
+                names: Transmission {
+                    closure: all.closure.clone(),
+                    driven: name(mechanism, &parts[i]),
+                    output: name(mechanism, &parts[others[2]]),
+                    between: name(mechanism, &parts[others[1]]),
+                    transmission_angle: f64::NAN,
+                    pressure_angle: f64::NAN,
+                },
                 first: pivot(others[0])?,
                 second: pivot(others[1])?,
                 post: post(others[2])?,
@@ -407,12 +399,7 @@ pub(super) fn centres(
     let at_input: Vec<[f64; 6]> = (0..frames.len()).map(|i| at_origin(i, &rates)).collect();
     // planar for a moment only is not enough: every joint and every input must keep the plane
     let mut all = at_input.clone();
-    let unit = |size: usize, i: usize| -> Vec<f64> {
-        (0..size).map(|k| f64::from(u8::from(k == i))).collect()
-    };
-    let inputs = 0..drive.rates.len();
-    let inputs = inputs.map(|input| motion.rates(&unit(drive.rates.len(), input)).to_vec());
-    for rates in inputs {
+    for rates in motion.responses() {
         all.extend((0..frames.len()).map(|i| at_origin(i, &rates)));
     }
     let mut alone = vec![0.0; rates.len()];

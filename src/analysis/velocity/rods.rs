@@ -7,8 +7,7 @@ use crate::geometry::Vector3;
 use crate::mechanism::{Body, Mechanism};
 use crate::system::{LoopPart, MechanismLoop};
 
-/// A loop in which rods that are given by their lengths are links with a hinge at either end, across the plane in
-/// which the rest of the loop moves, and with a slide between them where a joint drives the length.
+/// A loop with its rods as links: a hinge at either end, and a slide where a joint drives the length.
 pub(super) fn with_rods(
     mechanism: &Mechanism,
     mut one: MechanismLoop,

@@ -5,7 +5,7 @@ mod found;
 use std::f64::consts::{PI, TAU};
 
 use crate::algebra::{Expression, Function, Node, SiUnit};
-use crate::analysis::singularities::SingularityMeter;
+use crate::analysis::singularities::Classifier;
 use crate::analysis::sweep::{Pace, Schedule};
 use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
@@ -61,7 +61,7 @@ pub(in super::super) struct Meter<'q> {
     transmission: Option<TransmissionAngles>,
     angles: Vec<Option<f64>>,
     /// With the distances that are asked for.
-    distances: Option<(SingularityMeter<'q>, Vec<Figure>)>,
+    distances: Option<(Classifier<'q>, Vec<Figure>)>,
     wants: Wants,
     /// Rates, then accelerations of the held coordinates.
     driven: [Vec<f64>; 2],
@@ -250,8 +250,12 @@ impl<'q> Meter<'q> {
                 let distances = Figure::ALL.into_iter().filter(|figure| {
                     figure.is_distance() && all().any(|of| *of == Measured::Figure(*figure))
                 });
-                let meter = SingularityMeter::new(mechanism, &inputs, &of.outputs, start);
-                (meter, distances.collect())
+                let outputs = match &of.outputs[..] {
+                    [] => system::default_outputs(mechanism, &inputs),
+                    outputs => outputs.to_vec(),
+                };
+                let classifier = Classifier::new(mechanism, &inputs, &outputs, start);
+                (classifier, distances.collect())
             }),
             motion,
             driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
@@ -347,10 +351,10 @@ impl<'q> Meter<'q> {
                 (self.figures).push((Figure::Manipulability, Some(product)));
             }
         }
-        if let Some((meter, figures)) = &mut self.distances {
+        if let Some((classifier, figures)) = &mut self.distances {
             let figures = figures
                 .iter()
-                .map(|figure| (*figure, meter.at(*figure, at)));
+                .map(|figure| (*figure, classifier.distance(*figure, at)));
             self.figures.extend(figures);
         }
         self.angles.clear();

@@ -10,7 +10,7 @@ use crate::output::quantity::{coarse, form, metres, signed, triple, values};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
-    let answer = closing::after_moving(report.moved.as_ref(), mobility(report));
+    let answer = closing::after_moving(&report.pose, mobility(report));
     let mut sentences = vec![answer, counted(report)];
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
@@ -46,7 +46,7 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
     }
     sentences.extend(locked(report));
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
-    sentences.extend(closing::given(report.given.as_ref(), report.kept));
+    sentences.extend(closing::given(&report.pose));
     sentences.join(" ")
 }
 

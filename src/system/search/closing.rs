@@ -106,6 +106,21 @@ impl Moved {
     }
 }
 
+/// How the pose given was closed, in reports about the mechanism closed there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GivenPose {
+    /// The widest gap it had; `None` if it was assembled but for rounding.
+    pub given_gap: Option<WidestGap>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than
+    /// rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
+    /// Whether what the file holds kept its values when the mechanism was closed.
+    pub kept: bool,
+    /// Names of the joints that are outside their limits in the assembled configuration.
+    pub outside_limits: Vec<String>,
+}
+
 /// A mechanism closed near the pose a question starts from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closed {
@@ -240,6 +255,17 @@ pub fn close(
 }
 
 impl Closed {
+    /// What reports say of it.
+    pub fn pose(&self, mechanism: &Mechanism) -> GivenPose {
+        let given = self.given.clone();
+        GivenPose {
+            given_gap: given.filter(|gap| gap.size(mechanism) > 1e-9),
+            moved: self.moved.clone(),
+            kept: self.kept,
+            outside_limits: self.outside_limits(mechanism),
+        }
+    }
+
     /// Names of the joints that are outside their limits.
     pub fn outside_limits(&self, mechanism: &Mechanism) -> Vec<String> {
         let outside = mechanism.outside_limits(&self.configuration.joints);

@@ -1,23 +1,19 @@
 //! Following the branches through a singular configuration by small steps.
 
-use rand::Rng;
+use rand_pcg::Pcg64Mcg;
 
-use super::super::MobilitySettings;
-use super::{is_regular, see};
+use super::{BRANCH_STEP, BRANCH_TRIALS, Search, see};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
-use crate::system::{Cone, Neighbourhood, Tangent, combination};
+use crate::system::{Cone, Tangent, combination};
 
-/// A joint moves on a branch if it moves by more than this part of the step: infinitesimal freedoms
-/// leave some slack.
+/// Part of the step by which a joint that moves on a branch moves: other freedoms leave slack.
 pub(super) const MOVED_ON_A_BRANCH: f64 = 1e-3;
 
-/// Branches whose tangents beside the meeting point differ by less than this are one, seen at two
-/// points of a curve.
+/// Sine below which tangents beside the meeting point are those of one branch.
 const SAME_BRANCH: f64 = 0.15;
 
-/// Directions to try, made one at a time: some on the quadratic cone, some between the basis vectors,
-/// and both ways along each of these.
+/// Directions to try: on the quadratic cone, between the basis vectors, both ways along each.
 pub(super) struct Directions {
     /// Tries on the cone that are left.
     on_cone: usize,
@@ -28,25 +24,25 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    pub fn new(cone: &Cone, at: &Tangent, trials: usize) -> Self {
+    pub fn new(cone: &Cone, at: &Tangent) -> Self {
         Directions {
-            between: Some(trials * at.motions.len()),
-            ..Directions::on_cone(cone, at, trials)
+            between: Some(BRANCH_TRIALS * at.motions.len()),
+            ..Directions::on_cone(cone, at)
         }
     }
 
     /// Those on the quadratic cone alone; none where second order excludes nothing.
-    pub fn on_cone(cone: &Cone, at: &Tangent, trials: usize) -> Self {
+    pub fn on_cone(cone: &Cone, at: &Tangent) -> Self {
         let n = at.motions.len();
         let curved = n >= 2 && !cone.is_all();
         Directions {
-            on_cone: if curved { trials * n } else { 0 },
+            on_cone: if curved { BRANCH_TRIALS * n } else { 0 },
             between: None,
             made: [0; 3],
         }
     }
 
-    pub fn next(&mut self, cone: &Cone, at: &Tangent, rng: &mut impl Rng) -> Option<Vec<f64>> {
+    pub fn next(&mut self, cone: &Cone, at: &Tangent, rng: &mut Pcg64Mcg) -> Option<Vec<f64>> {
         let basis = &at.motions;
         while self.on_cone > 0 {
             self.on_cone -= 1;
@@ -76,8 +72,7 @@ impl Directions {
 
 /// A branch seen at a point of it that lies on no other.
 pub(super) struct Seen {
-    /// The tangent there; the motions are those of the branch, of which there may be fewer than
-    /// infinitesimal ones.
+    /// The tangent there with the motions of the branch alone.
     beside: Tangent,
     /// Whether every infinitesimal freedom there is finite.
     pub regular: bool,
@@ -114,28 +109,26 @@ fn within(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
 }
 
 /// The search for the branches of an independent part of a mechanism through a singular configuration.
-pub(super) struct Walk<'s, 'm, R> {
-    pub near: &'s mut Neighbourhood<'m>,
+pub(super) struct Walk<'w, 's, 'm> {
+    pub search: &'w mut Search<'s, 'm>,
     /// The unknowns of the part.
-    pub own: &'s [bool],
+    pub own: &'w [bool],
     /// The singular configuration.
-    pub from: &'s Tangent,
-    pub settings: &'s MobilitySettings,
-    pub rng: &'s mut R,
+    pub from: &'w Tangent,
     pub seen: Vec<Seen>,
 }
 
-impl<R: Rng> Walk<'_, '_, R> {
+impl Walk<'_, '_, '_> {
     /// Adds the branch that a small step along a direction settles on, if it does.
     pub fn explore(&mut self, direction: &[f64]) {
-        let reach = self.settings.branch_step;
-        let Some((mut at, way)) = self.near.arrive(self.from, direction, reach) else {
+        let reach = BRANCH_STEP;
+        let Some((mut at, way)) = self.search.near.arrive(self.from, direction, reach) else {
             return;
         };
         // too near the meeting point a motion of high order looks finite
-        let distance = norm(&self.near.system().difference(&self.from.at, &at));
+        let distance = norm(&self.search.near.system().difference(&self.from.at, &at));
         if distance < 0.5 * reach
-            && let Some((further, _)) = self.near.arrive(self.from, &way, reach)
+            && let Some((further, _)) = self.search.near.arrive(self.from, &way, reach)
         {
             at = further;
         }
@@ -144,22 +137,21 @@ impl<R: Rng> Walk<'_, '_, R> {
     }
 
     fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
-        self.near.tangent(at).within(self.own)
+        self.search.near.tangent(at).within(self.own)
     }
 
-    /// Adds the branch on which a point lies, looked at where it lies on no other: at a point where all
-    /// infinitesimal freedoms are finite, to which it moves on if need be.
+    /// Adds the branch of a point, which moves on to where all infinitesimal freedoms are finite.
     fn look(&mut self, point: Tangent) {
-        let reach = self.settings.branch_step;
+        let reach = BRANCH_STEP;
         let step = 0.3 * reach;
         if point.motions.is_empty() {
             return;
         }
         let mut points = vec![point];
-        for _ in 0..=self.settings.branch_trials {
+        for _ in 0..=BRANCH_TRIALS {
             let Some(last) = points.last() else { return };
             if (self.seen.iter()).any(|seen| seen.regular && seen.agrees(last))
-                || is_regular(self.near, last, reach, 3, self.rng)
+                || self.search.is_regular(last, reach, 3)
             {
                 let beside = last.clone();
                 return self.add(beside, true);
@@ -168,20 +160,21 @@ impl<R: Rng> Walk<'_, '_, R> {
             let Some(least) = points.iter().min_by_key(|point| point.motions.len()) else {
                 return;
             };
-            let direction = combination(&least.motions, self.rng);
-            if let Some((at, _)) = self.near.arrive(least, &direction, step) {
+            let direction = combination(&least.motions, &mut self.search.rng);
+            if let Some((at, _)) = self.search.near.arrive(least, &direction, step) {
                 points.push(self.tangent(at));
             }
         }
         // infinitesimally flexible wherever it was seen
         let least = points.into_iter().min_by_key(|point| point.motions.len());
         let Some(mut least) = least else { return };
-        let cone = Cone::of(self.near, &least);
-        let mut directions = Directions::new(&cone, &least, self.settings.branch_trials);
+        let cone = Cone::of(self.search.near, &least);
+        let mut directions = Directions::new(&cone, &least);
         let mut ways: Vec<Vec<f64>> = Vec::new();
-        while let Some(direction) = directions.next(&cone, &least, self.rng) {
+        while let Some(direction) = directions.next(&cone, &least, &mut self.search.rng) {
             ways.extend(
-                self.near
+                self.search
+                    .near
                     .arrive(&least, &direction, step)
                     .map(|(_, way)| way),
             );
@@ -194,12 +187,21 @@ impl<R: Rng> Walk<'_, '_, R> {
 
     /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
-        at.motions.len() == 1 || self.near.follows(at, step, self.rng).is_some()
+        at.motions.len() == 1
+            || self
+                .search
+                .near
+                .follows(at, step, &mut self.search.rng)
+                .is_some()
     }
 
     fn add(&mut self, beside: Tangent, regular: bool) {
-        let way = self.near.system().difference(&self.from.at, &beside.at);
-        let clearly = MOVED_ON_A_BRANCH * self.settings.branch_step;
+        let way = self
+            .search
+            .near
+            .system()
+            .difference(&self.from.at, &beside.at);
+        let clearly = MOVED_ON_A_BRANCH * BRANCH_STEP;
         let known = |seen: &&mut Seen| seen.regular == regular && seen.agrees(&beside);
         if let Some(known) = self.seen.iter_mut().find(known) {
             return see(&mut known.moved, &way, clearly);
@@ -216,13 +218,16 @@ impl<R: Rng> Walk<'_, '_, R> {
         });
     }
 
-    /// The motions at the meeting point of the branch of this number: the limit of its tangents on the
-    /// way there, by extrapolation.
+    /// The motions of a branch at the meeting point: its tangents on the way there, extrapolated.
     pub fn limit(&mut self, number: usize) -> Vec<Vec<f64>> {
         const LEVELS: i32 = 4;
         let seen = &self.seen[number];
         let (basis, tangent) = (&seen.beside.motions, self.from);
-        let mut way = self.near.system().difference(&tangent.at, &seen.beside.at);
+        let mut way = self
+            .search
+            .near
+            .system()
+            .difference(&tangent.at, &seen.beside.at);
         remove(&mut way, &tangent.idle);
         let distance = norm(&way);
         // distances and the branch's motions there, as parts of the same basis
@@ -230,18 +235,18 @@ impl<R: Rng> Walk<'_, '_, R> {
         for level in 0..LEVELS {
             let factor = 0.5f64.powi(level);
             let step: Vec<f64> = way.iter().map(|x| x * factor).collect();
-            let start = self.near.system().displaced(&tangent.at, &step);
-            let Some(at) = self.near.settle(start, factor * distance) else {
+            let start = self.search.near.system().displaced(&tangent.at, &step);
+            let Some(at) = self.search.near.settle(start, factor * distance) else {
                 break;
             };
-            let mut back = self.near.system().difference(&tangent.at, &at);
+            let mut back = self.search.near.system().difference(&tangent.at, &at);
             remove(&mut back, &tangent.idle);
             let along = dot(&back, &way) / (distance * distance);
             if !(0.5 * factor..2.0 * factor).contains(&along) {
                 break;
             }
             if seen.regular {
-                let there = self.near.tangent(at).within(self.own).motions;
+                let there = self.search.near.tangent(at).within(self.own).motions;
                 if there.len() != basis.len() {
                     break;
                 }
