@@ -1,16 +1,13 @@
 //! The workspace: which values of some coordinates a mechanism reaches, in which modes, and what
 //! bounds it.
 //!
-//! At some nodes of a grid assembled configurations are sought from many random starts, and then
-//! from a few at all the others. From there the nodes are reached one from another by steps of
-//! Newton's method, eight side by side, that are short beside what would lead to another solution;
-//! parts of the grid grow side by side so, and then over their seams. Where a step is too long, the
-//! way is gone in shorter ones, and at last in the sure steps of
-//! [`Continuation`](crate::solve::Continuation). What is connected in this way is a *mode*: a working
-//! mode where coordinates of platforms are mapped, an assembly mode where the inputs are. On the
-//! edges of the grid where a mode ends, at a limit or where a determinant changes sign, the point is
-//! located to rounding, and the boundary curves through these points are followed. The same sign of
-//! both determinants, within limits, makes an *aspect*.
+//! Assembled configurations are sought from random starts at some nodes of a grid. From there nodes
+//! are reached one from another by steps of Newton's method, eight side by side, that are short beside
+//! what would lead to another solution; where a step is too long, by shorter ones, and at last by the
+//! sure steps of [`Continuation`](crate::solve::Continuation). What is connected so is a *mode*: a
+//! working mode where coordinates of platforms are mapped, an assembly mode where inputs are. Where a
+//! mode ends or a determinant changes sign on an edge of the grid, the point is located to rounding,
+//! and the boundary through it is followed. Equal signs of both determinants make an *aspect*.
 //!
 //! Sources: Borrel and Liégeois 1986, Wenger 1992 (aspects); Wenger and Chablat 1997 (of parallel
 //! manipulators, with working modes); Gosselin and Angeles 1990 (singularities); Bohigas, Manubens
@@ -32,7 +29,7 @@ pub use map::{
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Lanes, Packed};
-use crate::solve::{Newton, Pool, Watch};
+use crate::solve::{Pool, Watch};
 use crate::system::{Driven, Question};
 use boundary::Boundary;
 use flood::{Flood, Metric, ModeSeeds, ReachedSet, Spread, Steps};
@@ -49,13 +46,10 @@ pub struct WorkspaceSettings {
     pub searched: usize,
     /// Random starts at each of them.
     pub starts: usize,
-    /// Nodes at which a few more starts are made afterwards, at most, so that small regions are not
-    /// missed.
+    /// Nodes at which a few more starts are made at most, so that small regions are not missed.
     pub probed: usize,
     /// Seed of the random starts.
     pub seed: u64,
-    /// The iteration from random starts.
-    pub newton: Newton,
     /// Whether several steps are taken side by side in vector registers. The result is the same.
     pub side_by_side: bool,
     /// Whether boundaries are located and followed.
@@ -72,7 +66,6 @@ impl Default for WorkspaceSettings {
             starts: 30,
             probed: 10_000,
             seed: 1,
-            newton: Newton::default(),
             side_by_side: true,
             boundaries: true,
             most: usize::MAX,
@@ -80,17 +73,14 @@ impl Default for WorkspaceSettings {
     }
 }
 
-/// Why there is no map.
+/// More nodes in modes were reached than may be kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum WorkspaceError {
-    /// More nodes in modes were reached than may be kept.
-    #[error(
-        "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
-    )]
-    TooMany {
-        /// How many may be.
-        most: usize,
-    },
+#[error(
+    "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
+)]
+pub struct TooManyNodes {
+    /// How many may be.
+    pub most: usize,
 }
 
 /// Bytes that a node in one mode takes at most at a time, roughly.
@@ -120,16 +110,13 @@ pub fn workspace(
     (known, home): (&[Configuration<f64>], Option<&Configuration<f64>>),
     settings: &WorkspaceSettings,
     watch: &Watch,
-) -> Result<WorkspaceReport, WorkspaceError> {
-    let problem = MapProblem::new(question, axes, &settings.newton);
+) -> Result<WorkspaceReport, TooManyNodes> {
+    let problem = MapProblem::new(question, axes);
     let counts: Vec<usize> = (0..axes.len())
         .map(|i| settings.nodes.get(i).copied().unwrap_or(50).max(2))
         .collect();
     let grid = Grid::new(axes, &counts);
     let metric = Metric::new(&problem);
-    let nodes = grid.spread(settings.searched);
-    let sought = (&nodes[..], settings.starts, settings.seed);
-    let mode_seeds = flood::search_modes(&problem, &grid, &metric, sought, (known, watch));
     let fill = Flood {
         problem: &problem,
         grid: &grid,
@@ -137,8 +124,11 @@ pub fn workspace(
         most: settings.most,
         only: None,
     };
+    let nodes = grid.spread(settings.searched);
+    let sought = (&nodes[..], settings.starts, settings.seed);
+    let mode_seeds = flood::search_modes(&fill, sought, (known, watch));
     let probed = grid.spread(settings.probed);
-    let home = home.map(|at| Home::new(&problem, &grid, &metric, at));
+    let home = home.map(|at| Home::new(fill, at));
     let seeds = (&mode_seeds, home.as_ref());
     let (reached_set, aspects, outside) = match settings.side_by_side {
         true => reached_set::<Lanes>(&fill, seeds, (&probed, settings.seed), watch),
@@ -146,9 +136,7 @@ pub fn workspace(
     }?;
     let map = Map::new(&problem, &grid, &reached_set, aspects);
     let boundary = Boundary {
-        problem: &problem,
-        grid: &grid,
-        metric: &metric,
+        fill: &fill,
         reached_set: &reached_set,
         mode: &map.mode,
     };
@@ -167,21 +155,20 @@ pub fn workspace(
     Ok(report)
 }
 
-/// All that is reached from seeds, and from what is then found in between; for each solution its
-/// aspect; and how much of what was found in between is outside limits.
+/// All that is reached, the aspect of each solution, and how many seeds were outside limits.
 fn reached_set<T: Factorable + Packed + Send + Sync>(
     fill: &Flood,
     (mode_seeds, home): (&ModeSeeds, Option<&Home>),
     (probed, seed): (&[usize], u64),
     watch: &Watch,
-) -> Result<(ReachedSet, Vec<Option<usize>>, usize), WorkspaceError> {
+) -> Result<(ReachedSet, Vec<Option<usize>>, usize), TooManyNodes> {
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.problem));
     let mut reached = Spread::new(fill.grid);
     fill.spread(&mut reached, &steps, &mode_seeds.seeds, watch)?;
     let mut more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
     if let Some(home) = home {
         let new = |(node, at): &(usize, Configuration<f64>)| !reached.has(fill, *node, at.view());
-        let seeds = home.seeds(fill.problem).seeds.into_iter();
+        let seeds = home.seeds().seeds.into_iter();
         more.seeds.extend(seeds.filter(new));
     }
     fill.spread(&mut reached, &steps, &more.seeds, watch)?;

@@ -4,9 +4,7 @@ use std::f64::consts::TAU;
 
 use super::ranges::{middles, of_platform};
 use super::{AskError, Mode, Question, RESTARTS, Role, check_starts};
-use crate::analysis::workspace::{
-    WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
-};
+use crate::analysis::workspace::{WorkspaceReport, WorkspaceSettings, cell_bytes, workspace};
 use crate::mechanism::Configuration;
 use crate::solve::Watch;
 use crate::system::{
@@ -54,11 +52,9 @@ impl Question {
         let home = self.home(&axes, watch)?;
         let begun = (&known[..], home.as_ref());
         let report = workspace(&question, &axes, begun, &settings, watch);
-        report.map_err(|error| match error {
-            WorkspaceError::TooMany { most: cells } => AskError::TooMany {
-                cells,
-                most: cells as f64 * bytes,
-            },
+        report.map_err(|error| AskError::TooMany {
+            cells: error.most,
+            most: error.most as f64 * bytes,
         })
     }
 

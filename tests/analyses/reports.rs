@@ -200,6 +200,6 @@ fn errors_are_errors_with_words() {
     is_error::<analysis::convert::CutError>();
     is_error::<analysis::frames::AxesError>();
     is_error::<system::PointError>();
-    is_error::<analysis::workspace::WorkspaceError>();
+    is_error::<analysis::workspace::TooManyNodes>();
     is_error::<linkwork::ask::AskError>();
 }

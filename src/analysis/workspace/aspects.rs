@@ -6,14 +6,8 @@ pub(super) use join::{joined, parts};
 
 use std::ops::Range;
 
-use super::flood::{ReachedSet, signs};
 use super::problem::Grid;
 use crate::solve::each;
-
-/// For each solution the first of its aspect; none outside limits and on singularities.
-pub(super) fn aspects(reached_set: &ReachedSet) -> Vec<Option<usize>> {
-    reached_set.parted(signs)
-}
 
 /// A set of nodes.
 pub(super) struct Region {
@@ -32,7 +26,6 @@ impl Region {
         Region { inside, ends }
     }
 
-    /// How many they are.
     pub fn count(&self) -> usize {
         self.inside.iter().filter(|inside| **inside).count()
     }
@@ -141,40 +134,4 @@ fn slice(
             .sum::<f64>()
     });
     rows.into_iter().sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::system::{Coordinate, Driven};
-
-    #[test]
-    fn the_area_of_a_disc_converges_to_second_order() {
-        let area = |n: usize| {
-            let axis = Driven {
-                coordinate: Coordinate::Joint(0),
-                from: -1.5,
-                to: 1.5,
-            };
-            let grid = Grid::new(&[axis, axis], &[n, n]);
-            let inside = |node: &usize| {
-                let squares = grid.point(*node).map(|x| x * x);
-                squares.iter().sum::<f64>() <= 1.0
-            };
-            let disc = Region::new(&grid, (0..grid.len()).filter(inside));
-            let cut = |node: usize, direction: usize| {
-                let values = grid.values(node);
-                let (along, across) = (values[direction / 2], values[1 - direction / 2]);
-                let sign = if direction.is_multiple_of(2) {
-                    -1.0
-                } else {
-                    1.0
-                };
-                ((1.0 - across * across).sqrt() - sign * along) / grid.spacing(0)
-            };
-            size(&grid, &disc, &cut)
-        };
-        let error = |n| (area(n) - std::f64::consts::PI).abs();
-        assert!(error(41) < 1e-2 && error(81) < 0.35 * error(41));
-    }
 }

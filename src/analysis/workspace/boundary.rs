@@ -1,5 +1,4 @@
-//! What bounds modes and separates aspects: points on the edges of the grid, and curves through
-//! them.
+//! What bounds modes and parts aspects: points on the edges of the grid, and curves through them.
 
 mod curves;
 mod kinds;
@@ -7,8 +6,8 @@ mod kinds;
 pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
 pub(super) use kinds::{Crossing, named};
 
-use super::flood::{Edge, Link, Met, Metric, ReachedSet, Until, walk};
-use super::problem::{Grid, MapProblem};
+use super::flood::{Edge, Flood, Link, Met, ReachedSet, Until};
+use super::problem::MapProblem;
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Progress, Stage, Watch, each};
 use crate::system::{Coordinate, Curve, Driven, Lock, LocusCurve, Region, Singular, settled};
@@ -16,9 +15,7 @@ use curves::Tracer;
 use kinds::Kind;
 
 pub(super) struct Boundary<'a> {
-    pub problem: &'a MapProblem<'a>,
-    pub grid: &'a Grid,
-    pub metric: &'a Metric,
+    pub fill: &'a Flood<'a>,
     pub reached_set: &'a ReachedSet,
     /// For each solution the number of its mode, from 0; none if it is not listed.
     pub mode: &'a [Option<usize>],
@@ -27,16 +24,16 @@ pub(super) struct Boundary<'a> {
 impl Boundary<'_> {
     /// Where solutions within limits end on the edges of the grid, and where signs change.
     pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
-        let inputs = self.problem.locks(&self.problem.inputs);
-        let outputs = self.problem.locks(&self.problem.outputs);
-        let joints = self.problem.mechanism.joints();
+        let inputs = self.fill.problem.locks(&self.fill.problem.inputs);
+        let outputs = self.fill.problem.locks(&self.fill.problem.outputs);
+        let joints = self.fill.problem.mechanism.joints();
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
         let mut found: Vec<Crossing> = Vec::new();
         let mut at_nodes = std::collections::HashSet::new();
         let solutions = self.reached_set.solutions();
         for (s, solution) in solutions.filter(|(_, solution)| solution.within) {
-            let links = solution.links[..2 * self.grid.dimensions()].iter();
+            let links = solution.links[..2 * self.fill.grid.dimensions()].iter();
             for (d, link) in links.enumerate() {
                 match *link {
                     Link::Fold if limited => wanted.push((s, d, Until::Limit)),
@@ -83,13 +80,13 @@ impl Boundary<'_> {
                 self.reached_set.solution(s),
                 self.reached_set.configuration(s).owned(),
             );
-            let node = self.grid.neighbour(solution.node, d)?;
+            let node = self.fill.grid.neighbour(solution.node, d)?;
             let edge = Edge {
                 axis: d / 2,
-                values: self.grid.values(solution.node),
-                to: self.grid.values(node)[d / 2],
+                values: self.fill.grid.values(solution.node),
+                to: self.fill.grid.values(node)[d / 2],
             };
-            let met = walk(self.problem, self.metric, &edge, &at, until);
+            let met = self.fill.walk(&edge, &at, until);
             let kind = |locks: &[Lock]| match locks == &inputs[..] {
                 true => Kind::Direct,
                 false => Kind::Inverse,
@@ -115,9 +112,9 @@ impl Boundary<'_> {
 
     /// The curves through crossings, of the slices of the first two coordinates one after another.
     pub fn curves(&self, crossings: &[Crossing], watch: &Watch) -> Vec<BoundaryCurve> {
-        let slices = match self.grid.dimensions() {
+        let slices = match self.fill.grid.dimensions() {
             2 => 1,
-            3 => self.grid.count(2),
+            3 => self.fill.grid.count(2),
             _ => return Vec::new(),
         };
         let traced = each(slices, &(), |(), slice| match watch.is_stopped() {
@@ -128,18 +125,22 @@ impl Boundary<'_> {
     }
 
     fn slice(&self, crossings: &[Crossing], slice: usize, watch: &Watch) -> Vec<BoundaryCurve> {
-        let third = (self.grid.dimensions() == 3).then(|| self.grid.coordinate(2, slice));
+        let third = (self.fill.grid.dimensions() == 3).then(|| self.fill.grid.coordinate(2, slice));
         let question = match third {
             Some(value) => {
-                let axis = self.problem.axes[2].coordinate;
-                self.problem.question.clone().at_values([(axis, value)])
+                let axis = self.fill.problem.axes[2].coordinate;
+                self.fill
+                    .problem
+                    .question
+                    .clone()
+                    .at_values([(axis, value)])
             }
-            None => self.problem.question.clone(),
+            None => self.fill.problem.question.clone(),
         };
-        let problem = MapProblem::new(&question, &self.problem.axes[..2], &self.problem.newton);
+        let problem = MapProblem::new(&question, &self.fill.problem.axes[..2]);
         let here = |crossing: &&Crossing| {
             let node = self.reached_set.solution(crossing.solution).node;
-            crossing.direction < 4 && (third.is_none() || self.grid.place(node, 2) == slice)
+            crossing.direction < 4 && (third.is_none() || self.fill.grid.place(node, 2) == slice)
         };
         let here: Vec<&Crossing> = crossings.iter().filter(here).collect();
         let mut kinds: Vec<Kind> = Vec::new();

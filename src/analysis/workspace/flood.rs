@@ -13,7 +13,7 @@ mod spread;
 mod step;
 mod tile;
 
-pub(super) use edge::{Edge, Met, Until, walk};
+pub(super) use edge::{Edge, Met, Until};
 pub(super) use metric::Metric;
 pub(super) use neighbour::Flood;
 pub(super) use reached::{Band, Link, ReachedSet, Signs, join, root, signs, signs_of};

@@ -2,32 +2,26 @@
 
 use std::f64::consts::TAU;
 
-use super::flood::{Edge, Met, Metric, ModeSeeds, ReachedSet, Signs, Steps, Until, signs_of, walk};
+use super::flood::{Edge, Flood, Met, ModeSeeds, ReachedSet, Signs, Steps, Until, signs_of};
 use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
 use crate::system::Coordinate;
 
 /// The home assembly, followed to nodes of the grid.
-pub(super) struct Home<'m> {
-    metric: &'m Metric,
+pub(super) struct Home<'f> {
+    fill: Flood<'f>,
     /// The mapped coordinates, brought into the box by whole turns where that can be.
     pub at: Vec<f64>,
     /// The signs of its determinants; none outside limits and on singularities.
     signs: Option<Signs>,
-    /// The nodes around it that regular motion leads to, the nearest first, with the configuration
-    /// there.
+    /// The nodes around it that regular motion leads to, nearest first, with what is reached there.
     nodes: Vec<(usize, Configuration<f64>)>,
 }
 
-impl<'m> Home<'m> {
-    /// Follows the home assembly along one mapped coordinate after the other to the corners of the
-    /// cell of the grid in which it stands.
-    pub fn new(
-        problem: &MapProblem,
-        grid: &Grid,
-        metric: &'m Metric,
-        home: &Configuration<f64>,
-    ) -> Self {
+impl<'f> Home<'f> {
+    /// Follows the home assembly along one coordinate after the other to the corners of its cell.
+    pub fn new(fill: Flood<'f>, home: &Configuration<f64>) -> Self {
+        let (problem, grid) = (fill.problem, fill.grid);
         let at: Vec<f64> = (0..grid.dimensions())
             .map(|axis| within(problem, grid, axis, home))
             .collect();
@@ -40,11 +34,11 @@ impl<'m> Home<'m> {
             let forth: Vec<usize> = (0..to.len()).collect();
             let back: Vec<usize> = (0..to.len()).rev().collect();
             let mut ways = [forth, back].into_iter();
-            let end = ways.find_map(|order| along(problem, metric, home, (&at, &to), &order));
+            let end = ways.find_map(|order| along(&fill, home, (&at, &to), &order));
             nodes.extend(end.map(|end| (node, end)));
         }
         Home {
-            metric,
+            fill,
             at,
             signs,
             nodes,
@@ -52,9 +46,9 @@ impl<'m> Home<'m> {
     }
 
     /// Starts at its nodes, so that its mode is on the map whatever random starts find.
-    pub fn seeds(&self, problem: &MapProblem) -> ModeSeeds {
+    pub fn seeds(&self) -> ModeSeeds {
         ModeSeeds::of(
-            problem,
+            self.fill.problem,
             self.nodes
                 .iter()
                 .map(|(node, at)| (*node, vec![at.clone()])),
@@ -68,7 +62,8 @@ impl<'m> Home<'m> {
         mode: &[Option<usize>],
     ) -> [Option<usize>; 2] {
         let nodes = self.nodes.iter();
-        let known = nodes.filter_map(|(node, at)| reached_set.known(self.metric, *node, at.view()));
+        let known =
+            nodes.filter_map(|(node, at)| reached_set.known(self.fill.metric, *node, at.view()));
         let known: Vec<usize> = known.filter(|s| mode[*s].is_some()).collect();
         // between home and a node with other signs an aspect ends
         let same = |s: &&usize| self.signs.is_some() && reached_set.signs(**s) == self.signs;
@@ -125,11 +120,9 @@ fn corners(grid: &Grid, at: &[f64]) -> Vec<usize> {
     nodes
 }
 
-/// The configuration that regular motion leads to, from one point of the box to another, along one
-/// mapped coordinate after the other.
+/// What regular motion along one mapped coordinate after the other leads to, if it does.
 fn along(
-    problem: &MapProblem,
-    metric: &Metric,
+    fill: &Flood,
     home: &Configuration<f64>,
     (from, to): (&[f64], &[f64]),
     order: &[usize],
@@ -144,7 +137,7 @@ fn along(
             values: values.clone(),
             to: to[axis],
         };
-        match walk(problem, metric, &edge, &at, Until::End) {
+        match fill.walk(&edge, &at, Until::End) {
             Met::Neighbour(there) => at = there,
             _ => return None,
         }

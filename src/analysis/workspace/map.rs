@@ -34,8 +34,7 @@ pub(super) struct Map<'a> {
     pub aspect: Vec<Option<usize>>,
 }
 
-/// How far from a solution in a direction what it belongs to reaches, as a part of an edge; half if
-/// nothing is known.
+/// Part of an edge over which a solution belongs to its region in a direction; half if not known.
 type Cuts = HashMap<(usize, usize), f64>;
 
 impl<'a> Map<'a> {
@@ -49,7 +48,7 @@ impl<'a> Map<'a> {
         // of each mode the solution at its first node, with the least joints
         let mut first: Vec<Option<usize>> = vec![None; reached_set.len()];
         let order = |a: usize, b: usize| {
-            let node = |s: usize| reached_set.node(s);
+            let node = |s: usize| reached_set.nodes[s];
             let joints = |s: usize| brought(problem, reached_set.configuration(s).joints, true);
             let joint_order = || {
                 let (a, b) = (joints(a), joints(b));
@@ -64,7 +63,7 @@ impl<'a> Map<'a> {
         };
         for s in 0..reached_set.len() {
             let root = reached_set.roots[s];
-            within[root] |= reached_set.within(s);
+            within[root] |= reached_set.within[s];
             match first[root] {
                 Some(known) if order(known, s).is_le() => {}
                 _ => first[root] = Some(s),
@@ -114,8 +113,8 @@ impl<'a> Map<'a> {
                 of_modes[*mode].push(s);
             }
         }
-        let node = |s: &usize| self.reached_set.node(*s);
-        let whole = |s: &usize| self.reached_set.within(*s);
+        let node = |s: &usize| self.reached_set.nodes[*s];
+        let whole = |s: &usize| self.reached_set.within[*s];
         let of_mode = |mode: usize| move |s: &usize| self.mode[*s] == Some(mode) && whole(s);
         let all = (0..self.reached_set.len()).filter(whole);
         let reached = Region::new(self.grid, all.map(|s| node(&s)));
@@ -200,7 +199,7 @@ impl<'a> Map<'a> {
                 .iter()
                 .filter(|crossing| !crossing.again)
                 .filter_map(|crossing| {
-                    let node = self.reached_set.node(crossing.solution);
+                    let node = self.reached_set.nodes[crossing.solution];
                     let mut at = self.grid.values(node);
                     let along = crossing.direction / 2;
                     let next = self.grid.neighbour(node, crossing.direction)?;
@@ -286,7 +285,7 @@ impl<'a> Map<'a> {
             let belongs = |s: &usize| self.aspect[*s] == Some(first);
             let region = Region::new(
                 self.grid,
-                solutions.iter().map(|s| self.reached_set.node(*s)),
+                solutions.iter().map(|s| self.reached_set.nodes[*s]),
             );
             let finite: Vec<usize> = (solutions.iter().copied())
                 .filter(|s| indicators(*s).condition.is_finite())
@@ -298,7 +297,7 @@ impl<'a> Map<'a> {
                     .iter()
                     .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
                 alike.next().map(|s| Conditioned {
-                    at: self.grid.values(self.reached_set.node(*s)),
+                    at: self.grid.values(self.reached_set.nodes[*s]),
                     condition: of(*s),
                 })
             };
@@ -318,7 +317,7 @@ impl<'a> Map<'a> {
         all.sort_by(|a, b| {
             let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
             order.then_with(|| {
-                let node = |first: usize| self.reached_set.node(first);
+                let node = |first: usize| self.reached_set.nodes[first];
                 node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
             })
         });
@@ -344,7 +343,6 @@ fn brought(problem: &MapProblem, joints: &[f64], plain: bool) -> Vec<f64> {
     joints
 }
 
-/// The same in place.
 fn bring(problem: &MapProblem, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if problem.turns[joint] {

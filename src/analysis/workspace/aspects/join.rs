@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::aspects;
 use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, join, root, signs};
 use crate::analysis::workspace::problem::Grid;
 use crate::linear::Factorable;
@@ -22,15 +21,14 @@ pub(crate) fn parts(dimensions: usize) -> usize {
     if dimensions < 3 { 8 } else { 4 }
 }
 
-/// For each solution the first of its aspect, aspects of few nodes joined with those that a finer
-/// grid around them leads to; and pairs of solutions so joined.
+/// For each solution the first of its aspect, small ones joined over a finer grid; and what it joins.
 pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
     fill: &Flood,
     steps: &Pool<Steps<T>>,
     reached_set: &ReachedSet,
     watch: &Watch,
 ) -> (Vec<Option<usize>>, Vec<[usize; 2]>) {
-    let found = aspects(reached_set);
+    let found = reached_set.aspects();
     let mut roots: Vec<usize> = (0..found.len()).collect();
     let mut counts = vec![0; found.len()];
     for first in found.iter().flatten() {
@@ -117,7 +115,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
     let seeds: Vec<_> = (aspect.iter())
         .map(|s| {
             (
-                same(reached_set.node(*s)),
+                same(reached_set.nodes[*s]),
                 reached_set.configuration(*s).owned(),
             )
         })
@@ -127,7 +125,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         return Vec::new();
     }
     let found = found.reached_set(&fine);
-    let parts_of = aspects(&found);
+    let parts_of = found.aspects();
     let own: Vec<usize> = (seeds.iter())
         .filter_map(|(node, at)| parts_of[found.known(fill.metric, *node, at.view())?])
         .collect();

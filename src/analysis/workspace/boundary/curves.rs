@@ -112,7 +112,6 @@ impl Tracer<'_> {
         curves.collect()
     }
 
-    /// The mapped coordinates.
     fn point(&self, region: &Region, at: &Configuration<f64>) -> [f64; 2] {
         [0, 1].map(|i| region.side(at, &self.problem.axes[i]))
     }
@@ -150,8 +149,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where along a curve the mode changes: at places where solutions of the mapped problem
-    /// meet. On a fold such a place is where the mapped coordinates turn back.
+    /// Where along a curve the mode changes: solutions meet there, and on a fold the curve turns back.
     fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
         if self.kind == Kind::Fold {
             let way = |i: usize| [0, 1].map(|k| points[i + 1][k] - points[i][k]);
@@ -172,8 +170,7 @@ impl Tracer<'_> {
     }
 }
 
-/// Where a configuration is along a curve, if it is near: some place, or none where that must be looked
-/// at closely.
+/// Where a configuration is along a curve, if it is near; none within if that is uncertain.
 ///
 /// The tangent turns by less than a quarter of a radian from one place to the next, so that the curve
 /// is off the chord by less than a thirtieth of its length.

@@ -9,8 +9,7 @@ use crate::number::Packed;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving<'a> {
     pub at: ConfigurationRef<'a, f64>,
-    /// The motions for unit rates of the held coordinates one after another, the mapped ones first,
-    /// dimensionless.
+    /// For unit rates of the held coordinates one by one, the mapped ones first, dimensionless.
     pub motions: &'a [f64],
     pub indicators: &'a Indicators,
 }
@@ -54,7 +53,6 @@ pub(crate) struct Arrivals {
 }
 
 impl Arrivals {
-    /// So many steps of which none arrives.
     pub fn begin(&mut self, steps: usize) {
         self.arrived.clear();
         self.arrived.resize(steps, false);
@@ -99,12 +97,10 @@ impl Arrivals {
         }
     }
 
-    /// Takes back that a step arrives.
     pub fn reject(&mut self, step: usize) {
         self.arrived[step] = false;
     }
 
-    /// What a step arrives at.
     pub fn get(&self, step: usize) -> Option<Moving<'_>> {
         let length = self.motions.len() / self.arrived.len().max(1);
         self.arrived[step].then(|| Moving {

@@ -40,12 +40,10 @@ impl Configurations {
         }
     }
 
-    /// A joint of one of them.
     pub fn joint_mut(&mut self, i: usize, joint: usize) -> &mut f64 {
         &mut self.joints[i * self.widths[0] + joint]
     }
 
-    /// A platform of one of them.
     pub fn platform_mut(&mut self, i: usize, platform: usize) -> &mut PlatformPose<f64> {
         &mut self.platforms[i * self.widths[1] + platform]
     }

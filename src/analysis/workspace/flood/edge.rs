@@ -1,6 +1,6 @@
 //! The way from a node to its neighbour, in steps that cannot change branch unnoticed.
 
-use super::metric::Metric;
+use super::neighbour::Flood;
 use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::Decomposition;
 use crate::mechanism::Configuration;
@@ -10,7 +10,6 @@ use crate::system::{Coordinate, Curve, Driven, Event, Lock, Locked, Monitor, Wal
 /// What is met on the way.
 #[derive(Clone, Debug)]
 pub(crate) enum Met {
-    /// The neighbour.
     Neighbour(Configuration<f64>),
     /// The mapped coordinate turns back: the mode ends.
     Fold(Configuration<f64>, f64),
@@ -22,7 +21,6 @@ pub(crate) enum Met {
     Nothing,
 }
 
-/// An edge of the grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Edge {
     pub axis: usize,
@@ -51,141 +49,132 @@ pub(crate) enum Until<'l> {
     Singular(&'l [Lock]),
 }
 
-/// A curve along an edge with the place where it begins, towards the end.
-fn begun(
-    problem: &MapProblem,
-    metric: &Metric,
-    edge: &Edge,
-    from: &Configuration<f64>,
-    method: &Continuation,
-    within: bool,
-) -> Result<(Curve, Place<Configuration<f64>>), Met> {
-    let moved = edge.moved(problem);
-    let held = problem.at(&edge.values).without(moved.coordinate).held();
-    let mut curve = Curve::along(problem.mechanism, &held, vec![moved]);
-    let mut start = problem.put(from, &edge.values);
-    if within {
-        problem.mechanism.turn_to_limits(&mut start.joints);
-    }
-    let Ok(place) = method.settle(&mut curve, start) else {
-        return Err(Met::Nothing);
-    };
-    if place.is_beside_a_crossing() || !metric.same(place.at.view(), from.view()) {
-        return Err(Met::Nothing);
-    }
-    match curve.towards_end(place) {
-        (place, true) => Err(Met::Fold(place.at, 0.0)),
-        (place, false) => Ok((curve, place)),
-    }
-}
-
-/// Whether the neighbour is reached or the mode folds back before it, which is not located.
-pub(crate) fn reach(
-    problem: &MapProblem,
-    metric: &Metric,
-    edge: &Edge,
-    from: &Configuration<f64>,
-) -> Met {
-    const STEPS: usize = 200;
-    /// A fold predicted by the parabola before this fraction of the edge is accepted without
-    /// locating it.
-    const SURELY: f64 = 0.7;
-    /// Shorter steps are only needed where branches cross.
-    const SHORTEST: f64 = 1e-6;
-    let method = Continuation::default();
-    let (mut curve, mut place) = match begun(problem, metric, edge, from, &method, false) {
-        Ok(begun) => begun,
-        Err(met) => return met,
-    };
-    let ahead = |curve: &Curve, place: &Place<Configuration<f64>>| {
-        let rate = curve.part_rate(&place.at, &place.tangent);
-        (curve.part(&place.at), rate)
-    };
-    let (mut part, mut rate) = ahead(&curve, &place);
-    let mut length = (0.4 * (1.0 - part) / rate).min(method.longest);
-    for _ in 0..STEPS {
-        if length < SHORTEST {
-            return Met::Nothing;
+impl Flood<'_> {
+    /// A curve along an edge with the place where it begins, towards the end.
+    fn begun(
+        &self,
+        edge: &Edge,
+        from: &Configuration<f64>,
+        method: &Continuation,
+        within: bool,
+    ) -> Result<(Curve, Place<Configuration<f64>>), Met> {
+        let problem = self.problem;
+        let moved = edge.moved(problem);
+        let held = problem.at(&edge.values).without(moved.coordinate).held();
+        let mut curve = Curve::along(problem.mechanism, &held, vec![moved]);
+        let mut start = problem.put(from, &edge.values);
+        if within {
+            problem.mechanism.turn_to_limits(&mut start.joints);
         }
-        let Ok((to, changed)) = method.step(&mut curve, &place, length) else {
-            length *= 0.5;
-            continue;
+        let Ok(place) = method.settle(&mut curve, start) else {
+            return Err(Met::Nothing);
         };
-        let (next, next_rate) = ahead(&curve, &to);
-        if next_rate <= 0.0 {
-            let top = part + 0.5 * rate * length * rate / (rate - next_rate);
-            return match top < SURELY {
-                true => Met::Fold(to.at, top),
-                false => walk(problem, metric, edge, from, Until::End),
-            };
+        if place.is_beside_a_crossing() || !self.metric.same(place.at.view(), from.view()) {
+            return Err(Met::Nothing);
         }
-        if next >= 1.0 {
-            let mut left =
-                |curve: &mut Curve, p: &Place<Configuration<f64>>| curve.part(&p.at) - 1.0;
-            let end = method.root(&mut curve, &place, &to, &mut left);
-            return Met::Neighbour(end.at);
+        match curve.towards_end(place) {
+            (place, true) => Err(Met::Fold(place.at, 0.0)),
+            (place, false) => Ok((curve, place)),
         }
-        (place, part, rate) = (to, next, next_rate);
-        length = method
-            .next_length(length, changed, &place)
-            .min(1.2 * (1.0 - part) / rate);
-        length = length.max(2.0 * SHORTEST);
     }
-    Met::Nothing
-}
 
-/// What is met first on an edge, located to rounding.
-pub(crate) fn walk(
-    problem: &MapProblem,
-    metric: &Metric,
-    edge: &Edge,
-    from: &Configuration<f64>,
-    until: Until,
-) -> Met {
-    const LEGS: usize = 500;
-    let mechanism = problem.mechanism;
-    let moved = edge.moved(problem);
-    let method = Continuation::default();
-    let within = until == Until::Limit;
-    let (mut curve, place) = match begun(problem, metric, edge, from, &method, within) {
-        Ok(begun) => begun,
-        Err(met) => return met,
-    };
-    let monitors: Vec<Monitor> = match until {
-        Until::Singular(locks) => {
-            let mut locked = Locked::without_spins(mechanism, &problem.question.held(), locks);
-            let near: Decomposition = locked.decomposition(&place.at);
-            let sign = move |_: &mut Curve, place: &Place<Configuration<f64>>| {
-                locked.orientation(&near, &place.at)
-            };
-            vec![Box::new(sign)]
-        }
-        _ => Vec::new(),
-    };
-    let mut walk = Walk::new(mechanism, &curve, place, method).watching(monitors);
-    for _ in 0..LEGS {
-        let Ok(leg) = walk.advance(&mut curve) else {
-            return Met::Nothing;
+    /// Whether the neighbour is reached or the mode folds back before it, which is not located.
+    pub(crate) fn reach(&self, edge: &Edge, from: &Configuration<f64>) -> Met {
+        const STEPS: usize = 200;
+        /// Part of the edge before which a fold that a parabola predicts is accepted unlocated.
+        const SURELY: f64 = 0.7;
+        /// Shorter steps are only needed where branches cross.
+        const SHORTEST: f64 = 1e-6;
+        let method = Continuation::default();
+        let (mut curve, mut place) = match self.begun(edge, from, &method, false) {
+            Ok(begun) => begun,
+            Err(met) => return met,
         };
-        for (place, event) in leg.events {
-            let part = curve.part(&place.at).clamp(0.0, 1.0);
-            match event {
-                Event::End(true) => {
-                    let mut at = place.at;
-                    if let Coordinate::Joint(joint) = moved.coordinate {
-                        at.joints[joint] = moved.to;
+        let ahead = |curve: &Curve, place: &Place<Configuration<f64>>| {
+            let rate = curve.part_rate(&place.at, &place.tangent);
+            (curve.part(&place.at), rate)
+        };
+        let (mut part, mut rate) = ahead(&curve, &place);
+        let mut length = (0.4 * (1.0 - part) / rate).min(method.longest);
+        for _ in 0..STEPS {
+            if length < SHORTEST {
+                return Met::Nothing;
+            }
+            let Ok((to, changed)) = method.step(&mut curve, &place, length) else {
+                length *= 0.5;
+                continue;
+            };
+            let (next, next_rate) = ahead(&curve, &to);
+            if next_rate <= 0.0 {
+                let top = part + 0.5 * rate * length * rate / (rate - next_rate);
+                return match top < SURELY {
+                    true => Met::Fold(to.at, top),
+                    false => self.walk(edge, from, Until::End),
+                };
+            }
+            if next >= 1.0 {
+                let mut left =
+                    |curve: &mut Curve, p: &Place<Configuration<f64>>| curve.part(&p.at) - 1.0;
+                let end = method.root(&mut curve, &place, &to, &mut left);
+                return Met::Neighbour(end.at);
+            }
+            (place, part, rate) = (to, next, next_rate);
+            length = method
+                .next_length(length, changed, &place)
+                .min(1.2 * (1.0 - part) / rate);
+            length = length.max(2.0 * SHORTEST);
+        }
+        Met::Nothing
+    }
+
+    /// What is met first on an edge, located to rounding.
+    pub(crate) fn walk(&self, edge: &Edge, from: &Configuration<f64>, until: Until) -> Met {
+        const LEGS: usize = 500;
+        let problem = self.problem;
+        let mechanism = problem.mechanism;
+        let moved = edge.moved(problem);
+        let method = Continuation::default();
+        let within = until == Until::Limit;
+        let (mut curve, place) = match self.begun(edge, from, &method, within) {
+            Ok(begun) => begun,
+            Err(met) => return met,
+        };
+        let monitors: Vec<Monitor> = match until {
+            Until::Singular(locks) => {
+                let mut locked = Locked::without_spins(mechanism, &problem.question.held(), locks);
+                let near: Decomposition = locked.decomposition(&place.at);
+                let sign = move |_: &mut Curve, place: &Place<Configuration<f64>>| {
+                    locked.orientation(&near, &place.at)
+                };
+                vec![Box::new(sign)]
+            }
+            _ => Vec::new(),
+        };
+        let mut walk = Walk::new(mechanism, &curve, place, method).watching(monitors);
+        for _ in 0..LEGS {
+            let Ok(leg) = walk.advance(&mut curve) else {
+                return Met::Nothing;
+            };
+            for (place, event) in leg.events {
+                let part = curve.part(&place.at).clamp(0.0, 1.0);
+                match event {
+                    Event::End(true) => {
+                        let mut at = place.at;
+                        if let Coordinate::Joint(joint) = moved.coordinate {
+                            at.joints[joint] = moved.to;
+                        }
+                        return Met::Neighbour(at);
                     }
-                    return Met::Neighbour(at);
+                    Event::Fold => return Met::Fold(place.at, part),
+                    Event::Limit { joint, upper, .. } if until == Until::Limit => {
+                        return Met::Limit(place.at, part, joint, upper);
+                    }
+                    Event::Root(_) => return Met::Singular(place.at, part),
+                    Event::End(false) | Event::Branches(_) => return Met::Nothing,
+                    _ => {}
                 }
-                Event::Fold => return Met::Fold(place.at, part),
-                Event::Limit { joint, upper, .. } if until == Until::Limit => {
-                    return Met::Limit(place.at, part, joint, upper);
-                }
-                Event::Root(_) => return Met::Singular(place.at, part),
-                Event::End(false) | Event::Branches(_) => return Met::Nothing,
-                _ => {}
             }
         }
+        Met::Nothing
     }
-    Met::Nothing
 }

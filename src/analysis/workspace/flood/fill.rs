@@ -1,8 +1,8 @@
 //! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
 
-use super::super::WorkspaceError;
+use super::super::TooManyNodes;
 use super::arrivals::{Arrivals, Moving};
-use super::edge::{Edge, Met, reach};
+use super::edge::{Edge, Met};
 use super::neighbour::{Flood, JOB, Step, in_packs, one_each};
 use super::pace::End;
 use super::reached::{Link, Name};
@@ -19,9 +19,8 @@ const PARTS: usize = 64;
 
 impl Flood<'_> {
     /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
-    /// single steps lead, then over their seams; last, where single steps are too long. The order
-    /// of work does not depend on the number of threads: parts are what they are, and what comes of
-    /// several at once is merged in their order.
+    /// single steps lead, then over their seams; last, where single steps are too long. What comes
+    /// of several parts is merged in their order, whatever the number of threads.
     ///
     /// # Errors
     /// If more is reached than may be kept.
@@ -31,7 +30,7 @@ impl Flood<'_> {
         steps: &Pool<Steps<T>>,
         seeds: &[(usize, Configuration<f64>)],
         watch: &Watch,
-    ) -> Result<(), WorkspaceError> {
+    ) -> Result<(), TooManyNodes> {
         let starts: Vec<Start> = (seeds.iter())
             .map(|(node, at)| self.here(*node, at))
             .collect();
@@ -92,7 +91,7 @@ impl Flood<'_> {
         spread: &mut Spread,
         steps: &Pool<Steps<T>>,
         watch: &Watch,
-    ) -> Result<(), WorkspaceError> {
+    ) -> Result<(), TooManyNodes> {
         for first in (0..spread.tiles.len()).step_by(PARTS) {
             if watch.stops(Stage::Reached, spread.len(), None) {
                 break;
@@ -105,23 +104,22 @@ impl Flood<'_> {
             steps.each_of(growing, |steps, tile| tile.grow(self, steps));
             let reached = spread.len();
             if reached > self.most {
-                return Err(WorkspaceError::TooMany { most: self.most });
+                return Err(TooManyNodes { most: self.most });
             }
         }
         Ok(())
     }
 
-    /// Of steps over seams, or that were not sure, first those that lead to known solutions are
-    /// linked; then one step is chosen to each node from each mode known so far. The others wait
-    /// for what it finds.
+    /// Links steps to known solutions, then chooses one step to each node from each mode; the others
+    /// wait for what it finds.
     fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
         let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {
-            let near = jobs[i].iter().map(|&(from, d)| {
-                let node = self.grid.neighbour(spread.solution(from).node, d)?;
+            let near = jobs[i].iter().map(|&task| {
+                let node = spread.ahead(self.grid, task)?;
                 let tile = &spread.tiles[spread.tiling.of(self.grid, node)];
                 let there = tile.moving_at(self.grid, node);
-                self.near(&spread.step(self, (from, d)), there, storage)
+                self.near(&spread.step(self, task), there, storage)
             });
             near.collect::<Vec<Option<Name>>>()
         });
@@ -133,12 +131,10 @@ impl Flood<'_> {
                 None => left.push((from, d)),
             }
         }
-        one_each(left, |&(from, d)| {
-            let node = self.grid.neighbour(spread.solution(from).node, d);
-            (
-                node,
-                spread.tiles[from.tile as usize].root(from.solution as usize),
-            )
+        one_each(left, |&task| {
+            let node = spread.ahead(self.grid, task);
+            let Name { tile, solution } = task.0;
+            (node, spread.tiles[tile as usize].root(solution as usize))
         })
     }
 
@@ -162,8 +158,7 @@ impl Flood<'_> {
         })
     }
 
-    /// Where single steps are too long: by shorter ones, and what is left by steps along the curve,
-    /// each of which takes as long as hundreds of those.
+    /// Where single steps are too long: by shorter ones, then along the curve, which is far slower.
     fn ends<T: Factorable + Packed + Send + Sync>(
         &self,
         spread: &Spread,
@@ -185,14 +180,11 @@ impl Flood<'_> {
                 values: self.grid.values(spread.solution(unsure[i].0).node),
                 to: step.to[step.axis],
             };
-            reach(self.problem, self.metric, &edge, &step.from.at.owned())
+            self.reach(&edge, &step.from.at.owned())
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
-            .filter_map(|(&(from, d), met)| match met {
-                Met::Neighbour(at) => {
-                    let node = spread.solution(from).node;
-                    Some(self.here(self.grid.neighbour(node, d).unwrap_or(node), at))
-                }
+            .filter_map(|(&task, met)| match met {
+                Met::Neighbour(at) => Some(self.here(spread.ahead(self.grid, task)?, at)),
                 _ => None,
             })
             .collect();
@@ -212,7 +204,7 @@ impl Flood<'_> {
     }
 
     fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Moving) {
-        let Some(node) = self.grid.neighbour(spread.solution(from).node, d) else {
+        let Some(node) = spread.ahead(self.grid, (from, d)) else {
             return;
         };
         let known = spread.known(self, node, arrival);

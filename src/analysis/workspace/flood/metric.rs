@@ -1,5 +1,4 @@
-//! Distances between configurations and between their tangents, and which of them belong to one
-//! mode.
+//! Distances between configurations and between tangents, and which of them are of one mode.
 
 use std::f64::consts::PI;
 
@@ -11,7 +10,6 @@ use crate::mechanism::{ConfigurationRef, Role, turn_near};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Curve, Held, Unknown};
 
-/// How far configurations are apart.
 #[derive(Clone, Debug)]
 pub(crate) struct Metric {
     free: Curve,
@@ -137,8 +135,7 @@ impl Metric {
         squares.sum::<f64>().sqrt()
     }
 
-    /// The motion for a unit rate of a mapped coordinate, and how far along it a change of the
-    /// coordinate leads.
+    /// The motion for a unit rate of a mapped coordinate, and how far a change leads along it.
     pub fn motion<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> (&'a [f64], f64) {
         let unknowns = self.free.unknowns();
         let motion = &from.motions[axis * unknowns..][..unknowns];
@@ -159,8 +156,8 @@ impl Metric {
         }
     }
 
-    /// Whether each of two configurations lies where the tangent of the other predicts it
-    /// of that, and the motions are [alike](Self::alike).
+    /// Whether each of two configurations lies where the tangent of the other predicts it, and the
+    /// motions are [alike](Self::alike).
     ///
     /// All joints must lie there, also those that do not distinguish modes: what does may be near
     /// by chance, as the lengths of two cylinders are about the same on both sides of the arm that
@@ -230,8 +227,7 @@ impl Metric {
 }
 
 impl SeenJoint {
-    /// How far it is from one configuration to another, dimensionless, turns that change nothing
-    /// left out.
+    /// From one configuration to another, dimensionless, without turns that change nothing.
     fn change(&self, from: ConfigurationRef<f64>, to: ConfigurationRef<f64>) -> f64 {
         let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
         match self.repeats && change.abs() > PI {

@@ -40,7 +40,6 @@ pub(crate) struct Step<'a> {
 }
 
 impl Flood<'_> {
-    /// Whether spreading continues from a solution.
     pub(crate) fn goes_on_from(&self, solution: &NodeSolution) -> bool {
         self.only.is_none() || signs(solution) == self.only
     }
@@ -77,8 +76,7 @@ impl Flood<'_> {
         known.map(|(name, _)| name)
     }
 
-    /// The way from a configuration at a node to its neighbour in a direction, if there is one;
-    /// otherwise a step of zero length.
+    /// The way from a node to its neighbour, of zero length if there is none.
     pub(crate) fn step<'f>(&self, node: usize, from: Moving<'f>, direction: usize) -> Step<'f> {
         let axis = direction / 2;
         let next = self.grid.neighbour(node, direction).unwrap_or(node);

@@ -26,7 +26,6 @@ struct PacedStep {
     axis: usize,
     /// The mapped coordinates at the neighbour.
     end: [f64; MOST_AXES],
-    /// The mapped coordinate now.
     x: f64,
     /// The next change of the mapped coordinate.
     step: f64,
@@ -179,7 +178,6 @@ mod tests {
         }
     }
 
-    /// Continues until a fold is found or the edge ends.
     fn folds(slowness: impl Fn(f64) -> f64) -> bool {
         let mut way = way(slowness(0.0));
         for _ in 0..30 {

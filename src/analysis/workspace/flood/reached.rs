@@ -23,7 +23,7 @@ pub(crate) struct NodeSolution {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NodeSolutions {
     pub all: Vec<NodeSolution>,
-    at: Configurations,
+    pub at: Configurations,
 }
 
 /// Which solution of which part of the grid.
@@ -54,11 +54,13 @@ pub(crate) struct ReachedSet {
     numbers: Vec<Vec<usize>>,
     /// For each node its first solution, and their number at the end.
     firsts: Vec<usize>,
-    nodes: Vec<usize>,
-    within: Vec<bool>,
+    /// For each solution its node, and whether all its joints are within their limits.
+    pub nodes: Vec<usize>,
+    pub within: Vec<bool>,
     /// For each solution one of those connected with it, the same for all of them.
     pub roots: Vec<usize>,
-    bands: Vec<Band>,
+    /// In the order of their nodes.
+    pub bands: Vec<Band>,
 }
 
 /// Parts of the grid whose nodes follow one another, and so do the numbers of their solutions.
@@ -69,9 +71,8 @@ pub(crate) struct Band {
 }
 
 impl ReachedSet {
-    /// The solutions of each part of the grid, and for each of them the first of those connected
-    /// with it in that part; what else is connected; and for each band how many parts and nodes it
-    /// has.
+    /// `tiles` are the solutions of each part of the grid, each with the first connected with it in
+    /// there; `seams` connect others; `bands` are the numbers of parts and nodes of each.
     pub fn new(
         tiles: Vec<(NodeSolutions, Vec<usize>)>,
         seams: &[[Name; 2]],
@@ -127,11 +128,6 @@ impl ReachedSet {
         reached_set
     }
 
-    /// All bands in their order.
-    pub fn bands(&self) -> &[Band] {
-        &self.bands
-    }
-
     /// The solutions of a band with their numbers, in the order in which they are kept.
     pub fn kept(
         &self,
@@ -140,11 +136,10 @@ impl ReachedSet {
         band.tiles.clone().flat_map(|tile| {
             let (solutions, numbers) = (&self.tiles[tile], &self.numbers[tile]);
             let all = numbers.iter().zip(&solutions.all).enumerate();
-            all.map(|(i, (number, solution))| (*number, solution, solutions.at(i)))
+            all.map(|(i, (number, solution))| (*number, solution, solutions.at.get(i)))
         })
     }
 
-    /// Takes solutions to be connected.
     pub fn connect(&mut self, pairs: Vec<[usize; 2]>) {
         (pairs.into_iter()).for_each(|[a, b]| join(&mut self.roots, a, b));
         for s in 0..self.roots.len() {
@@ -152,14 +147,10 @@ impl ReachedSet {
         }
     }
 
-    /// For each solution of some kind the first of those of its kind that links connect with it.
-    pub fn parted<K: PartialEq + Send + Sync>(
-        &self,
-        kind: impl Fn(&NodeSolution) -> Option<K> + Sync,
-    ) -> Vec<Option<usize>> {
-        let parts = each(self.tiles.len(), &(), |(), tile| {
-            self.parted_in(tile, &kind)
-        });
+    /// For each solution the first of its aspect: of those of its signs that links connect with it;
+    /// none outside limits and on singularities.
+    pub fn aspects(&self) -> Vec<Option<usize>> {
+        let parts = each(self.tiles.len(), &(), |(), tile| self.aspects_in(tile));
         let mut roots: Vec<usize> = (0..self.len()).collect();
         let mut parted = vec![false; self.len()];
         for (numbers, (within, _)) in self.numbers.iter().zip(&parts) {
@@ -180,15 +171,11 @@ impl ReachedSet {
         all.collect()
     }
 
-    /// For each solution of a part of the grid one of its kind connected with it in there, the same
-    /// for all of them; and what of its kind is linked with it elsewhere.
-    fn parted_in<K: PartialEq>(
-        &self,
-        tile: usize,
-        kind: &impl Fn(&NodeSolution) -> Option<K>,
-    ) -> (Vec<Option<usize>>, Vec<[Name; 2]>) {
+    /// For each solution of a part of the grid one of its aspect connected with it in there, the
+    /// same for all of them; and what of its signs is linked with it elsewhere.
+    fn aspects_in(&self, tile: usize) -> (Vec<Option<usize>>, Vec<[Name; 2]>) {
         let solutions = &self.tiles[tile].all;
-        let kinds: Vec<Option<K>> = solutions.iter().map(kind).collect();
+        let kinds: Vec<Option<Signs>> = solutions.iter().map(signs).collect();
         let mut roots: Vec<usize> = (0..solutions.len()).collect();
         let mut across = Vec::new();
         for (s, solution) in solutions
@@ -204,7 +191,7 @@ impl ReachedSet {
                     true if kinds[s] == kinds[other.solution as usize] => {
                         join(&mut roots, s, other.solution as usize);
                     }
-                    false if kinds[s] == kind(self.named(other)) => {
+                    false if kinds[s] == signs(self.named(other)) => {
                         across.push([Name::new(tile, s), other]);
                     }
                     _ => {}
@@ -212,7 +199,7 @@ impl ReachedSet {
             }
         }
         let all = kinds.iter().enumerate();
-        let all = all.map(|(s, kind)| kind.as_ref().map(|_| root(&mut roots, s)));
+        let all = all.map(|(s, kind)| kind.map(|_| root(&mut roots, s)));
         (all.collect(), across)
     }
 
@@ -226,20 +213,13 @@ impl ReachedSet {
 
     pub fn configuration(&self, number: usize) -> ConfigurationRef<'_, f64> {
         let name = self.names[number];
-        self.tiles[name.tile as usize].at(name.solution as usize)
+        self.tiles[name.tile as usize]
+            .at
+            .get(name.solution as usize)
     }
 
     pub fn named(&self, name: Name) -> &NodeSolution {
         &self.tiles[name.tile as usize].all[name.solution as usize]
-    }
-
-    pub fn node(&self, number: usize) -> usize {
-        self.nodes[number]
-    }
-
-    /// Whether all joints of a solution are within their limits.
-    pub fn within(&self, number: usize) -> bool {
-        self.within[number]
     }
 
     /// The signs of a solution; none outside limits and on singularities.
@@ -247,7 +227,6 @@ impl ReachedSet {
         signs(self.solution(number))
     }
 
-    /// All solutions by their numbers.
     pub fn solutions(&self) -> impl Iterator<Item = (usize, &NodeSolution)> + Clone {
         (0..self.len()).map(|s| (s, self.solution(s)))
     }
@@ -264,7 +243,6 @@ impl ReachedSet {
         self.numbers[name.tile as usize][name.solution as usize]
     }
 
-    /// The solutions of a node.
     pub fn at(&self, node: usize) -> Range<usize> {
         self.firsts[node]..self.firsts[node + 1]
     }
@@ -276,28 +254,6 @@ impl ReachedSet {
         let apart = |s: &usize| metric.apart(self.configuration(*s), at);
         // two modes may meet there
         same.min_by(|a, b| apart(a).total_cmp(&apart(b)))
-    }
-}
-
-impl NodeSolutions {
-    pub fn len(&self) -> usize {
-        self.all.len()
-    }
-
-    /// The configuration of one.
-    pub fn at(&self, solution: usize) -> ConfigurationRef<'_, f64> {
-        self.at.get(solution)
-    }
-
-    /// Room for so many more with configurations like this one.
-    pub fn reserve(&mut self, more: usize, like: ConfigurationRef<f64>) {
-        self.all.reserve(more);
-        self.at.reserve(more, like);
-    }
-
-    pub fn push(&mut self, solution: NodeSolution, at: ConfigurationRef<f64>) {
-        self.all.push(solution);
-        self.at.push(at);
     }
 }
 
@@ -320,14 +276,12 @@ pub(crate) fn root(roots: &mut [usize], mut of: usize) -> usize {
     of
 }
 
-/// Connects two.
 pub(crate) fn join(roots: &mut [usize], a: usize, b: usize) {
     let (a, b) = (root(roots, a), root(roots, b));
     roots[a.max(b)] = a.min(b);
 }
 
-/// Whether the determinants of direct and of inverse singularities are negative: what solutions of
-/// one aspect share.
+/// Whether the determinants of direct and inverse singularities are negative, alike in an aspect.
 pub(crate) type Signs = [bool; 2];
 
 /// The signs of a solution; none outside limits and on singularities.

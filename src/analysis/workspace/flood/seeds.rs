@@ -12,7 +12,7 @@ use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Packed;
-use crate::solve::{Pool, Stage, Stop, Watch, each};
+use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
 use crate::system::{System, Work, random_configuration, with_coordinates};
 
 /// What was found at the nodes that were searched.
@@ -53,12 +53,11 @@ struct Storage {
 
 /// Newton's method from random starts at each of some nodes, and from the given configurations.
 pub(crate) fn search_modes(
-    problem: &MapProblem,
-    grid: &Grid,
-    metric: &Metric,
+    fill: &Flood,
     (nodes, starts, seed): (&[usize], usize, u64),
     (given, watch): (&[Configuration<f64>], &Watch),
 ) -> ModeSeeds {
+    let (problem, grid, metric) = (fill.problem, fill.grid, fill.metric);
     let system = problem.question.system();
     let storage = Storage {
         targets: Targets::new(problem),
@@ -82,7 +81,7 @@ pub(crate) fn search_modes(
                 _ => random_configuration(problem.mechanism, &around, &mut rng),
             };
             let at = put_in(problem, &values, &at);
-            take(problem, metric, storage, &values, at, &mut found);
+            take(metric, storage, &values, at, &mut found);
         }
         (node, found)
     });
@@ -92,7 +91,7 @@ pub(crate) fn search_modes(
         let mut found = Vec::new();
         let values = grid.values(node);
         let at = put_in(problem, &values, at);
-        take(problem, metric, &mut last, &values, at, &mut found);
+        take(metric, &mut last, &values, at, &mut found);
         Some((node, found))
     });
     ModeSeeds::of(problem, found.into_iter().chain(here))
@@ -100,7 +99,6 @@ pub(crate) fn search_modes(
 
 /// Adds what Newton's method finds from a start, if it is new.
 fn take(
-    problem: &MapProblem,
     metric: &Metric,
     storage: &mut Storage,
     values: &[f64],
@@ -109,7 +107,7 @@ fn take(
 ) {
     (storage.targets).ask(&mut storage.system, &mut at, |_| values);
     let mut trial = at.clone();
-    let report = (problem.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
+    let report = Newton::default().solve(&storage.system, &mut at, &mut trial, &mut storage.work);
     if report.stop != Stop::Solved
         || found
             .iter()
@@ -140,8 +138,7 @@ fn put_in(problem: &MapProblem, values: &[f64], at: &Configuration<f64>) -> Conf
 /// Starts at each node that is probed.
 pub(crate) const PROBES: usize = 8;
 
-/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it
-/// finds that is not reached yet, so that small isolated regions are not missed.
+/// What a few random starts at each of many nodes find that is not reached yet: small regions.
 pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
     fill: &Flood,
     reached: &Spread,

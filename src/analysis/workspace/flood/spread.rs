@@ -16,7 +16,6 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Nothing yet.
     pub fn new(grid: &Grid) -> Self {
         let tiling = Tiling::new(grid);
         Spread {
@@ -34,7 +33,6 @@ impl Spread {
         &mut self.tiles[name.tile as usize].solutions.all[name.solution as usize].links[direction]
     }
 
-    /// Links two solutions.
     pub fn link(&mut self, from: Name, direction: usize, to: Name) {
         if from.tile == to.tile {
             let tile = &mut self.tiles[from.tile as usize];
@@ -62,7 +60,12 @@ impl Spread {
     }
 
     pub fn len(&self) -> usize {
-        self.tiles.iter().map(|tile| tile.solutions.len()).sum()
+        self.tiles.iter().map(|tile| tile.solutions.all.len()).sum()
+    }
+
+    /// The node that a step leads to.
+    pub fn ahead(&self, grid: &Grid, (from, direction): Task) -> Option<usize> {
+        self.tiles[from.tile as usize].ahead(grid, from.solution as usize, direction)
     }
 
     /// The way from a solution to its neighbour.
@@ -70,7 +73,6 @@ impl Spread {
         self.tiles[from.tile as usize].step(fill, from.solution as usize, direction)
     }
 
-    /// All of it.
     pub fn reached_set(self, grid: &Grid) -> ReachedSet {
         let tiles = self.tiles.into_iter().map(Tile::finished);
         let bands = self.tiling.bands(grid);

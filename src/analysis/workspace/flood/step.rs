@@ -22,8 +22,7 @@ pub(crate) struct Start<'a> {
     pub values: [f64; MOST_AXES],
 }
 
-/// Newton's method in several places at once. A place whose steps are too long stands still from
-/// there on and does no harm to the others.
+/// Newton's method in several places at once. One whose steps are too long stands still from there on.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps<T: Factorable> {
     targets: Targets,
@@ -36,8 +35,7 @@ pub(crate) struct Steps<T: Factorable> {
     rates: Rates<T>,
 }
 
-/// The part of a step that its first correction may be, and of a correction that the next may be:
-/// beyond it another solution may be as near.
+/// Part of a step that its first correction may be, and so on: beyond it others may be as near.
 pub(crate) const SURE: f64 = 0.3;
 
 impl<T: Factorable + Packed> Steps<T> {
@@ -69,8 +67,7 @@ impl<T: Factorable + Packed> Steps<T> {
         }
     }
 
-    /// The same with all of them, the first of which has this number. Whether rank is lost, which
-    /// places side by side cannot lose one by one.
+    /// The same side by side, the first with this number; whether rank is lost, which spoils them all.
     fn together(&mut self, starts: &[Start], first: usize, arrivals: &mut Arrivals) -> bool {
         /// Corrections, and those from anywhere.
         const STEPS: [usize; 2] = [8, 20];

@@ -12,7 +12,6 @@ use crate::number::Packed;
 pub(crate) struct Tiling {
     /// Nodes along each side of a part, at most.
     sides: [usize; MOST_AXES],
-    /// Parts along each axis.
     counts: [usize; MOST_AXES],
 }
 
@@ -33,8 +32,7 @@ impl Tiling {
         tiling
     }
 
-    /// Parts with one place along the last axis follow one another, and so do their nodes: how many
-    /// of both there are, for each such place.
+    /// How many parts and nodes there are for each place along the last axis; these follow one another.
     pub fn bands(&self, grid: &Grid) -> Vec<(usize, usize)> {
         let last = grid.dimensions() - 1;
         let tiles = self.counts[..last].iter().product();
@@ -94,8 +92,7 @@ pub(crate) struct Tile {
     pub solutions: NodeSolutions,
     /// The motions of its solutions, one after another.
     motions: Vec<f64>,
-    /// For each of its nodes the last solution there, and for each solution the one before it
-    /// there.
+    /// For each of its nodes the last solution there, and for each solution the one before it.
     last: Vec<Option<u32>>,
     before: Vec<Option<u32>>,
     /// For each solution the first, so far as is known, of those connected with it in here.
@@ -109,7 +106,6 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    /// Whether there is something to spread from.
     pub fn grows(&self) -> bool {
         !self.front.is_empty()
     }
@@ -127,7 +123,6 @@ impl Tile {
         Some(place)
     }
 
-    /// The solutions at a node.
     fn solutions_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = usize> {
         let last = self.place(grid, node).and_then(|place| self.last[place]);
         let solutions = std::iter::successors(last, |solution| self.before[*solution as usize]);
@@ -149,15 +144,19 @@ impl Tile {
         )
     }
 
+    pub fn ahead(&self, grid: &Grid, solution: usize, direction: usize) -> Option<usize> {
+        grid.neighbour(self.solutions.all[solution].node, direction)
+    }
+
     fn name(&self, solution: usize) -> Name {
         Name::new(self.number, solution)
     }
 
     /// A solution with its motions.
     pub fn moving(&self, solution: usize) -> Moving<'_> {
-        let length = self.motions.len() / self.solutions.len();
+        let length = self.motions.len() / self.solutions.all.len();
         Moving {
-            at: self.solutions.at(solution),
+            at: self.solutions.at.get(solution),
             motions: &self.motions[solution * length..][..length],
             indicators: &self.solutions.all[solution].indicators,
         }
@@ -165,7 +164,7 @@ impl Tile {
 
     /// Its solutions, and for each the first of those connected with it in here.
     pub fn finished(mut self) -> (NodeSolutions, Vec<usize>) {
-        let roots = (0..self.solutions.len()).map(|solution| root(&mut self.roots, solution));
+        let roots = (0..self.solutions.all.len()).map(|solution| root(&mut self.roots, solution));
         let roots = roots.collect();
         (self.solutions, roots)
     }
@@ -178,11 +177,12 @@ impl Tile {
 
     /// Adds what was not reached before, at one of its nodes.
     pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> Name {
-        let new = self.solutions.len();
+        let new = self.solutions.all.len();
         if new == 0 {
             // if one node of a part is reached, most of its nodes are
             let nodes = self.last.len();
-            self.solutions.reserve(nodes, arrival.at);
+            self.solutions.all.reserve(nodes);
+            self.solutions.at.reserve(nodes, arrival.at);
             self.motions.reserve(nodes * arrival.motions.len());
         }
         let solution = NodeSolution {
@@ -194,7 +194,8 @@ impl Tile {
         if fill.goes_on_from(&solution) {
             self.front.push(new);
         }
-        self.solutions.push(solution, arrival.at);
+        self.solutions.all.push(solution);
+        self.solutions.at.push(arrival.at);
         self.motions.extend(arrival.motions);
         let place = self.place(fill.grid, node);
         let place = place.expect("a node of this part");
@@ -204,7 +205,6 @@ impl Tile {
         name
     }
 
-    /// Links two of its solutions.
     pub fn link(&mut self, from: usize, direction: usize, to: usize) {
         let (from_name, to_name) = (self.name(from), self.name(to));
         self.solutions.all[from].links[direction] = Link::To(to_name);
@@ -219,13 +219,13 @@ impl Tile {
     pub fn grow<T: Factorable + Packed>(&mut self, fill: &Flood, steps: &mut Steps<T>) {
         let mut storage = Vec::new();
         let mut arrivals = Arrivals::default();
-        while self.grows() && self.solutions.len() <= fill.most {
+        while self.grows() && self.solutions.all.len() <= fill.most {
             let front = std::mem::take(&mut self.front);
-            let mut waiting = self.ahead(fill.grid, &front);
+            let mut waiting = self.inside(fill.grid, &front);
             while !waiting.is_empty() {
                 waiting.retain(|&(s, d)| !self.linked(fill, s, d, &mut storage));
                 let (now, later) = one_each(waiting, |&(s, d)| {
-                    let node = fill.grid.neighbour(self.solutions.all[s].node, d);
+                    let node = self.ahead(fill.grid, s, d);
                     (node, root(&mut self.roots, s))
                 });
                 for pack in now.chunks(T::WIDTH) {
@@ -245,11 +245,11 @@ impl Tile {
     }
 
     /// The steps from solutions to neighbours in here; those that lead out are kept.
-    fn ahead(&mut self, grid: &Grid, front: &[usize]) -> Vec<(usize, usize)> {
+    fn inside(&mut self, grid: &Grid, front: &[usize]) -> Vec<(usize, usize)> {
         let mut inside = Vec::new();
         for &s in front {
             for d in 0..2 * grid.dimensions() {
-                match grid.neighbour(self.solutions.all[s].node, d) {
+                match self.ahead(grid, s, d) {
                     None => {}
                     Some(node) if self.place(grid, node).is_some() => inside.push((s, d)),
                     Some(_) => self.seams.push((self.name(s), d)),
@@ -259,14 +259,13 @@ impl Tile {
         inside
     }
 
-    /// Whether a solution is linked already, or can now be linked with the one that both tangent
-    /// predictions agree on.
+    /// Whether a solution is linked, or can be with the one that both tangent predictions agree on.
     fn linked(&mut self, fill: &Flood, s: usize, d: usize, storage: &mut Vec<f64>) -> bool {
         let solution = &self.solutions.all[s];
         if solution.links[d] != Link::Open {
             return true;
         }
-        let Some(node) = fill.grid.neighbour(solution.node, d) else {
+        let Some(node) = self.ahead(fill.grid, s, d) else {
             return true;
         };
         let near = fill.near(
@@ -281,7 +280,7 @@ impl Tile {
     }
 
     fn arrive(&mut self, fill: &Flood, s: usize, d: usize, arrival: Moving) {
-        let Some(node) = fill.grid.neighbour(self.solutions.all[s].node, d) else {
+        let Some(node) = self.ahead(fill.grid, s, d) else {
             return;
         };
         let known = fill.known(self.moving_at(fill.grid, node), arrival);

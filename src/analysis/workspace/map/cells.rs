@@ -41,8 +41,7 @@ pub(crate) struct Part {
     pub values: Vec<f64>,
 }
 
-/// Between the mapped coordinates and the joints of a row: mode, aspect, condition, and the
-/// determinants of direct and inverse singularities.
+/// Mode, aspect, condition and two determinants, between mapped coordinates and joints of a row.
 pub(crate) const INDICATORS: usize = 5;
 
 /// A node in a mode.
@@ -56,8 +55,7 @@ pub struct Cell<'a> {
     pub mode: usize,
     /// The aspect; none outside limits and on singularities.
     pub aspect: Option<usize>,
-    /// The condition number of the Jacobian from inputs to outputs, lengths over the normalising
-    /// length; none if it is singular or not computed.
+    /// The condition number of the Jacobian from inputs to outputs, normalised; none if singular.
     pub condition: Option<f64>,
     /// The determinant of the rates of the inputs for those of what is mapped and held: zero at
     /// direct singularities. Dimensionless; none if it is not reported.
@@ -73,8 +71,7 @@ pub struct Cell<'a> {
 
 impl Cell<'_> {
     /// The values in the columns of its table: what is mapped, then mode, aspect, condition, the
-    /// determinants of direct and inverse singularities, joints, coordinates that follow. An aspect
-    /// is missing outside limits and on singularities.
+    /// determinants of direct and inverse singularities, joints, coordinates that follow.
     pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
         self.row.iter().copied().map(known)
     }

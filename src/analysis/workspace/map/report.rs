@@ -22,8 +22,7 @@ pub struct WorkspaceReport {
     pub held: Vec<HeldReport>,
     /// Coordinates of platforms that are neither mapped nor held.
     pub following: Vec<CoordinateReport>,
-    /// The joints that direct singularities refer to; none if not as many joints are actuated as
-    /// there are freedoms.
+    /// The joints of direct singularities; none if not as many are actuated as there are freedoms.
     pub inputs: Vec<String>,
     /// The coordinates that inverse singularities refer to; none if platforms have too few.
     pub outputs: Vec<String>,
@@ -113,8 +112,7 @@ pub struct HeldReport {
 /// A mode: what regular motion within the box connects, whether within limits or not.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModeReport {
-    /// Its number: modes are sorted by the first node they reach, those with the same first node by
-    /// the joints there, angles in (−π, π].
+    /// Its number: sorted by the first node reached, then by the joints there, angles in (−π, π].
     pub mode: usize,
     /// Nodes reached.
     pub nodes: usize,
@@ -122,8 +120,7 @@ pub struct ModeReport {
     pub within: usize,
     /// The size of what is reached within limits.
     pub size: f64,
-    /// Nodes reached in more than one configuration: going round in the box leads from one to the
-    /// other.
+    /// Nodes reached in several configurations: going round in the box leads to another one.
     pub repeated: usize,
     /// Joint values at its first node, rad or m, in the order of the file.
     pub joints: Vec<f64>,
@@ -151,11 +148,9 @@ pub struct AspectReport {
     pub nodes: usize,
     /// Its size.
     pub size: f64,
-    /// Sign of the determinant of the derivatives of the inputs by what is mapped and held; zero if
-    /// that is not reported.
+    /// Sign of det ∂inputs/∂(mapped and held coordinates); zero if that is not reported.
     pub direct: i8,
-    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero
-    /// if that is not reported.
+    /// Sign of det ∂outputs/∂(mapped and held coordinates); zero if that is not reported.
     pub inverse: i8,
     /// The node with the least condition number.
     pub best: Option<Conditioned>,

@@ -17,7 +17,7 @@ impl Map<'_> {
         let axes = self.grid.dimensions();
         let widths = [axes, self.problem.mechanism.joints().len(), following.len()];
         let width = widths.iter().sum::<usize>() + INDICATORS;
-        let bands = self.reached_set.bands();
+        let bands = &self.reached_set.bands;
         let parts = each(bands.len(), &(), |(), i| {
             let first = bands[i].numbers.start;
             let rows = self.rows(&bands[i]);
@@ -85,7 +85,7 @@ impl Map<'_> {
     fn rows(&self, band: &Band) -> Vec<(usize, usize)> {
         let all = band.numbers.clone();
         let mut rows: Vec<(usize, usize)> = all.filter_map(|s| Some((s, self.mode[s]?))).collect();
-        let node = |s: usize| self.reached_set.node(s);
+        let node = |s: usize| self.reached_set.nodes[s];
         for of_node in rows.chunk_by_mut(|(a, _), (b, _)| node(*a) == node(*b)) {
             of_node.sort_by_key(|(s, mode)| (*mode, *s));
         }

@@ -3,8 +3,7 @@
 use crate::linear::RANK_TOLERANCE;
 use crate::number::{LANES, Packed};
 
-/// The determinant of a square matrix of `n` columns, which it destroys, in each place; 1 if it is
-/// not square.
+/// The determinant of a square matrix of `n` columns, which is destroyed; 1 if it is not square.
 ///
 /// Reflections (Householder 1958) make it triangular; each has the determinant −1.
 pub(crate) fn determinant<T: Packed>(columns: &mut [T], n: usize) -> T {

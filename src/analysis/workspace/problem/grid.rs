@@ -2,9 +2,7 @@
 
 use crate::system::Driven;
 
-/// Mapped coordinates there are at most.
 pub(crate) const MOST_AXES: usize = 3;
-/// Directions to neighbours there are at most.
 pub(crate) const MOST_DIRECTIONS: usize = 2 * MOST_AXES;
 
 /// Nodes at equal distances in a box, the first coordinate running fastest.
@@ -49,7 +47,6 @@ impl Grid {
         self.axes[axis].nodes
     }
 
-    /// All nodes.
     pub fn len(&self) -> usize {
         self.axes.iter().map(|axis| axis.nodes).product()
     }
@@ -80,7 +77,6 @@ impl Grid {
         }
     }
 
-    /// The coordinates of a node.
     pub fn values(&self, node: usize) -> Vec<f64> {
         self.point(node)[..self.dimensions()].to_vec()
     }
@@ -133,52 +129,5 @@ impl Grid {
                 let further = |place| nodes.iter().map(move |node| node + axis.stride * place);
                 places.into_iter().flat_map(further).collect()
             })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::system::Coordinate;
-
-    #[test]
-    fn neighbours_are_one_step_along_one_axis() {
-        let axis = |to| Driven {
-            coordinate: Coordinate::Joint(0),
-            from: 0.0,
-            to,
-        };
-        let grid = Grid::new(&[axis(1.0), axis(2.0), axis(3.0)], &[3, 4, 5]);
-        for node in 0..grid.len() {
-            let here = grid.values(node);
-            for direction in 0..6usize {
-                let axis = direction / 2;
-                let sign = if direction.is_multiple_of(2) {
-                    -1.0
-                } else {
-                    1.0
-                };
-                let wanted = here[axis] + sign * grid.spacing(axis);
-                match grid.neighbour(node, direction) {
-                    Some(other) => {
-                        let there = grid.values(other);
-                        for k in 0..3 {
-                            let value = if k == axis { wanted } else { here[k] };
-                            assert!((there[k] - value).abs() < 1e-14);
-                        }
-                    }
-                    None => assert!(!(-1e-9..=(axis + 1) as f64 + 1e-9).contains(&wanted)),
-                }
-            }
-        }
-        let sides = [(1, 2), (0, 3), (2, 4)];
-        let inside = |node: &usize| {
-            let mut sides = sides.iter().enumerate();
-            sides.all(|(axis, (low, high))| (low..=high).contains(&&grid.place(*node, axis)))
-        };
-        let wanted: Vec<usize> = (0..grid.len()).filter(inside).collect();
-        assert_eq!(grid.nodes_within(&sides), wanted);
-        assert_eq!(grid.spread(8).len(), 8);
-        assert_eq!(grid.spread(1).len(), 1);
     }
 }

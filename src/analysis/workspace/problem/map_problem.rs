@@ -4,7 +4,6 @@ use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use crate::number::Packed;
-use crate::solve::Newton;
 use crate::system::{
     Coordinate, Driven, HeldPlatform, Lock, Question, System, actuated, coordinate_outputs,
     with_coordinates,
@@ -22,14 +21,13 @@ pub(crate) struct MapProblem<'m> {
     pub inputs: Vec<Coordinate>,
     /// As many coordinates of platforms, if there are so many that are independent.
     pub outputs: Vec<Coordinate>,
-    pub newton: Newton,
     /// For each joint whether whole turns of it change nothing that is held.
     pub turns: Vec<bool>,
 }
 
 impl<'m> MapProblem<'m> {
     /// `question` holds the mapped coordinates too.
-    pub fn new(question: &Question<'m>, axes: &[Driven], newton: &Newton) -> Self {
+    pub fn new(question: &Question<'m>, axes: &[Driven]) -> Self {
         let mechanism = question.mechanism();
         let mapped = |of: &Coordinate| axes.iter().any(|axis| axis.coordinate == *of);
         // roll, pitch and yaw of a platform stay what they are where one of them is mapped
@@ -60,7 +58,6 @@ impl<'m> MapProblem<'m> {
             inputs: whole(actuated(mechanism)),
             outputs: whole(outputs),
             held,
-            newton: newton.clone(),
             turns: (question.held().joints.iter().enumerate())
                 .map(|(joint, held)| !held && mechanism.repeats(joint))
                 .collect(),
@@ -85,7 +82,6 @@ impl<'m> MapProblem<'m> {
         !self.outputs.is_empty() && !self.holds(&self.outputs)
     }
 
-    /// Whether all joints are within their limits.
     pub fn allows(&self, joints: &[f64]) -> bool {
         self.mechanism.outside_limits(joints).next().is_none()
     }
@@ -139,8 +135,7 @@ pub(crate) struct Targets {
     joints: Vec<(usize, usize)>,
     /// Mapped coordinates of platforms that are not held whole.
     single: Vec<(usize, PoseCoordinate, usize)>,
-    /// Platforms with a mapped angle or pose, their angles and positions: the number of an axis, or
-    /// a value.
+    /// Platforms of which an angle or the pose is mapped.
     whole: Vec<Whole>,
 }
 

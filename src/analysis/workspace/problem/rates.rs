@@ -61,7 +61,6 @@ enum RateSource {
     Turning(usize, PoseCoordinate),
 }
 
-/// The indicators of a configuration in one place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Indicators {
     /// Whether the held coordinates can have any rates.
@@ -70,8 +69,7 @@ pub(crate) struct Indicators {
     pub direct: f64,
     /// The same for outputs: zero at inverse singularities.
     pub inverse: f64,
-    /// Largest over smallest singular value of the outputs' rates, or else of what moves, by those of
-    /// the inputs.
+    /// Condition number of the map from the inputs to the outputs, or else to what moves.
     pub condition: f64,
 }
 
@@ -132,8 +130,7 @@ impl<T: Factorable + Packed> Rates<T> {
         self.free.unknowns().len()
     }
 
-    /// Works N out and tells what follows from it, for each place, where the equations of the
-    /// question are solved and have been linearised.
+    /// Works N out, and what follows from it, where the equations are solved and linearised.
     pub fn at(
         &mut self,
         at: &Configuration<T>,
@@ -210,8 +207,8 @@ impl<T: Factorable + Packed> Rates<T> {
         indicators
     }
 
-    /// The motion for a unit rate of held coordinate `i`: what is held moves, and the step −J⁺r for
-    /// the rate r of the residual that this would make takes the rest along.
+    /// The motion for a unit rate of held coordinate `i`: the step −J⁺r for the rate r of the residual
+    /// that what is held would make takes the rest along.
     fn move_one(
         &mut self,
         at: &Configuration<T>,
