@@ -201,25 +201,11 @@ const PARTS: u16 = 1000;
 
 struct Met {
     place: At,
-    along: f64,
     fold: bool,
     branches: bool,
     /// The direct or the inverse matrix loses rank.
     vanishes: bool,
     end: Option<Event>,
-}
-
-impl Met {
-    fn at(place: At) -> Self {
-        Met {
-            place,
-            along: 0.0,
-            fold: false,
-            branches: false,
-            vanishes: false,
-            end: None,
-        }
-    }
 }
 
 /// Places this near are the same.
@@ -246,10 +232,11 @@ impl Tests<'_> {
             );
             if ends || fold || branches {
                 found.push(Met {
+                    place: place.clone(),
                     fold,
                     branches,
+                    vanishes: false,
                     end: ends.then(|| event.clone()),
-                    ..Met::at(place.clone())
                 });
             }
         }
@@ -260,15 +247,16 @@ impl Tests<'_> {
             match found.iter_mut().find(near) {
                 Some(met) => met.vanishes = true,
                 None => found.push(Met {
+                    place,
+                    fold: false,
+                    branches: false,
                     vanishes: true,
-                    ..Met::at(place)
+                    end: None,
                 }),
             }
         }
-        for met in &mut found {
-            met.along = norm(&curve.difference(&step.from.at, &met.place.at));
-        }
-        found.sort_by(|a, b| a.along.total_cmp(&b.along));
+        let along = |met: &Met| norm(&curve.difference(&step.from.at, &met.place.at));
+        found.sort_by(|a, b| along(a).total_cmp(&along(b)));
         found
     }
 
