@@ -55,8 +55,7 @@ impl Code {
     pub fn test(&self, solver: &Solver, examples: &[Example]) -> String {
         let rows = examples.iter().map(|(inputs, state)| {
             let row = self.numbers(inputs.iter().chain(state).copied());
-            let (open, close) = self.language.brackets();
-            format!("    {open}{}{close},\n", row.trim_end().replace('\n', ""))
+            format!("    @open@{}@shut@,\n", row.trim_end().replace('\n', ""))
         });
         let text =
             (self.language.test_template()).replace("@examples@\n", &rows.collect::<String>());
@@ -79,9 +78,7 @@ impl Code {
             text.replace(name, &count.to_string())
         });
         let words = self.precision.words(self.language);
-        let text = words
-            .into_iter()
-            .fold(text, |text, (name, word)| text.replace(name, word));
+        let text = words.fold(text, |text, (name, word)| text.replace(name, word));
         text.replace("@NAME@", &self.name.to_uppercase())
             .replace("@name@", &self.name)
     }

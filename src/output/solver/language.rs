@@ -58,46 +58,16 @@ impl Language {
         }
     }
 
-    pub(super) fn brackets(self) -> (char, char) {
-        match self {
-            Language::C => ('{', '}'),
-            Language::Rust => ('[', ']'),
-        }
-    }
-
-    /// A name given a value that does not change.
-    pub(super) fn bound(self, name: &str, value: &str) -> String {
-        match self {
-            Language::C => format!("const @real@ {name} = {value};\n"),
-            Language::Rust => format!("let {name}: @real@ = {value};\n"),
-        }
-    }
-
-    /// A name given a value that does.
-    pub(super) fn variable(self, name: &str, value: &str) -> String {
-        match self {
-            Language::C => format!("@real@ {name} = {value};\n"),
-            Language::Rust => format!("let mut {name}: @real@ = {value};\n"),
-        }
-    }
-
-    /// Sine and cosine of an angle.
-    pub(super) fn turned(self, sin: &str, cos: &str, angle: &str) -> String {
+    /// Sine and cosine of an angle, which change where the angle does.
+    pub(super) fn turned(self, sin: &str, cos: &str, angle: &str, changes: bool) -> String {
+        let mutable = if changes { "mut " } else { "" };
         match self {
             Language::C => {
                 format!("@real@ {sin}, {cos}; @name@_sine_cosine({angle}, &{sin}, &{cos});\n")
             }
-            Language::Rust => format!("let ({sin}, {cos}) = sine_cosine({angle});\n"),
-        }
-    }
-
-    /// The same of an angle that turns on.
-    pub(super) fn turning(self, sin: &str, cos: &str, angle: &str) -> String {
-        match self {
-            Language::C => {
-                format!("@real@ {sin}, {cos}; @name@_sine_cosine({angle}, &{sin}, &{cos});\n")
+            Language::Rust => {
+                format!("let ({mutable}{sin}, {mutable}{cos}) = sine_cosine({angle});\n")
             }
-            Language::Rust => format!("let (mut {sin}, mut {cos}) = sine_cosine({angle});\n"),
         }
     }
 
@@ -109,40 +79,61 @@ impl Language {
         }
     }
 
-    /// The larger of a size and that of a number.
-    pub(super) fn larger(self, size: &str, of: &str) -> String {
-        match self {
-            Language::C => format!("{size} = @name@_larger({size}, {of});\n"),
-            Language::Rust => format!("{size} = larger({size}, {of});\n"),
-        }
-    }
-
     /// Gives up, in a function that says whether it came to an end.
     pub(super) fn gives_up_if(self, condition: &str) -> String {
         match self {
-            Language::C => format!("if ({condition}) return 0;\n"),
-            Language::Rust => format!("if {condition} {{ return false; }}\n"),
+            Language::C => format!("if ({condition}) return @no@;\n"),
+            Language::Rust => format!("if {condition} {{ return @no@; }}\n"),
         }
     }
 
-    /// An operation on named operands.
-    pub(super) fn operation(self, of: Operation, name: &dyn Fn(Place) -> String) -> String {
-        match of {
-            Operation::Add(x, y) => format!("{} + {}", name(x), name(y)),
-            Operation::Subtract(x, y) => format!("{} - {}", name(x), name(y)),
-            Operation::Multiply(x, y) => format!("{} * {}", name(x), name(y)),
-            Operation::Divide(x, y) => format!("{} / {}", name(x), name(y)),
-            Operation::Negate(x) => format!("-{}", name(x)),
-            Operation::Root(x) => match self {
-                Language::C => format!("@name@_root({})", name(x)),
-                Language::Rust => format!("root({})", name(x)),
-            },
-            Operation::Constant(_)
-            | Operation::Input(_)
-            | Operation::Sin(_)
-            | Operation::Cos(_) => {
-                unreachable!("numbers have names of their own, and sines come with their cosines")
-            }
+    /// The words of the templates and of lines written, each in C and in Rust.
+    fn words(self) -> [(&'static str, &'static str); 10] {
+        [
+            ("@let@", "const @real@", "let"),
+            ("@var@", "@real@", "let mut"),
+            ("@is@", "", ": @real@"),
+            ("@own@", "@name@_", ""),
+            ("@open@", "{", "["),
+            ("@shut@", "}", "]"),
+            ("@yes@", "1", "true"),
+            ("@no@", "0", "false"),
+            ("@fabs@", "fabs@f@", "absolute"),
+            ("@sqrt@", "sqrt@f@", "root"),
+        ]
+        .map(|(word, c, rust)| match self {
+            Language::C => (word, c),
+            Language::Rust => (word, rust),
+        })
+    }
+}
+
+/// A name given a value that does not change.
+pub(super) fn bound(name: &str, value: &str) -> String {
+    format!("@let@ {name}@is@ = {value};\n")
+}
+
+/// A name given a value that does.
+pub(super) fn variable(name: &str, value: &str) -> String {
+    format!("@var@ {name}@is@ = {value};\n")
+}
+
+/// The larger of a size and that of a number.
+pub(super) fn larger(size: &str, of: &str) -> String {
+    format!("{size} = @own@larger({size}, {of});\n")
+}
+
+/// An operation on named operands.
+pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String {
+    match of {
+        Operation::Add(x, y) => format!("{} + {}", name(x), name(y)),
+        Operation::Subtract(x, y) => format!("{} - {}", name(x), name(y)),
+        Operation::Multiply(x, y) => format!("{} * {}", name(x), name(y)),
+        Operation::Divide(x, y) => format!("{} / {}", name(x), name(y)),
+        Operation::Negate(x) => format!("-{}", name(x)),
+        Operation::Root(x) => format!("@own@root({})", name(x)),
+        Operation::Constant(_) | Operation::Input(_) | Operation::Sin(_) | Operation::Cos(_) => {
+            unreachable!("numbers have names of their own, and sines come with their cosines")
         }
     }
 }
@@ -160,52 +151,49 @@ impl Precision {
         }
     }
 
-    /// Words of the templates.
-    pub(super) fn words(self, language: Language) -> [(&'static str, &'static str); 14] {
-        let (real, suffix, root, absolute) = match (self, language) {
-            (Precision::Double, Language::C) => ("double", "", "sqrt", "fabs"),
-            (Precision::Single, Language::C) => ("float", "f", "sqrtf", "fabsf"),
-            (Precision::Double, Language::Rust) => ("f64", "", "", ""),
-            (Precision::Single, Language::Rust) => ("f32", "", "", ""),
-        };
-        let (tolerance, rounding, rank, singular, close) = match self {
-            Precision::Double => ("1e-14", "1e-12", "1e-10", "1e-5", "1e-9"),
-            Precision::Single => ("1e-6", "2e-5", "1e-5", "3e-3", "2e-3"),
+    /// The same as an operand.
+    pub(super) fn operand(self, x: f64, language: Language) -> String {
+        let literal = self.literal(x, language);
+        match x < 0.0 {
+            true => format!("({literal})"),
+            false => literal,
+        }
+    }
+
+    /// All words to be replaced, in order: some stand in what replaces others.
+    pub(super) fn words(
+        self,
+        language: Language,
+    ) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let (real, suffix) = match (self, language) {
+            (Precision::Double, Language::C) => ("double", ""),
+            (Precision::Single, Language::C) => ("float", "f"),
+            (Precision::Double, Language::Rust) => ("f64", ""),
+            (Precision::Single, Language::Rust) => ("f32", ""),
         };
         // halving the exponent gives 1/√x to some per cent
-        let (root_guess, root_steps) = match self {
-            Precision::Double => (
-                "f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (x.to_bits() >> 1))",
-                "4",
-            ),
-            Precision::Single => ("f32::from_bits(0x5f37_59df - (x.to_bits() >> 1))", "3"),
-        };
-        let (farthest, two_over_pi, polynomials) = match self {
-            Precision::Double => ("1e5", "0.6366197723675814", "fdlibm, Sun 1993"),
-            Precision::Single => ("1e4", "0.63661975", "Cephes, Moshier 1989"),
-        };
-        [
-            ("@real@", real),
-            ("@f@", suffix),
-            ("@sqrt@", root),
-            ("@fabs@", absolute),
-            ("@tolerance@", tolerance),
-            ("@rounding@", rounding),
-            ("@rank@", rank),
-            ("@singular@", singular),
-            ("@close@", close),
-            ("@farthest@", farthest),
-            (
-                "@two_over_pi@",
-                match (self, language) {
-                    (Precision::Single, Language::C) => "0.63661975f",
-                    _ => two_over_pi,
-                },
-            ),
-            ("@polynomials@", polynomials),
-            ("@root_guess@", root_guess),
-            ("@root_steps@", root_steps),
-        ]
+        let guesses = [
+            "f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (x.to_bits() >> 1))",
+            "f32::from_bits(0x5f37_59df - (x.to_bits() >> 1))",
+        ];
+        let words = [
+            ("@tolerance@", "1e-14", "1e-6"),
+            ("@rounding@", "1e-12", "2e-5"),
+            ("@rank@", "1e-10", "1e-5"),
+            ("@singular@", "1e-5", "3e-3"),
+            ("@close@", "1e-9", "2e-3"),
+            ("@farthest@", "1e5", "1e4"),
+            ("@two_over_pi@", "0.6366197723675814", "0.63661975@f@"),
+            ("@polynomials@", "fdlibm, Sun 1993", "Cephes, Moshier 1989"),
+            ("@root_guess@", guesses[0], guesses[1]),
+            ("@root_steps@", "4", "3"),
+        ];
+        let words = words.map(|(word, double, single)| match self {
+            Precision::Double => (word, double),
+            Precision::Single => (word, single),
+        });
+        let words = language.words().into_iter().chain(words);
+        words.chain([("@real@", real), ("@f@", suffix)])
     }
 
     /// Sine s and cosine c of the rest r of an angle x beyond k quarter turns, |r| ≤ π/4.
@@ -251,10 +239,7 @@ impl Precision {
                 ],
             ),
         };
-        let number = |x: f64| match x < 0.0 {
-            true => format!("({})", self.literal(x, language)),
-            false => self.literal(x, language),
-        };
+        let number = |x: f64| self.operand(x, language);
         let series = |of: Series| -> String {
             let last = of.len() - 1;
             of[..last].iter().rev().fold(number(of[last]), |sum, x| {
@@ -265,10 +250,10 @@ impl Precision {
         let half = self.literal(0.5, language);
         let one = self.literal(1.0, language);
         [
-            language.bound("r", &format!("((x - k * {p}) - k * {q}) - k * {s}")),
-            language.bound("z", "r * r"),
-            language.bound("s", &format!("r + r * z * {}", series(sine))),
-            language.bound(
+            bound("r", &format!("((x - k * {p}) - k * {q}) - k * {s}")),
+            bound("z", "r * r"),
+            bound("s", &format!("r + r * z * {}", series(sine))),
+            bound(
                 "c",
                 &format!("({one} - {half} * z) + z * z * {}", series(cosine)),
             ),

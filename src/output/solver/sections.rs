@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::language::{bound, larger, operation, variable};
 use super::{Code, Language};
 use crate::algebra::{Operation, Place};
 use crate::analysis::solver::{Component, Solver};
@@ -51,21 +52,10 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn language(&self) -> Language {
-        self.code.language
-    }
-
     fn name(&self, place: Place, carries: bool) -> String {
         let (given, kept) = (self.solver.inputs.len(), self.solver.state.len());
         match self.solver.operations[place as usize] {
-            Operation::Constant(x) => {
-                let literal = self.code.precision.literal(x, self.language());
-                if x < 0.0 {
-                    format!("({literal})")
-                } else {
-                    literal
-                }
-            }
+            Operation::Constant(x) => self.code.precision.operand(x, self.code.language),
             Operation::Input(i) => match i as usize {
                 i if i < given => format!("u{i}"),
                 i if i < given + kept => format!("x{}", i - given),
@@ -117,81 +107,77 @@ impl<'a> Writer<'a> {
     pub fn fast(&self) -> String {
         let Solver {
             residual,
-            pivots,
             step,
             moved,
             state,
             ..
         } = self.solver;
-        let language = self.language();
+        let language = self.code.language;
         let used = self.needed([residual, step].into_iter().flatten().copied());
         let angles = self.angles(&used);
         let mut text = self.text(1, true);
-        text.inputs(&used);
+        text.numbers(&used, "u");
         text.operations(
             used.iter()
                 .copied()
                 .filter(|&place| self.given[place as usize]),
         );
         for i in 0..state.len() {
-            text.line(&language.variable(&format!("x{i}"), &format!("x[{i}]")));
+            text.line(&variable(&format!("x{i}"), &format!("x[{i}]")));
         }
         for i in &angles {
-            text.line(&language.turning(&format!("s{i}"), &format!("c{i}"), &format!("x{i}")));
+            let [s, c, x] = ["s", "c", "x"].map(|letter| format!("{letter}{i}"));
+            text.line(&language.turned(&s, &c, &x, true));
         }
-        text.line(&language.variable("last", "LARGE"));
+        text.line(&variable("last", "LARGE"));
         text.line(match language {
             Language::C => "int k;\nfor (k = 0; k < MOST_STEPS; ++k) {\n",
             Language::Rust => "for _ in 0..MOST_STEPS {\n",
         });
         text.indent = 2;
         text.operations(self.needed(residual.iter().copied()));
-        text.line(&language.variable("size", &self.code.precision.literal(0.0, language)));
+        text.line(&variable(
+            "size",
+            &self.code.precision.literal(0.0, language),
+        ));
         for &row in residual {
-            text.line(&language.larger("size", &self.name(row, true)));
+            text.line(&larger("size", &self.name(row, true)));
         }
         // where rounding is reached the rows no longer halve
         let settled = "!(size < HALF * last)";
-        let (condition, done) = match language {
-            Language::C => (
-                format!("if (size <= TOLERANCE || (size <= ROUNDING && {settled})) {{\n"),
-                "    return 1;\n}\n",
-            ),
-            Language::Rust => (
-                format!("if size <= TOLERANCE || size <= ROUNDING && {settled} {{\n"),
-                "    return true;\n}\n",
-            ),
+        let condition = match language {
+            Language::C => {
+                format!("if (size <= TOLERANCE || (size <= ROUNDING && {settled})) {{\n")
+            }
+            Language::Rust => {
+                format!("if size <= TOLERANCE || size <= ROUNDING && {settled} {{\n")
+            }
         };
         text.line(&condition);
         for i in 0..state.len() {
             text.line(&format!("    x[{i}] = x{i};\n"));
         }
-        text.line(done);
+        text.line("    return @yes@;\n}\n");
         text.line("/* a step that does not halve the rows is not to be trusted */\n");
         text.line(&language.gives_up_if(settled));
         text.line("last = size;\n");
         text.operations(self.needed(step.iter().copied()));
-        for &pivot in pivots {
-            if used.contains(&pivot) {
-                let name = self.name(pivot, true);
-                text.line(&language.gives_up_if(&match language {
-                    Language::C => format!("!(@fabs@({name}) > LEAST_PIVOT)"),
-                    Language::Rust => format!("!(absolute({name}) > LEAST_PIVOT)"),
-                }));
-            }
-        }
+        text.pivots(&used);
         for (i, &part) in step.iter().enumerate() {
-            text.line(&language.bound(&format!("d{i}"), &self.name(part, true)));
+            text.line(&bound(&format!("d{i}"), &self.name(part, true)));
         }
-        text.line(&language.variable("longest", &self.code.precision.literal(0.0, language)));
+        text.line(&variable(
+            "longest",
+            &self.code.precision.literal(0.0, language),
+        ));
         for i in 0..step.len() {
-            text.line(&language.larger("longest", &format!("d{i}")));
+            text.line(&larger("longest", &format!("d{i}")));
         }
         text.line(&language.gives_up_if("!(longest <= LONGEST_STEP)"));
         text.operations(self.needed(moved.iter().copied()));
         // all at once: one may depend on another
         for (i, &to) in moved.iter().enumerate() {
-            text.line(&language.bound(&format!("y{i}"), &self.name(to, true)));
+            text.line(&bound(&format!("y{i}"), &self.name(to, true)));
         }
         for &i in &angles {
             let turn =
@@ -213,8 +199,8 @@ impl<'a> Writer<'a> {
         } = self.solver;
         let used = self.needed(residual.iter().chain(jacobian.iter().flatten()).copied());
         let mut text = self.text(1, false);
-        text.inputs(&used);
-        text.state(&used);
+        text.numbers(&used, "u");
+        text.numbers(&used, "x");
         text.operations(used);
         for (i, &row) in residual.iter().enumerate() {
             text.line(&format!("r[{i}] = {};\n", self.name(row, false)));
@@ -232,10 +218,10 @@ impl<'a> Writer<'a> {
         let Solver { moved, step, .. } = self.solver;
         let used = self.needed(moved.iter().copied());
         let mut text = self.text(1, false);
-        text.state(&used);
+        text.numbers(&used, "x");
         for i in 0..step.len() {
             let read = format!("d[{i}]");
-            text.line(&self.language().bound(&format!("d{i}"), &read));
+            text.line(&bound(&format!("d{i}"), &read));
         }
         text.operations(used);
         for (i, &to) in moved.iter().enumerate() {
@@ -250,9 +236,9 @@ impl<'a> Writer<'a> {
         let first = |(_, component): &(usize, &Component)| component.name.ends_with(".qw");
         for (i, _) in self.solver.state.iter().enumerate().filter(first) {
             let squares: Vec<String> = (i..i + 4).map(|i| format!("x[{i}] * x[{i}]")).collect();
-            let of = |x: f64| self.code.precision.literal(x, self.language());
+            let of = |x: f64| self.code.precision.literal(x, self.code.language);
             let factor = format!("{} - {} * ({})", of(1.5), of(0.5), squares.join(" + "));
-            text.line(&self.language().bound(&format!("f{i}"), &factor));
+            text.line(&bound(&format!("f{i}"), &factor));
             (i..i + 4).for_each(|k| text.line(&format!("x[{k}] *= f{i};\n")));
         }
         text.text
@@ -260,22 +246,16 @@ impl<'a> Writer<'a> {
 
     /// Poses and twists of frames into arrays.
     pub fn frames(&self) -> String {
-        let Solver { frames, pivots, .. } = self.solver;
+        let frames = &self.solver.frames;
         let places = frames
             .iter()
             .flat_map(|f| f.pose.iter().chain(f.twists.iter().flatten()));
         let used = self.needed(places.copied());
         let mut text = self.text(1, false);
-        text.inputs(&used);
-        text.state(&used);
+        text.numbers(&used, "u");
+        text.numbers(&used, "x");
         text.operations(used.iter().copied());
-        for &pivot in pivots.iter().filter(|pivot| used.contains(pivot)) {
-            let name = self.name(pivot, false);
-            text.line(&self.language().gives_up_if(&match self.language() {
-                Language::C => format!("!(@fabs@({name}) > LEAST_PIVOT)"),
-                Language::Rust => format!("!(absolute({name}) > LEAST_PIVOT)"),
-            }));
-        }
+        text.pivots(&used);
         for (f, frame) in frames.iter().enumerate() {
             for (i, &place) in frame.pose.iter().enumerate() {
                 text.line(&format!("pose[{f}][{i}] = {};\n", self.name(place, false)));
@@ -300,25 +280,25 @@ impl Text<'_, '_> {
         }
     }
 
-    /// The inputs that are used.
-    fn inputs(&mut self, used: &BTreeSet<Place>) {
-        self.numbers(used, "u", &|name| name.starts_with('u'));
-    }
-
-    /// The state that is used.
-    fn state(&mut self, used: &BTreeSet<Place>) {
-        self.numbers(used, "x", &|name| name.starts_with('x'));
-    }
-
-    fn numbers(&mut self, used: &BTreeSet<Place>, array: &str, wanted: &dyn Fn(&str) -> bool) {
+    /// The numbers of an array that are used, each under the name of the array and its place.
+    fn numbers(&mut self, used: &BTreeSet<Place>, array: &str) {
         for &place in used {
             if let Operation::Input(_) = self.writer.solver.operations[place as usize] {
                 let name = self.writer.name(place, false);
-                if wanted(&name) {
-                    let read = format!("{array}[{}]", &name[1..]);
-                    self.line(&self.writer.language().bound(&name, &read));
+                if let Some(number) = name.strip_prefix(array) {
+                    self.line(&bound(&name, &format!("{array}[{number}]")));
                 }
             }
+        }
+    }
+
+    /// Gives up where a pivot that is used is too small.
+    fn pivots(&mut self, used: &BTreeSet<Place>) {
+        let Writer { code, solver, .. } = self.writer;
+        for pivot in solver.pivots.iter().filter(|pivot| used.contains(pivot)) {
+            let name = self.writer.name(*pivot, self.carries);
+            let small = format!("!(@fabs@({name}) > LEAST_PIVOT)");
+            self.line(&code.language.gives_up_if(&small));
         }
     }
 
@@ -330,7 +310,7 @@ impl Text<'_, '_> {
                 continue;
             }
             let writer = self.writer;
-            let (language, carries) = (writer.language(), self.carries);
+            let carries = self.carries;
             let name = |place: Place| writer.name(place, carries);
             match writer.solver.operations[place as usize] {
                 Operation::Constant(_) | Operation::Input(_) => {}
@@ -340,9 +320,9 @@ impl Text<'_, '_> {
                     }
                     self.turned(place, angle);
                 }
-                operation => {
-                    let value = language.operation(operation, &name);
-                    self.line(&language.bound(&name(place), &value));
+                of => {
+                    let value = operation(of, &name);
+                    self.line(&bound(&name(place), &value));
                 }
             }
         }
@@ -358,9 +338,8 @@ impl Text<'_, '_> {
         let cos = place_of(Operation::Cos(angle)).unwrap_or(place);
         self.known.extend([sin, cos]);
         let name = |place| writer.name(place, self.carries);
-        let line = writer
-            .language()
-            .turned(&name(sin), &name(cos), &name(angle));
+        let language = writer.code.language;
+        let line = language.turned(&name(sin), &name(cos), &name(angle), false);
         self.line(&line);
     }
 }
