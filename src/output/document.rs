@@ -1,14 +1,14 @@
 //! What an analysis has to say, before it is known where it will be read.
 //!
-//! A report becomes a [`Document`]: plain data made of an answer, notes, sections, tables, matrices,
-//! lists and pictures. Each output format is one file that renders a document and knows no report;
-//! each analysis has one file that makes its document and knows no format.
+//! A report becomes a [`Document`]: plain data made of an answer, notes, sections, tables and lists. Each output format
+//! is one file that renders a document and knows no report; each analysis has one file that makes its document and knows
+//! no format.
 
 mod cell;
 mod inline;
 
 pub use cell::{Cell, Digits};
-pub(super) use inline::{Piece, address, one_line, pieces};
+pub(super) use inline::{Piece, one_line, pieces};
 
 use serde::{Deserialize, Serialize};
 
@@ -55,12 +55,8 @@ pub enum Block {
     List(Vec<String>),
     /// A table.
     Table(Table),
-    /// A matrix with named rows and columns.
-    Matrix(Matrix),
     /// Text whose spaces and line breaks matter: a formula, a file, a program.
     Code(Code),
-    /// A picture.
-    Picture(Picture),
     /// A part under a title of its own.
     Section(Section),
 }
@@ -99,7 +95,7 @@ pub enum Align {
 }
 
 /// A matrix with named rows and columns.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     /// What the rows are: the title of the column of their names.
     pub rows_are: String,
@@ -118,15 +114,6 @@ pub struct Code {
     pub language: String,
     /// The lines.
     pub text: String,
-}
-
-/// A drawing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Picture {
-    /// What it shows, for those who cannot see it too.
-    pub caption: String,
-    /// An SVG document.
-    pub svg: String,
 }
 
 impl Document {
@@ -237,7 +224,7 @@ impl Section {
     /// With a matrix.
     #[must_use]
     pub fn matrix(self, matrix: Matrix) -> Self {
-        self.block(Block::Matrix(matrix))
+        self.block(Block::Table(matrix.table()))
     }
 
     /// With text whose spaces and line breaks matter.
@@ -331,7 +318,7 @@ impl<T> From<TableOf<T>> for Table {
 
 impl Matrix {
     /// The same as a table.
-    pub fn table(&self) -> Table {
+    fn table(&self) -> Table {
         let rows = Table::of(self.rows.iter().zip(&self.entries));
         let named = rows.words(&self.rows_are, |(name, _)| name);
         let columns = self.columns.iter().enumerate();
@@ -363,10 +350,6 @@ pub(super) mod tests {
             columns: vec!["l1 (m/s)".into()],
             entries: vec![vec![2.0]],
         };
-        let picture = Picture {
-            caption: "path & \"marks\"".into(),
-            svg: "<svg onload='x'/>".into(),
-        };
         Document::new("4-bar <1>", "It moves: `a<b` drives *it*.")
             .note("near a limit")
             .section(Section::new("Forces").text("in ground").table(table))
@@ -375,8 +358,7 @@ pub(super) mod tests {
                 Section::new("More")
                     .matrix(matrix)
                     .code("ron", "a: \"```\",\n  <b>\n")
-                    .section(Section::new("Inner").list(["- one".into(), "two".into()]))
-                    .block(Block::Picture(picture)),
+                    .section(Section::new("Inner").list(["- one".into(), "two".into()])),
             )
             .method("3 steps")
     }

@@ -1,6 +1,6 @@
 //! Documents as Markdown (CommonMark with the tables of GitHub).
 
-use super::document::{Align, Block, Document, Piece, Section, Table, address, one_line, pieces};
+use super::document::{Align, Block, Document, Piece, Section, Table, one_line, pieces};
 
 /// The document as Markdown.
 pub fn render(document: &Document) -> String {
@@ -32,13 +32,7 @@ fn section(section: &Section, level: usize, parts: &mut Vec<String>) {
             Block::Text(text) => parts.push(paragraph(text)),
             Block::List(lines) => parts.push(list(lines)),
             Block::Table(rows) => parts.push(table(rows)),
-            Block::Matrix(matrix) => parts.push(table(&matrix.table())),
             Block::Code(code) => parts.push(fenced(&code.language, &code.text)),
-            Block::Picture(picture) => parts.push(format!(
-                "![{}]({})\n",
-                inline(&picture.caption),
-                address(&picture.svg)
-            )),
             Block::Section(inner) => self::section(inner, level + 1, parts),
         }
     }
@@ -161,8 +155,6 @@ a: "```",
 
 - \- one
 - two
-
-![path \& "marks"](data:image/svg+xml,%3Csvg%20onload=%27x%27/%3E)
 
 ## How it was found
 

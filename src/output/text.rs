@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table as Drawn};
 use super::document::{Align, Block, Document, Section, Table, one_line};
 
 /// The document as text: title, answer and indented notes, then the sections, each after an empty
-/// line with its contents indented. Pictures are only named.
+/// line with its contents indented.
 pub fn render(document: &Document) -> String {
     let mut text = String::new();
     for line in [&document.title, &document.answer] {
@@ -36,9 +36,7 @@ fn block(block: &Block) -> String {
         Block::Text(text) => format!("{text}\n"),
         Block::List(lines) => lines.iter().map(|line| format!("{line}\n")).collect(),
         Block::Table(rows) => table(rows),
-        Block::Matrix(matrix) => table(&matrix.table()),
         Block::Code(code) => format!("{}\n", code.text.trim_end_matches('\n')),
-        Block::Picture(picture) => format!("[picture: {}]\n", picture.caption),
         Block::Section(inner) => section(inner),
     }
 }
@@ -97,7 +95,6 @@ More
   Inner
     - one
     two
-  [picture: path & "marks"]
 
 How it was found
   3 steps

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::output::quantity::{coarse, number, short, shown, size, with_unit};
+use crate::output::quantity::{number, short, shown, size, with_unit};
 
 /// What stands in a cell of a table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -49,8 +49,6 @@ pub enum Digits {
     Four,
     /// About two digits, of numbers whose size alone matters.
     Two,
-    /// One digit, of estimates.
-    One,
 }
 
 impl Digits {
@@ -60,7 +58,6 @@ impl Digits {
             Digits::Six => number(value),
             Digits::Four => short(value),
             Digits::Two => size(value),
-            Digits::One => coarse(value),
         }
     }
 }

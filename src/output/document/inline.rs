@@ -1,4 +1,4 @@
-//! Texts within a line: names between back quotes, and addresses of pictures.
+//! Texts within a line: names between back quotes.
 
 /// A piece of text: as it stands, or a name or command that stood between back quotes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,20 +27,6 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
 /// The text on one line.
 pub fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
-}
-
-/// An SVG document as an address that pages can show without running anything in it.
-pub fn address(svg: &str) -> String {
-    let mut address = String::from("data:image/svg+xml,");
-    for byte in svg.bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'/' | b':' | b'=' => {
-                address.push(byte as char);
-            }
-            _ => address += &format!("%{byte:02X}"),
-        }
-    }
-    address
 }
 
 #[cfg(test)]
