@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{notes, one_line, rows};
+use super::{notes, one_line, parts, rows};
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::analysis::formulas::{ClosureFormula, FormulasReport, Letter, Meaning};
 
@@ -177,26 +177,21 @@ impl Writer<'_> {
     }
 
     fn closure(&mut self, closure: &ClosureFormula) -> String {
-        let mut rows: Vec<Vec<&Expression>> = closure.equations.iter().map(|e| vec![e]).collect();
-        let name = format!("closure_{}", closure.name);
-        match &closure.distance {
-            Some((gap, length)) => {
-                rows.extend(gap.iter().chain([length]).map(|e| vec![e]));
-                let what = format!(
-                    "Closure {}: three components of a vector and the length it must have.",
-                    closure.name
-                );
-                self.function(&name, &what, "[[f64; 1]; 4]", &rows)
-            }
-            None if rows.is_empty() => String::new(),
-            None => {
-                let what = format!(
-                    "Closure {}: what vanishes where it is closed.",
-                    closure.name
-                );
-                self.function(&name, &what, &format!("[[f64; 1]; {}]", rows.len()), &rows)
-            }
+        let entries: Vec<&Expression> = parts(closure).collect();
+        if entries.is_empty() {
+            return String::new();
         }
+        let says = match closure.distance {
+            Some(_) => "three components of a vector and the length it must have",
+            None => "what vanishes where it is closed",
+        };
+        let rows: Vec<Vec<&Expression>> = entries.into_iter().map(|e| vec![e]).collect();
+        self.function(
+            &format!("closure_{}", closure.name),
+            &format!("Closure {}: {says}.", closure.name),
+            &format!("[[f64; 1]; {}]", rows.len()),
+            &rows,
+        )
     }
 
     fn code(&self, expression: &Expression, angles: &mut Angles) -> String {

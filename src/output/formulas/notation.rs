@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::system::FormulaNames;
-use characters::{GREEK, VULGAR, escaped, parts, raised};
+use characters::{VULGAR, escaped, greek, parts, raised};
 pub(super) use characters::{lowered, upright};
 
 /// For terminals or for TeX.
@@ -138,9 +138,7 @@ impl Notation {
             true => bare,
             false => stem,
         };
-        let greek = GREEK
-            .iter()
-            .find(|(word, letter)| *word == stem || stem.chars().eq(std::iter::once(*letter)));
+        let greek = greek(stem);
         let mut letters = stem.chars();
         let single = letters.next().is_some() && letters.next().is_none();
         match self.script {

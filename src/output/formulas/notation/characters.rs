@@ -1,32 +1,20 @@
 //! Greek letters, fractions, raised and lowered digits.
 
-/// Letters by their names.
-pub(super) const GREEK: [(&str, char); 24] = [
-    ("alpha", 'α'),
-    ("beta", 'β'),
-    ("gamma", 'γ'),
-    ("delta", 'δ'),
-    ("epsilon", 'ε'),
-    ("zeta", 'ζ'),
-    ("eta", 'η'),
-    ("theta", 'θ'),
-    ("iota", 'ι'),
-    ("kappa", 'κ'),
-    ("lambda", 'λ'),
-    ("mu", 'μ'),
-    ("nu", 'ν'),
-    ("xi", 'ξ'),
-    ("omicron", 'ο'),
-    ("rho", 'ρ'),
-    ("sigma", 'σ'),
-    ("tau", 'τ'),
-    ("upsilon", 'υ'),
-    ("phi", 'φ'),
-    ("chi", 'χ'),
-    ("psi", 'ψ'),
-    ("omega", 'ω'),
-    ("Gamma", 'Γ'),
+const NAMES: [&str; 24] = [
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+    "lambda", "mu", "nu", "xi", "omicron", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi",
+    "omega", "Gamma",
 ];
+const LETTERS: [char; 24] = [
+    'α', 'β', 'γ', 'δ', 'ε', 'ζ', 'η', 'θ', 'ι', 'κ', 'λ', 'μ', 'ν', 'ξ', 'ο', 'ρ', 'σ', 'τ', 'υ',
+    'φ', 'χ', 'ψ', 'ω', 'Γ',
+];
+
+/// The Greek letter that a stem names or is, with its name.
+pub(super) fn greek(stem: &str) -> Option<(&'static str, char)> {
+    let mut letters = NAMES.into_iter().zip(LETTERS);
+    letters.find(|(word, letter)| *word == stem || stem.chars().eq(std::iter::once(*letter)))
+}
 
 /// Fractions that have a character of their own.
 pub(super) const VULGAR: [(f64, f64, char); 9] = [
