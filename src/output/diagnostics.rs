@@ -33,7 +33,7 @@ pub fn render(error: &FileError, style: Style) -> String {
     let renderer = renderer(style);
     let page = Page::new(error.path.display().to_string(), &error.text);
     let (shown, more) = error.shown();
-    let mut rendered: Vec<String> = (shown.iter())
+    let rendered: Vec<String> = (shown.iter())
         .map(|problem| {
             let level = match problem.severity() {
                 Severity::Error => Level::ERROR,
@@ -55,19 +55,19 @@ pub fn render(error: &FileError, style: Style) -> String {
         (errors, "problem"),
         (error.problems.len() - errors, "warning"),
     ];
-    rendered.push(summary(&kinds, &page.path, more));
-    rendered.join("\n\n") + "\n"
+    ended(rendered, &kinds, &page.path, more)
 }
 
-/// `3 problems in four_bar.ron`
-fn summary(kinds: &[(usize, &str)], path: &str, hidden: usize) -> String {
+/// The problems, then how many there are: `3 problems in four_bar.ron`.
+fn ended(mut problems: Vec<String>, kinds: &[(usize, &str)], path: &str, hidden: usize) -> String {
     let some = kinds.iter().filter(|(number, _)| *number > 0);
     let some: Vec<String> = some.map(|(number, noun)| count(*number, noun)).collect();
     let hidden = match hidden {
         0 => String::new(),
         _ => format!(", {hidden} of them not shown"),
     };
-    format!("{} in {path}{hidden}", listed(&some))
+    problems.push(format!("{} in {path}{hidden}", listed(&some)));
+    problems.join("\n\n") + "\n"
 }
 
 /// What is wrong with a file of another program.
@@ -94,12 +94,11 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
         });
         renderer.render(&page.report(Level::ERROR, &complaint, places.as_ref()))
     };
-    let mut parts: Vec<String> = wrong.problems.iter().take(MAX_SHOWN).map(one).collect();
+    let shown = wrong.problems.iter().take(MAX_SHOWN).map(one).collect();
     let all = wrong.problems.len();
     let name = wrong.files.first().map_or("", |(name, _)| name);
-    let kinds = [(all, "problem")];
-    parts.push(summary(&kinds, name, all.saturating_sub(MAX_SHOWN)));
-    parts.join("\n\n") + "\n"
+    let more = all.saturating_sub(MAX_SHOWN);
+    ended(shown, &[(all, "problem")], name, more)
 }
 
 /// Where something is wrong in a text.
@@ -191,11 +190,8 @@ impl<'a> Page<'a> {
         let window = self.lines.start(line)..self.lines.start(line + 1);
         let start = span.start.clamp(window.start, window.end);
         let end = span.end.clamp(start, window.end);
-        let (head, tail) = (
-            &self.text[window.start..start],
-            &self.text[start..window.end],
-        );
-        let (head, tail) = (head.trim_start(), tail.trim_end());
+        let head = self.text[window.start..start].trim_start();
+        let tail = self.text[start..window.end].trim_end();
         let skipped = head.chars().count().saturating_sub(BEFORE);
         let mut source: String = head.chars().skip(skipped).collect();
         if skipped > 0 {
@@ -217,10 +213,7 @@ impl<'a> Page<'a> {
 
     /// The bytes of all lines that a place touches.
     fn width_at(&self, span: &Range<usize>) -> usize {
-        let (first, last) = (
-            self.lines.position(span.start).0,
-            self.lines.position(span.end).0,
-        );
+        let [first, last] = [span.start, span.end].map(|at| self.lines.position(at).0);
         self.lines.start(last + 1) - self.lines.start(first)
     }
 }
