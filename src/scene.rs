@@ -20,7 +20,7 @@ use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 pub type Triple = [f64; 3];
 
 /// A mechanism in one configuration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// The name of the mechanism.
     pub mechanism: String,
@@ -230,15 +230,7 @@ impl Scene {
                     corners: Vec::new(),
                 })
                 .collect(),
-            joints: Vec::new(),
-            rods: Vec::new(),
-            travels: Vec::new(),
-            wheels: Vec::new(),
-            frames: Vec::new(),
-            paths: Vec::new(),
-            screws: Vec::new(),
-            centres: Vec::new(),
-            arrows: Vec::new(),
+            ..Scene::default()
         };
         for chain in 0..mechanism.chains().len() {
             scene.chain(mechanism, chain, &pose, &number);
@@ -316,6 +308,12 @@ impl Scene {
             corners.push(at.0);
         }
     }
+}
+
+/// The least and the greatest of values; of none infinities, the greater one first.
+pub(crate) fn least_and_greatest(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    values.fold(none, |(low, high), x| (low.min(x), high.max(x)))
 }
 
 /// Points so close that no picture shows them apart.

@@ -110,15 +110,13 @@ pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<C
     };
     let camera = Camera::new(settings.view, first.normal);
     let fit = Fit::of(&camera, scenes.iter().map(|(_, scene)| scene));
-    let mut size = None;
+    let size = Stage::new(first, settings.view, fit, (0.0, 0.0)).size;
     let frame = |(title, scene): (String, Scene)| {
         let panel = Panel {
             title,
             scene,
             ghosts: Vec::new(),
         };
-        let size = *size
-            .get_or_insert_with(|| Stage::new(&panel.scene, settings.view, fit, (0.0, 0.0)).size);
         Canvas {
             width: WIDTH,
             height: HEIGHT,

@@ -18,12 +18,12 @@ type Point = Vector3<f64>;
 /// The mechanism of the first scene as GLB; several scenes are an animation that lasts so many seconds.
 pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
     let Some(first) = scenes.first() else {
-        return File::new().packed("", Rotation::identity(), &[]);
+        return File::default().packed("", Rotation::identity(), &[]);
     };
     let size = joint_size(first);
-    let mut file = File::new();
+    let mut file = File::default();
     let cylinder = solids::cylinder();
-    let thick = |at: Placed, part: f64| at.stretched([part * size, part * size, 1.0]);
+    let thick = |part: f64| [part * size; 2];
     for (index, body) in first.bodies.iter().enumerate() {
         let colour = match body.ground {
             true => GROUND,
@@ -35,8 +35,8 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
         for k in 0..bars[0].len() {
             // a link that a slide draws out may begin at nothing
             let ends = bars.iter().map(|of| of.get(k).copied());
-            let places = along(first, ends.map(|ends| ends.unwrap_or([Point::zero(); 2])));
-            let places = places.into_iter().map(|at| thick(at, radius)).collect();
+            let ends = ends.map(|ends| ends.unwrap_or([Point::zero(); 2]));
+            let places = along(first, ends, thick(radius));
             file.node(&body.name, &cylinder, (colour, 1.0), places);
         }
         if let Some((solid, places)) = plate(scenes, index).filter(|_| !body.ground) {
@@ -50,11 +50,13 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
                 .iter()
                 .map(|scene| scene.rods[index].ends.map(Vector3))
         };
-        let places = along(first, ends());
-        let places = places.into_iter().map(|at| thick(at, 0.25)).collect();
+        let places = along(first, ends(), thick(0.25));
         file.node(&rod.name, &cylinder, (colour, 1.0), places);
         for end in [0, 1] {
-            let place = |ends: [Point; 2]| Placed::at(ends[end]).stretched([0.6 * size; 3]);
+            let place = |ends: [Point; 2]| Placed {
+                scale: [0.6 * size; 3],
+                ..Placed::at(ends[end])
+            };
             let places = ends().map(place).collect();
             file.node(&rod.name, &solids::ball(), (INK, 1.0), places);
         }
@@ -74,11 +76,8 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
                 let at = Vector3(joint.at);
                 [at - axis.times(half), at + axis.times(half)]
             });
-            let places = along(first, ends).into_iter().map(|at| {
-                let [x, y, _] = scale.map(|part| part * size);
-                at.stretched([x, y, 1.0])
-            });
-            file.node(&name, &solid, (colour, 1.0), places.collect());
+            let wide = [scale[0] * size, scale[1] * size];
+            file.node(&name, &solid, (colour, 1.0), along(first, ends, wide));
         }
     }
     for path in first.paths.iter().filter(|path| path.points.len() > 1) {
@@ -100,8 +99,7 @@ fn upright(scene: &Scene) -> Rotation<f64> {
     match scene.normal {
         Some(normal) => {
             let camera = Camera::new(View::Natural, Some(normal));
-            let (right, up) = camera.screen();
-            Rotation([right, up, camera.towards()]).transpose()
+            Rotation([camera.right, camera.up, camera.towards]).transpose()
         }
         None => Rotation([
             Vector3::unit(0),
@@ -126,8 +124,8 @@ fn bars(body: &BodyShape) -> Vec<[Point; 2]> {
     }
 }
 
-/// Where something that stretches from z = 0 to 1 goes from end to end, without spinning on the way.
-fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>) -> Vec<Placed> {
+/// Where something that stretches from z = 0 to 1 goes from end to end, so wide in x and y, without spinning on the way.
+fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>, [x, y]: [f64; 2]) -> Vec<Placed> {
     let mut before: Option<(Point, Quaternion<f64>)> = None;
     let places = ends.map(|[from, to]| {
         let length = (to - from).norm();
@@ -142,7 +140,7 @@ fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>) -> Vec<Placed> {
         Placed {
             at: from,
             turn: before.map_or(Quaternion::identity(), |(_, turn)| turn),
-            scale: [1.0, 1.0, length],
+            scale: [x, y, length],
         }
     });
     places.collect()

@@ -8,23 +8,14 @@ use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
 use super::drawing::{Fit, View, strobe};
 use super::quantity::{number, with_unit};
 use crate::algebra::SiUnit;
-use crate::scene::Scene;
+use crate::scene::{Scene, least_and_greatest};
 
-/// A curve in a chart.
+/// A curve in a chart, or points that are marked alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// What it is called in the legend.
     pub label: String,
-    /// Its points in order; a gap is a point that is not finite.
-    pub points: Vec<(f64, f64)>,
-}
-
-/// Points that are marked alike.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Marks {
-    /// What they are called in the legend.
-    pub label: String,
-    /// The points.
+    /// Its points, those of a curve in order; a gap is a point that is not finite.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -74,7 +65,7 @@ pub struct Chart {
     /// The curves.
     pub series: Vec<Series>,
     /// The special points.
-    pub marks: Vec<Marks>,
+    pub marks: Vec<Series>,
 }
 
 /// Colours that people with any colour vision tell apart, from M. Okabe and K. Ito 2008.
@@ -170,8 +161,8 @@ fn ranges(chart: &Chart) -> [(f64, f64); 2] {
     if let Some(heat) = &chart.heat {
         return [heat.x, heat.y];
     }
-    let lines = chart.series.iter().flat_map(|series| &series.points);
-    let points = lines.chain(chart.marks.iter().flat_map(|marks| &marks.points));
+    let all = chart.series.iter().chain(&chart.marks);
+    let points = all.flat_map(|series| &series.points);
     let mut points: Vec<[f64; 2]> = points.map(|p| [p.0, p.1]).collect();
     if let Some((low, high)) = chart.within {
         points.iter_mut().for_each(|p| p[1] = p[1].clamp(low, high));
@@ -183,9 +174,7 @@ fn ranges(chart: &Chart) -> [(f64, f64); 2] {
     let margin = if chart.strobe.is_some() { 0.07 } else { 0.03 };
     let mut ranges = [0, 1].map(|axis| {
         let values = points.iter().map(|p| p[axis]).filter(|x| x.is_finite());
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let (low, high) = least_and_greatest(values);
         let angle = [&chart.x, &chart.y][axis].ends_with("(°)");
         match high - low {
             // an axis of whole turns ends where they end

@@ -26,16 +26,8 @@ impl Report for MotionsReport {
     fn document(&self) -> Document {
         match &self.motions[..] {
             [one] => {
-                let (mode, sentence) = (mode(one), sentence(&one.sweep));
-                let document = Document::new(&self.mechanism, mode + &sentence);
-                let document = document.notes(words::certified(&one.sweep));
-                let document = document.notes(words::paced(one));
-                let document = document.notes(words::poles(one));
-                let document = document.notes(words::shapes(one));
-                let document = document.section(extremes(one));
-                let document = document.sections(words::met(one));
-                let document = document.sections(paths::sections(&one.sweep.paths, false));
-                let document = document.section(rows(one));
+                let document = Document::new(&self.mechanism, mode(one) + &sentence(&one.sweep));
+                let document = document.notes(remarks(one).concat()).sections(parts(one));
                 document.method(words::work(&one.sweep))
             }
             several => {
@@ -47,19 +39,9 @@ impl Report for MotionsReport {
                 let sections = several.iter().map(|motion| {
                     let section = Section::new(mode(motion).trim_end_matches(": "));
                     let section = section.text(sentence(&motion.sweep));
-                    let section = section
-                        .list(words::certified(&motion.sweep))
-                        .list(words::paced(motion))
-                        .list(words::poles(motion))
-                        .list(words::shapes(motion));
-                    let section = section.section(extremes(motion));
-                    let met = words::met(motion).into_iter();
-                    let section = met.fold(section, Section::section);
-                    let paths = paths::sections(&motion.sweep.paths, false);
-                    let section = paths.fold(section, Section::section);
-                    section
-                        .section(rows(motion))
-                        .text(words::work(&motion.sweep))
+                    let section = remarks(motion).into_iter().fold(section, Section::list);
+                    let section = parts(motion).into_iter().fold(section, Section::section);
+                    section.text(words::work(&motion.sweep))
                 });
                 Document::new(&self.mechanism, answer).sections(sections)
             }
@@ -87,6 +69,25 @@ pub fn worded(mut report: MotionsReport) -> MotionsReport {
 fn mode(motion: &MotionReport) -> String {
     let mode = motion.mode.map(|mode| format!("Mode {mode}: "));
     mode.unwrap_or_default()
+}
+
+/// What qualifies a motion, by kind.
+fn remarks(motion: &MotionReport) -> [Vec<String>; 4] {
+    [
+        words::certified(&motion.sweep),
+        words::paced(motion).into_iter().collect(),
+        words::poles(motion),
+        words::shapes(motion),
+    ]
+}
+
+/// A motion in detail.
+fn parts(motion: &MotionReport) -> Vec<Section> {
+    let mut parts = vec![extremes(motion)];
+    parts.extend(words::met(motion));
+    parts.extend(paths::sections(&motion.sweep.paths, false));
+    parts.push(rows(motion));
+    parts
 }
 
 /// The least and greatest values of the quantities, and where they are.

@@ -1,6 +1,6 @@
 //! What analyses find, in the scene.
 
-use super::{Arrow, Axis, Mark, Scene, Trace, Triple};
+use super::{Arrow, Axis, Mark, Scene, Trace, Triple, least_and_greatest};
 use crate::analysis::singularities::SingularitiesReport;
 use crate::analysis::statics::StaticsReport;
 use crate::analysis::velocity::VelocityReport;
@@ -139,9 +139,7 @@ impl Scene {
         let points = self.points();
         let ends = [0, 1, 2].map(|axis| {
             let values = points.iter().map(|point| point[axis]);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            })
+            least_and_greatest(values)
         });
         let size = Vector3(ends.map(|(low, high)| high - low)).norm();
         (ends.map(|(low, high)| 0.5 * (low + high)), size)

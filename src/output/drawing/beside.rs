@@ -57,7 +57,7 @@ fn travelled(stage: &Stage, travel: &Travel) -> [Vec<Triple>; 3] {
             [(0..=parts).map(place).collect(), end(low), end(high)]
         }
         None => {
-            let side = match axis.cross(&stage.camera.towards()) {
+            let side = match axis.cross(&stage.camera.towards) {
                 side if side.norm() > 1e-6 => side.times(1.0 / side.norm()),
                 _ => across(&axis)[0],
             };

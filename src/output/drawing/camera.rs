@@ -1,7 +1,7 @@
 //! Orthographic projection.
 
 use crate::geometry::Vector3;
-use crate::scene::Triple;
+use crate::scene::{Triple, least_and_greatest};
 
 /// From where a scene is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,9 +22,9 @@ pub enum View {
 /// Right, up and towards the viewer: unit vectors in ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Camera {
-    right: Vector3<f64>,
-    up: Vector3<f64>,
-    towards: Vector3<f64>,
+    pub right: Vector3<f64>,
+    pub up: Vector3<f64>,
+    pub towards: Vector3<f64>,
 }
 
 impl Camera {
@@ -77,27 +77,15 @@ impl Camera {
 
     /// From where to where points are seen, to the right and up, in m.
     pub fn bounds(&self, points: &[Triple]) -> [(f64, f64); 2] {
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let wider = |(low, high): (f64, f64), x: f64| (low.min(x), high.max(x));
-        let seen = points.iter().map(|point| self.project(point));
-        seen.fold([none; 2], |[across, up], (x, y, _)| {
-            [wider(across, x), wider(up, y)]
+        [&self.right, &self.up].map(|axis| {
+            let seen = points.iter().map(|point| Vector3(*point).dot(axis));
+            least_and_greatest(seen)
         })
     }
 
     /// How much a direction points to the viewer.
     pub fn facing(&self, direction: &Vector3<f64>) -> f64 {
         direction.dot(&self.towards)
-    }
-
-    /// Right and up in the picture.
-    pub fn screen(&self) -> (Vector3<f64>, Vector3<f64>) {
-        (self.right, self.up)
-    }
-
-    /// Towards the viewer.
-    pub fn towards(&self) -> Vector3<f64> {
-        self.towards
     }
 
     /// The axes of ground, as far as they can be seen: their letters and directions to the right and up.

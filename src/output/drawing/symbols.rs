@@ -1,6 +1,6 @@
 //! Symbols of joints: in the plane those of a kinematic diagram, in space small solids.
 
-use super::{DRIVEN, GROUND, Layer, Piece, Stage};
+use super::{Camera, DRIVEN, GROUND, Layer, Piece, Stage};
 use crate::geometry::Vector3;
 use crate::output::canvas::{Colour, INK, Style, WHITE};
 use crate::scene::{JointShape, Symbol, across};
@@ -19,7 +19,7 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
         joint
             .axes
             .get(k)
-            .map_or(stage.camera.towards(), |axis| Vector3(*axis))
+            .map_or(stage.camera.towards, |axis| Vector3(*axis))
     };
     let flat = |k: usize| stage.camera.facing(&axis(k)).abs() > 1.0 - 1e-9;
     let mut pieces = Vec::new();
@@ -66,7 +66,7 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
 
 /// A round joint.
 pub(super) fn ball(stage: &Stage, at: &Point, size: f64, fill: Colour) -> Vec<Piece> {
-    let (right, up) = stage.camera.screen();
+    let Camera { right, up, .. } = stage.camera;
     let outline = ring(at, &right, &up, size * stage.metres());
     vec![Piece {
         layer: Layer::Pin,
@@ -102,9 +102,9 @@ fn cylinder(
 /// A box with its first edge along the axis.
 fn block(stage: &Stage, at: &Point, axis: &Point, halves: [f64; 3], fill: Colour) -> Vec<Piece> {
     // in the plane of the picture where the axis is, so that the box does not stand askew
-    let side = axis.cross(&stage.camera.towards());
+    let side = axis.cross(&stage.camera.towards);
     let [right, up] = match side.norm() > 1e-6 && stage.scene.normal.is_some() {
-        true => [side.times(1.0 / side.norm()), stage.camera.towards()],
+        true => [side.times(1.0 / side.norm()), stage.camera.towards],
         false => across(axis),
     };
     let edges = [*axis, right, up];
@@ -138,7 +138,7 @@ fn guide(stage: &Stage, at: &Point, axis: &Point, on_ground: bool) -> Vec<Piece>
     let colour = if on_ground { GROUND } else { INK };
     let mut pieces = vec![line(stage, &ends, colour, 1.5)];
     if on_ground && stage.scene.normal.is_some() {
-        let side = axis.cross(&stage.camera.towards());
+        let side = axis.cross(&stage.camera.towards);
         pieces.extend(hatch(stage, at, axis, &side, 3.5));
     }
     pieces
@@ -147,7 +147,7 @@ fn guide(stage: &Stage, at: &Point, axis: &Point, on_ground: bool) -> Vec<Piece>
 /// A pin on ground: a triangle on a hatched line.
 fn support(stage: &Stage, at: &Point) -> Vec<Piece> {
     let metres = stage.metres();
-    let (right, up) = stage.camera.screen();
+    let Camera { right, up, .. } = stage.camera;
     let foot = |x: f64| *at + right.times(x * metres) - up.times(1.9 * metres);
     let triangle = [*at, foot(-1.1), foot(1.1)];
     let style = Style::filled(Colour(0xdddddd)).edged(GROUND, 1.2);

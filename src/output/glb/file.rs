@@ -23,14 +23,6 @@ impl Placed {
         }
     }
 
-    pub fn stretched(mut self, by: [f64; 3]) -> Self {
-        self.scale
-            .iter_mut()
-            .zip(by)
-            .for_each(|(scale, by)| *scale *= by);
-        self
-    }
-
     /// The three properties of a node, scalar of the quaternion last.
     fn property(&self, path: &str) -> Vec<f64> {
         let [w, x, y, z] = self.turn.0;
@@ -62,6 +54,7 @@ const VEC3: (&str, usize) = ("VEC3", 3);
 const VEC4: (&str, usize) = ("VEC4", 4);
 
 /// A file that grows.
+#[derive(Default)]
 pub(super) struct File {
     bytes: Vec<u8>,
     views: Vec<Value>,
@@ -74,19 +67,6 @@ pub(super) struct File {
 }
 
 impl File {
-    pub fn new() -> Self {
-        File {
-            bytes: Vec::new(),
-            views: Vec::new(),
-            accessors: Vec::new(),
-            materials: Vec::new(),
-            solids: Vec::new(),
-            meshes: Vec::new(),
-            nodes: Vec::new(),
-            moved: Vec::new(),
-        }
-    }
-
     /// A solid in the places it has one after the other, with its colour and opacity.
     pub fn node(
         &mut self,

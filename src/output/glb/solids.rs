@@ -6,7 +6,7 @@ use crate::geometry::Vector3;
 use crate::scene::Triple;
 
 /// Triangles, or a line where there are none.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solid {
     pub points: Vec<Triple>,
     pub normals: Vec<Triple>,
@@ -14,14 +14,6 @@ pub(super) struct Solid {
 }
 
 impl Solid {
-    fn new() -> Self {
-        Solid {
-            points: Vec::new(),
-            normals: Vec::new(),
-            triangles: Vec::new(),
-        }
-    }
-
     fn point(&mut self, at: Triple, normal: Triple) -> u32 {
         self.points.push(at);
         self.normals.push(normal);
@@ -47,7 +39,7 @@ fn circle(k: u32) -> (f64, f64) {
 
 /// Of radius 1 from z = 0 to 1.
 pub(super) fn cylinder() -> Solid {
-    let mut solid = Solid::new();
+    let mut solid = Solid::default();
     let ring = |z: f64| (0..ROUND).map(move |k| [circle(k).0, circle(k).1, z]);
     solid.face(&ring(1.0).collect::<Vec<_>>(), [0.0, 0.0, 1.0]);
     solid.face(&ring(0.0).rev().collect::<Vec<_>>(), [0.0, 0.0, -1.0]);
@@ -66,7 +58,7 @@ pub(super) fn cylinder() -> Solid {
 
 /// From −1 to 1 across, from z = 0 to 1.
 pub(super) fn block() -> Solid {
-    let mut solid = Solid::new();
+    let mut solid = Solid::default();
     for axis in 0..3 {
         for sign in [-1.0, 1.0] {
             let corner = |u: f64, v: f64| {
@@ -89,7 +81,7 @@ pub(super) fn block() -> Solid {
 /// Of radius 1 about the origin.
 pub(super) fn ball() -> Solid {
     const RINGS: u32 = 10;
-    let mut solid = Solid::new();
+    let mut solid = Solid::default();
     for ring in 0..=RINGS {
         let (wide, high) = (PI * f64::from(ring) / f64::from(RINGS)).sin_cos();
         for k in 0..=ROUND {
@@ -140,7 +132,7 @@ pub(super) fn plate(points: &[Vector3<f64>]) -> Solid {
     };
     round.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
     let corners: Vec<Triple> = round.iter().map(|point| point.0).collect();
-    let mut solid = Solid::new();
+    let mut solid = Solid::default();
     solid.face(&corners, [0.0, 0.0, 1.0]);
     let below: Vec<Triple> = corners.into_iter().rev().collect();
     solid.face(&below, [0.0, 0.0, -1.0]);
@@ -151,6 +143,6 @@ pub(super) fn plate(points: &[Vector3<f64>]) -> Solid {
 pub(super) fn line(points: &[Triple]) -> Solid {
     Solid {
         points: points.to_vec(),
-        ..Solid::new()
+        ..Solid::default()
     }
 }

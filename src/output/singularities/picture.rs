@@ -3,7 +3,7 @@
 use super::kind_word;
 use crate::analysis::singularities::{Locus, LocusReport, Shape};
 use crate::description::listed;
-use crate::output::plot::{self, Chart, Marks, Series};
+use crate::output::plot::{self, Chart, Series};
 use crate::output::quantity;
 
 /// The loci as SVG.
@@ -24,7 +24,7 @@ pub fn svg(report: &LocusReport) -> String {
     let single = ["direct", "inverse"].map(|wanted| {
         let points = of(Shape::Point).filter(|(_, locus)| kind(locus) == wanted);
         let numbers: Vec<String> = points.clone().map(|(i, _)| (i + 1).to_string()).collect();
-        Marks {
+        Series {
             label: format!("{wanted} {}", listed(&numbers)),
             points: points
                 .flat_map(|(_, l)| l.points.iter().map(point))
@@ -49,10 +49,10 @@ pub fn svg(report: &LocusReport) -> String {
             (left, low),
         ],
     });
-    let mut marks: Vec<Marks> = single.into_iter().collect();
+    let mut marks: Vec<Series> = single.into_iter().collect();
     marks.retain(|marks| !marks.points.is_empty());
     if !crossings.is_empty() {
-        marks.push(Marks {
+        marks.push(Series {
             label: "loci cross".into(),
             points: crossings,
         });
@@ -60,7 +60,7 @@ pub fn svg(report: &LocusReport) -> String {
     let cusps = report.loci.iter().flat_map(|locus| &locus.cusps);
     let cusps: Vec<(f64, f64)> = cusps.map(|cusp| point(&cusp.point)).collect();
     if !cusps.is_empty() {
-        marks.push(Marks {
+        marks.push(Series {
             label: "cusps".into(),
             points: cusps,
         });
@@ -70,11 +70,9 @@ pub fn svg(report: &LocusReport) -> String {
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
-        within: None,
-        heat: None,
-        strobe: None,
         series,
         marks,
+        ..Chart::default()
     }])
     .svg()
 }

@@ -3,7 +3,49 @@
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::scene::Scene;
 
-/// Places along motions, of each no more than can be told apart, evenly spread.
+/// Of a long series no more than can be told apart, evenly spread.
+#[derive(Clone, Debug)]
+pub(super) struct Thinned<T> {
+    pub kept: Vec<T>,
+    every: usize,
+    seen: usize,
+}
+
+impl<T> Thinned<T> {
+    pub fn new(kept: Vec<T>) -> Self {
+        Thinned {
+            kept,
+            every: 1,
+            seen: 0,
+        }
+    }
+
+    /// Whether nothing has come yet.
+    pub fn begins(&self) -> bool {
+        self.seen == 0
+    }
+
+    /// Whether the next one is to be kept.
+    pub fn wants_next(&self) -> bool {
+        self.seen.is_multiple_of(self.every)
+    }
+
+    /// Takes in the next one, if it is kept; of more than the most every other one is left.
+    pub fn take(&mut self, next: Option<T>, most: usize) {
+        self.kept.extend(next);
+        if self.kept.len() > most {
+            let mut keep = false;
+            self.kept.retain(|_| {
+                keep = !keep;
+                keep
+            });
+            self.every *= 2;
+        }
+        self.seen += 1;
+    }
+}
+
+/// Places along motions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
     motions: Vec<Places>,
@@ -14,9 +56,7 @@ pub(super) struct Course {
 #[derive(Clone, Debug)]
 struct Places {
     mode: Option<usize>,
-    taken: Vec<Configuration<f64>>,
-    every: usize,
-    seen: usize,
+    taken: Thinned<Configuration<f64>>,
 }
 
 impl Course {
@@ -36,26 +76,12 @@ impl Course {
         if self.motions.last().is_none_or(|places| places.mode != mode) {
             self.motions.push(Places {
                 mode,
-                taken: Vec::new(),
-                every: 1,
-                seen: 0,
+                taken: Thinned::new(Vec::new()),
             });
         }
-        let Some(places) = self.motions.last_mut() else {
-            return;
-        };
-        if places.seen.is_multiple_of(places.every) {
-            places.taken.push(at.clone());
-            if places.taken.len() > Self::MOST {
-                let mut keep = false;
-                places.taken.retain(|_| {
-                    keep = !keep;
-                    keep
-                });
-                places.every *= 2;
-            }
+        if let Some(Places { taken, .. }) = self.motions.last_mut() {
+            taken.take(taken.wants_next().then(|| at.clone()), Self::MOST);
         }
-        places.seen += 1;
     }
 
     /// The mechanism with its points, their paths left to others.
@@ -74,8 +100,8 @@ impl Course {
         const SHOWN: usize = 8;
         let each = (SHOWN / self.motions.len().max(1)).max(1);
         let shown = self.motions.iter().rev().flat_map(|places| {
-            let every = places.taken.len().div_ceil(each).max(1);
-            places.taken.iter().step_by(every).rev()
+            let every = places.taken.kept.len().div_ceil(each).max(1);
+            places.taken.kept.iter().step_by(every).rev()
         });
         shown.map(|at| self.scene(mechanism, at)).collect()
     }
@@ -84,7 +110,8 @@ impl Course {
     pub fn scenes(&self, mechanism: &Mechanism) -> Vec<(Option<usize>, Scene)> {
         let motions = self.motions.iter().flat_map(|places| {
             let scene = |at: &Configuration<f64>| (places.mode, self.scene(mechanism, at));
-            let mut scenes: Vec<(Option<usize>, Scene)> = places.taken.iter().map(scene).collect();
+            let mut scenes: Vec<(Option<usize>, Scene)> =
+                places.taken.kept.iter().map(scene).collect();
             let far = |a: [f64; 3], b: [f64; 3]| {
                 let apart = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
                 apart.sum::<f64>().sqrt()

@@ -1,6 +1,5 @@
 //! Cusps and double points of paths.
 
-use crate::algebra::SiUnit;
 use crate::analysis::sweep::{PathPoint, PathReport};
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Section, Table};
@@ -14,10 +13,10 @@ pub(super) fn sections(paths: &[PathReport], circuits: bool) -> impl Iterator<It
 }
 
 fn section(path: &PathReport, circuits: bool) -> Section {
-    let (cusps, double) = (path.cusps.len(), path.double_points.len());
-    let found = [(cusps, "cusp"), (double, "double point")];
-    let found = found.into_iter().filter(|(number, _)| *number > 0);
-    let found: Vec<String> = found.map(|(number, what)| count(number, what)).collect();
+    let kinds = [("cusp", &path.cusps), ("double point", &path.double_points)];
+    let found = kinds.iter().filter(|(_, points)| !points.is_empty());
+    let found = found.map(|(what, points)| count(points.len(), what));
+    let found: Vec<String> = found.collect();
     let order = path.order.map(|order| format!("; order {order}"));
     let order = order.unwrap_or_default();
     let title = format!("Path of {}", path.point);
@@ -25,25 +24,17 @@ fn section(path: &PathReport, circuits: bool) -> Section {
         return Section::new(title).text(format!("No cusp and no double point{order}."));
     }
     let section = Section::new(format!("{title}: {}{order}", listed(&found)));
-    let passages = |what: &'static str, points: &[PathPoint]| {
-        let rows = points.iter().enumerate().flat_map(|(number, point)| {
-            let passages = point.joints.iter().zip(&point.circuits);
-            passages.map(move |(joints, circuit)| Row {
-                what: format!("{what} {}", number + 1),
-                circuit: *circuit,
-                position: point.position,
-                joints: joints.clone(),
-            })
-        });
-        rows.collect::<Vec<_>>()
-    };
-    let cusps = passages("cusp", &path.cusps);
-    let double = passages("double point", &path.double_points);
-    let metres = |k: usize| move |row: &Row| Cell::quantity(row.position[k], SiUnit::METRE);
-    let rows = [cusps, double].concat();
-    let table = Table::of(&rows).words("what", |row| row.what.clone());
+    // a row for each passage: what it is, the point, the number of the passage
+    let rows = kinds.into_iter().flat_map(|(what, points)| {
+        (1..).zip(points).flat_map(move |(number, point)| {
+            (0..point.joints.len()).map(move |k| (what, number, point, k))
+        })
+    });
+    type Row<'p> = (&'p str, usize, &'p PathPoint, usize);
+    let metres = |axis: usize| move |(.., of, _): Row| Cell::metres(of.position[axis]);
+    let table = Table::of(rows).words("what", |(what, number, ..)| format!("{what} {number}"));
     let table = match circuits {
-        true => table.numbers("circuit", |row| row.circuit),
+        true => table.numbers("circuit", |(.., of, k)| of.circuits[k]),
         false => table,
     };
     let table = (table.numbers("x", metres(0)))
@@ -51,17 +42,8 @@ fn section(path: &PathReport, circuits: bool) -> Section {
         .numbers("z", metres(2));
     let joints = path.variables.iter().enumerate();
     section.table(joints.fold(table, |table, (k, joint)| {
-        table.numbers(&joint.name, move |row| {
-            Cell::quantity(row.joints[k], joint.unit)
+        table.numbers(&joint.name, move |(.., of, row)| {
+            Cell::quantity(of.joints[row][k], joint.unit)
         })
     }))
-}
-
-/// A passage through a special point.
-#[derive(Clone)]
-struct Row {
-    what: String,
-    circuit: usize,
-    position: [f64; 3],
-    joints: Vec<f64>,
 }

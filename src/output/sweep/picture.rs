@@ -1,15 +1,15 @@
 //! Motions drawn: the mechanism in several places with the paths of points, input–output curves, quantities.
 
-use super::course::Course;
+use super::course::{Course, Thinned};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row};
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Variable};
 use crate::output::canvas::Canvas;
 use crate::output::drawing::{Camera, View};
-use crate::output::plot::{self, Chart, Marks, Series, Strobe, stacked};
+use crate::output::plot::{self, Chart, Series, Strobe, stacked};
 use crate::output::quantity;
-use crate::scene::{Scene, Triple};
+use crate::scene::{Scene, Triple, least_and_greatest};
 use crate::system::{Coordinate, Driven};
 
 /// Collects what is to be drawn; of a long motion only as many points as can be told apart.
@@ -19,8 +19,8 @@ pub struct Picture {
     points: Vec<String>,
     input: Option<Driven>,
     input_label: String,
-    /// Joints that are drawn over the input: index, name, whether it is an angle.
-    outputs: Vec<(usize, String, bool)>,
+    /// Joints that are drawn over the input.
+    outputs: Vec<(usize, Variable)>,
     /// Quantities, drawn over the first input in a panel for each unit.
     quantities: Vec<Variable>,
     motions: Vec<Drawn>,
@@ -37,14 +37,22 @@ pub struct Picture {
 /// A curve with its name: where it is for the values of a row.
 type Curve<'c> = (String, Plotted<'c>);
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Drawn {
     mode: Option<usize>,
-    /// Abscissa, joints drawn, then points.
-    rows: Vec<Vec<f64>>,
+    /// Abscissa, joints drawn, points, then quantities.
+    rows: Thinned<Vec<f64>>,
     marks: Vec<(&'static str, Vec<f64>)>,
-    every: usize,
-    seen: usize,
+}
+
+impl Drawn {
+    fn new(mode: Option<usize>, rows: Vec<Vec<f64>>) -> Self {
+        Drawn {
+            mode,
+            rows: Thinned::new(rows),
+            marks: Vec::new(),
+        }
+    }
 }
 
 /// Points of one curve at most.
@@ -83,7 +91,10 @@ impl Picture {
             input,
             outputs: joints
                 .filter(|(i, _)| !moved(*i))
-                .map(|(i, joint)| (i, joint.name.clone(), joint.kind.is_angle()))
+                .map(|(i, joint)| {
+                    let unit = SiUnit::of_coordinate(joint.kind.is_angle());
+                    (i, Variable::new(&joint.name, unit))
+                })
                 .collect(),
             quantities: quantities.to_vec(),
             motions: Vec::new(),
@@ -114,15 +125,12 @@ impl Picture {
             return picture;
         };
         let joints: Vec<usize> = picture.outputs.iter().map(|(joint, ..)| *joint).collect();
-        let drawn = report.circuits.iter().map(|circuit| Drawn {
-            mode: Some(circuit.number),
-            rows: (circuit.course.iter())
-                .map(|at| {
-                    let all = std::iter::once(&input).chain(&joints);
-                    all.map(|joint| shown(*joint, at[*joint])).collect()
-                })
-                .collect(),
-            ..Drawn::default()
+        let drawn = report.circuits.iter().map(|circuit| {
+            let rows = circuit.course.iter().map(|at| {
+                let all = std::iter::once(&input).chain(&joints);
+                all.map(|joint| shown(*joint, at[*joint])).collect()
+            });
+            Drawn::new(Some(circuit.number), rows.collect())
         });
         picture.motions = drawn.collect();
         picture
@@ -140,7 +148,7 @@ impl Picture {
             for (i, path) in scene.paths.iter_mut().enumerate() {
                 let from = first + 3 * i;
                 let place = |row: &Vec<f64>| [row[from], row[from + 1], row[from + 2]];
-                path.points = drawn.rows.iter().map(place).collect();
+                path.points = drawn.rows.kept.iter().map(place).collect();
             }
         }
         scenes
@@ -172,23 +180,18 @@ impl Picture {
     /// Takes in a row of the motion in a mode; another mode begins another motion.
     pub fn take(&mut self, mechanism: &Mechanism, mode: Option<usize>, row: &Row) {
         if self.motions.last().is_none_or(|drawn| drawn.mode != mode) {
-            self.motions.push(Drawn {
-                mode,
-                every: 1,
-                ..Drawn::default()
-            });
+            self.motions.push(Drawn::new(mode, Vec::new()));
         }
         if row.step.is_some() || (!self.driven && row.special.is_none()) {
             self.course.take(mode, row.configuration);
         }
-        let wanted =
-            (self.motions.last()).is_some_and(|drawn| drawn.seen.is_multiple_of(drawn.every));
+        let wanted = (self.motions.last()).is_some_and(|drawn| drawn.rows.wants_next());
         let values = (wanted || row.special.is_some()).then(|| self.values(mechanism, row));
         let Some(drawn) = self.motions.last_mut() else {
             return;
         };
-        if let Some(values) = values {
-            let begins = drawn.seen == 0 && at_limit(mechanism, row.configuration);
+        if let Some(values) = &values {
+            let begins = drawn.rows.begins() && at_limit(mechanism, row.configuration);
             let mark = row.special.map(|kind| match kind {
                 MetKind::Fold { .. } => "dead point of the input",
                 MetKind::Turning { .. } => "turning point",
@@ -201,17 +204,8 @@ impl Picture {
             if let Some(mark) = mark.filter(|mark| !mark.is_empty()) {
                 drawn.marks.push((mark, values.clone()));
             }
-            drawn.rows.push(values);
-            if drawn.rows.len() > MOST {
-                let mut keep = false;
-                drawn.rows.retain(|_| {
-                    keep = !keep;
-                    keep
-                });
-                drawn.every *= 2;
-            }
         }
-        drawn.seen += 1;
+        drawn.rows.take(values, MOST);
     }
 
     fn values(&self, mechanism: &Mechanism, row: &Row) -> Vec<f64> {
@@ -222,7 +216,7 @@ impl Picture {
         let outputs = self
             .outputs
             .iter()
-            .map(|(joint, _, _)| shown(Coordinate::Joint(*joint)));
+            .map(|(joint, _)| shown(Coordinate::Joint(*joint)));
         let points = row.points.iter().flatten().copied();
         let quantities = self.quantities.iter().zip(row.quantities);
         let quantities =
@@ -238,9 +232,29 @@ impl Picture {
     pub fn drawn(&self, mechanism: &Mechanism, view: Option<View>) -> Canvas {
         let mut charts: Vec<Chart> = self.places(mechanism, view).into_iter().collect();
         charts.extend(match (self.points.is_empty(), self.quantities.is_empty()) {
-            (true, true) => self.outputs_over_input(),
+            (true, true) => {
+                let units = [true, false].map(SiUnit::of_coordinate);
+                let outputs = self.outputs.iter().map(|(_, of)| of);
+                self.panels(&units, outputs.zip(1..), |unit| match unit.is_angle() {
+                    true => "joint angles",
+                    false => "slides",
+                })
+            }
             (false, true) => Vec::new(),
-            (_, false) => self.quantities_over_input(),
+            (_, false) => {
+                let first = 1 + self.outputs.len() + 3 * self.points.len();
+                let quantities = self.quantities.iter().zip(first..);
+                // the time is none of them
+                let timed = (self.quantities.first()).is_some_and(|of| of.unit == SiUnit::SECOND);
+                let quantities = quantities.skip(usize::from(timed));
+                let mut units: Vec<SiUnit> = Vec::new();
+                for (of, _) in quantities.clone() {
+                    if !units.contains(&of.unit) {
+                        units.push(of.unit);
+                    }
+                }
+                self.panels(&units, quantities, |_| "quantities")
+            }
         });
         stacked(&charts)
     }
@@ -253,20 +267,20 @@ impl Picture {
     }
 
     /// Curves with their names, and marks on all of them.
-    fn chart(&self, curves: &[Curve]) -> (Vec<Series>, Vec<Marks>) {
+    fn chart(&self, curves: &[Curve]) -> (Vec<Series>, Vec<Series>) {
         let mut series = Vec::new();
-        let mut marks: Vec<Marks> = Vec::new();
+        let mut marks: Vec<Series> = Vec::new();
         for drawn in &self.motions {
             for (name, at) in curves {
                 series.push(Series {
                     label: self.label(name, drawn.mode),
-                    points: drawn.rows.iter().map(|row| at(row)).collect(),
+                    points: drawn.rows.kept.iter().map(|row| at(row)).collect(),
                 });
                 for (label, values) in &drawn.marks {
                     let point = at(values);
                     match marks.iter_mut().find(|marks| marks.label == *label) {
                         Some(known) => known.points.push(point),
-                        None => marks.push(Marks {
+                        None => marks.push(Series {
                             label: (*label).to_owned(),
                             points: vec![point],
                         }),
@@ -277,58 +291,26 @@ impl Picture {
         (series, marks)
     }
 
-    fn outputs_over_input(&self) -> Vec<Chart> {
-        let mut charts = Vec::new();
-        for angles in [true, false] {
-            let outputs = self
-                .outputs
-                .iter()
-                .enumerate()
-                .filter(|(_, o)| o.2 == angles);
-            let pairs: Vec<Curve> = outputs
-                .map(|(i, (_, name, _))| (name.clone(), column(i + 1)))
+    /// Columns over the input, a panel for each unit; several in one panel have one name together.
+    fn panels<'p>(
+        &'p self,
+        units: &[SiUnit],
+        columns: impl Iterator<Item = (&'p Variable, usize)> + Clone,
+        together: fn(SiUnit) -> &'static str,
+    ) -> Vec<Chart> {
+        let panel = |unit: &SiUnit| {
+            let of_it = columns.clone().filter(|(of, _)| of.unit == *unit);
+            let curves: Vec<Curve> = of_it
+                .map(|(of, place)| (of.name.clone(), column(place)))
                 .collect();
-            if pairs.is_empty() {
-                continue;
-            }
-            let name = match &pairs[..] {
+            let name = match &curves[..] {
+                [] => return None,
                 [(name, _)] => name,
-                _ if angles => "joint angles",
-                _ => "slides",
+                _ => together(*unit),
             };
-            let label = plot::label(name, SiUnit::of_coordinate(angles));
-            charts.push(self.over_input(&pairs, label));
-        }
-        charts
-    }
-
-    /// One panel a unit; the time is none of the quantities.
-    fn quantities_over_input(&self) -> Vec<Chart> {
-        let first = 1 + self.outputs.len() + 3 * self.points.len();
-        let timed = usize::from(
-            self.quantities
-                .first()
-                .is_some_and(|of| of.unit == SiUnit::SECOND),
-        );
-        let all = || self.quantities.iter().enumerate().skip(timed);
-        let mut units: Vec<SiUnit> = Vec::new();
-        for (_, of) in all() {
-            if !units.contains(&of.unit) {
-                units.push(of.unit);
-            }
-        }
-        let chart = |unit: SiUnit| {
-            let of_it = all().filter(|(_, of)| of.unit == unit);
-            let pairs: Vec<Curve> = of_it
-                .map(|(i, of)| (of.name.clone(), column(first + i)))
-                .collect();
-            let name = match &pairs[..] {
-                [(name, _)] => name.clone(),
-                _ => "quantities".into(),
-            };
-            self.over_input(&pairs, plot::label(&name, unit))
+            Some(self.over_input(&curves, plot::label(name, *unit)))
         };
-        units.into_iter().map(chart).collect()
+        units.iter().filter_map(panel).collect()
     }
 
     fn over_input(&self, pairs: &[Curve], label: String) -> Chart {
@@ -355,12 +337,10 @@ impl Picture {
             title: self.title.clone(),
             x: self.input_label.clone(),
             y: label,
-            equal: false,
             within: any.then(|| plot::most(heights)).flatten(),
-            heat: None,
-            strobe: None,
             series,
             marks,
+            ..Chart::default()
         }
     }
 
@@ -370,7 +350,7 @@ impl Picture {
         let normal = scenes.first()?.normal;
         let first = 1 + self.outputs.len();
         let traced = (self.motions.iter())
-            .flat_map(|drawn| &drawn.rows)
+            .flat_map(|drawn| &drawn.rows.kept)
             .flat_map(|row| row[first..first + 3 * self.points.len()].chunks(3))
             .map(|point| [point[0], point[1], point[2]]);
         let view = view.unwrap_or_else(|| match (normal, self.points.is_empty()) {
@@ -389,26 +369,20 @@ impl Picture {
                 (point.clone(), Box::new(at) as Box<dyn Fn(&[f64]) -> _>)
             })
             .collect();
-        let (series, mut marks) = match curves.is_empty() {
-            true => Default::default(),
-            false => self.chart(&curves),
-        };
+        let (series, mut marks) = self.chart(&curves);
         if !self.double_points.is_empty() {
-            marks.push(Marks {
+            marks.push(Series {
                 label: "double points".into(),
                 points: self.double_points.iter().map(|point| seen(point)).collect(),
             });
         }
         let points: Vec<Triple> = scenes.iter().flat_map(Scene::points).collect();
         let bounds = camera.bounds(&points);
-        let (right, up) = camera.screen();
         Some(Chart {
             title: self.title.clone(),
-            x: axis(&right, "across"),
-            y: axis(&up, "up"),
+            x: axis(&camera.right, "across"),
+            y: axis(&camera.up, "up"),
             equal: true,
-            within: None,
-            heat: None,
             strobe: Some(Strobe {
                 view,
                 scenes,
@@ -416,6 +390,7 @@ impl Picture {
             }),
             series,
             marks,
+            ..Chart::default()
         })
     }
 }
@@ -442,9 +417,7 @@ fn axis(along: &Vector3<f64>, otherwise: &str) -> String {
 /// Along the axis along which points extend least.
 fn widest(points: &[Triple]) -> View {
     let extent = |axis: usize| {
-        let values = points.iter().map(|point| point[axis]);
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = values.fold(none, |(l, h), x| (l.min(x), h.max(x)));
+        let (low, high) = least_and_greatest(points.iter().map(|point| point[axis]));
         high - low
     };
     let views = [View::From(0.0, 0.0), View::Front, View::Top];

@@ -138,8 +138,6 @@ pub fn sentence(report: &SweepReport) -> String {
 
 /// What interval arithmetic says of the branch.
 pub fn certified(report: &SweepReport) -> Vec<String> {
-    /// Parts that are listed.
-    const SHOWN: usize = 8;
     let Some(certificate) = &report.certificate else {
         return Vec::new();
     };
@@ -152,7 +150,7 @@ pub fn certified(report: &SweepReport) -> Vec<String> {
             "certified: all rows lie on one branch, on which the inputs do not turn back ({boxes}, interval arithmetic)"
         )];
     }
-    let parts = certificate.uncertified.iter().take(SHOWN).map(|part| {
+    let parts = certificate.uncertified.iter().map(|part| {
         let inputs = report.inputs.iter().zip(part.from.iter().zip(&part.to));
         let ranges = inputs.map(|(of, (from, to))| {
             let [one, other] = [from, to].map(|x| quantity(*x, of.unit));
@@ -163,15 +161,20 @@ pub fn certified(report: &SweepReport) -> Vec<String> {
         });
         listed(&ranges.collect::<Vec<_>>())
     });
-    let parts: Vec<String> = parts.collect();
-    let more = match certificate.uncertified.len() > SHOWN {
+    vec![format!(
+        "the branch is certified but for {} ({boxes}, interval arithmetic)",
+        some(parts)
+    )]
+}
+
+/// The first places of many.
+fn some(places: impl ExactSizeIterator<Item = String>) -> String {
+    const SHOWN: usize = 8;
+    let beyond = match places.len() > SHOWN {
         true => ", and elsewhere",
         false => "",
     };
-    vec![format!(
-        "the branch is certified but for {}{more} ({boxes}, interval arithmetic)",
-        listed(&parts)
-    )]
+    listed(&places.take(SHOWN).collect::<Vec<_>>()) + beyond
 }
 
 /// How the inputs went through their ranges in time, where quantities depend on it.
@@ -216,8 +219,6 @@ pub(super) fn driven(motion: &MotionReport) -> Vec<(&str, SiUnit)> {
 
 /// Where quantities have no bound, and why some have no value.
 pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
-    /// Places that are listed of one quantity.
-    const SHOWN: usize = 8;
     let driven = driven(motion);
     let place = |pole: &Pole| {
         let values = match pole.inputs.is_empty() {
@@ -238,13 +239,8 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
         Some(format!("{} has no value: {why}", of.name))
     });
     let said = unbounded.map(|of| {
-        let places = of.unbounded.iter().take(SHOWN).map(place);
-        let beyond = match of.unbounded.len() > SHOWN {
-            true => ", and elsewhere",
-            false => "",
-        };
-        let places = listed(&places.collect::<Vec<_>>());
-        format!("{} grows without bound at {places}{beyond}", of.name)
+        let places = some(of.unbounded.iter().map(place));
+        format!("{} grows without bound at {places}", of.name)
     });
     said.chain(missing).collect()
 }
