@@ -32,6 +32,7 @@ mod workspace;
 mod written;
 
 use std::ffi::OsString;
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
 // the Python module says what is wrong, and how far work is, in the same words
@@ -101,6 +102,13 @@ impl Answer {
 
 /// Why a command has no answer, ready to be read.
 struct Refusal(String);
+
+impl Refusal {
+    /// What went wrong where no option is to blame.
+    fn error(said: impl Display) -> Self {
+        Refusal(format!("error: {said}\n"))
+    }
+}
 
 impl From<Complaint> for Refusal {
     fn from(said: Complaint) -> Self {

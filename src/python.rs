@@ -21,8 +21,8 @@ use crate::analysis::convert::to_axes;
 use crate::ask::{AskError, Points, Study};
 use crate::description::{Description, FileError, Problem, Role};
 use crate::mechanism;
+use crate::output::Rows;
 use crate::output::complaint::Given;
-use crate::output::csv::Csv;
 use crate::output::diagnostics::{self, Style};
 use crate::output::document::Cell;
 use crate::output::drawing::{DrawingSettings, Panel, sheet};
@@ -287,14 +287,16 @@ impl Mechanism {
 
 /// Columns as comma-separated values, as the command line writes them.
 #[pyfunction]
-fn csv(titles: Vec<String>, columns: Vec<PyReadonlyArray1<'_, f64>>) -> PyResult<String> {
+fn csv(titles: Vec<String>, columns: Vec<PyReadonlyArray1<'_, f64>>) -> String {
     let columns: Vec<_> = columns.iter().map(|column| column.as_array()).collect();
-    let rows = columns.first().map_or(0, |column| column.len());
-    let mut written = Csv::new(Vec::new(), titles)?;
-    for row in 0..rows {
-        written.row(columns.iter().map(|column| Cell::from(Some(column[row]))))?;
-    }
-    Ok(String::from_utf8(written.finish()?)?)
+    let rows = 0..columns.first().map_or(0, |column| column.len());
+    let rows = rows.map(|row| {
+        columns
+            .iter()
+            .map(|column| Cell::from(column[row]))
+            .collect()
+    });
+    crate::output::csv::render(Rows::new(titles, rows))
 }
 
 /// The regions of a grid, as `linkwork merge --regions` numbers them.

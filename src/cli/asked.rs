@@ -89,8 +89,6 @@ impl Forces {
     }
 }
 
-pub use words::Ranged as Ranges;
-
 /// A question with the file and the options that posed it.
 pub struct Posed<'o> {
     pub loaded: Loaded,

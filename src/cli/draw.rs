@@ -108,7 +108,7 @@ impl Draw {
                     // the question for that mode alone says what is wrong
                     posed.mode(self.mode);
                     posed.ask(Question::configurations)?;
-                    return Err(Refusal(format!("error: there is no mode {shown}\n")));
+                    return Err(Refusal::error(format!("there is no mode {shown}")));
                 };
                 let others = modes.iter().enumerate().filter(|(i, _)| *i != main);
                 vec![Panel {

@@ -29,10 +29,10 @@ impl Format {
     /// The whole report in this format; nothing in one that consists of rows, or of a file.
     pub fn shown(self, report: &impl JsonReport) -> String {
         match self {
-            Format::Text => text::render(&report.shown()),
+            Format::Text => text::render(&report.document()),
             Format::Json => json::render(report),
-            Format::Markdown => markdown::render(&report.shown()),
-            Format::Html => html::render(&report.shown()),
+            Format::Markdown => markdown::render(&report.document()),
+            Format::Html => html::render(&report.document()),
             Format::Csv | Format::Ron => String::new(),
         }
     }
@@ -53,12 +53,11 @@ impl Format {
             (Format::Csv, None, _) => {
                 let help = "choose another --format; rows come with --input, --locus or --follow";
                 let title = "this answer has no rows";
-                return Err(Refusal(format!("error: {title}\n  = help: {help}\n")));
+                return Err(Refusal::error(format!("{title}\n  = help: {help}")));
             }
             (Format::Ron, _, Some(file)) => {
-                answer.data = file.map_err(|error| {
-                    Refusal(format!("error: the file cannot be written: {error}\n"))
-                })?;
+                let said = |error| format!("the file cannot be written: {error}");
+                answer.data = file.map_err(|error| Refusal::error(said(error)))?;
             }
             _ => {}
         }
@@ -77,7 +76,7 @@ pub fn beside_rows(report: &impl Report, whole: bool) -> String {
         notes,
         method,
         ..
-    } = report.shown();
+    } = report.document();
     let answer = (!report.is_yes()).then_some(answer);
     lines("note", answer.into_iter().chain(notes).chain(method))
 }

@@ -59,7 +59,7 @@ impl Formulas {
         }
         let settings = FormulasSettings {
             transform: of.map(|of| (of, relative_to.unwrap_or(Frame::Ground))),
-            numbers: loaded.set(),
+            numbers: loaded.set.clone(),
             ..FormulasSettings::default()
         };
         let report = formulas(&loaded.mechanism, &settings).map_err(|error| {

@@ -55,7 +55,7 @@ impl Import {
         let imported = load(&self.file, closing, &settings).map_err(|error| {
             Refusal(match error {
                 ImportError::Wrong(wrong) => diagnostics::import(&wrong, style()),
-                ImportError::Unreadable(error) => format!("error: {error}\n"),
+                ImportError::Unreadable(error) => return Refusal::error(error),
             })
         })?;
         if let Err(mut problems) = Mechanism::new(&imported.description) {
@@ -78,9 +78,8 @@ impl Import {
             return Err(LoadError::Wrong(error).into());
         }
         let text = imported.description.to_ron();
-        let text = text.map_err(|error| {
-            Refusal(format!("error: the mechanism cannot be written: {error}\n"))
-        })?;
+        let said = |error| format!("the mechanism cannot be written: {error}");
+        let text = text.map_err(|error| Refusal::error(said(error)))?;
         Ok(Answer {
             data: written(text, self.output.as_deref())?,
             remarks: remarks(&imported.remarks),

@@ -36,17 +36,16 @@ impl Merge {
             let name = file.display().to_string();
             match std::fs::read_to_string(file) {
                 Ok(text) => Ok((name, text)),
-                Err(error) => Err(Refusal(format!("error: {name}: {error}\n"))),
+                Err(error) => Err(Refusal::error(format!("{name}: {error}"))),
             }
         });
         let files: Vec<(String, String)> = read.collect::<Result<_, _>>()?;
-        let mut merged = merge(&files).map_err(|error| Refusal(format!("error: {error}\n")))?;
+        let mut merged = merge(&files).map_err(Refusal::error)?;
         if !self.regions.is_empty() {
-            merged = mapped(&merged, &self.regions)
-                .map_err(|error| Refusal(format!("error: {error}\n")))?;
+            merged = mapped(&merged, &self.regions).map_err(Refusal::error)?;
         }
         if self.spread {
-            merged = spread(&merged).map_err(|error| Refusal(format!("error: {error}\n")))?;
+            merged = spread(&merged).map_err(Refusal::error)?;
         }
         Ok(Answer {
             data: merged,

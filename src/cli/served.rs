@@ -15,8 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Serves until the program is ended.
 pub fn serve(source: &Source) -> Result<Answer, Refusal> {
-    let refused =
-        |error: io::Error| Refusal(format!("error: the page cannot be served: {error}\n"));
+    let refused = |error: io::Error| Refusal::error(format!("the page cannot be served: {error}"));
     // says so at once if the file cannot be read; one with problems is shown with them
     source.viewed()?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(refused)?;

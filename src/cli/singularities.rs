@@ -7,10 +7,11 @@ use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::ask::{Question, Role};
 use linkwork::output::singularities as output;
 
-use super::asked::{Asked, Ranges};
+use super::asked::Asked;
 use super::format::{Format, with_rows};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
+use super::words::Ranged;
 use super::written::save;
 use super::{Answer, Refusal};
 
@@ -74,7 +75,7 @@ impl Singularities {
         self.search.pose(&mut posed)?;
         posed.names(Role::Output, "--output", &self.output, Question::output);
         posed.names(Role::Point, "--point", &self.point, Question::point);
-        posed.ranges(Ranges::Input, &self.input)?;
+        posed.ranges(Ranged::Input, &self.input)?;
         posed.mode(self.mode);
         if self.locus.is_empty() {
             return match self.input.is_empty() {
@@ -82,7 +83,7 @@ impl Singularities {
                 false => posed.answer(self.format, |q, watch| q.along(&settings, watch)),
             };
         }
-        posed.ranges(Ranges::Locus, &self.locus)?;
+        posed.ranges(Ranged::Locus, &self.locus)?;
         let report = posed.ask(|question, watch| question.loci(&settings, watch))?;
         if let Some(path) = &self.svg {
             save(path, output::svg(&report).as_bytes())?;

@@ -62,12 +62,9 @@ impl Assignment {
 pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
     for (i, second) in given.iter().enumerate() {
         if let Some(first) = given[..i].iter().find(|first| first.name == second.name) {
-            let written = |a: &Assignment| format!("`{option} {}={}`", a.name, a.value);
-            let title = format!(
-                "{} and {} contradict one another",
-                written(first),
-                written(second)
-            );
+            let [one, other] =
+                [first, second].map(|a| format!("`{option} {}={}`", a.name, a.value));
+            let title = format!("{one} and {other} contradict one another");
             let said = Complaint::new(title).help("give only one of them");
             return Err(Refusal(said.render_in(&second.given(option), style())));
         }
@@ -78,7 +75,8 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
 /// A mechanism and the file it comes from.
 pub struct Loaded {
     path: PathBuf,
-    set: Vec<String>,
+    /// The parameters that `--set` gave another value.
+    pub set: Vec<String>,
     text: String,
     /// What the file says, with what `--set` changed.
     pub description: Description,
@@ -122,9 +120,8 @@ impl Source {
                 mechanism: Arc::new(mechanism),
             }),
             Err(problems) => {
-                let path = self.file.clone();
                 let error = FileError {
-                    path,
+                    path: self.file.clone(),
                     text,
                     problems,
                 };
@@ -158,10 +155,10 @@ impl From<LoadError> for Refusal {
     fn from(error: LoadError) -> Self {
         match error {
             LoadError::Wrong(error) => Refusal(diagnostics::render(&error, style())),
-            LoadError::TooLarge { .. } => Refusal(format!(
-                "error: {error}\n  = help: --max-bytes allows more, if it is a mechanism\n"
+            LoadError::TooLarge { .. } => Refusal::error(format!(
+                "{error}\n  = help: --max-bytes allows more, if it is a mechanism"
             )),
-            other => Refusal(format!("error: {other}\n")),
+            other => Refusal::error(other),
         }
     }
 }
@@ -170,11 +167,6 @@ impl Loaded {
     /// The answer that a report about the mechanism gives.
     pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
         Ok(format.answer(report)?.after(self.warnings()))
-    }
-
-    /// The parameters that `--set` gave another value.
-    pub fn set(&self) -> Vec<String> {
-        self.set.clone()
     }
 
     /// What stands in the file at these bytes.

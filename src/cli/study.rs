@@ -7,10 +7,11 @@ use linkwork::ask::{self, Points, Question, Role};
 use linkwork::output::study::{csv, spread};
 use linkwork::system::Value;
 
-use super::asked::{Asked, Forces, Ranges};
+use super::asked::{Asked, Forces};
 use super::search::Search;
 use super::source::{Assignment, Source, once};
 use super::watched::watched;
+use super::words::Ranged;
 use super::written::save;
 use super::{Answer, Refusal, lines};
 
@@ -95,9 +96,8 @@ impl Study {
         );
         posed.values(Role::Rate, "--rate", &self.rate, Question::rate);
         self.forces.pose(&mut posed);
-        let vary = posed.varied(Ranges::Vary, &self.vary)?;
+        let vary = posed.varied(Ranged::Vary, &self.vary)?.into_iter();
         let vary: Vec<(String, Value, Value)> = vary
-            .into_iter()
             .map(|(name, from, to)| (name, from.into(), to.into()))
             .collect();
         once("--deviate", &self.deviate)?;
@@ -116,14 +116,13 @@ impl Study {
             ask::Study::new(description.clone(), question, &vary, &deviate, points)
         })?;
         let (part, of) = self.shard;
-        let range = study.shard(part, of);
-        let range = range.map_err(|error| Refusal(format!("error: {error}\n")))?;
+        let range = study.shard(part, of).map_err(Refusal::error)?;
         let rows = watched(|watch| study.rows(range, watch));
         let whole = !rows.interrupted;
         let note = (!whole).then(|| "interrupted: rows are missing at the end".to_owned());
         let mut data = csv(&study, &rows);
         if self.spread {
-            data = spread(&data).map_err(|error| Refusal(format!("error: {error}\n")))?;
+            data = spread(&data).map_err(Refusal::error)?;
         }
         if let Some(path) = &self.output {
             // a part of a shard is none

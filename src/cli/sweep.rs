@@ -13,15 +13,15 @@ use linkwork::output::drawing::{DrawingSettings, View, frames};
 use linkwork::output::glb::glb;
 use linkwork::output::sweep::{Picture, certified, row_columns, row_values, worded};
 
-use super::asked::{Asked, Forces, Posed, Ranges};
+use super::asked::{Asked, Forces, Posed};
 use super::format::{Format, with_rows};
 use super::pictures::{LASTS, keep, view};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
-use super::words;
+use super::words::{self, Ranged};
 use super::written::{Lines, save, unwritten};
-use super::{Answer, Refusal, lines, style};
+use super::{Answer, Refusal, lines};
 
 /// Move the inputs and see what happens, without ever switching branch silently.
 ///
@@ -139,13 +139,12 @@ impl Sweep {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        posed.ranges(Ranges::Input, &self.input)?;
+        posed.ranges(Ranged::Input, &self.input)?;
         if let Some(path) = &self.motion {
             let text = std::fs::read_to_string(path)
-                .map_err(|error| Refusal(format!("error: {}: {error}\n", path.display())))?;
+                .map_err(|error| Refusal::error(format!("{}: {error}", path.display())))?;
             let moved = posed.question.clone().through_rows(&text);
-            let moved =
-                moved.map_err(|error| Refusal(words::table(path, &error).render(style())))?;
+            let moved = moved.map_err(|error| Refusal::from(words::table(path, &error)))?;
             posed.ask_with(|_| moved);
         }
         posed.names(Role::Point, "--of", &self.of, Question::point);
@@ -201,17 +200,13 @@ impl Sweep {
         };
         let hundredths = (100.0 * LASTS / scenes.len().max(1) as f64).round() as u16;
         let moving = gif(&frames(scenes, &settings), hundredths.max(2));
-        let moving = moving.map_err(|error| {
-            let path = path.display();
-            Refusal(format!("error: {path} cannot be written: {error}\n"))
-        })?;
-        save(path, &moving)
+        let said = |error| format!("{} cannot be written: {error}", path.display());
+        save(path, &moving.map_err(|error| Refusal::error(said(error)))?)
     }
 
     fn moved(&self, posed: &Posed) -> Result<Answer, Refusal> {
         if self.format == Format::Json && self.steps > MOST_KEPT {
-            let said = words::steps(self.steps, MOST_KEPT, true);
-            return Err(Refusal(said.render(style())));
+            return Err(words::steps(self.steps, MOST_KEPT, true).into());
         }
         let settings = SweepSettings {
             steps: self.steps,

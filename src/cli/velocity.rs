@@ -42,9 +42,8 @@ impl Velocity {
         once("--rate", &self.rate)?;
         once("--acceleration", &self.acceleration)?;
         posed.values(Role::Rate, "--rate", &self.rate, Question::rate);
-        let role = Role::Acceleration;
         posed.values(
-            role,
+            Role::Acceleration,
             "--acceleration",
             &self.acceleration,
             Question::acceleration,

@@ -7,11 +7,11 @@ use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Mode;
 use linkwork::output::{Report, workspace as output};
 
-use super::asked::{Ranges, Split};
+use super::asked::Split;
 use super::format::{Format, beside_rows, with_rows};
 use super::search::Search;
 use super::source::{Assignment, Source};
-use super::words;
+use super::words::{self, Ranged};
 use super::written::{rows, save};
 use super::{Answer, Refusal, lines, style};
 
@@ -64,7 +64,7 @@ impl Workspace {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.split.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        posed.ranges(Ranges::Map, &self.map)?;
+        posed.ranges(Ranged::Map, &self.map)?;
         if self.boundary && (self.map.len() == 1 || self.format != Format::Csv) {
             return Err(Refusal(words::no_boundary(self.map.len()).render(style())));
         }

@@ -75,7 +75,7 @@ impl Write for Lines {
 
 /// Rows that cannot be written.
 pub fn unwritten(error: io::Error) -> Refusal {
-    Refusal(format!("error: the rows cannot be written: {error}\n"))
+    Refusal::error(format!("the rows cannot be written: {error}"))
 }
 
 /// All rows to stdout; whether nobody interrupted meanwhile.
@@ -121,10 +121,8 @@ pub fn save(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
         Ok(there) if !there.is_file() => std::fs::write(path, bytes),
         _ => replace(path, bytes),
     };
-    written.map_err(|error| {
-        let path = path.display();
-        Refusal(format!("error: {path} cannot be written: {error}\n"))
-    })
+    let said = |error| format!("{} cannot be written: {error}", path.display());
+    written.map_err(|error| Refusal::error(said(error)))
 }
 
 /// What goes to stdout of a text: all, or nothing where it is written to a file.

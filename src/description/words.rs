@@ -26,13 +26,14 @@ pub fn plural(noun: &str) -> String {
 }
 
 /// `a, b and c`.
-pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
+pub fn listed<S: AsRef<str>>(words: impl IntoIterator<Item = S>) -> String {
     joined(words, "and")
 }
 
 /// The same with another word before the last.
-pub(crate) fn joined<S: AsRef<str>>(words: &[S], last_by: &str) -> String {
-    match words {
+pub(crate) fn joined<S: AsRef<str>>(words: impl IntoIterator<Item = S>, last_by: &str) -> String {
+    let words: Vec<S> = words.into_iter().collect();
+    match &words[..] {
         [words @ .., last] if !words.is_empty() => {
             let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
             format!("{} {last_by} {}", words.join(", "), last.as_ref())
@@ -42,9 +43,9 @@ pub(crate) fn joined<S: AsRef<str>>(words: &[S], last_by: &str) -> String {
 }
 
 /// The same between back quotes.
-pub fn quoted<S: AsRef<str>>(words: &[S]) -> String {
-    let words = words.iter().map(|word| format!("`{}`", word.as_ref()));
-    listed(&words.collect::<Vec<String>>())
+pub fn quoted<S: AsRef<str>>(words: impl IntoIterator<Item = S>) -> String {
+    let words = words.into_iter();
+    listed(words.map(|word| format!("`{}`", word.as_ref())))
 }
 
 /// `a` -> `b` -> `a`

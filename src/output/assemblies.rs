@@ -16,10 +16,6 @@ use crate::linear::RANK_TOLERANCE;
 use tables::{Pose, are_posed, by_pose, complex, joints, met, overview, platforms, poses, reasons};
 
 impl Report for AssembliesReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn remarks(&self) -> Remarks {
         Remarks {
             complete: Some(completeness(self)),
@@ -32,6 +28,7 @@ impl Report for AssembliesReport {
         let proved = self.proof.iter().map(|of| proof::sentence(of, self.real));
         let answer: Vec<String> = [sentence(self)].into_iter().chain(proved).collect();
         let document = Document::new(&self.mechanism, answer.join(" "))
+            .interrupted(self.interrupted, "")
             .notes(meeting(self))
             .notes(self.proof.iter().flat_map(proof::notes))
             .section(listing(self))

@@ -94,10 +94,6 @@ impl<R: Report> Report for Analysed<R> {
         report(self).is_yes()
     }
 
-    fn is_interrupted(&self) -> bool {
-        report(self).is_interrupted()
-    }
-
     fn warnings(&self) -> Vec<String> {
         report(self).warnings()
     }
@@ -152,14 +148,10 @@ impl Report for NotClosed {
              values, start elsewhere, or free a joint that is held; `linkwork solve` says more.",
             left.unwrap_or_default()
         );
-        Document::new(&self.mechanism, answer)
+        Document::new(&self.mechanism, answer).interrupted(self.interrupted, "")
     }
 
     fn is_yes(&self) -> bool {
         false
-    }
-
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
     }
 }

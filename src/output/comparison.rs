@@ -11,10 +11,6 @@ use crate::analysis::compare::{
 use crate::description::count;
 
 impl Report for CompareReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn document(&self) -> Document {
         if self.closed_forms.is_empty() {
             return Document::new(&self.mechanism, "The file has no closed forms to compare.");

@@ -139,10 +139,16 @@ impl Document {
         self
     }
 
-    /// With a note if the work was stopped before it was done, and what may be missing then.
+    /// The answer begins with it where the work was stopped before it was done; a note says what may be missing, if
+    /// anything is named.
     #[must_use]
-    pub fn interrupted(self, interrupted: bool, missing: &str) -> Self {
-        let note = interrupted.then(|| format!("interrupted: {missing} may be missing"));
+    pub fn interrupted(mut self, interrupted: bool, missing: &str) -> Self {
+        if interrupted {
+            let found = "Interrupted: this is what was found until then. ";
+            self.answer.insert_str(0, found);
+        }
+        let note = (interrupted && !missing.is_empty())
+            .then(|| format!("interrupted: {missing} may be missing"));
         self.notes(note)
     }
 

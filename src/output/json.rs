@@ -35,7 +35,7 @@ pub struct Envelope {
 
 impl Envelope {
     fn of(report: &impl Report) -> Self {
-        let document = report.shown();
+        let document = report.document();
         Envelope {
             linkwork: env!("CARGO_PKG_VERSION").into(),
             mechanism: document.title,

@@ -14,10 +14,6 @@ use crate::description::{count, listed};
 const SHOWN: usize = 8;
 
 impl Report for MobilityReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn is_yes(&self) -> bool {
         closing::is_about_the_file(&self.pose, self.length)
     }

@@ -6,17 +6,12 @@ use super::document::{Cell, Document};
 
 /// A report that can be shown. Commands print it as a [`Document`], as JSON or as rows.
 pub trait Report {
-    /// The report in words and tables. It needs nothing but the report.
+    /// The report in words and tables, made of nothing but the report.
     fn document(&self) -> Document;
 
     /// Whether the answer is yes, or at least not no.
     fn is_yes(&self) -> bool {
         true
-    }
-
-    /// Whether the work was stopped before it was done.
-    fn is_interrupted(&self) -> bool {
-        false
     }
 
     /// What a reader must not overlook, a line each.
@@ -37,16 +32,6 @@ pub trait Report {
     /// The mechanism file that was made, if one was.
     fn file(&self) -> Option<Result<String, ron::Error>> {
         None
-    }
-
-    /// The document, which says first where the work was stopped.
-    fn shown(&self) -> Document {
-        let mut document = self.document();
-        if self.is_interrupted() {
-            let found = "Interrupted: this is what was found until then. ";
-            document.answer.insert_str(0, found);
-        }
-        document
     }
 }
 
@@ -85,4 +70,17 @@ pub struct Rows<'a> {
     pub columns: Vec<String>,
     /// The rows, made as they are asked for.
     pub rows: Box<dyn Iterator<Item = Record> + 'a>,
+}
+
+impl<'a> Rows<'a> {
+    /// Rows under the names of their columns.
+    pub fn new(
+        columns: impl IntoIterator<Item = String>,
+        rows: impl Iterator<Item = Record> + 'a,
+    ) -> Self {
+        Rows {
+            columns: columns.into_iter().collect(),
+            rows: Box::new(rows),
+        }
+    }
 }

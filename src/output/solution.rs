@@ -9,10 +9,6 @@ use crate::description::{count, listed};
 use crate::system::{FrameRecord, Gap};
 
 impl Report for AssemblyReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn document(&self) -> Document {
         let platforms = self.platforms.0.iter();
         let platforms = platforms.map(|(name, platform)| pose(name, platform));

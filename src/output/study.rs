@@ -1,7 +1,10 @@
 //! Rows of studies, and shards put together.
 
-use super::csv::Csv;
+use std::iter;
+
+use super::csv::render;
 use super::document::Cell;
+use super::report::Rows;
 use crate::ask::{Study, StudyRows, regions};
 use crate::mechanism::Variable;
 
@@ -15,14 +18,9 @@ const ASSEMBLED: &str = "assembled";
 pub fn csv(study: &Study, rows: &StudyRows) -> String {
     let first = format!("{ROW}{}", study.count());
     let rest = rows.columns.iter().skip(1).map(Variable::to_string);
-    let written = Csv::new(Vec::new(), std::iter::once(first).chain(rest)).and_then(|mut csv| {
-        for row in &rows.rows {
-            csv.row(row.iter().map(|x| Cell::from(*x)))?;
-        }
-        csv.finish()
-    });
-    let bytes = written.expect("writing to memory cannot fail");
-    String::from_utf8(bytes).expect("what was written is text")
+    let rows = rows.rows.iter();
+    let rows = rows.map(|row| row.iter().map(|x| Cell::from(*x)).collect());
+    render(Rows::new(iter::once(first).chain(rest), rows))
 }
 
 /// How the columns of a study are spread over its rows, as comma-separated values.
@@ -46,10 +44,9 @@ pub fn spread(rows: &str) -> std::io::Result<String> {
         "least",
         "greatest",
     ];
-    let mut written = Csv::new(Vec::new(), titles)?;
-    for (name, values) in names.into_iter().zip(columns).skip(1) {
+    let named = names.into_iter().zip(columns).skip(1);
+    let rows = named.map(|(name, values)| {
         let count = values.len();
-        let cells = [Cell::Text(name), Cell::Count(count as i64)];
         let mean = values.iter().sum::<f64>() / count as f64;
         let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
         let figures = [
@@ -58,11 +55,10 @@ pub fn spread(rows: &str) -> std::io::Result<String> {
             values.iter().copied().fold(f64::NAN, f64::min),
             values.iter().copied().fold(f64::NAN, f64::max),
         ];
-        let figures = figures.map(|x| Cell::from(Some(x)));
-        written.row(cells.into_iter().chain(figures))?;
-    }
-    let bytes = written.finish()?;
-    Ok(String::from_utf8(bytes).expect("what was written is text"))
+        let cells = [Cell::Text(name), Cell::from(count)];
+        cells.into_iter().chain(figures.map(Cell::from)).collect()
+    });
+    Ok(render(Rows::new(titles.map(str::to_owned), rows)))
 }
 
 /// Why files are not the shards of one study.
@@ -74,30 +70,15 @@ pub enum MergeError {
     /// A file of another study.
     #[error("{0} has other columns than {1}: they are of two studies")]
     Other(String, String),
-    /// A line that does not begin with the number of a row.
-    #[error("{file}:{line} does not begin with the number of a row")]
-    NoRow {
-        /// The file.
-        file: String,
-        /// The line, from 1.
-        line: usize,
-    },
+    /// A file and its line, from 1, that does not begin with the number of a row.
+    #[error("{0}:{1} does not begin with the number of a row")]
+    NoRow(String, usize),
     /// Two rows of one number that differ.
-    #[error("row {row} is not the same in {files}: they are of two studies", files = .files.join(" and "))]
-    Differ {
-        /// The row.
-        row: usize,
-        /// The files.
-        files: [String; 2],
-    },
-    /// Rows that are no grid.
-    #[error("{rows} rows are no grid of {grid} nodes", grid = .grid.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
-    Grid {
-        /// How many rows there are.
-        rows: usize,
-        /// The nodes along each coordinate.
-        grid: Vec<usize>,
-    },
+    #[error("row {0} is not the same in {files}: they are of two studies", files = .1.join(" and "))]
+    Differ(usize, [String; 2]),
+    /// So many rows are no grid of these nodes along each coordinate.
+    #[error("{0} rows are no grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
+    Grid(usize, Vec<usize>),
     /// Missing rows.
     #[error("rows {first} to {last} of {of} are missing: work out their shard")]
     Missing {
@@ -122,10 +103,8 @@ pub fn mapped(rows: &str, grid: &[usize]) -> Result<String, MergeError> {
     let within: Vec<bool> = (reader.records())
         .map(|row| row.is_ok_and(|row| column.and_then(|i| row.get(i)) == Some("1")))
         .collect();
-    let found = regions(grid, &within).ok_or_else(|| MergeError::Grid {
-        rows: within.len(),
-        grid: grid.to_vec(),
-    })?;
+    let found = regions(grid, &within);
+    let found = found.ok_or_else(|| MergeError::Grid(within.len(), grid.to_vec()))?;
     let mut lines = rows.lines();
     let mut text = format!("{},region\n", lines.next().unwrap_or_default());
     for (line, region) in lines.zip(found) {
@@ -143,16 +122,13 @@ pub fn mapped(rows: &str, grid: &[usize]) -> Result<String, MergeError> {
 /// # Errors
 /// If they are not those of one study, or rows are missing.
 pub fn merge(files: &[(String, String)]) -> Result<String, MergeError> {
+    let number = |line: &str| line.split(',').next()?.parse::<usize>().ok();
     let mut header: Option<(&str, &str)> = None;
     let mut rows: Vec<(usize, &str, &str)> = Vec::new();
     let mut all = 0;
     for (file, text) in files {
-        let name = file.as_str();
         let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
-        let count = first
-            .strip_prefix(ROW)
-            .and_then(|rest| rest.split(',').next());
-        let count = count.and_then(|count| count.parse().ok());
+        let count = first.strip_prefix(ROW).and_then(number);
         all = count.ok_or_else(|| MergeError::NoShard(file.clone()))?;
         match header {
             Some((known, of)) if known != first => {
@@ -161,13 +137,8 @@ pub fn merge(files: &[(String, String)]) -> Result<String, MergeError> {
             _ => header = Some((first, file)),
         }
         for (i, line) in rest.lines().enumerate() {
-            let number = line
-                .split(',')
-                .next()
-                .and_then(|number| number.parse().ok());
-            let (file, at) = (file.clone(), i + 2);
-            let number = number.ok_or(MergeError::NoRow { file, line: at })?;
-            rows.push((number, line, name));
+            let number = number(line).ok_or_else(|| MergeError::NoRow(file.clone(), i + 2))?;
+            rows.push((number, line, file));
         }
     }
     // stable: the order of files decides nothing, as equal rows are the same
@@ -185,7 +156,7 @@ pub fn merge(files: &[(String, String)]) -> Result<String, MergeError> {
             Some((known, text, other)) if known == number => {
                 if text != line {
                     let files = [other.to_owned(), file.to_owned()];
-                    return Err(MergeError::Differ { row: number, files });
+                    return Err(MergeError::Differ(number, files));
                 }
                 continue;
             }
@@ -252,11 +223,8 @@ mod tests {
         assert_eq!(mapped(&whole, &[2, 2]).as_deref(), Ok(expected));
         let row = "row of 4,l2 (m),assembled,region\n0,1,1,1\n1,2,0,\n2,1,1,2\n3,2,1,2\n";
         assert_eq!(mapped(&whole, &[4]).as_deref(), Ok(row));
-        let (rows, grid) = (4, vec![2, 3]);
-        assert_eq!(
-            mapped(&whole, &[2, 3]),
-            Err(MergeError::Grid { rows, grid })
-        );
+        let refused = Err(MergeError::Grid(4, vec![2, 3]));
+        assert_eq!(mapped(&whole, &[2, 3]), refused);
     }
 
     #[test]
@@ -271,7 +239,7 @@ mod tests {
         assert_eq!(merge(&[a.clone(), other]), refused);
         let changed = ("c".to_owned(), a.1.replace("0,1,1", "0,1,0"));
         let files = ["a".to_owned(), "c".to_owned()];
-        let refused = Err(MergeError::Differ { row: 0, files });
+        let refused = Err(MergeError::Differ(0, files));
         assert_eq!(merge(&[a, changed]), refused);
         let text = ("d".to_owned(), "theta1\n1\n".to_owned());
         assert_eq!(merge(&[text]), Err(MergeError::NoShard("d".into())));

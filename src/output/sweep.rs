@@ -19,14 +19,12 @@ use crate::analysis::sweep::{
 use crate::mechanism::Variable;
 
 impl Report for MotionsReport {
-    fn is_interrupted(&self) -> bool {
-        self.motions.iter().any(|motion| motion.sweep.interrupted)
-    }
-
     fn document(&self) -> Document {
+        let interrupted = self.motions.iter().any(|motion| motion.sweep.interrupted);
         match &self.motions[..] {
             [one] => {
                 let document = Document::new(&self.mechanism, mode(one) + &sentence(&one.sweep));
+                let document = document.interrupted(interrupted, "");
                 let document = document.notes(remarks(one).concat()).sections(parts(one));
                 document.method(words::work(&one.sweep))
             }
@@ -43,7 +41,8 @@ impl Report for MotionsReport {
                     let section = parts(motion).into_iter().fold(section, Section::section);
                     section.text(words::work(&motion.sweep))
                 });
-                Document::new(&self.mechanism, answer).sections(sections)
+                let document = Document::new(&self.mechanism, answer);
+                document.interrupted(interrupted, "").sections(sections)
             }
         }
     }

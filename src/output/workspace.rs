@@ -19,10 +19,6 @@ use crate::mechanism::Variable;
 const MOST: usize = 20;
 
 impl Report for WorkspaceReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
             .note(words::question(self))
@@ -50,10 +46,7 @@ impl Report for WorkspaceReport {
         let columns = self.cells.columns.iter().map(Variable::to_string);
         let rows = self.cells.iter();
         let rows = rows.map(|cell| cell.values().map(Cell::from).collect());
-        Some(Rows {
-            columns: columns.collect(),
-            rows: Box::new(rows),
-        })
+        Some(Rows::new(columns, rows))
     }
 }
 
@@ -72,10 +65,7 @@ pub fn boundary_rows(report: &WorkspaceReport) -> Rows<'_> {
             row
         })
     });
-    Rows {
-        columns: own.into_iter().chain(axes).chain(joints).collect(),
-        rows: Box::new(rows),
-    }
+    Rows::new(own.into_iter().chain(axes).chain(joints), rows)
 }
 
 fn modes(report: &WorkspaceReport) -> Section {

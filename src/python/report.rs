@@ -33,7 +33,7 @@ trait Shown: Send + Sync {
 
 impl<R: JsonReport + Send + Sync> Shown for R {
     fn document(&self) -> Document {
-        self.shown()
+        crate::output::Report::document(self)
     }
 
     fn json(&self) -> String {

@@ -7,10 +7,6 @@ use crate::output::document::{Document, Section, cells};
 use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for AlongReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn document(&self) -> Document {
         let crossings = self.crossings.iter().enumerate().map(|(i, crossing)| {
             let title = format!("{}. {}", i + 1, words::place(self, &crossing.moved));
@@ -60,9 +56,6 @@ impl Report for AlongReport {
             row.extend(once.values(crossing.moved.iter().chain(&crossing.joints)));
             row
         });
-        Some(Rows {
-            columns,
-            rows: Box::new(rows),
-        })
+        Some(Rows::new(columns, rows))
     }
 }

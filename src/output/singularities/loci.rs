@@ -9,10 +9,6 @@ use crate::output::quantity::quantity;
 use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for LocusReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn document(&self) -> Document {
         Document::new(&self.mechanism, words::loci(self))
             .note(words::split(&self.inputs, &self.outputs))
@@ -66,10 +62,7 @@ impl Report for LocusReport {
             row.extend(once.values(values));
             row
         });
-        Some(Rows {
-            columns,
-            rows: Box::new(rows),
-        })
+        Some(Rows::new(columns, rows))
     }
 }
 

@@ -23,55 +23,47 @@ pub fn svg(report: &LocusReport) -> String {
     });
     let single = ["direct", "inverse"].map(|wanted| {
         let points = of(Shape::Point).filter(|(_, locus)| kind(locus) == wanted);
-        let numbers: Vec<String> = points.clone().map(|(i, _)| (i + 1).to_string()).collect();
+        let numbers = points.clone().map(|(i, _)| (i + 1).to_string());
+        let points = points.flat_map(|(_, locus)| &locus.points);
         Series {
-            label: format!("{wanted} {}", listed(&numbers)),
-            points: points
-                .flat_map(|(_, l)| l.points.iter().map(point))
-                .collect(),
+            label: format!("{wanted} {}", listed(numbers)),
+            points: points.map(point).collect(),
         }
     });
     let crossings = report.loci.iter().flat_map(|locus| &locus.crossings);
-    let crossings: Vec<(f64, f64)> = crossings.map(point).collect();
     let corner = |k: usize| {
         let bound = &report.bounds[k];
         [shown(k, bound.from), shown(k, bound.to)]
     };
     let ([left, right], [low, high]) = (corner(0), corner(1));
-    let mut series: Vec<Series> = series.collect();
-    series.push(Series {
+    let corners = [
+        (left, low),
+        (right, low),
+        (right, high),
+        (left, high),
+        (left, low),
+    ];
+    let border = Series {
         label: "box".into(),
-        points: vec![
-            (left, low),
-            (right, low),
-            (right, high),
-            (left, high),
-            (left, low),
-        ],
-    });
-    let mut marks: Vec<Series> = single.into_iter().collect();
-    marks.retain(|marks| !marks.points.is_empty());
-    if !crossings.is_empty() {
-        marks.push(Series {
-            label: "loci cross".into(),
-            points: crossings,
-        });
-    }
+        points: corners.to_vec(),
+    };
+    let crossings = Series {
+        label: "loci cross".into(),
+        points: crossings.map(point).collect(),
+    };
     let cusps = report.loci.iter().flat_map(|locus| &locus.cusps);
-    let cusps: Vec<(f64, f64)> = cusps.map(|cusp| point(&cusp.point)).collect();
-    if !cusps.is_empty() {
-        marks.push(Series {
-            label: "cusps".into(),
-            points: cusps,
-        });
-    }
+    let cusps = Series {
+        label: "cusps".into(),
+        points: cusps.map(|cusp| point(&cusp.point)).collect(),
+    };
+    let marks = single.into_iter().chain([crossings, cusps]);
     plot::stacked(&[Chart {
         title: format!("{}: singularities", report.mechanism),
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
-        series,
-        marks,
+        series: series.chain([border]).collect(),
+        marks: marks.filter(|marks| !marks.points.is_empty()).collect(),
         ..Chart::default()
     }])
     .svg()

@@ -9,10 +9,6 @@ use crate::output::quantity::{self, metres, number, quantity};
 use crate::output::report::Report;
 
 impl Report for CircuitsReport {
-    fn is_interrupted(&self) -> bool {
-        self.interrupted
-    }
-
     fn document(&self) -> Document {
         let seeds = format!(
             "followed from {}: all assemblies at several values of {}{}",

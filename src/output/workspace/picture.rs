@@ -52,17 +52,15 @@ pub fn svg(report: &WorkspaceReport) -> String {
     let draw = |axes, mode, slice| picture(report, axes, mode, slice, highest);
     let (columns, charts): (usize, Vec<Chart>) = match &report.axes[..] {
         [axis] => (1, vec![along(report, axis)]),
-        [x, y] => (
-            1,
-            (1..=modes).map(|mode| draw([x, y], mode, None)).collect(),
-        ),
-        [x, y, z, ..] => (
-            COLUMNS,
-            (1..=modes)
-                .flat_map(|mode| slices.iter().map(move |place| (mode, *place)))
-                .map(|(mode, place)| draw([x, y], mode, Some((z, place))))
-                .collect(),
-        ),
+        [x, y] => {
+            let charts = (1..=modes).map(|mode| draw([x, y], mode, None));
+            (1, charts.collect())
+        }
+        [x, y, z, ..] => {
+            let places = (1..=modes).flat_map(|mode| slices.iter().map(move |at| (mode, *at)));
+            let charts = places.map(|(mode, place)| draw([x, y], mode, Some((z, place))));
+            (COLUMNS, charts.collect())
+        }
         [] => (1, Vec::new()),
     };
     sheet(left_out(report).as_deref(), columns, &charts).svg()
@@ -109,31 +107,22 @@ fn picture(
         (Some(a), Some(b)) => (a - b).abs() < 1e-9 * (1.0 + b.abs()),
         _ => true,
     };
-    let mut series: Vec<Series> = Vec::new();
-    for (name, wanted) in KINDS {
-        let curves = report
-            .curves
-            .iter()
-            .filter(|c| wanted(&c.kind) && near(c.slice));
-        let pieces = curves
-            .flat_map(|curve| &curve.pieces)
-            .filter(|piece| piece.mode == mode);
-        let mut points: Vec<(f64, f64)> = Vec::new();
-        for piece in pieces {
-            points.extend(
-                piece
-                    .points
-                    .iter()
-                    .map(|p| (shown(x, p[0]), shown(y, p[1]))),
-            );
-            points.push((f64::NAN, f64::NAN));
-        }
-        // one colour for one kind, whether it is there or not
-        series.push(Series {
-            label: (*name).into(),
-            points,
+    // one colour for one kind, whether it is there or not
+    let series = KINDS.iter().map(|(name, wanted)| {
+        let curves = report.curves.iter();
+        let curves = curves.filter(|curve| wanted(&curve.kind) && near(curve.slice));
+        let pieces = curves.flat_map(|curve| &curve.pieces);
+        let pieces = pieces.filter(|piece| piece.mode == mode);
+        let points = pieces.flat_map(|piece| {
+            let points = piece.points.iter();
+            let points = points.map(|p| (shown(x, p[0]), shown(y, p[1])));
+            points.chain([(f64::NAN, f64::NAN)])
         });
-    }
+        Series {
+            label: (*name).into(),
+            points: points.collect(),
+        }
+    });
     let at = slice.map_or(String::new(), |(z, _)| {
         let value = third.unwrap_or(0.0);
         format!(", {}", quantity::at(&z.name, value, z.unit))
@@ -143,7 +132,6 @@ fn picture(
         x: label(x),
         y: label(y),
         equal: x.unit == y.unit,
-        within: None,
         heat: Some(Heat {
             x: extent(x),
             y: extent(y),
@@ -151,9 +139,8 @@ fn picture(
             highest,
             label: "1/condition".into(),
         }),
-        strobe: None,
-        series,
-        marks: Vec::new(),
+        series: series.collect(),
+        ..Chart::default()
     }
 }
 
@@ -173,11 +160,8 @@ fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
     let series = report.modes.iter().map(|mode| {
         let mut points = Vec::new();
         let mut before = None;
-        let cells = report
-            .cells
-            .iter()
-            .filter(|c| c.mode == mode.mode && c.aspect.is_some());
-        for cell in cells {
+        let cells = report.cells.iter();
+        for cell in cells.filter(|c| c.mode == mode.mode && c.aspect.is_some()) {
             if before.is_some_and(|node| cell.node != node + 1) {
                 points.push((f64::NAN, f64::NAN));
             }
@@ -193,11 +177,7 @@ fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
         title: format!("{}: conditioning", report.mechanism),
         x: label(axis),
         y: "1/condition".into(),
-        equal: false,
-        within: None,
-        heat: None,
-        strobe: None,
         series: series.collect(),
-        marks: Vec::new(),
+        ..Chart::default()
     }
 }
