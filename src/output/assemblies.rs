@@ -8,7 +8,7 @@ mod tables;
 
 use super::closing;
 use super::document::{Document, Section};
-use super::quantity::{at, form, metres};
+use super::quantity::{are, at, clause, form, metres};
 use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
@@ -65,22 +65,12 @@ fn sentence(report: &AssembliesReport) -> String {
         _ if report.interrupted => sampled(report).unwrap_or_else(|| found(report.real)),
         (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
-            let left = format!(
-                "{} {} left with what is held",
-                count(*freedom, "freedom"),
-                form(*freedom, "is", "are")
-            );
-            let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
-            let isolated = isolated.count();
+            let left = format!("{} left with what is held", are(*freedom, "freedom"));
+            let isolated = isolated(report);
             if isolated == report.real {
-                let each = match isolated {
-                    1 => "It is",
-                    _ => "Each is",
-                };
-                return format!(
-                    "{} {each} isolated, at the limit of what is possible; in general {left}.",
-                    found(isolated)
-                );
+                let (found, each) = (found(isolated), form(isolated, "It", "Each"));
+                let limit = "at the limit of what is possible";
+                return format!("{found} {each} is isolated, {limit}; in general {left}.");
             }
             if report.continua.iter().all(|set| set.dimension < *freedom) {
                 let sets = infinitely_many(report);
@@ -88,12 +78,7 @@ fn sentence(report: &AssembliesReport) -> String {
                 return format!("{sets}, at the limit of what is possible; in general {left}.");
             }
             let listed = match report.real - isolated {
-                _ if isolated == 0 => {
-                    format!(
-                        "{real} {} listed as samples",
-                        form(report.real, "is", "are")
-                    )
-                }
+                _ if isolated == 0 => format!("{} listed as samples", are(report.real, "assembly")),
                 samples => format!(
                     "{} and {} of the others are listed",
                     count(isolated, "isolated assembly"),
@@ -105,12 +90,11 @@ fn sentence(report: &AssembliesReport) -> String {
         (Fit::Endless, n) => {
             let winding = report.variables.iter().filter(|joint| joint.winding);
             let winding: Vec<&str> = winding.map(|joint| joint.name.as_str()).collect();
-            let because = match winding.len() {
-                0 => String::new(),
-                n => format!(
-                    ", because {} {} differently after every turn",
-                    listed(&winding),
-                    form(n, "stands", "stand")
+            let because = match winding.is_empty() {
+                true => String::new(),
+                false => format!(
+                    ", because {} differently after every turn",
+                    clause(&winding, "stands", "stand")
                 ),
             };
             let listed = match n {
@@ -155,6 +139,11 @@ fn found(assemblies: usize) -> String {
     format!("{} {were} found.", count(assemblies, "assembly"))
 }
 
+fn isolated(report: &AssembliesReport) -> usize {
+    let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
+    isolated.count()
+}
+
 /// The answer where samples of connected assemblies were met and nothing is known of their sets.
 fn sampled(report: &AssembliesReport) -> Option<String> {
     let samples = report.assemblies.iter().filter(|a| a.multiplicity == 0);
@@ -163,14 +152,13 @@ fn sampled(report: &AssembliesReport) -> Option<String> {
         0 => String::new(),
         n => format!(" and {}", count(n, "isolated assembly")),
     };
-    let listed = format!("{}{isolated}", count(samples, "sample"));
-    let are = form(report.real, "is", "are");
-    (samples > 0).then(|| format!("Infinitely many assemblies: {listed} {are} listed."))
+    let (samples_said, are) = (count(samples, "sample"), form(report.real, "is", "are"));
+    (samples > 0)
+        .then(|| format!("Infinitely many assemblies: {samples_said}{isolated} {are} listed."))
 }
 
 /// The answer where assemblies are connected at the inputs asked.
 fn infinitely_many(report: &AssembliesReport) -> String {
-    let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
     let sets = report.continua.iter().map(|set: &Continuum| {
         // a path may stand for several solutions, and be followed again for each
         let dimension = set.dimension;
@@ -192,17 +180,14 @@ fn infinitely_many(report: &AssembliesReport) -> String {
             ),
         }
     });
-    let isolated = match isolated.count() {
+    let isolated = match isolated(report) {
         0 => "Infinitely many connected assemblies".into(),
         n => format!(
             "{} and infinitely many connected ones",
             count(n, "isolated assembly")
         ),
     };
-    format!(
-        "{isolated} at these inputs: {}.",
-        listed(&sets.collect::<Vec<_>>())
-    )
+    format!("{isolated} at these inputs: {}.", listed(sets))
 }
 
 /// Where solutions meet.

@@ -1,9 +1,8 @@
 //! Words about closing a mechanism before it is analysed.
 
 use super::document::Document;
-use super::quantity::{degrees, form, metres, quantity};
+use super::quantity::{clause, degrees, if_any, metres, quantity};
 use super::report::{Remarks, Report, Rows};
-use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::system::{Analysed, GivenPose, Moved, NotClosed, TooLarge};
 
@@ -68,21 +67,14 @@ pub(super) fn notes(pose: &GivenPose) -> impl Iterator<Item = String> {
 }
 
 fn way(moved: &Moved) -> String {
-    format!(
-        "{} moved by {}",
-        moved.name,
-        quantity(moved.distance, moved.unit)
-    )
+    let distance = quantity(moved.distance, moved.unit);
+    format!("{} moved by {distance}", moved.name)
 }
 
 /// The warning that joints are outside their limits.
 pub fn outside_limits(joints: &[String]) -> Option<String> {
-    let are = form(
-        joints.len(),
-        "is outside its limits",
-        "are outside their limits",
-    );
-    (!joints.is_empty()).then(|| format!("{} {are}", listed(joints)))
+    let [one, many] = ["is outside its limits", "are outside their limits"];
+    (!joints.is_empty()).then(|| clause(joints, one, many))
 }
 
 impl<R: Report> Report for Analysed<R> {
@@ -132,16 +124,10 @@ impl Report for TooLarge {
 
 impl Report for NotClosed {
     fn document(&self) -> Document {
-        let held = match self.held.is_empty() {
-            true => String::new(),
-            false => format!(" with {} held", listed(&self.held)),
-        };
+        let held = if_any(&self.held, |held| format!(" with {held} held"));
         let left = self.left.as_ref().map(|left| {
-            let gap = gap(left.distance, left.angle);
-            format!(
-                ": at the closest approach closure {} is open by {gap}",
-                left.closure
-            )
+            let (closure, gap) = (&left.closure, gap(left.distance, left.angle));
+            format!(": at the closest approach closure {closure} is open by {gap}")
         });
         let answer = format!(
             "Not assembled{held}{}. Only an assembled mechanism can be analysed: hold other \

@@ -63,8 +63,7 @@ fn proved(report: &CompareReport) -> String {
         (0, _) => String::new(),
         (1, 1) => format!(" It is proved{only}."),
         (n, all) if n == all => format!(" All are proved{only}."),
-        (1, _) => format!(" 1 is proved{only}."),
-        (n, _) => format!(" {n} are proved{only}."),
+        (n, _) => format!(" {n} {} proved{only}.", form(n, "is", "are")),
     }
 }
 
@@ -111,16 +110,13 @@ fn units(report: &CompareReport) -> String {
         let mut tried = components.filter(|component| component.samples > 0);
         tried.any(|component| component.quantity == quantity)
     };
-    let mut units = Vec::new();
-    if tried(Quantity::Rotation) {
-        units.push("in R, of entries of rotation matrices, have no unit");
-    }
-    if tried(Quantity::Identity) {
-        units.push("of identities have the unit of their formula");
-    }
-    match units.is_empty() {
-        true => String::new(),
-        false => format!("Differences {}.", units.join("; those ")),
+    let rotations = "in R, of entries of rotation matrices, have no unit";
+    let identities = "of identities have the unit of their formula";
+    match (tried(Quantity::Rotation), tried(Quantity::Identity)) {
+        (true, true) => format!("Differences {rotations}; those {identities}."),
+        (true, false) => format!("Differences {rotations}."),
+        (false, true) => format!("Differences {identities}."),
+        (false, false) => String::new(),
     }
 }
 
@@ -157,35 +153,9 @@ fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
     let mut undecided: Vec<(Reason, Vec<&str>)> = Vec::new();
     for component in &form.components {
         match &component.proof {
-            Proof::Different(difference) => {
-                let Difference {
-                    closed_form,
-                    chains,
-                    difference,
-                } = &**difference;
-                let print = |expression| notation.print(expression);
-                let (own, theirs) = (print(closed_form), print(chains));
-                let place = format!("{}, {}", form.name, component.name);
-                let given = match component.quantity {
-                    Quantity::Identity => "the closures give",
-                    _ => "the chains give",
-                };
-                let whole = closed_form == difference && component.quantity == Quantity::Identity;
-                let mut line = match (closed_form.is_zero(), chains.is_zero()) {
-                    (false, true) if whole => {
-                        format!("{place}: the form has {own} where the closures give 0")
-                    }
-                    (false, true) => {
-                        format!("{place}: the form has {own}, which is not in the chains")
-                    }
-                    (true, false) => format!("{place}: the form lacks {theirs}"),
-                    _ => format!("{place}: the form has {own} where {given} {theirs}"),
-                };
-                line += &format!("; difference {}.", print(difference));
-                if component.agree {
-                    line += " The difference is below the tolerance of the numerical comparison.";
-                }
-                lines.push(line);
+            Proof::Different(of) => {
+                let difference = different(notation, component, of);
+                lines.push(format!("{}, {}: {difference}", form.name, component.name));
             }
             Proof::NotDecided { reason } => {
                 match undecided.iter_mut().find(|(own, _)| own == reason) {
@@ -196,15 +166,30 @@ fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
             _ => {}
         }
     }
-    for (reason, names) in undecided {
-        lines.push(format!(
-            "{}, {}: not proved, because {}; it was compared numerically only.",
-            form.name,
-            names.join(", "),
-            why(reason)
-        ));
-    }
+    lines.extend(undecided.into_iter().map(|(reason, names)| {
+        let (form, names, why) = (&form.name, names.join(", "), why(reason));
+        format!("{form}, {names}: not proved, because {why}; it was compared numerically only.")
+    }));
     lines
+}
+
+fn different(notation: &Notation, component: &ComponentReport, of: &Difference) -> String {
+    let [own, theirs, difference] =
+        [&of.closed_form, &of.chains, &of.difference].map(|of| notation.print(of));
+    let identity = component.quantity == Quantity::Identity;
+    let whole = of.closed_form == of.difference && identity;
+    let given = if identity { "closures" } else { "chains" };
+    let said = match (of.closed_form.is_zero(), of.chains.is_zero()) {
+        (false, true) if whole => format!("the form has {own} where the closures give 0"),
+        (false, true) => format!("the form has {own}, which is not in the chains"),
+        (true, false) => format!("the form lacks {theirs}"),
+        _ => format!("the form has {own} where the {given} give {theirs}"),
+    };
+    let below = match component.agree {
+        true => " The difference is below the tolerance of the numerical comparison.",
+        false => "",
+    };
+    format!("{said}; difference {difference}.{below}")
 }
 
 fn why(reason: Reason) -> &'static str {

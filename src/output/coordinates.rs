@@ -43,11 +43,8 @@ pub(super) fn section(axes: &AxesDescription) -> Section {
         format!("{}{second}", shown(&joint.value.place).unwrap_or_default())
     };
     let follows = |joint: &Axis| {
-        joint
-            .value
-            .value
-            .as_ref()
-            .map(|value| value.expression.to_string())
+        let value = joint.value.value.as_ref();
+        value.map(|value| value.expression.to_string())
     };
     let mut joints = Table::of(&axes.joints)
         .words("joint", |joint| &joint.name.value)
@@ -68,11 +65,7 @@ pub(super) fn section(axes: &AxesDescription) -> Section {
         .words("point", |named| &named.name.value)
         .words("on", |named| &named.value.body.value)
         .words("at (m)", |named| point(&named.value.place));
-    let section = Section::new("Joint axes").table(joints);
-    match axes.points.is_empty() {
-        true => section,
-        false => section.table(points),
-    }
+    Section::new("Joint axes").table(joints).table(points)
 }
 
 /// The value of a joint's variable, with its unit.

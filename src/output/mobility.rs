@@ -4,7 +4,7 @@ mod words;
 
 use super::closing;
 use super::document::{Document, Section, Table, TableOf};
-use super::quantity::{metres, size};
+use super::quantity::{if_any, metres, size};
 use super::report::{Remarks, Report};
 use super::screws::twist_table;
 use crate::analysis::mobility::{BranchReport, LoopCount, MobilityReport};
@@ -19,21 +19,21 @@ impl Report for MobilityReport {
     }
 
     fn document(&self) -> Document {
-        let idle = self.idle_freedoms.iter();
-        let idle = idle.map(|freedom| format!("not counted: {}", words::idle(freedom)));
+        let idle = self.idle_freedoms.iter().map(words::idle);
         let elsewhere = self.elsewhere.iter();
         let elsewhere = elsewhere.map(|other| words::elsewhere(self, other));
         let redundant = self.redundancies.iter().map(words::redundancy);
-        let motions = match self.branches.is_empty() {
-            true => twist_table(&self.twists),
-            false => twist_table(&[]),
+        let twists: &[_] = if self.branches.is_empty() {
+            &self.twists
+        } else {
+            &[]
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
         let answer = closing::after_moving(&self.pose, words::mobility(self));
         let document = Document::new(&self.mechanism, answer)
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
-            .notes(idle)
+            .notes(idle.map(|idle| format!("not counted: {idle}")))
             .notes(words::locked(self))
             .notes(elsewhere)
             .notes(closing::notes(&self.pose))
@@ -45,7 +45,7 @@ impl Report for MobilityReport {
                 .list(redundant),
             )
             .section(Section::new("Loops").table(loops(&self.loops)))
-            .section(Section::new("Infinitesimal motions").table(motions));
+            .section(Section::new("Infinitesimal motions").table(twist_table(twists)));
         let document = shown.fold(document, |document, (i, of)| {
             // a branch without motions of platforms or links is named all the same
             let section = branch(i, of);
@@ -80,23 +80,22 @@ fn joints(report: &MobilityReport) -> Section {
     if report.joints.is_empty() {
         return Section::new("Joints");
     }
-    let some = |names: &[String]| match names {
-        [] => "none".to_owned(),
-        names => listed(names),
-    };
-    let mut rows = vec![
-        ("moving", some(&report.moving_joints)),
-        ("idle", some(&words::still(report))),
+    let still = words::still(report);
+    let rows = [
+        ("moving", &report.moving_joints, "none"),
+        ("idle", &still, "none"),
+        ("spinning", &report.spinning_joints, ""),
+        ("locked", &report.locked, ""),
     ];
-    if !report.spinning_joints.is_empty() {
-        rows.push(("spinning", listed(&report.spinning_joints)));
-    }
-    if !report.locked.is_empty() {
-        rows.push(("locked", listed(&report.locked)));
-    }
-    let table = Table::of(&rows)
-        .words("", |(what, _)| *what)
-        .words("", |(_, names)| names);
+    let shown = rows
+        .iter()
+        .filter(|(_, names, none)| !(names.is_empty() && none.is_empty()));
+    let table = Table::of(shown)
+        .words("", |(what, ..)| *what)
+        .words("", |(_, names, none)| match names.is_empty() {
+            true => (*none).to_owned(),
+            false => listed(*names),
+        });
     Section::new("Joints").table(table)
 }
 
@@ -111,10 +110,7 @@ fn loops(loops: &[LoopCount]) -> TableOf<&LoopCount> {
 }
 
 fn branch(i: usize, branch: &BranchReport) -> Section {
-    let moving = match branch.moving_joints.as_slice() {
-        [] => String::new(),
-        joints => format!(", moving {}", listed(joints)),
-    };
+    let moving = if_any(&branch.moving_joints, |joints| format!(", moving {joints}"));
     let kind = match (branch.cone, branch.approximate) {
         (true, _) => "; its motions are a cone in the span of",
         (_, true) => "; its motions are known to about 2 %",
@@ -126,14 +122,13 @@ fn branch(i: usize, branch: &BranchReport) -> Section {
 }
 
 fn more_branches(report: &MobilityReport) -> Section {
-    let section = Section::new("");
     if report.branches.len() <= SHOWN {
-        return section;
+        return Section::default();
     }
-    let more = report.branch_count - SHOWN;
+    let more = count(report.branch_count - SHOWN, "further branch");
     let listed = match report.branch_count - report.branches.len() {
         0 => "listed in the JSON",
         _ => "the first of them listed in the JSON",
     };
-    section.text(format!("{}, {listed}", count(more, "further branch")))
+    Section::default().text(format!("{more}, {listed}"))
 }

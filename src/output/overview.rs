@@ -37,15 +37,12 @@ fn coordinates(given: &CoordinatesOverview) -> Section {
             quoted(&given.cut)
         ),
     };
-    let rods = match given.rods.is_empty() {
-        true => String::new(),
-        false => format!(
-            "{} {} only: a rod, whose spin is left out",
-            quoted(&given.rods),
-            form(given.rods.len(), "has two balls", "have two balls each")
-        ),
-    };
-    given_coordinates::section(&given.axes).text(cut).text(rods)
+    let have = form(given.rods.len(), "has two balls", "have two balls each");
+    let rods = quoted(&given.rods);
+    let rods =
+        (!rods.is_empty()).then(|| format!("{rods} {have} only: a rod, whose spin is left out"));
+    let section = given_coordinates::section(&given.axes);
+    section.text(cut).text(rods.unwrap_or_default())
 }
 
 fn parameters(overview: &Overview) -> TableOf<&ParameterOverview> {
@@ -79,9 +76,9 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
         let convention = chain.convention.word().to_lowercase();
         title += &format!(", {convention} Denavit–Hartenberg table");
     }
-    let step = |name: &str, steps: &[String]| match steps.is_empty() {
+    let some = |what: &str, of: &[String], by: &str| match of.is_empty() {
         true => String::new(),
-        false => format!("{name} {}", steps.join(" ")),
+        false => format!("{what} {}", of.join(by)),
     };
     let entries = |row: &RowOverview| {
         let lengths = [&row.a, &row.d].map(|entry| (entry.clone(), SiUnit::METRE));
@@ -97,15 +94,11 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
             }
         }
     }
-    let values = match values.is_empty() {
-        true => String::new(),
-        false => format!("with {}", values.join(", ")),
-    };
     let section = Section::new(title)
-        .text(step("base", &chain.base))
+        .text(some("base", &chain.base, " "))
         .table(table(chain))
-        .text(step("tip", &chain.tip))
-        .text(values);
+        .text(some("tip", &chain.tip, " "))
+        .text(some("with", &values, ", "));
     match section.blocks.is_empty() {
         true => section.text("no joints"),
         false => section,

@@ -1,6 +1,7 @@
 //! Numbers as people read them; JSON keeps every digit. Every unit that is printed comes from here.
 
 use crate::algebra::SiUnit;
+use crate::description::{count, listed};
 use crate::mechanism::Variable;
 
 /// A count with the minus sign of the formulas it stands in.
@@ -100,6 +101,24 @@ pub(super) fn form<'w>(number: usize, one: &'w str, many: &'w str) -> &'w str {
     match number {
         1 => one,
         _ => many,
+    }
+}
+
+/// `1 freedom is` or `2 freedoms are`
+pub(super) fn are(number: usize, noun: &str) -> String {
+    format!("{} {}", count(number, noun), form(number, "is", "are"))
+}
+
+/// Names with the form of a verb that goes with their number: `a stands` or `a and b stand`
+pub(super) fn clause<S: AsRef<str>>(names: &[S], one: &str, many: &str) -> String {
+    format!("{} {}", listed(names), form(names.len(), one, many))
+}
+
+/// What is said of names; nothing where there are none.
+pub(super) fn if_any<S: AsRef<str>>(names: &[S], said: impl FnOnce(String) -> String) -> String {
+    match names {
+        [] => String::new(),
+        names => said(listed(names)),
     }
 }
 

@@ -54,9 +54,8 @@ impl Report for SingularitiesReport {
 
 /// Types, motions and wrenches.
 fn details(singularity: &Singularity) -> Vec<Section> {
-    let kinds = singularity.zlatanov.iter();
-    let kinds = Section::new("Types of Zlatanov, Fenton and Benhabib")
-        .list(kinds.map(|kind| words::zlatanov(*kind)));
+    let kinds = singularity.zlatanov.iter().copied().map(words::zlatanov);
+    let kinds = Section::new("Types of Zlatanov, Fenton and Benhabib").list(kinds);
     let gained = singularity.gained.as_ref();
     let gained = gained.map(|of| movement("Gained, while the inputs stand still", of));
     let idle = singularity.idle_inputs.as_ref();
@@ -75,11 +74,9 @@ fn movement(title: &str, movement: &Movement) -> Section {
         None => moving.joint.clone(),
     });
     let joints: Vec<String> = joints.collect();
-    let joints = match joints.is_empty() {
-        true => String::new(),
-        false => format!("joints {}", joints.join(", ")),
-    };
-    Section::new(title).table(twist_table(spaces)).text(joints)
+    let joints = (!joints.is_empty()).then(|| format!("joints {}", joints.join(", ")));
+    let section = Section::new(title).table(twist_table(spaces));
+    section.text(joints.unwrap_or_default())
 }
 
 fn wrenches(resisted: &Resisted) -> Section {
@@ -91,20 +88,18 @@ fn wrenches(resisted: &Resisted) -> Section {
 }
 
 fn distances(distances: &Distances, length: f64) -> Section {
-    type Row = (&'static str, Option<f64>);
     let rows = [
         ("direct, inputs at rest", distances.direct),
         ("inverse, outputs at rest", distances.inverse),
         ("constraint, nothing held", distances.constraint),
     ];
-    let value = |(_, value): Row| match value {
-        None => "cannot vanish".into(),
-        Some(value) if value < 1e-12 => "0".into(),
-        Some(value) => format!("{value:.4e}"),
-    };
     let table = Table::of(rows)
         .words("", |(name, _)| name)
-        .words("σ", value);
+        .words("σ", |(_, value)| match value {
+            None => "cannot vanish".into(),
+            Some(value) if value < 1e-12 => "0".into(),
+            Some(value) => format!("{value:.4e}"),
+        });
     let title = format!(
         "Distance to singularity: smallest singular values, lengths over {}",
         metres(length)

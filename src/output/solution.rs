@@ -2,7 +2,7 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table, TableOf};
-use super::quantity::{degrees, form, number, quantity, size};
+use super::quantity::{clause, degrees, form, number, quantity, size};
 use super::report::Report;
 use crate::analysis::assembly::{AssemblyReport, JointVariable, Outcome, PlatformRecord};
 use crate::description::{count, listed};
@@ -78,17 +78,15 @@ fn sentence(report: &AssemblyReport) -> String {
         Outcome::CannotBeAssembled {
             worst,
             local_minimum,
-        } => {
-            let minimum = match local_minimum {
+        } => format!(
+            "Cannot be assembled with these inputs: at the closest approach closure {worst} is \
+             open by {}{}.",
+            gap(worst),
+            match local_minimum {
                 true => ", and no small motion reduces the gap",
                 false => "",
-            };
-            format!(
-                "Cannot be assembled with these inputs: at the closest approach closure {worst} is \
-                 open by {}{minimum}.",
-                gap(worst)
-            )
-        }
+            }
+        ),
         Outcome::GaveUp { worst } => format!(
             "No assembled configuration was found, nor a closest approach; the best attempt leaves \
              closure {worst} open by {}.",
@@ -104,16 +102,10 @@ fn left(report: &AssemblyReport) -> Vec<String> {
     };
     let held = match &report.held[..] {
         [] => "nothing is held".into(),
-        held => format!(
-            "only {} {} held",
-            listed(held),
-            form(held.len(), "is", "are")
-        ),
+        held => format!("only {} held", clause(held, "is", "are")),
     };
-    let mut notes = vec![format!(
-        "{held}; {} would decide the rest",
-        listed(&left.hold)
-    )];
+    let rest = listed(&left.hold);
+    let mut notes = vec![format!("{held}; {rest} would decide the rest")];
     if left.singular > 0 {
         notes.push(format!(
             "a singular configuration: to first order {} more can move",
@@ -135,10 +127,9 @@ fn idle(report: &AssemblyReport) -> Option<String> {
 
 /// What is not known of other configurations with the same inputs.
 fn others(report: &AssemblyReport) -> Option<String> {
-    let joints = report.variables.iter().any(|joint| !joint.held);
-    let solved = joints || !report.platforms.0.is_empty();
-    let decided = report.left.is_none();
-    let may_differ = report.is_assembled() && decided && solved && !report.gaps.is_empty();
+    let solved = report.variables.iter().any(|joint| !joint.held) || !report.platforms.0.is_empty();
+    let decided = report.is_assembled() && report.left.is_none();
+    let may_differ = decided && solved && !report.gaps.is_empty();
     let another = match report.restarts {
         0 => "other assemblies with the same inputs were not looked for",
         _ => {
@@ -152,21 +143,18 @@ fn others(report: &AssemblyReport) -> Option<String> {
 fn found(report: &AssemblyReport) -> String {
     let restarts = match report.restarts {
         0 => String::new(),
-        n => format!(
-            ", after {} with seed {}",
-            count(n, "random start"),
-            report.seed
-        ),
+        n => {
+            let starts = count(n, "random start");
+            format!(", after {starts} with seed {}", report.seed)
+        }
     };
-    let rods = match report.squared_lengths {
-        true => format!("; {}", closing::SQUARED_LENGTHS),
-        false => String::new(),
-    };
+    let rods = (report.squared_lengths).then(|| format!("; {}", closing::SQUARED_LENGTHS));
     format!(
-        "{}{restarts}; residual {}, condition number {}{rods}",
+        "{}{restarts}; residual {}, condition number {}{}",
         count(report.steps, "Newton step"),
         size(report.residual),
-        size(report.condition)
+        size(report.condition),
+        rods.unwrap_or_default()
     )
 }
 

@@ -10,17 +10,23 @@ use crate::description::{count, listed};
 
 impl Report for StaticsReport {
     fn document(&self) -> Document {
-        let loads = Section::new("Loads").table(loads(self));
-        let on_joints = Section::new("Loads on joints").table(forces(&self.joint_loads));
-        let held =
-            Section::new("Held, with the force that holds it").table(forces(&self.actuators));
-        let closures = Section::new(
-            "Closures, axes of ground, moments about the point given, that of the second frame",
-        );
-        let joints = Section::new(
-            "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
-        );
         let length = self.normalising_length;
+        let tables: [(&str, Table); 5] = [
+            ("Loads", loads(self).into()),
+            ("Loads on joints", forces(&self.joint_loads).into()),
+            (
+                "Held, with the force that holds it",
+                forces(&self.actuators).into(),
+            ),
+            (
+                "Closures, axes of ground, moments about the point given, that of the second frame",
+                reactions(&self.closures, length).into(),
+            ),
+            (
+                "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
+                reactions(&self.joints, length).into(),
+            ),
+        ];
         let answer = closing::after_moving(&self.pose, sentence(self));
         Document::new(&self.mechanism, answer)
             .note(format!(
@@ -29,9 +35,7 @@ impl Report for StaticsReport {
                 metres(length)
             ))
             .notes(closing::notes(&self.pose))
-            .sections([loads, on_joints, held])
-            .section(closures.table(reactions(&self.closures, length)))
-            .section(joints.table(reactions(&self.joints, length)))
+            .sections(tables.map(|(title, table)| Section::new(title).table(table)))
     }
 
     fn is_yes(&self) -> bool {
@@ -48,11 +52,10 @@ impl Report for StaticsReport {
 fn sentence(report: &StaticsReport) -> String {
     match report.gained {
         0 => balance(report),
-        gained => format!(
-            "Singular: {} gained that no held coordinate resists. {}",
-            count(gained, "freedom"),
-            balance(report)
-        ),
+        gained => {
+            let (freedoms, balance) = (count(gained, "freedom"), balance(report));
+            format!("Singular: {freedoms} gained that no held coordinate resists. {balance}")
+        }
     }
 }
 

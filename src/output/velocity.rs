@@ -44,16 +44,15 @@ fn sentence(report: &VelocityReport) -> String {
     }
     let inputs = report.inputs.iter();
     let moving = inputs.filter(|input| input.rate != 0.0 || input.acceleration != 0.0);
-    let moving: Vec<String> = moving
-        .map(|input| {
-            let (rate, change) = (number(input.rate), number(input.acceleration));
-            let unit = input.unit;
-            match input.acceleration {
-                0.0 => format!("{} at {rate} {unit}/s", input.name),
-                _ => format!("{} at {rate} {unit}/s and {change} {unit}/s²", input.name),
-            }
-        })
-        .collect();
+    let moving = moving.map(|input| {
+        let (name, unit) = (&input.name, input.unit);
+        let (rate, change) = (number(input.rate), number(input.acceleration));
+        match input.acceleration {
+            0.0 => format!("{name} at {rate} {unit}/s"),
+            _ => format!("{name} at {rate} {unit}/s and {change} {unit}/s²"),
+        }
+    });
+    let moving: Vec<String> = moving.collect();
     let loss = report.jacobian.as_ref().map_or(0, |jacobian| jacobian.loss);
     let lost = match loss {
         0 => String::new(),
@@ -198,10 +197,10 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
         return section.text("nothing held drives an output");
     }
     let named = |axes: &[Axis]| {
-        let names = axes
-            .iter()
-            .map(|axis| format!("{} ({})", axis.name, axis.unit));
-        names.collect()
+        let names = axes.iter();
+        names
+            .map(|axis| format!("{} ({})", axis.name, axis.unit))
+            .collect()
     };
     let condition = match jacobian.condition {
         Some(condition) => size(condition),

@@ -3,6 +3,8 @@
 mod picture;
 mod words;
 
+use std::collections::BTreeMap;
+
 pub use picture::{left_out, svg};
 use words::{completeness, sentence};
 
@@ -85,7 +87,7 @@ fn modes(report: &WorkspaceReport) -> Section {
         .words("size", |mode| words::area(report, mode.size))
         .words("aspects", aspects)
         .words("", |mode| {
-            mark(at_home(report, |home| home.mode), mode.mode)
+            at_home(report, |home| home.mode == Some(mode.mode))
         });
     let repeated = report.modes.iter().filter(|mode| mode.repeated > 0);
     let repeated = repeated.map(|mode| {
@@ -100,14 +102,9 @@ fn modes(report: &WorkspaceReport) -> Section {
         .list(repeated)
 }
 
-/// What the home assembly stands in, if it does.
-fn at_home(report: &WorkspaceReport, of: impl Fn(&HomeReport) -> Option<usize>) -> Option<usize> {
-    report.home.as_ref().and_then(of)
-}
-
 /// The mark behind the row of home.
-fn mark(home: Option<usize>, number: usize) -> Option<&'static str> {
-    (home == Some(number)).then_some("home")
+fn at_home(report: &WorkspaceReport, stands: impl Fn(&HomeReport) -> bool) -> Option<&'static str> {
+    report.home.as_ref().is_some_and(stands).then_some("home")
 }
 
 fn more(all: usize) -> String {
@@ -131,10 +128,8 @@ fn aspects(report: &WorkspaceReport) -> Section {
         Some(values.collect::<Vec<String>>().join(", "))
     };
     let condition = |node: Option<&Conditioned>| node.map(|node| Cell::size(node.condition));
-    let (large, small): (Vec<&AspectReport>, Vec<_>) = report
-        .aspects
-        .iter()
-        .partition(|aspect| aspect.nodes >= FEW);
+    let (large, small): (Vec<&AspectReport>, Vec<_>) =
+        (report.aspects.iter()).partition(|aspect| aspect.nodes >= FEW);
     let table = Table::of(large.iter().copied().take(MOST))
         .numbers("aspect", |aspect| aspect.aspect)
         .numbers("mode", |aspect| aspect.mode)
@@ -146,8 +141,8 @@ fn aspects(report: &WorkspaceReport) -> Section {
         .words("at", |aspect| at(aspect.best.as_ref()))
         .numbers("worst", |aspect| condition(aspect.worst.as_ref()))
         .words("at", |aspect| at(aspect.worst.as_ref()))
-        .words("", |aspect| {
-            mark(at_home(report, |home| home.aspect), aspect.aspect)
+        .words("", |of| {
+            at_home(report, |home| home.aspect == Some(of.aspect))
         });
     let few = (!small.is_empty()).then(|| {
         let and = if large.is_empty() { "" } else { "and " };
@@ -164,24 +159,20 @@ fn aspects(report: &WorkspaceReport) -> Section {
 }
 
 fn boundary(report: &WorkspaceReport) -> Section {
-    let mut kinds: Vec<(&BoundaryKind, bool)> = Vec::new();
+    let mut kinds: BTreeMap<&BoundaryKind, bool> = BTreeMap::new();
     for point in &report.points {
-        if !kinds.iter().any(|(kind, _)| **kind == point.kind) {
-            kinds.push((&point.kind, point.ends_reach));
-        }
+        kinds.entry(&point.kind).or_insert(point.ends_reach);
     }
-    kinds.sort();
-    type Kind<'r> = &'r (&'r BoundaryKind, bool);
-    let points = |(kind, _): Kind| report.points.iter().filter(|p| p.kind == **kind).count();
-    let curves = |(kind, _): Kind| report.curves.iter().filter(|c| c.kind == **kind).count();
-    let table = Table::of(&kinds)
+    let points = |kind: &BoundaryKind| report.points.iter().filter(|p| p.kind == *kind).count();
+    let curves = |kind: &BoundaryKind| report.curves.iter().filter(|c| c.kind == *kind).count();
+    let table = Table::of(kinds)
         .words("what", |(kind, _)| words::kind(kind))
         .words("does", |(_, ends)| match ends {
             true => "ends modes",
             false => "separates aspects",
         })
-        .numbers("points", points)
-        .numbers("curves", |kind| {
+        .numbers("points", |(kind, _)| points(kind))
+        .numbers("curves", |(kind, _)| {
             (report.axes.len() > 1).then(|| curves(kind))
         });
     Section::new("Boundary, located to rounding on the edges of the grid").table(table)

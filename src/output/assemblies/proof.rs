@@ -1,25 +1,20 @@
 //! What branch and prune over boxes says.
 
 use super::super::document::Section;
-use super::super::quantity::quantity;
+use super::super::quantity::{form, if_any, range};
 use crate::analysis::assemblies::{Part, Proof, Range, Unfit};
 use crate::description::{count, listed};
 
 /// Of which values of what does not come back to the same place the proof speaks.
 fn within(proof: &Proof) -> String {
-    let ranges: Vec<String> = proof.ranges.iter().map(range).collect();
-    match ranges.is_empty() {
-        true => String::new(),
-        false => format!(" with {}", listed(&ranges)),
-    }
+    let ranges: Vec<String> = proof.ranges.iter().map(said).collect();
+    if_any(&ranges, |ranges| format!(" with {ranges}"))
 }
 
 /// How complete the list is where that is proved.
 pub(super) fn completeness(proof: &Proof) -> String {
-    format!(
-        "it is proved that no real assembly{} is missing",
-        within(proof)
-    )
+    let within = within(proof);
+    format!("it is proved that no real assembly{within} is missing")
 }
 
 /// The answer in a sentence.
@@ -34,22 +29,14 @@ pub(super) fn sentence(proof: &Proof, real: usize) -> String {
         };
     }
     if !proof.missing.is_empty() {
-        return format!(
-            "The proof found {} not in the list.",
-            count(proof.missing.len(), "assembly")
-        );
+        let missing = count(proof.missing.len(), "assembly");
+        return format!("The proof found {missing} not in the list.");
     }
     "It is not proved that these are all real assemblies.".into()
 }
 
-fn range(range: &Range) -> String {
-    let of = |value| quantity(value, range.unit);
-    format!(
-        "{} from {} to {}",
-        range.name,
-        of(range.low),
-        of(range.high)
-    )
+fn said(of: &Range) -> String {
+    range(&of.name, of.low, of.high, of.unit)
 }
 
 /// Why interval arithmetic says nothing.
@@ -70,11 +57,8 @@ pub(crate) fn reason(unfit: &Unfit) -> String {
 }
 
 fn modes(modes: &[usize]) -> String {
-    let numbers: Vec<String> = modes.iter().map(usize::to_string).collect();
-    match modes {
-        [_] => format!("mode {}", numbers[0]),
-        _ => format!("modes {}", listed(&numbers)),
-    }
+    let numbers = listed(modes.iter().map(usize::to_string));
+    format!("{} {numbers}", form(modes.len(), "mode", "modes"))
 }
 
 /// What the sentence does not say.
@@ -114,10 +98,11 @@ pub(super) fn notes(proof: &Proof) -> Vec<String> {
 
 pub(super) fn sections(proof: &Proof) -> Vec<Section> {
     let part = |part: &Part| {
-        let ranges: Vec<String> = part.ranges.iter().map(range).collect();
+        let ranges: Vec<String> = part.ranges.iter().map(said).collect();
+        let ranges = ranges.join(", ");
         match part.modes.as_slice() {
-            [] => ranges.join(", "),
-            listed => format!("round {}: {}", modes(listed), ranges.join(", ")),
+            [] => ranges,
+            listed => format!("round {}: {ranges}", modes(listed)),
         }
     };
     vec![

@@ -96,13 +96,9 @@ pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
 /// Numbers in ascending order, those that follow one another as `1 to 4`.
 fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|a, b| *b == a + 1);
-    let runs = runs.map(|run| match run {
-        [first, _, .., last] => format!("{first} to {last}"),
-        few => few
-            .iter()
-            .map(usize::to_string)
-            .collect::<Vec<_>>()
-            .join(", "),
+    let runs = runs.flat_map(|run| match run {
+        [first, _, .., last] => vec![format!("{first} to {last}")],
+        few => few.iter().map(usize::to_string).collect(),
     });
     runs.collect::<Vec<_>>().join(", ")
 }
@@ -127,13 +123,13 @@ pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
         false => format!("outside: {}", listed(&a.outside_limits)),
     };
     let shared = |a: &Assembly| {
-        let others = a.shares_platform_pose_with.iter();
-        let others: Vec<String> = others.map(usize::to_string).collect();
+        let others = &a.shares_platform_pose_with;
         let what = match are_posed(report) {
             "platforms" => "platform pose",
             _ => "pose of all bodies",
         };
-        (!others.is_empty()).then(|| format!("same {what} as {}", listed(&others)))
+        let numbers = others.iter().map(usize::to_string);
+        (!others.is_empty()).then(|| format!("same {what} as {}", listed(numbers)))
     };
     Table::of(&report.assemblies)
         .numbers("mode", |a| a.mode)

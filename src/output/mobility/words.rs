@@ -6,7 +6,7 @@ use crate::analysis::mobility::{
 use crate::description::{count, listed};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::output::closing;
-use crate::output::quantity::{coarse, form, metres, signed, triple, values};
+use crate::output::quantity::{clause, coarse, form, if_any, metres, signed, triple, values};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
@@ -19,30 +19,19 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
     }
     let (rods, links): (Vec<&LocalFreedom>, Vec<&LocalFreedom>) =
         (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, LocalFreedom::Rod(_)));
-    for (spins, why) in [
-        (links, "Kutzbach's count includes"),
-        (
-            rods,
-            "Kutzbach's count leaves out too, as a `Distance` does not model it",
-        ),
-    ] {
-        match &spins[..] {
-            [] => {}
-            [one] => sentences.push(format!(
-                "Not counted: 1 idle freedom, {}, which {why}.",
-                idle(one)
-            )),
-            many => sentences.push(format!(
-                "Not counted: {} idle freedoms, each a spin of a link about its own line, which \
-                 {why}.",
-                many.len()
-            )),
-        }
+    let why_rods = "Kutzbach's count leaves out too, as a `Distance` does not model it";
+    for (spins, why) in [(links, "Kutzbach's count includes"), (rods, why_rods)] {
+        let what = match &spins[..] {
+            [] => continue,
+            [one] => idle(one),
+            _ => "each a spin of a link about its own line".into(),
+        };
+        let freedoms = count(spins.len(), "idle freedom");
+        sentences.push(format!("Not counted: {freedoms}, {what}, which {why}."));
     }
     let still = still(report);
     if report.mobility > 0 && !still.is_empty() {
-        let stand = form(still.len(), "stands", "stand");
-        sentences.push(format!("{} {stand} still.", listed(&still)));
+        sentences.push(format!("{} still.", clause(&still, "stands", "stand")));
     }
     sentences.extend(locked(report));
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
@@ -53,15 +42,11 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
 /// What is special about the configuration though its freedoms are all there.
 pub(super) fn locked(report: &MobilityReport) -> Option<String> {
     let (locked, all) = (report.gimbal_locked, report.infinitesimal);
-    let turn = match report.gimbal_locked_joints.len() {
-        1 => "turns",
-        _ => "turn",
-    };
     (locked > 0).then(|| {
         format!(
-            "The configuration is special, as in gimbal lock: {} {turn} there without moving \
+            "The configuration is special, as in gimbal lock: {} there without moving \
              anything else, so that links move with {} of the {all} freedoms only.",
-            listed(&report.gimbal_locked_joints),
+            clause(&report.gimbal_locked_joints, "turns", "turn"),
             all - locked.min(all),
         )
     })
@@ -89,16 +74,16 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         infinitesimal,
         ..
     } = report;
-    let locked = &report.locked;
-    let the_mechanism = match locked.is_empty() {
+    // `With a locked `, where something is
+    let with = if_any(&report.locked, |locked| format!("With {locked} locked "));
+    let the_mechanism = match with.is_empty() {
         true => "The mechanism".into(),
-        false => format!("With {} locked the mechanism", listed(locked)),
+        false => format!("{with}the mechanism"),
     };
     match report.character {
-        Character::Structure if !locked.is_empty() => format!(
-            "With {} locked nothing can move, not even infinitesimally.",
-            listed(locked)
-        ),
+        Character::Structure if !with.is_empty() => {
+            format!("{with}nothing can move, not even infinitesimally.")
+        }
         Character::Structure => "A structure: nothing can move, not even infinitesimally.".into(),
         Character::Regular => match report.singular_at {
             None => format!("{the_mechanism} has {}.", freedoms(*mobility)),
@@ -115,7 +100,7 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 Some(gap) => format!("a finite step leaves the closures open by {gap:.1e}"),
                 None => "no finite step closes".into(),
             };
-            let shaky = match locked.is_empty() {
+            let shaky = match with.is_empty() {
                 true => "Infinitesimally flexible (shaky): it".into(),
                 false => format!("{the_mechanism} is infinitesimally flexible (shaky): it"),
             };
@@ -138,9 +123,9 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         Character::Bifurcation => format!(
             "{}ifurcation: {}{} branches of {} each meet here, where {infinitesimal} freedoms are \
              infinitesimal; the motion can pass from one to the other.",
-            match locked.is_empty() {
+            match with.is_empty() {
                 true => "B".into(),
-                false => format!("With {} locked a b", listed(locked)),
+                false => with + "a b",
             },
             at_least(report),
             report.branch_count,
@@ -148,16 +133,18 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         ),
         Character::Kinematotropic => {
             let branches = report.branches.iter();
-            let each: Vec<String> = branches.map(|branch| branch.mobility.to_string()).collect();
-            let least = report.branches.iter().map(|branch| branch.mobility).min();
+            let each = branches.map(|branch| branch.mobility);
             let of = match report.branch_count {
-                ..=8 => format!("branches of {}", listed(&each)),
-                many => format!("{many} branches, of {} to {mobility}", least.unwrap_or(0)),
+                ..=8 => format!("branches of {}", listed(each.map(|n| n.to_string()))),
+                many => format!(
+                    "{many} branches, of {} to {mobility}",
+                    each.min().unwrap_or(0)
+                ),
             };
             format!(
                 "{}inematotropic: {}{of} freedoms meet here, where {infinitesimal} are \
                  infinitesimal, so the mobility depends on the branch.",
-                match locked.is_empty() {
+                match with.is_empty() {
                     true => "K".into(),
                     false => format!("{the_mechanism} is k"),
                 },
@@ -236,10 +223,7 @@ pub(super) fn idle(freedom: &LocalFreedom) -> String {
         }
         LocalFreedom::Platforms { platforms, joints } => {
             let spin = form(platforms.len(), "spins about its own", "spin about their");
-            let joints = match joints.is_empty() {
-                true => String::new(),
-                false => format!(" in {}", listed(joints)),
-            };
+            let joints = if_any(joints, |joints| format!(" in {joints}"));
             format!("{} {spin} line{joints}", listed(platforms))
         }
         LocalFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),

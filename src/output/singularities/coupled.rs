@@ -1,22 +1,21 @@
 //! Outputs that may hide what their positions lose, in sentences.
 
-use super::names;
 use crate::analysis::singularities::Coupled;
 use crate::description::{count, listed};
+use crate::output::quantity::if_any;
 
 /// That outputs are full poses with fewer freedoms than directions, and how to ask about a part.
 pub fn note(coupled: &[Coupled]) -> Option<String> {
     let first = coupled.first()?;
-    let all: Vec<String> = coupled.iter().map(|c| c.output.clone()).collect();
     let freedoms = count(first.freedoms, "freedom");
-    let taken = match all.len() {
-        1 => format!(
+    let taken = match coupled {
+        [one] => format!(
             "the output {} is a full pose, of which only {freedoms} can be chosen",
-            first.output
+            one.output
         ),
-        _ => format!(
+        all => format!(
             "the outputs {} are full poses, with fewer freedoms than directions",
-            names(&all)
+            listed(all.iter().map(|c| &c.output))
         ),
     };
     let lost: Vec<String> = coupled
@@ -32,12 +31,9 @@ pub fn note(coupled: &[Coupled]) -> Option<String> {
         .collect();
     let hidden = match lost.is_empty() {
         true => "singularities of its position alone are not reported".to_owned(),
-        false => format!("{} here", names(&lost)),
+        false => format!("{} here", listed(&lost)),
     };
-    let coordinates = match first.coordinates.is_empty() {
-        true => String::new(),
-        false => format!(", or some of {}", listed(&first.coordinates)),
-    };
+    let coordinates = if_any(&first.coordinates, |some| format!(", or some of {some}"));
     Some(format!(
         "{taken}: {hidden}. For these take the point `{}` as the output{coordinates}.",
         first.output

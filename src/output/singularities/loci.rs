@@ -107,15 +107,12 @@ fn cusps(report: &LocusReport) -> Option<Section> {
     let cusps: Vec<(i64, &Locus, &Cusp)> = loci
         .flat_map(|(i, locus)| locus.cusps.iter().map(move |cusp| (i, locus, cusp)))
         .collect();
-    let direct = cusps.iter().any(|(_, locus, _)| locus.kind == Kind::Direct);
-    let inverse = cusps
-        .iter()
-        .any(|(_, locus, _)| locus.kind == Kind::Inverse);
+    let any = |kind: Kind| cusps.iter().any(|(_, locus, _)| locus.kind == kind);
     let meaning = [
-        direct.then(|| {
+        any(Kind::Direct).then(|| {
             "direct: three assemblies meet there, and round it one turns into another without a singularity".to_owned()
         }),
-        inverse.then(|| "inverse: three configurations for the same outputs meet there".to_owned()),
+        any(Kind::Inverse).then(|| "inverse: three configurations for the same outputs meet there".to_owned()),
     ];
     let bounds = &report.bounds;
     let side = |k: usize| {

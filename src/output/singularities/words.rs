@@ -2,11 +2,11 @@
 
 use super::names;
 use crate::analysis::singularities::{
-    AlongEnd, AlongReport, Crossing, Kind, Locus, LocusEnd, LocusReport, Shape, Singularity,
-    Zlatanov,
+    AlongEnd, AlongReport, Crossing, Kind, Locus, LocusEnd, LocusReport, Movement, Shape,
+    Singularity, Zlatanov,
 };
 use crate::description::{count, listed};
-use crate::output::quantity::{at, form, range};
+use crate::output::quantity::{are, at, clause, form, range};
 
 /// The inputs and outputs.
 pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
@@ -17,7 +17,7 @@ pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
 
 /// Whether a configuration is singular, and how, in a sentence or two.
 pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[String]) -> String {
-    let stand = |of: &[String]| {
+    let still = |of: &[String]| {
         let stand = form(of.len(), "stands", "stand");
         format!("{} {stand} still", names(of))
     };
@@ -37,34 +37,30 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
         )),
     }
     if singularity.gain > 0 {
-        let moves = singularity.gained.as_ref().map(|gained| {
-            let mut moving: Vec<String> = (gained.twists.iter())
-                .filter(|space| !space.screws.is_empty())
-                .map(|space| space.body.clone())
-                .collect();
-            if moving.is_empty() {
-                moving = gained.joints.iter().map(|m| m.joint.clone()).collect();
+        let moving = singularity.gained.as_ref().map(|gained| {
+            let moving = gained
+                .twists
+                .iter()
+                .filter(|space| !space.screws.is_empty());
+            let moving: Vec<&String> = moving.map(|space| &space.body).collect();
+            match moving.is_empty() {
+                true => joints(gained),
+                false => moving,
             }
-            moving
         });
         sentences.push(format!(
             "{} gained: {} can move while {}.",
-            counted(singularity.gain),
-            listed(&moves.unwrap_or_default()),
-            stand(inputs)
+            are(singularity.gain, "freedom"),
+            listed(moving.unwrap_or_default()),
+            still(inputs)
         ));
     }
     if singularity.loss > 0 {
-        sentences.push(format!("{} lost.", counted(singularity.loss)));
+        sentences.push(format!("{} lost.", are(singularity.loss, "freedom")));
     }
     if let Some(idle) = &singularity.idle_inputs {
-        let moving: Vec<String> = idle.joints.iter().map(|m| m.joint.clone()).collect();
-        let verb = form(moving.len(), "moves", "move");
-        sentences.push(format!(
-            "{} {verb} while {}.",
-            listed(&moving),
-            stand(outputs)
-        ));
+        let moving = clause(&joints(idle), "moves", "move");
+        sentences.push(format!("{moving} while {}.", still(outputs)));
     }
     if singularity.more_mobility > 0 {
         sentences.push(format!(
@@ -82,9 +78,8 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     sentences.join(" ")
 }
 
-fn counted(freedoms: usize) -> String {
-    let are = form(freedoms, "is", "are");
-    format!("{} {are}", count(freedoms, "freedom"))
+fn joints(movement: &Movement) -> Vec<&String> {
+    movement.joints.iter().map(|moving| &moving.joint).collect()
 }
 
 /// The letters of a type.
@@ -117,17 +112,16 @@ pub(super) fn zlatanov(kind: Zlatanov) -> String {
 /// `theta1 = 60° and l2 = 0.5 m`
 pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
     let values = report.moved.iter().zip(moved);
-    let values = values.map(|(m, x)| at(&m.name, *x, m.unit));
-    listed(&values.collect::<Vec<_>>())
+    listed(values.map(|(m, x)| at(&m.name, *x, m.unit)))
 }
 
 /// What a crossing is.
 pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
     let mut text = sentence(&crossing.singularity, &report.inputs, &report.outputs);
     if crossing.fold {
-        let names: Vec<String> = report.moved.iter().map(|m| m.name.clone()).collect();
-        let verb = form(names.len(), "turns back and locks", "turn back and lock");
-        text = format!("{} {verb}, a fold. {text}", listed(&names));
+        let names: Vec<&String> = report.moved.iter().map(|m| &m.name).collect();
+        let turn = clause(&names, "turns back and locks", "turn back and lock");
+        text = format!("{turn}, a fold. {text}");
     }
     if crossing.branches {
         text = format!("Branches cross. {text}");
@@ -138,8 +132,7 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
 /// How a motion ended, in a sentence.
 pub(super) fn ending(report: &AlongReport) -> String {
     let way = report.moved.iter();
-    let way = way.map(|m| range(&m.name, m.from, m.to, m.unit));
-    let way = listed(&way.collect::<Vec<_>>());
+    let way = listed(way.map(|m| range(&m.name, m.from, m.to, m.unit)));
     let found = match report.crossings.len() {
         0 => "no singularity".to_owned(),
         n => count(n, "singularity"),
@@ -170,11 +163,9 @@ pub(super) fn ending(report: &AlongReport) -> String {
             "{way}: the start is singular, so the branch is not unique. Begin slightly away from it."
         ),
         AlongEnd::Stopped => format!("{way}: interrupted at {here}; {found} before."),
-        AlongEnd::Lost => {
-            format!(
-                "{way}: the curve could not be followed reliably beyond {here}; {found} before."
-            )
-        }
+        AlongEnd::Lost => format!(
+            "{way}: the curve could not be followed reliably beyond {here}; {found} before."
+        ),
     }
 }
 
@@ -182,10 +173,10 @@ pub(super) fn ending(report: &AlongReport) -> String {
 pub(super) fn loci(report: &LocusReport) -> String {
     let of = |kind: Kind, shape: Shape| {
         let loci = report.loci.iter();
-        loci.filter(|locus| locus.kind == kind && locus.shape == shape)
-            .count()
+        let loci = loci.filter(|locus| locus.kind == kind && locus.shape == shape);
+        loci.count()
     };
-    let bounds = report.bounds.each_ref();
+    let bounds = report.bounds.iter();
     let in_box = bounds.map(|of| range(&of.name, of.from, of.to, of.unit));
     let curves = |kind: Kind, word: &str| {
         let of = [(Shape::Curve, "curve"), (Shape::Point, "single point")]
@@ -217,7 +208,7 @@ pub(super) fn loci(report: &LocusReport) -> String {
         .collect();
     format!(
         "In the box {}: {} and {inverse}.{}",
-        listed(&in_box),
+        listed(in_box),
         curves(Kind::Direct, "direct"),
         meeting.concat(),
     )
@@ -226,11 +217,8 @@ pub(super) fn loci(report: &LocusReport) -> String {
 /// What is held still because links spin.
 pub(super) fn pinned(report: &LocusReport) -> Option<String> {
     let names = listed(&report.pinned);
-    (!report.pinned.is_empty()).then(|| {
-        format!(
-            "Links can spin about their own lines without moving anything else; held still: {names}."
-        )
-    })
+    let spin = "Links can spin about their own lines without moving anything else";
+    (!report.pinned.is_empty()).then(|| format!("{spin}; held still: {names}."))
 }
 
 /// How sure it is that none is missing.

@@ -3,23 +3,19 @@
 use super::percent;
 use crate::analysis::workspace::{AspectReport, AxisReport, BoundaryKind, WorkspaceReport};
 use crate::description::{count, listed};
-use crate::output::quantity::{at, metres, number, range};
+use crate::output::quantity::{at, if_any, metres, number, range};
 
 /// What is mapped, and what is held.
 pub(super) fn question(report: &WorkspaceReport) -> String {
     let axes = report.axes.iter();
-    let axes: Vec<String> = axes
-        .map(|a| {
-            let range = range(&a.name, a.from, a.to, a.unit);
-            format!("{range} in {} nodes", a.nodes)
-        })
-        .collect();
+    let axes = listed(axes.map(|a| {
+        let range = range(&a.name, a.from, a.to, a.unit);
+        format!("{range} in {} nodes", a.nodes)
+    }));
     let held = report.held.iter();
     let held: Vec<String> = held.map(|h| at(&h.name, h.value, h.unit)).collect();
-    match held.is_empty() {
-        true => format!("Map of {}.", listed(&axes)),
-        false => format!("Map of {}, with {}.", listed(&axes), listed(&held)),
-    }
+    let held = if_any(&held, |held| format!(", with {held}"));
+    format!("Map of {axes}{held}.")
 }
 
 /// Where the home assembly stands.
@@ -28,8 +24,8 @@ pub(super) fn home(report: &WorkspaceReport) -> String {
         return "Home does not assemble with what is held: no mode is marked.".into();
     };
     let axes = report.axes.iter().zip(&home.at);
-    let values: Vec<String> = axes.map(|(a, x)| at(&a.name, *x, a.unit)).collect();
-    let there = format!("Home, at {},", listed(&values));
+    let values = axes.map(|(a, x)| at(&a.name, *x, a.unit));
+    let there = format!("Home, at {},", listed(values));
     let outside = |(axis, x): (&AxisReport, &f64)| !(axis.from..=axis.to).contains(x);
     match (home.mode, home.aspect) {
         (Some(mode), Some(aspect)) => format!("{there} is in mode {mode}, aspect {aspect}."),
@@ -54,11 +50,8 @@ pub(super) fn area(report: &WorkspaceReport, size: f64) -> String {
         size => (3 - size.abs().log10().floor() as i32).clamp(0, 9),
     };
     let factor = 10f64.powi(digits);
-    format!(
-        "{} {}",
-        number((size * factor).round() / factor),
-        report.unit
-    )
+    let size = number((size * factor).round() / factor);
+    format!("{size} {}", report.unit)
 }
 
 /// What is reached, in a sentence or two.
@@ -145,10 +138,9 @@ pub(super) fn completeness(report: &WorkspaceReport) -> String {
         count(starts, "start"),
         count(probed, "node"),
         report.seed,
-        if report.parts == 8 {
-            "an eighth"
-        } else {
-            "a quarter"
+        match report.parts {
+            8 => "an eighth",
+            _ => "a quarter",
         }
     );
     if report.unsure > 0 {
@@ -167,9 +159,7 @@ pub(super) fn kind(kind: &BoundaryKind) -> String {
         BoundaryKind::Inverse => "inverse singularity".into(),
         BoundaryKind::Direct => "direct singularity".into(),
         BoundaryKind::Fold => "fold".into(),
-        BoundaryKind::Limit { joint, upper } => format!(
-            "{} limit of {joint}",
-            if *upper { "upper" } else { "lower" }
-        ),
+        BoundaryKind::Limit { joint, upper: true } => format!("upper limit of {joint}"),
+        BoundaryKind::Limit { joint, .. } => format!("lower limit of {joint}"),
     }
 }
