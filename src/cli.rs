@@ -91,6 +91,14 @@ struct Answer {
 }
 
 impl Answer {
+    fn yes(data: String, remarks: String) -> Self {
+        Answer {
+            data,
+            remarks,
+            yes: true,
+        }
+    }
+
     /// The same with remarks that come first.
     fn after(self, remarks: String) -> Self {
         Answer {
@@ -161,8 +169,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
                     say("note: interrupted: the answer has what was found until then\n");
                     1
                 }
-                Ok(()) if answer.yes => 0,
-                Ok(()) => 1,
+                Ok(()) => u8::from(!answer.yes),
                 Err(error) => {
                     say(&format!("error: the answer cannot be written: {error}\n"));
                     2
@@ -179,10 +186,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// Writes to stdout. A reader who has seen enough, as `head` does, is no error.
 fn write(data: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout
-        .write_all(data.as_bytes())
-        .and_then(|()| stdout.flush())
-    {
+    let written = stdout.write_all(data.as_bytes());
+    match written.and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }

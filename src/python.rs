@@ -33,7 +33,6 @@ use asked::{Asked, Number};
 use report::Report;
 use watched::watched;
 
-/// Columns of a table by their names.
 type Columns<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
 create_exception!(
@@ -155,7 +154,6 @@ impl Mechanism {
         }
     }
 
-    /// The page of `linkwork view`.
     fn page(&self, file: &str, set: Vec<(String, Number)>) -> String {
         let set = set.into_iter();
         page(&Viewed {
@@ -312,7 +310,6 @@ fn regions<'py>(
     Ok(PyArray1::from_vec(py, found))
 }
 
-/// The command line.
 #[pyfunction]
 fn run(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| crate::cli::run(arguments))

@@ -55,7 +55,6 @@ impl Asked {
     }
 }
 
-/// What loads the mechanism.
 #[derive(Args)]
 pub struct Forces {
     /// Force in N and moment in N·m, in ground, at a frame's origin or at a point beside it in its axes, e.g. --wrench
@@ -72,12 +71,10 @@ pub struct Forces {
 }
 
 impl Forces {
-    /// Whether there are any.
     pub fn are_given(&self) -> bool {
         !self.wrench.is_empty() || !self.load.is_empty()
     }
 
-    /// Puts the forces into a question.
     pub fn pose<'o>(&'o self, posed: &mut Posed<'o>) {
         posed.values(
             Role::Wrench,
@@ -109,7 +106,6 @@ impl<'o> Posed<'o> {
         })
     }
 
-    /// Changes the question.
     pub fn ask_with(&mut self, change: impl FnOnce(Question) -> Question) {
         self.question = change(self.question.clone());
     }
@@ -148,7 +144,6 @@ impl<'o> Posed<'o> {
         }
     }
 
-    /// The mode of a number, if one is given.
     pub fn mode(&mut self, number: Option<usize>) {
         let mode = number.map_or(Mode::Nearest, Mode::Number);
         self.ask_with(|question| question.mode(mode));
@@ -162,7 +157,6 @@ impl<'o> Posed<'o> {
         Ok(())
     }
 
-    /// The ranges of an option.
     pub fn varied(
         &mut self,
         ranges: Ranged,
@@ -189,7 +183,6 @@ impl<'o> Posed<'o> {
         Ok(varied)
     }
 
-    /// Asks, showing how far the work is.
     pub fn ask<'q, R>(
         &'q self,
         work: impl FnOnce(&'q Question, &Watch) -> Result<R, AskError>,
@@ -198,7 +191,6 @@ impl<'o> Posed<'o> {
         answer.map_err(|error| self.refusal(&error))
     }
 
-    /// Asks and writes the report.
     pub fn answer<'q, R: JsonReport>(
         &'q self,
         format: Format,
@@ -268,7 +260,6 @@ fn refused(said: &Complaint, given: Option<Given>) -> Refusal {
     })
 }
 
-/// The frame of that name.
 pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
     mechanism.frame(name).ok_or_else(|| {
         let value = None;

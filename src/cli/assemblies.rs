@@ -62,9 +62,7 @@ impl Assemblies {
             Err(AskError::Question(error)) => posed.complaint(&error).render_warning(style()),
             _ => String::new(),
         };
-        let answer = posed.answer(self.format, |question, watch| {
-            question.assemblies(wanted, watch)
-        })?;
+        let answer = posed.answer(self.format, |q, watch| q.assemblies(wanted, watch))?;
         Ok(answer.after(missing))
     }
 }

@@ -54,11 +54,8 @@ enum Form {
 impl Convert {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        if self.convention.is_none()
-            && self.cut.is_none()
-            && self.to.is_none()
-            && self.cognate.is_none()
-        {
+        let tables = self.convention.is_some() || self.cut.is_some();
+        if !tables && self.to.is_none() && self.cognate.is_none() {
             let said = Complaint::new("nothing to convert: give a convention, a joint to cut or a form")
                 .help("give --convention modified or standard, --cut JOINT, or both, or --to axes or tables");
             return Err(said.into());
@@ -86,18 +83,14 @@ impl Convert {
     }
 }
 
-/// The cognate of that number for a point of the coupler.
 fn cognate(loaded: &Loaded, asked: &Assignment, format: Format) -> Result<Answer, Refusal> {
     let refused = |said: Complaint| Refusal(said.render_in(&asked.given("--cognate"), style()));
     let point = NamedPoint::read(&loaded.mechanism, &asked.name)
         .map_err(|error| refused(no_point(&loaded.mechanism, &error)))?;
     let number = ["1", "2"].iter().position(|known| *known == asked.value);
     let number = number.ok_or_else(|| {
-        let said = Complaint::new("a 4-bar has two cognates, 1 and 2");
-        refused(
-            said.at(Part::WholeValue)
-                .help("give --cognate POINT=1 or POINT=2"),
-        )
+        let said = Complaint::new("a 4-bar has two cognates, 1 and 2").at(Part::WholeValue);
+        refused(said.help("give --cognate POINT=1 or POINT=2"))
     })?;
     let found = cognates(&loaded.mechanism, &point)
         .map_err(|error| refused(Complaint::new(error.to_string())))?;

@@ -111,12 +111,11 @@ impl Draw {
                     return Err(Refusal::error(format!("there is no mode {shown}")));
                 };
                 let others = modes.iter().enumerate().filter(|(i, _)| *i != main);
+                let ghosts = others.map(|(_, (_, at))| Scene::of(&posed.loaded.mechanism, at));
                 vec![Panel {
                     title: title(modes[main].0),
                     scene: scene(&modes[main].1)?,
-                    ghosts: others
-                        .map(|(_, (_, at))| Scene::of(&posed.loaded.mechanism, at))
-                        .collect(),
+                    ghosts: ghosts.collect(),
                 }]
             }
             false => {
@@ -139,14 +138,11 @@ impl Draw {
         keep(self.png.as_deref(), || picture.png())?;
         keep(self.glb.as_deref(), || glb(&[panels[0].scene.clone()], 0.0))?;
         let kept = [&self.svg, &self.png, &self.glb].into_iter().flatten();
-        Ok(Answer {
-            data: match kept.count() {
-                0 => picture.svg(),
-                _ => String::new(),
-            },
-            remarks: lines("note", notes),
-            yes: true,
-        })
+        let data = match kept.count() {
+            0 => picture.svg(),
+            _ => String::new(),
+        };
+        Ok(Answer::yes(data, lines("note", notes)))
     }
 
     /// A configuration with what is asked for beside it.
@@ -185,28 +181,26 @@ impl Draw {
             }
         }
         let here = posed.question.clone().near(at.clone()).mode(Mode::Nearest);
-        if self.centres {
-            let report = posed.ask(|_, watch| here.velocity(watch))?;
-            scene = report
-                .closed()
-                .map_or(scene.clone(), |report| scene.with_centres(&report));
+        if self.centres
+            && let Some(report) = posed.ask(|_, watch| here.velocity(watch))?.closed()
+        {
+            scene = scene.with_centres(&report);
         }
         if self.screws {
             let settings = SingularitiesSettings::default();
             let report = posed.ask(|_, watch| here.singularities(&settings, watch))?;
-            scene = report
-                .closed()
-                .map_or(scene.clone(), |report| scene.with_gained(&report));
-        }
-        if self.forces.are_given() {
-            let report = posed.ask(|_, watch| here.statics(watch))?;
             if let Some(report) = report.closed() {
-                if !report.balanced {
-                    let moved = listed(&report.unbalanced);
-                    notes.push(format!("nothing balances the load: {moved} would move"));
-                }
-                scene = scene.with_forces(mechanism, at, &report);
+                scene = scene.with_gained(&report);
             }
+        }
+        if self.forces.are_given()
+            && let Some(report) = posed.ask(|_, watch| here.statics(watch))?.closed()
+        {
+            if !report.balanced {
+                let moved = listed(&report.unbalanced);
+                notes.push(format!("nothing balances the load: {moved} would move"));
+            }
+            scene = scene.with_forces(mechanism, at, &report);
         }
         Ok(scene)
     }

@@ -65,12 +65,9 @@ impl Export {
         };
         said.extend(more);
         let outside = closing::outside_limits(&closed.outside_limits(mechanism));
-        let outside = lines("warning", outside);
-        Ok(Answer {
-            data: written(text, self.output.as_deref())?,
-            remarks: posed.loaded.warnings() + &outside + &remarks(&said),
-            yes: true,
-        })
+        let said = lines("warning", outside) + &remarks(&said);
+        let data = written(text, self.output.as_deref())?;
+        Ok(Answer::yes(data, posed.loaded.warnings() + &said))
     }
 }
 

@@ -37,7 +37,6 @@ impl Format {
         }
     }
 
-    /// The answer that a report gives.
     pub fn answer(self, report: &impl JsonReport) -> Result<Answer, Refusal> {
         let mut answer = Answer {
             data: self.shown(report),
@@ -81,17 +80,14 @@ pub fn beside_rows(report: &impl Report, whole: bool) -> String {
     lines("note", answer.into_iter().chain(notes).chain(method))
 }
 
-/// The formats of an answer without rows and files.
 pub fn readable() -> impl TypedValueParser<Value = Format> {
     all_but(&[Format::Csv, Format::Ron])
 }
 
-/// The formats of an answer with rows.
 pub fn with_rows() -> impl TypedValueParser<Value = Format> {
     all_but(&[Format::Ron])
 }
 
-/// The formats of a mechanism that was made.
 pub fn with_file() -> impl TypedValueParser<Value = Format> {
     all_but(&[Format::Csv])
 }

@@ -70,11 +70,11 @@ impl Generate {
         posed.mode(self.mode);
         let mechanism = posed.question.mechanism().clone();
         let named = |name: &String| Ok((name.clone(), asked::frame(&mechanism, name, "--frame")?));
-        let frames = self
+        let frames: Vec<_> = self
             .frame
             .iter()
             .map(named)
-            .collect::<Result<Vec<_>, Refusal>>()?;
+            .collect::<Result<_, Refusal>>()?;
         let solver = posed.ask(|question, watch| question.solver_program(&frames, watch))?;
         let solver = solver.map_err(|none| Refusal::from(complaint(&none)))?;
         let code = Code {
@@ -91,30 +91,19 @@ impl Generate {
         if let (Some(count), Some(path)) = (self.with_test, &self.output) {
             let examples = posed.ask(|question, watch| question.examples(count as usize, watch))?;
             let test = format!("{}_test.{}", code.name, code.language.program_ending());
-            save(
-                &path.with_file_name(test),
-                code.test(&solver, &examples).as_bytes(),
-            )?;
+            let path = path.with_file_name(test);
+            save(&path, code.test(&solver, &examples).as_bytes())?;
         }
-        Ok(Answer {
-            data: written(code.solver(&solver), self.output.as_deref())?,
-            remarks: posed.loaded.warnings(),
-            yes: true,
-        })
+        let data = written(code.solver(&solver), self.output.as_deref())?;
+        Ok(Answer::yes(data, posed.loaded.warnings()))
     }
 }
 
 /// A name for functions, from that of a file.
 fn identifier(path: &std::path::Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let plain = |c: char| {
-        if c.is_ascii_alphanumeric() {
-            c.to_ascii_lowercase()
-        } else {
-            '_'
-        }
-    };
-    let name: String = stem.chars().map(plain).collect();
+    let stem = stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    let name = stem.to_ascii_lowercase();
     match name.starts_with(|c: char| c.is_ascii_lowercase()) {
         true => name,
         false => format!("solver_{name}"),

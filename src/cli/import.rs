@@ -80,10 +80,7 @@ impl Import {
         let text = imported.description.to_ron();
         let said = |error| format!("the mechanism cannot be written: {error}");
         let text = text.map_err(|error| Refusal::error(said(error)))?;
-        Ok(Answer {
-            data: written(text, self.output.as_deref())?,
-            remarks: remarks(&imported.remarks),
-            yes: true,
-        })
+        let data = written(text, self.output.as_deref())?;
+        Ok(Answer::yes(data, remarks(&imported.remarks)))
     }
 }

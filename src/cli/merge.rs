@@ -47,10 +47,6 @@ impl Merge {
         if self.spread {
             merged = spread(&merged).map_err(Refusal::error)?;
         }
-        Ok(Answer {
-            data: merged,
-            remarks: String::new(),
-            yes: true,
-        })
+        Ok(Answer::yes(merged, String::new()))
     }
 }

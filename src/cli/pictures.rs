@@ -7,7 +7,6 @@ use linkwork::output::drawing::View;
 use super::Refusal;
 use super::written::save;
 
-/// The view that a text stands for.
 pub fn view(text: &str) -> Result<View, String> {
     let angle = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
     match text {
@@ -27,7 +26,6 @@ pub fn view(text: &str) -> Result<View, String> {
 /// Seconds that an animation lasts.
 pub const LASTS: f64 = 4.0;
 
-/// Keeps a picture where that is asked for.
 pub fn keep(path: Option<&Path>, made: impl FnOnce() -> Vec<u8>) -> Result<(), Refusal> {
     path.map_or(Ok(()), |path| save(path, &made()))
 }

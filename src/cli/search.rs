@@ -21,13 +21,11 @@ pub struct Search {
     store: Option<PathBuf>,
 }
 
-/// The seed that a text stands for.
 pub fn seed(text: &str) -> Result<u64, String> {
     let wanted = format!("a seed is a whole number from 0 to {}", u64::MAX);
     text.parse().map_err(|_| wanted)
 }
 
-/// The number of a mode that a text stands for.
 pub fn mode(text: &str) -> Result<usize, String> {
     let number = text.parse().ok().filter(|mode| *mode > 0);
     number.ok_or_else(|| {
@@ -36,7 +34,6 @@ pub fn mode(text: &str) -> Result<usize, String> {
 }
 
 impl Search {
-    /// Puts seed and store into a question.
     pub fn pose(&self, posed: &mut Posed) -> Result<(), Refusal> {
         posed.ask_with(|question| question.seed(self.seed));
         if let Some(path) = &self.store {

@@ -19,14 +19,9 @@ pub fn serve(source: &Source) -> Result<Answer, Refusal> {
     // says so at once if the file cannot be read; one with problems is shown with them
     source.viewed()?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(refused)?;
-    let host = format!(
-        "127.0.0.1:{}",
-        listener.local_addr().map_err(refused)?.port()
-    );
-    write(&format!(
-        "http://{host}/ shows the file and follows it until Ctrl-C.\n"
-    ))
-    .map_err(refused)?;
+    let host = listener.local_addr().map_err(refused)?.to_string();
+    let said = format!("http://{host}/ shows the file and follows it until Ctrl-C.\n");
+    write(&said).map_err(refused)?;
     for stream in listener.incoming().flatten() {
         // a reader who goes away is no reason to end
         let _ = answer(stream, &host, source);
@@ -48,29 +43,21 @@ fn answer(mut stream: TcpStream, host: &str, source: &Source) -> io::Result<()> 
     }
     let request = String::from_utf8_lossy(&request);
     let mut lines = request.lines();
-    let path = lines
-        .next()
-        .and_then(|line| line.strip_prefix("GET ")?.split(' ').next());
+    let path = lines.next();
+    let path = path.and_then(|line| line.strip_prefix("GET ")?.split(' ').next());
     // a page from elsewhere whose name was made to lead here has another host
-    let own = lines.any(|line| {
-        let header = line.split_once(':');
-        header
-            .is_some_and(|(name, value)| name.eq_ignore_ascii_case("host") && value.trim() == host)
+    let mut headers = lines.filter_map(|line| line.split_once(':'));
+    let own =
+        headers.any(|(name, value)| name.eq_ignore_ascii_case("host") && value.trim() == host);
+    let viewed = source.viewed().map(|viewed| Viewed {
+        watch: true,
+        ..viewed
     });
-    let viewed = || {
-        source.viewed().map(|viewed| Viewed {
-            watch: true,
-            ..viewed
-        })
-    };
-    let (status, kind, content) = match (path, viewed()) {
+    let nothing = "There is nothing here.\n";
+    let (status, kind, content) = match (path, viewed) {
         (Some("/"), Ok(viewed)) if own => ("200 OK", "text/html", page(&viewed)),
         (Some("/file"), Ok(viewed)) if own => ("200 OK", "application/json", viewed.json()),
-        _ => (
-            "404 Not Found",
-            "text/plain",
-            "There is nothing here.\n".into(),
-        ),
+        _ => ("404 Not Found", "text/plain", nothing.into()),
     };
     let head = format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}; charset=utf-8\r\nContent-Length: {}\r\n\

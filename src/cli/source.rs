@@ -48,7 +48,6 @@ impl FromStr for Assignment {
 }
 
 impl Assignment {
-    /// The option as it was given.
     pub fn given<'a>(&'a self, option: &'a str) -> Given<'a> {
         Given {
             option,
@@ -72,7 +71,6 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// A mechanism and the file it comes from.
 pub struct Loaded {
     path: PathBuf,
     /// The parameters that `--set` gave another value.
@@ -144,7 +142,6 @@ impl Source {
         })
     }
 
-    /// The file beside it with another ending.
     pub fn beside(&self, ending: &str) -> PathBuf {
         self.file.with_extension(ending)
     }
@@ -164,12 +161,10 @@ impl From<LoadError> for Refusal {
 }
 
 impl Loaded {
-    /// The answer that a report about the mechanism gives.
     pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
         Ok(format.answer(report)?.after(self.warnings()))
     }
 
-    /// What stands in the file at these bytes.
     pub fn excerpt(&self, span: &std::ops::Range<usize>) -> &str {
         self.text.get(span.clone()).unwrap_or_default()
     }

@@ -1,5 +1,6 @@
 //! The file that keeps generic solutions from one run to the next.
 
+use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -22,22 +23,18 @@ pub struct Store {
     exists: bool,
 }
 
-fn refusal(title: String, help: &str) -> Refusal {
+fn another(title: String) -> Refusal {
+    let help = "name another file with --store, or leave the option out";
     Complaint::new(title).help(help).into()
 }
-
-const ANOTHER: &str = "name another file with --store, or leave the option out";
 
 impl Store {
     /// The store at a path, where there is an ordinary file or none yet. Nothing else is opened: reading a pipe waits,
     /// reading a device need not end.
     pub fn at(path: &Path) -> Result<Self, Refusal> {
-        let refused = |reason: &dyn std::fmt::Display| {
+        let refused = |reason: &dyn Display| {
             let path = path.display();
-            refusal(
-                format!("{path} cannot be a store of solutions: {reason}"),
-                ANOTHER,
-            )
+            another(format!("{path} cannot be a store of solutions: {reason}"))
         };
         let (place, exists) = match fs::metadata(path) {
             Ok(data) if data.is_dir() => return Err(refused(&"it is a folder")),
@@ -69,13 +66,9 @@ impl Store {
         let path = self.path.display();
         let mut bytes = Vec::new();
         let file = File::open(&self.place);
-        file.and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes))
-            .map_err(|error| {
-                refusal(
-                    format!("the stored solutions in {path} cannot be read: {error}"),
-                    ANOTHER,
-                )
-            })?;
+        let read = file.and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes));
+        let unread = |error| format!("the stored solutions in {path} cannot be read: {error}");
+        read.map_err(|error| another(unread(error)))?;
         if bytes.is_empty() {
             return Ok(None);
         }
@@ -84,10 +77,11 @@ impl Store {
             .and_then(|text| GenericSolutions::from_text(&text));
         stored.map(Some).map_err(|error| {
             let title = format!("{path} does not hold stored solutions: {error}");
+            let anew = "delete the file: they are then searched for anew";
             match error {
-                StoredError::SomethingElse => refusal(title, ANOTHER),
+                StoredError::SomethingElse => another(title),
                 StoredError::OtherVersion | StoredError::Damaged => {
-                    refusal(title, "delete the file: they are then searched for anew")
+                    Complaint::new(title).help(anew).into()
                 }
             }
         })
@@ -95,27 +89,25 @@ impl Store {
 
     /// Refuses a place that cannot be written, before the search rather than after it. Leaves nothing behind.
     fn check_writable(&self) -> Result<(), Refusal> {
-        let refused = |reason: &dyn std::fmt::Display| {
+        let refused = |reason: &dyn Display| {
             let path = self.path.display();
-            refusal(
-                format!("the solutions cannot be stored in {path}: {reason}"),
-                ANOTHER,
-            )
+            another(format!(
+                "the solutions cannot be stored in {path}: {reason}"
+            ))
         };
-        if self.exists && fs::metadata(&self.place).is_ok_and(|data| data.permissions().readonly())
-        {
+        let place = fs::metadata(&self.place).ok().filter(|_| self.exists);
+        if place.is_some_and(|data| data.permissions().readonly()) {
             return Err(refused(&"it is write-protected"));
         }
         let beside = beside(&self.place);
-        File::create(&beside)
-            .and_then(|_| fs::remove_file(&beside))
-            .map_err(|error| {
-                let folder = beside.parent().unwrap_or(Path::new("."));
-                match folder.as_os_str().is_empty() || folder.exists() {
-                    true => refused(&error),
-                    false => refused(&"there is no such folder"),
-                }
-            })
+        let tried = File::create(&beside).and_then(|_| fs::remove_file(&beside));
+        tried.map_err(|error| {
+            let folder = beside.parent().unwrap_or(Path::new("."));
+            match folder.as_os_str().is_empty() || folder.exists() {
+                true => refused(&error),
+                false => refused(&"there is no such folder"),
+            }
+        })
     }
 }
 

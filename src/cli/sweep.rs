@@ -124,15 +124,12 @@ pub struct Sweep {
     view: Option<View>,
 }
 
-/// The laws by their names.
 fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
     let words = clap::builder::PossibleValuesParser::new(Law::ALL.map(Law::word));
     words.map(|word| Law::from_word(&word).unwrap_or(Law::Constant))
 }
 
-/// Rows kept at most.
 const MOST_KEPT: usize = 1_000_000;
-/// Rows shown as text.
 const SHOWN: usize = 37;
 
 impl Sweep {
@@ -170,13 +167,11 @@ impl Sweep {
         posed.loaded.answer(self.format, &report)
     }
 
-    /// Whether the motion is drawn.
     fn is_drawn(&self) -> bool {
         let files = [&self.svg, &self.png, &self.animate, &self.glb];
         files.into_iter().any(Option::is_some)
     }
 
-    /// Keeps the pictures that are asked for.
     fn keep(&self, posed: &Posed, picture: &Picture) -> Result<(), Refusal> {
         let mechanism = posed.question.mechanism();
         let drawn = || picture.drawn(mechanism, self.view);

@@ -52,12 +52,8 @@ impl View {
         };
         let path = self.output.as_ref().unwrap_or(&beside);
         save(path, page(&viewed).as_bytes())?;
-        let answer = Answer {
-            data: format!("{}: open it in a browser.\n", path.display()),
-            remarks: String::new(),
-            yes: true,
-        };
-        Ok(answer.after(warnings))
+        let data = format!("{}: open it in a browser.\n", path.display());
+        Ok(Answer::yes(data, warnings))
     }
 }
 

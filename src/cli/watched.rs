@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use linkwork::solve::{Progress, Stage, Watch};
 
-/// How often Ctrl-C was pressed.
 static INTERRUPTIONS: AtomicUsize = AtomicUsize::new(0);
 /// Set when nobody reads the rows any more.
 static UNREAD: AtomicBool = AtomicBool::new(false);
@@ -77,7 +76,6 @@ fn show(bar: &ProgressBar, now: Progress) {
     bar.set_position(now.done as u64);
 }
 
-/// What is counted.
 pub fn words(stage: Stage) -> String {
     let words = match stage {
         Stage::Seeds { found } => return format!("{found} generic solutions; seeds tried"),

@@ -11,24 +11,19 @@ use linkwork::output::quantity::number;
 use linkwork::system::QuestionError;
 
 use super::words::question::{
-    driven_complaint, load_complaint, meant, no_point, no_quantity, quoted,
+    driven_complaint, frame_names, load_complaint, meant, no_point, no_quantity, quoted,
 };
 
 /// What ranges are for, which decides the words.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Ranged {
-    /// Inputs that move.
     Input,
-    /// Sides of the box of loci.
     Locus,
-    /// Mapped coordinates.
     Map,
-    /// What a study varies.
     Vary,
 }
 
 impl Ranged {
-    /// The option that gives them.
     pub fn option(self) -> &'static str {
         match self {
             Ranged::Input => "--input",
@@ -79,10 +74,8 @@ pub fn complaint(
             "follow a frame of a link or of a platform, e.g. the tip of a chain by its name",
         ),
         AskError::UnknownOutput(_, name) => {
-            let frames = mechanism.frames().into_iter();
-            let frames = frames.map(|frame| mechanism.frame_name(frame));
             let joints = mechanism.joints().iter().map(|joint| joint.name.clone());
-            let known: Vec<String> = frames.chain(joints).collect();
+            let known: Vec<String> = frame_names(mechanism).chain(joints).collect();
             said.label("not known").help(meant(name, &known, || {
                 "an output is a joint, a platform coordinate such as `top.x`, a frame, or a point \
                  such as `left+0.5,0.2`"
@@ -202,7 +195,6 @@ pub fn complaint(
     }
 }
 
-/// A value that is no range.
 pub fn no_range(ranged: Ranged, name: &str) -> Complaint {
     let option = ranged.option();
     let help = format!(
@@ -228,7 +220,6 @@ pub fn steps(given: usize, most: usize, rows_kept: bool) -> Complaint {
     }
 }
 
-/// Rows of boundary curves where there are none.
 pub fn no_boundary(axes: usize) -> Complaint {
     match axes {
         1 => Complaint::new("the boundary of a map with one coordinate is points, not curves")
@@ -238,7 +229,6 @@ pub fn no_boundary(axes: usize) -> Complaint {
     }
 }
 
-/// Options that map what a mechanism has.
 fn mappable(mechanism: &Mechanism) -> String {
     if let Some(platform) = mechanism.platforms().first() {
         return format!("--map {0}.x=-1..1 --map {0}.y=-1..1", platform.name);
@@ -252,7 +242,6 @@ fn mappable(mechanism: &Mechanism) -> String {
     options.collect::<Vec<String>>().join(" ")
 }
 
-/// A name where there is no platform.
 fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Complaint> {
     let QuestionError::UnknownName {
         name,
@@ -261,11 +250,10 @@ fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Complaint
     else {
         return None;
     };
-    let joints: Vec<&str> = mechanism.joints().iter().map(|j| j.name.as_str()).collect();
     let title = format!("`{name}` is no joint, and the mechanism has no platform");
+    let joints = listed(mechanism.joints().iter().map(|joint| &joint.name));
     let help = format!(
-        "map joints ({}); to map where a link is, give the file a platform that is closed to it by `Rigid`",
-        listed(&joints)
+        "map joints ({joints}); to map where a link is, give the file a platform that is closed to it by `Rigid`"
     );
     let said = Complaint::new(title).label("not known").help(help);
     mechanism.platforms().is_empty().then_some(said)
@@ -308,7 +296,6 @@ fn wrong_count(error: &QuestionError, mapped: &[String], missing: &[String]) -> 
     }
 }
 
-/// What is wrong with a table of inputs over time.
 pub fn table(path: &std::path::Path, error: &TableError) -> Complaint {
     let said = Complaint::new(format!("{}:{error}", path.display()));
     said.help(match &error.kind {

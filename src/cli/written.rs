@@ -18,7 +18,6 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Bytes written at once.
     const MANY: usize = 1 << 16;
 
     pub fn new(wanted: bool) -> Self {
@@ -73,7 +72,6 @@ impl Write for Lines {
     }
 }
 
-/// Rows that cannot be written.
 pub fn unwritten(error: io::Error) -> Refusal {
     Refusal::error(format!("the rows cannot be written: {error}"))
 }

@@ -57,7 +57,6 @@ fn listing(report: &AssembliesReport) -> Section {
     }
 }
 
-/// The answer in one sentence.
 fn sentence(report: &AssembliesReport) -> String {
     let real = count(report.real, "assembly");
     match (&report.fit, report.real) {
@@ -125,7 +124,6 @@ fn sentence(report: &AssembliesReport) -> String {
     }
 }
 
-/// So many poses, and of what.
 fn posed(report: &AssembliesReport, poses: &[Pose<'_>]) -> String {
     format!(
         "{} of the {}",
@@ -190,7 +188,6 @@ fn infinitely_many(report: &AssembliesReport) -> String {
     format!("{isolated} at these inputs: {}.", listed(sets))
 }
 
-/// Where solutions meet.
 fn meeting(report: &AssembliesReport) -> Option<String> {
     let mut doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
         .map(|a| format!("mode {} is {}", a.mode, met(report, a.multiplicity)))
@@ -222,7 +219,6 @@ pub fn completeness(report: &AssembliesReport) -> String {
     }
 }
 
-/// What can be said of the search.
 fn searched(report: &AssembliesReport) -> String {
     if report.interrupted {
         return format!(
@@ -326,7 +322,6 @@ fn searched(report: &AssembliesReport) -> String {
     parts.join("; ")
 }
 
-/// How the list was found and how complete it is.
 fn accounting(report: &AssembliesReport) -> Vec<String> {
     let mut lines = vec![format!("completeness: {}", completeness(report))];
     lines.extend((report.bound_source.as_ref()).map(|source| format!("bound for {source}")));

@@ -43,7 +43,6 @@ impl Report for CompareReport {
     }
 }
 
-/// How many forms are proved, if any.
 fn proved(report: &CompareReport) -> String {
     let forms = &report.closed_forms;
     let all = forms.len();

@@ -5,10 +5,8 @@ use super::quantity::{number, quantity};
 use crate::algebra::SiUnit;
 use crate::description::{AxesDescription, AxisDescription, AxisPlace, Displacement, Entry, Named};
 
-/// A joint with its name.
 type Axis = Named<AxisDescription>;
 
-/// The joints by their axes.
 pub(super) fn section(axes: &AxesDescription) -> Section {
     let number = |x: &Entry| match x.expression.as_number() {
         Some(value) => number(value),
@@ -68,7 +66,6 @@ pub(super) fn section(axes: &AxesDescription) -> Section {
     Section::new("Joint axes").table(joints).table(points)
 }
 
-/// The value of a joint's variable, with its unit.
 fn home(axis: &AxisDescription) -> String {
     let zero = axis.kind.has_variable().then(|| Entry::number(0.0, 0..0));
     let home = axis.home.clone().or(zero).filter(|_| axis.is_variable());

@@ -139,7 +139,6 @@ pub(super) fn platforms(overview: &Overview) -> Vec<Section> {
     overview.platforms.iter().map(platform).collect()
 }
 
-/// The closures; empty if there are none.
 pub(super) fn closures(overview: &Overview) -> Section {
     let between = |closure: &ClosureOverview| closure.frames.join(" and ");
     Section::new("Closures").table(

@@ -54,7 +54,6 @@ pub fn quantity(value: f64, unit: SiUnit) -> String {
     with_unit(&number(shown(value, unit)), unit)
 }
 
-/// The same with three digits.
 pub(crate) fn three_digits(value: f64, unit: SiUnit) -> String {
     quantity(format!("{value:.2e}").parse().unwrap_or(value), unit)
 }
@@ -64,7 +63,6 @@ pub(super) fn degrees(radians: f64) -> String {
     quantity(radians, SiUnit::RADIAN)
 }
 
-/// A length.
 pub(super) fn metres(length: f64) -> String {
     quantity(length, SiUnit::METRE)
 }
@@ -122,7 +120,6 @@ pub(super) fn if_any<S: AsRef<str>>(names: &[S], said: impl FnOnce(String) -> St
     }
 }
 
-/// A number whose size alone matters.
 pub(super) fn size(value: f64) -> String {
     match value {
         0.0 => "0".into(),

@@ -5,7 +5,6 @@ use super::quantity::{metres, triple};
 use crate::algebra::SiUnit;
 use crate::system::{Screw, TwistSpace};
 
-/// A table of twists.
 pub(super) fn twist_table(spaces: &[TwistSpace]) -> Table {
     let rows = spaces.iter().flat_map(|space| {
         let screws = space.screws.iter().map(move |screw| (space, screw, false));
@@ -19,7 +18,6 @@ pub(super) fn twist_table(spaces: &[TwistSpace]) -> Table {
     placed(table.words("motion", motion), |(_, screw, _)| screw)
 }
 
-/// A table of wrenches.
 pub(super) fn wrench_table(wrenches: &[Screw]) -> Table {
     let kind = |screw| kind(screw, ["force", "moment", "wrench"]);
     placed(Table::of(wrenches).words("wrench", kind), |screw| screw)

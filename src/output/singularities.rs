@@ -52,7 +52,6 @@ impl Report for SingularitiesReport {
     }
 }
 
-/// Types, motions and wrenches.
 fn details(singularity: &Singularity) -> Vec<Section> {
     let kinds = singularity.zlatanov.iter().copied().map(words::zlatanov);
     let kinds = Section::new("Types of Zlatanov, Fenton and Benhabib").list(kinds);
@@ -129,7 +128,6 @@ impl Once {
         Once { columns, stays }
     }
 
-    /// The values of the variables that stay.
     fn values<'a>(&self, values: impl Iterator<Item = &'a f64>) -> impl Iterator<Item = Cell> {
         let values = values.zip(&self.stays).filter(|(_, stays)| **stays);
         values.map(|(value, _)| Cell::from(*value))

@@ -34,7 +34,6 @@ impl Report for AssemblyReport {
     }
 }
 
-/// How the search ended, in one sentence.
 fn sentence(report: &AssemblyReport) -> String {
     let gap = |closure: &str| match report.gaps.get(closure) {
         Some(gap) => closing::gap(gap.distance, gap.angle),
@@ -177,7 +176,6 @@ fn joints(report: &AssemblyReport) -> TableOf<(&JointVariable, f64)> {
         .words("limits", limits)
 }
 
-/// Position and orientation of a platform in ground.
 fn pose(name: &str, platform: &PlatformRecord) -> Section {
     let frame = &platform.frame;
     let column = |j: usize| move |i: usize| frame.rotation[i][j];

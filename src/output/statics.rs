@@ -48,7 +48,6 @@ impl Report for StaticsReport {
     }
 }
 
-/// The answer in one or two sentences.
 fn sentence(report: &StaticsReport) -> String {
     match report.gained {
         0 => balance(report),

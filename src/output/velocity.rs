@@ -33,7 +33,6 @@ impl Report for VelocityReport {
     }
 }
 
-/// The answer in one sentence.
 fn sentence(report: &VelocityReport) -> String {
     if let Some(gain) = &report.gain {
         return gained(gain, report.inputs.is_empty());

@@ -102,7 +102,6 @@ fn modes(report: &WorkspaceReport) -> Section {
         .list(repeated)
 }
 
-/// The mark behind the row of home.
 fn at_home(report: &WorkspaceReport, stands: impl Fn(&HomeReport) -> bool) -> Option<&'static str> {
     report.home.as_ref().is_some_and(stands).then_some("home")
 }

@@ -38,7 +38,6 @@ impl From<&Number> for Value {
     }
 }
 
-/// One name or several.
 #[derive(FromPyObject)]
 enum Names {
     One(String),
@@ -96,7 +95,6 @@ const VALUES: [(&str, Role, Put); 7] = [
     }),
 ];
 
-/// The options that are names.
 type Name = fn(Question, String) -> Question;
 const NAMES: [(&str, Role, Name); 6] = [
     ("free", Role::Free, Question::free),
@@ -107,7 +105,6 @@ const NAMES: [(&str, Role, Name); 6] = [
     ("report", Role::Quantity, Question::report),
 ];
 
-/// The options that are ranges.
 const RANGES: [(&str, Ranged); 3] = [
     ("input", Ranged::Input),
     ("locus", Ranged::Locus),

@@ -49,7 +49,6 @@ impl<R: JsonReport + Send + Sync> Shown for R {
     }
 }
 
-/// A report.
 #[pyclass(frozen, module = "linkwork._linkwork")]
 pub struct Report(Box<dyn Shown>);
 
@@ -83,11 +82,9 @@ impl Report {
     }
 }
 
-/// A column of rows.
 pub struct Column {
     name: String,
     numbers: Vec<f64>,
-    /// The texts, if it has any.
     texts: Vec<String>,
 }
 

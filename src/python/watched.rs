@@ -121,7 +121,6 @@ fn look(progress: Option<&Py<PyAny>>, now: Option<Progress>) -> PyResult<()> {
 /// The process in which this module was loaded.
 static LOADED_IN: OnceLock<u32> = OnceLock::new();
 
-/// Called when the module is loaded.
 pub fn begin() {
     LOADED_IN.get_or_init(process::id);
 }

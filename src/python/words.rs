@@ -4,7 +4,6 @@ use crate::ask::AskError;
 use crate::output::complaint::{Complaint, Given};
 use crate::output::diagnostics::Style;
 
-/// Why there is no answer.
 pub enum Refused {
     Asked(AskError),
     Said(Complaint),

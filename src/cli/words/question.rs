@@ -17,7 +17,6 @@ pub fn at_home(names: &[String]) -> String {
     options("--hold", names, "=home")
 }
 
-/// The options that hold coordinates at values.
 pub fn held_at(holdable: &[Holdable]) -> String {
     let option = |one: &Holdable| {
         let value = match one.value {
@@ -41,13 +40,9 @@ pub fn freed_in_vain(error: &QuestionError, freed: &[&str]) -> Option<Complaint>
     let QuestionError::TooFew { hold, .. } = error else {
         return None;
     };
-    let in_vain: Vec<String> = (hold.iter())
-        .filter(|name| freed.contains(&name.as_str()))
-        .cloned()
-        .collect();
-    let help = format!("leave out {}", options("--free", &in_vain, ""));
-    (!in_vain.is_empty() && in_vain.len() == hold.len())
-        .then(|| Complaint::new(error.title()).help(help))
+    let in_vain = hold.iter().all(|name| freed.contains(&name.as_str()));
+    let help = format!("leave out {}", options("--free", hold, ""));
+    (!hold.is_empty() && in_vain).then(|| Complaint::new(error.title()).help(help))
 }
 
 /// The same; `holding` writes the options that hold coordinates.
@@ -131,7 +126,6 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
     }
 }
 
-/// What is wrong with a load.
 pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -> Complaint {
     let said = |label| Complaint::new(error.to_string()).label(label);
     match error {
@@ -144,10 +138,10 @@ pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -
             }
         }
         ForceError::Point(error) => no_point(mechanism, error),
-        ForceError::OnGround { instead, .. } => said("on the ground").help(format!(
-            "load a body that moves, such as {}",
-            listed(instead)
-        )),
+        ForceError::OnGround { instead, .. } => {
+            let bodies = listed(instead);
+            said("on the ground").help(format!("load a body that moves, such as {bodies}"))
+        }
         ForceError::Components { .. } => said("")
             .help("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m")
             .at(Part::WholeValue),
@@ -182,17 +176,19 @@ pub fn meant(name: &str, known: &[String], other: impl FnOnce() -> String) -> St
     }
 }
 
-/// What is wrong with the name of a frame.
-pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
+pub fn frame_names(mechanism: &Mechanism) -> impl Iterator<Item = String> {
     let frames = mechanism.frames().into_iter();
-    let known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
+    frames.map(|frame| mechanism.frame_name(frame))
+}
+
+pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
+    let known: Vec<String> = frame_names(mechanism).collect();
     let said = Complaint::new(format!("`{name}` is not a frame")).label("not known");
     said.help(meant(name, &known, || {
         format!("the frames are {}", listed(&known))
     }))
 }
 
-/// What is wrong with a point.
 pub fn no_point(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
@@ -203,7 +199,6 @@ pub fn no_point(mechanism: &Mechanism, error: &PointError) -> Complaint {
     }
 }
 
-/// What is wrong with a quantity.
 pub fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityError) -> Complaint {
     let kind = match error {
         QuantityError::Parse(error) => ProblemKind::Expression(error.kind.clone()),
@@ -218,12 +213,8 @@ pub fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityError) -> 
     let mut said = Complaint::kind(&kind);
     if let QuantityError::Parse(_) = error {
         // a name of several words is read as several
-        let names = mechanism
-            .frames()
-            .into_iter()
-            .map(|frame| mechanism.frame_name(frame));
-        let mut plain =
-            names.filter(|name| name.contains(' ') && !text.contains(&format!("[{name}")));
+        let mut plain = frame_names(mechanism)
+            .filter(|name| name.contains(' ') && !text.contains(&format!("[{name}")));
         if let Some(name) = plain.find(|name| text.contains(name.as_str())) {
             let bracketed = text.replace(&name, &format!("[{name}]"));
             said = said.help(format!("put the name into brackets: `{bracketed}`"));
@@ -240,10 +231,8 @@ pub fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityError) -> 
 
 /// The options that hold a platform and nothing else.
 fn instead(platform: &str) -> String {
-    format!(
-        "--free actuated --hold {}",
-        quoted(&format!("{platform}=home"))
-    )
+    let home = quoted(&format!("{platform}=home"));
+    format!("--free actuated --hold {home}")
 }
 
 /// How to stop holding coordinates: joints are freed, platform coordinates are held only by an option,
@@ -267,16 +256,15 @@ fn option(demand: &Demand) -> String {
     let Demand { verb, name, value } = demand;
     let value = value
         .as_ref()
-        .map_or(String::new(), |value| format!("={value}"));
+        .map(|value| format!("={value}"))
+        .unwrap_or_default();
     format!("`--{} {}`", verb.word(), quoted(&format!("{name}{value}")))
 }
 
 /// `--free l1 --free l2`
 pub fn options(option: &str, names: &[String], value: &str) -> String {
-    let options = names
-        .iter()
-        .map(|name| format!("{option} {}", quoted(&format!("{name}{value}"))));
-    options.collect::<Vec<_>>().join(" ")
+    let one = |name| format!("{option} {}", quoted(&format!("{name}{value}")));
+    names.iter().map(one).collect::<Vec<_>>().join(" ")
 }
 
 /// The word as a shell takes it.
@@ -288,7 +276,6 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
-/// What is wrong with a value.
 pub fn value(text: &str, error: &ValueError) -> Complaint {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);

@@ -17,7 +17,6 @@ pub(super) fn completeness(proof: &Proof) -> String {
     format!("it is proved that no real assembly{within} is missing")
 }
 
-/// The answer in a sentence.
 pub(super) fn sentence(proof: &Proof, real: usize) -> String {
     let within = within(proof);
     if proof.is_complete() {
@@ -111,7 +110,6 @@ pub(super) fn sections(proof: &Proof) -> Vec<Section> {
     ]
 }
 
-/// How it was found.
 pub(super) fn method(proof: &Proof) -> Option<String> {
     proof.unfit.is_none().then(|| {
         format!(

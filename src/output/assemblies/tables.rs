@@ -55,7 +55,6 @@ pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<Pose<'_>>> {
     (all.iter().all(|pose| !pose.modes.is_empty())).then_some(all)
 }
 
-/// One row for each pose.
 pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
     let numbers = |pose: &Pose| {
         let modes: Vec<usize> = pose.modes.iter().map(|a| a.mode).collect();
@@ -142,7 +141,6 @@ pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
         .words("", shared)
 }
 
-/// Values of the joints that are not held.
 pub(super) fn joints(report: &AssembliesReport) -> Vec<Section> {
     let variables = report.variables.iter().enumerate();
     let free: Vec<(usize, &ListedJoint)> = variables.filter(|(_, joint)| !joint.held).collect();
@@ -165,7 +163,6 @@ pub(super) fn joints(report: &AssembliesReport) -> Vec<Section> {
     blocks.collect()
 }
 
-/// Poses of the platforms that are not held.
 pub(super) fn platforms(report: &AssembliesReport) -> Vec<Section> {
     const HEADER: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
     let Some(first) = report.assemblies.first() else {
@@ -220,7 +217,6 @@ pub(super) fn reasons(report: &AssembliesReport) -> Section {
     Section::new("Not certified").list(lines)
 }
 
-/// Complex solutions, if they were asked for.
 pub(super) fn complex(report: &AssembliesReport) -> Section {
     let title = "Complex solutions that are not real";
     let one = |(i, of): (usize, &ComplexAssembly)| {

@@ -67,7 +67,6 @@ fn freedoms(number: usize) -> String {
     }
 }
 
-/// The answer in one sentence.
 pub(super) fn mobility(report: &MobilityReport) -> String {
     let MobilityReport {
         mobility,
@@ -154,7 +153,6 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
     }
 }
 
-/// The qualification where a step in another direction might find more.
 fn at_least(report: &MobilityReport) -> &'static str {
     match report.branches_complete {
         true => "",
@@ -215,7 +213,6 @@ pub(super) fn elimination(report: &MobilityReport) -> String {
     }
 }
 
-/// What an idle freedom is.
 pub(super) fn idle(freedom: &LocalFreedom) -> String {
     match freedom {
         LocalFreedom::Joints(joints) => {
@@ -230,7 +227,6 @@ pub(super) fn idle(freedom: &LocalFreedom) -> String {
     }
 }
 
-/// Where the mechanism has another mobility.
 pub(super) fn elsewhere(report: &MobilityReport, other: &Elsewhere) -> String {
     format!(
         "The mobility depends on the assembly: near {} the mechanism has {}.",

@@ -66,7 +66,6 @@ impl Report for LocusReport {
     }
 }
 
-/// Each curve with its extent.
 fn curves(report: &LocusReport) -> Section {
     let extent = |k: usize, locus: &Locus| {
         let ([low, high], unit) = (locus.extents[k], report.bounds[k].unit);
@@ -101,7 +100,6 @@ fn curves(report: &LocusReport) -> Section {
         .list(several.into_iter().chain(crossings))
 }
 
-/// Where three solutions meet.
 fn cusps(report: &LocusReport) -> Option<Section> {
     let loci = (1..).zip(&report.loci);
     let cusps: Vec<(i64, &Locus, &Cusp)> = loci

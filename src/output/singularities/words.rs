@@ -8,7 +8,6 @@ use crate::analysis::singularities::{
 use crate::description::{count, listed};
 use crate::output::quantity::{are, at, clause, form, range};
 
-/// The inputs and outputs.
 pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
     let input = form(inputs.len(), "Input", "Inputs");
     let output = form(outputs.len(), "output", "outputs");
@@ -82,7 +81,6 @@ fn joints(movement: &Movement) -> Vec<&String> {
     movement.joints.iter().map(|moving| &moving.joint).collect()
 }
 
-/// The letters of a type.
 pub(super) fn letters(kind: Zlatanov) -> &'static str {
     match kind {
         Zlatanov::RedundantInput => "RI",
@@ -94,7 +92,6 @@ pub(super) fn letters(kind: Zlatanov) -> &'static str {
     }
 }
 
-/// A type of Zlatanov, Fenton and Benhabib.
 pub(super) fn zlatanov(kind: Zlatanov) -> String {
     let meaning = match kind {
         Zlatanov::RedundantInput => "redundant input: inputs move while the outputs stand still",
@@ -115,7 +112,6 @@ pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
     listed(values.map(|(m, x)| at(&m.name, *x, m.unit)))
 }
 
-/// What a crossing is.
 pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
     let mut text = sentence(&crossing.singularity, &report.inputs, &report.outputs);
     if crossing.fold {
@@ -169,7 +165,6 @@ pub(super) fn ending(report: &AlongReport) -> String {
     }
 }
 
-/// How many loci there are.
 pub(super) fn loci(report: &LocusReport) -> String {
     let of = |kind: Kind, shape: Shape| {
         let loci = report.loci.iter();
@@ -282,7 +277,6 @@ fn sought(report: &LocusReport, [direct, inverse]: [usize; 2], last: &str) -> St
     )
 }
 
-/// How a locus ends.
 pub(super) fn ends(locus: &Locus) -> String {
     let end = |end: LocusEnd| match end {
         LocusEnd::Closed => "closed",

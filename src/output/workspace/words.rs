@@ -5,7 +5,6 @@ use crate::analysis::workspace::{AspectReport, AxisReport, BoundaryKind, Workspa
 use crate::description::{count, listed};
 use crate::output::quantity::{at, if_any, metres, number, range};
 
-/// What is mapped, and what is held.
 pub(super) fn question(report: &WorkspaceReport) -> String {
     let axes = report.axes.iter();
     let axes = listed(axes.map(|a| {
@@ -18,7 +17,6 @@ pub(super) fn question(report: &WorkspaceReport) -> String {
     format!("Map of {axes}{held}.")
 }
 
-/// Where the home assembly stands.
 pub(super) fn home(report: &WorkspaceReport) -> String {
     let Some(home) = &report.home else {
         return "Home does not assemble with what is held: no mode is marked.".into();
@@ -54,7 +52,6 @@ pub(super) fn area(report: &WorkspaceReport, size: f64) -> String {
     format!("{size} {}", report.unit)
 }
 
-/// What is reached, in a sentence or two.
 pub(super) fn sentence(report: &WorkspaceReport) -> String {
     if report.reached == 0 {
         return match report.outside {
@@ -124,7 +121,6 @@ pub(super) fn explanation(report: &WorkspaceReport) -> Vec<String> {
     lines
 }
 
-/// How sure the map is.
 pub(super) fn completeness(report: &WorkspaceReport) -> String {
     let [nodes, starts] = report.searched;
     let [probed, few] = report.probed;
@@ -153,7 +149,6 @@ pub(super) fn completeness(report: &WorkspaceReport) -> String {
     text
 }
 
-/// The name of a boundary.
 pub(super) fn kind(kind: &BoundaryKind) -> String {
     match kind {
         BoundaryKind::Inverse => "inverse singularity".into(),
