@@ -208,6 +208,15 @@ impl Section {
         }
     }
 
+    /// With a paragraph where there are no other contents.
+    #[must_use]
+    pub fn or_text(self, text: &str) -> Self {
+        match self.blocks.is_empty() {
+            true => self.text(text),
+            false => self,
+        }
+    }
+
     /// With lines that belong together; nothing if there are none.
     #[must_use]
     pub fn list(self, lines: impl IntoIterator<Item = String>) -> Self {

@@ -30,7 +30,8 @@ impl Report for MobilityReport {
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
         let answer = closing::after_moving(&self.pose, words::mobility(self));
-        let document = Document::new(&self.mechanism, answer)
+        let elimination = words::elimination(self);
+        Document::new(&self.mechanism, answer)
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
             .notes(idle.map(|idle| format!("not counted: {idle}")))
@@ -45,21 +46,14 @@ impl Report for MobilityReport {
                 .list(redundant),
             )
             .section(Section::new("Loops").table(loops(&self.loops)))
-            .section(Section::new("Infinitesimal motions").table(twist_table(twists)));
-        let document = shown.fold(document, |document, (i, of)| {
-            // a branch without motions of platforms or links is named all the same
-            let section = branch(i, of);
-            match section.blocks.is_empty() {
-                true => document.section(section.text("no platform or closure moves")),
-                false => document.section(section),
-            }
-        });
-        document.section(more_branches(self)).method(format!(
-            "condition number {} with lengths over {}{}",
-            size(self.condition),
-            metres(self.length),
-            words::elimination(self)
-        ))
+            .section(Section::new("Infinitesimal motions").table(twist_table(twists)))
+            .sections(shown.map(|(i, of)| branch(i, of)))
+            .section(more_branches(self))
+            .method(format!(
+                "condition number {} with lengths over {}{elimination}",
+                size(self.condition),
+                metres(self.length)
+            ))
     }
 
     fn warnings(&self) -> Vec<String> {
@@ -118,7 +112,8 @@ fn branch(i: usize, branch: &BranchReport) -> Section {
     };
     let freedoms = count(branch.mobility, "freedom");
     let title = format!("Branch {}: {freedoms}{moving}{kind}", i + 1);
-    Section::new(title).table(twist_table(&branch.twists))
+    let section = Section::new(title).table(twist_table(&branch.twists));
+    section.or_text("no platform or closure moves")
 }
 
 fn more_branches(report: &MobilityReport) -> Section {

@@ -94,15 +94,12 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
             }
         }
     }
-    let section = Section::new(title)
+    Section::new(title)
         .text(some("base", &chain.base, " "))
         .table(table(chain))
         .text(some("tip", &chain.tip, " "))
-        .text(some("with", &values, ", "));
-    match section.blocks.is_empty() {
-        true => section.text("no joints"),
-        false => section,
-    }
+        .text(some("with", &values, ", "))
+        .or_text("no joints")
 }
 
 /// The table in the order of its convention, as lectures print it.

@@ -9,7 +9,7 @@ mod words;
 pub use picture::svg;
 
 use super::closing;
-use super::document::{Cell, Document, Section, Table};
+use super::document::{Document, Section, Table};
 use super::quantity::{metres, short, values};
 use super::report::{Remarks, Report};
 use super::screws::{twist_table, wrench_table};
@@ -17,7 +17,6 @@ use crate::analysis::singularities::{
     Distances, Kind, Movement, Resisted, SingularitiesReport, Singularity,
 };
 use crate::description::listed;
-use crate::mechanism::Variable;
 use coupled::note;
 
 impl Report for SingularitiesReport {
@@ -104,34 +103,6 @@ fn distances(distances: &Distances, length: f64) -> Section {
         metres(length)
     );
     Section::new(title).table(table)
-}
-
-/// Columns of rows, without those that come again: a coordinate that moves or bounds the box is also
-/// a joint or part of a pose.
-struct Once {
-    columns: Vec<String>,
-    stays: Vec<bool>,
-}
-
-impl Once {
-    /// Columns of their own, then variables of which some may be the same.
-    fn new<'a>(own: &[&str], variables: impl IntoIterator<Item = &'a Variable>) -> Self {
-        let mut columns: Vec<String> = own.iter().map(|name| (*name).to_owned()).collect();
-        let mut stays = Vec::new();
-        for variable in variables {
-            let name = variable.to_string();
-            stays.push(!columns.contains(&name));
-            if stays.last() == Some(&true) {
-                columns.push(name);
-            }
-        }
-        Once { columns, stays }
-    }
-
-    fn values<'a>(&self, values: impl Iterator<Item = &'a f64>) -> impl Iterator<Item = Cell> {
-        let values = values.zip(&self.stays).filter(|(_, stays)| **stays);
-        values.map(|(value, _)| Cell::from(*value))
-    }
 }
 
 fn kind_word(kind: Kind) -> &'static str {

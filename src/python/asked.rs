@@ -8,10 +8,17 @@ use pyo3::types::PyDict;
 
 use super::QuestionError;
 use super::words::{Refused, worded};
+use crate::analysis::assemblies::Wanted;
+use crate::analysis::compare::CompareSettings;
+use crate::analysis::singularities::SingularitiesSettings;
+use crate::analysis::sweep::{Law, SweepSettings};
+use crate::analysis::workspace::WorkspaceSettings;
 use crate::ask::{Mode, Question, Role, Value};
 use crate::cli::{self, Ranged};
+use crate::description::listed;
 use crate::mechanism::Mechanism;
-use crate::output::complaint::Given;
+use crate::output::complaint::{Complaint, Given};
+use crate::solve::Pruning;
 
 /// A number in SI units and rad, or an expression with units as in a file.
 #[derive(FromPyObject)]
@@ -44,34 +51,30 @@ enum Names {
     Several(Vec<String>),
 }
 
-/// How an analysis works; what is absent is the default.
+/// How analyses work.
 #[derive(Default)]
 pub struct Settings {
     /// Whether a mode is meant by its number, for which all assemblies are searched.
     pub numbered: bool,
-    pub all_complex: bool,
-    pub prove: bool,
-    pub follow: bool,
-    pub straight: bool,
-    pub certify: bool,
-    pub steps: Option<usize>,
-    pub law: Option<String>,
-    pub duration: Option<f64>,
-    pub grid: Vec<usize>,
-    pub starts: Option<usize>,
-    pub search: Option<usize>,
-    pub samples: Option<usize>,
+    pub assemblies: Wanted,
+    pub singularities: SingularitiesSettings,
+    pub sweep: SweepSettings,
+    pub workspace: WorkspaceSettings,
+    pub compare: CompareSettings,
     pub of: Option<String>,
     pub relative_to: Option<String>,
 }
 
-/// Something that was given, to be shown where it is wrong.
-struct Part {
-    role: Role,
-    option: &'static str,
-    name: String,
-    value: Option<String>,
+fn law(word: &str) -> PyResult<Law> {
+    Law::from_word(word).ok_or_else(|| {
+        let said = Complaint::new(format!("`{word}` is no law of motion"));
+        let laws = listed(Law::ALL.map(Law::word));
+        QuestionError::new_err(worded(said.help(format!("the laws are {laws}")), None))
+    })
 }
+
+/// Something that was given, to be shown where it is wrong: the option, its name and its value.
+type Part = (Role, &'static str, String, Option<String>);
 
 /// A question with what posed it.
 pub struct Asked {
@@ -135,8 +138,8 @@ impl Asked {
         let mut asked = Asked::new(mechanism, given)?;
         asked.ranges = Ranged::Vary;
         for (name, (from, to)) in vary {
-            let range = format!("{from}..{to}");
-            asked.part(Role::Input, "vary", name.clone(), Some(range));
+            let range = Some(format!("{from}..{to}"));
+            asked.parts.push((Role::Input, "vary", name.clone(), range));
         }
         Ok(asked)
     }
@@ -146,7 +149,8 @@ impl Asked {
             let pairs: Vec<(String, Number)> = given.cast::<PyDict>()?.items().extract()?;
             for (name, number) in pairs {
                 self.change(|question| put(question, name.clone(), (&number).into()));
-                self.part(*role, option, name, Some(number.to_string()));
+                let value = Some(number.to_string());
+                self.parts.push((*role, option, name, value));
             }
         } else if let Some((option, role, put)) = NAMES.iter().find(|(option, ..)| *option == key) {
             let names = match given.extract()? {
@@ -155,7 +159,7 @@ impl Asked {
             };
             for name in names {
                 self.change(|question| put(question, name.clone()));
-                self.part(*role, option, name, None);
+                self.parts.push((*role, option, name, None));
             }
         } else if let Some((option, ranges)) = RANGES.iter().find(|(option, _)| *option == key) {
             let pairs: Vec<(String, (Number, Number))> =
@@ -163,7 +167,8 @@ impl Asked {
             for (name, (from, to)) in pairs {
                 self.ranges = *ranges;
                 self.change(|question| question.input(&name, &from, &to));
-                self.part(Role::Input, option, name, Some(format!("{from}..{to}")));
+                let range = Some(format!("{from}..{to}"));
+                self.parts.push((Role::Input, option, name, range));
             }
         } else {
             self.set(key, given)?;
@@ -187,18 +192,27 @@ impl Asked {
                 let seed = given.extract()?;
                 self.change(|question| question.seed(seed));
             }
-            "all_complex" => settings.all_complex = given.extract()?,
-            "prove" => settings.prove = given.extract()?,
-            "follow" => settings.follow = given.extract()?,
-            "certify" => settings.certify = given.extract()?,
-            "straight" => settings.straight = given.extract()?,
-            "steps" => settings.steps = Some(given.extract()?),
-            "law" => settings.law = Some(given.extract()?),
-            "duration" => settings.duration = Some(given.extract()?),
-            "grid" => settings.grid = given.extract()?,
-            "starts" => settings.starts = Some(given.extract()?),
-            "search" => settings.search = Some(given.extract()?),
-            "samples" => settings.samples = Some(given.extract()?),
+            "all_complex" => settings.assemblies.all_complex = given.extract()?,
+            "prove" => {
+                let prove: bool = given.extract()?;
+                settings.assemblies.proof = prove.then(Pruning::default);
+            }
+            "follow" => {
+                settings.sweep.follow = given.extract()?;
+                settings.singularities.follow = settings.sweep.follow;
+            }
+            "certify" => settings.sweep.certify = given.extract()?,
+            "straight" => settings.sweep.straightness = given.extract()?,
+            "steps" => settings.sweep.steps = given.extract()?,
+            "law" => settings.sweep.pace.law = law(&given.extract::<String>()?)?,
+            "duration" => settings.sweep.pace.duration = given.extract()?,
+            "grid" => settings.workspace.nodes = given.extract()?,
+            "starts" => {
+                settings.workspace.starts = given.extract()?;
+                settings.singularities.starts = settings.workspace.starts;
+            }
+            "search" => settings.workspace.searched = given.extract()?,
+            "samples" => settings.compare.samples = given.extract()?,
             "of" => settings.of = Some(given.extract()?),
             "relative_to" => settings.relative_to = Some(given.extract()?),
             _ => {
@@ -214,24 +228,16 @@ impl Asked {
         self.question = change(self.question.clone());
     }
 
-    fn part(&mut self, role: Role, option: &'static str, name: String, value: Option<String>) {
-        self.parts.push(Part {
-            role,
-            option,
-            name,
-            value,
-        });
-    }
-
     /// What is wrong with the question, in the words of the command line, under what says so if something does.
     pub fn refusal(&self, error: &Refused) -> PyErr {
-        let parts = self.parts.iter().map(|part| {
+        let parts = self.parts.iter().map(|(role, option, name, value)| {
+            let value = value.as_deref();
             let given = Given {
-                option: part.option,
-                name: &part.name,
-                value: part.value.as_deref(),
+                option,
+                name,
+                value,
             };
-            (part.role, given)
+            (*role, given)
         });
         let given: Vec<(Role, Given)> = parts.collect();
         QuestionError::new_err(match error {

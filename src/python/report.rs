@@ -6,22 +6,17 @@ use pyo3::types::PyList;
 
 use super::asked::Asked;
 use super::words::Refused;
-use crate::analysis::assemblies::Wanted;
 use crate::analysis::assembly::AssemblySettings;
-use crate::analysis::compare::CompareSettings;
 use crate::analysis::formulas::FormulasSettings;
 use crate::analysis::overview::overview;
-use crate::analysis::singularities::SingularitiesSettings;
-use crate::analysis::sweep::{Law, Pace, Row, SweepSettings};
-use crate::analysis::workspace::WorkspaceSettings;
+use crate::analysis::sweep::Row;
 use crate::ask::Solved;
-use crate::description::listed;
 use crate::mechanism::{Frame, Mechanism};
 use crate::output::complaint::Complaint;
 use crate::output::document::{Cell, Document};
 use crate::output::sweep::{row_columns, row_values, worded};
 use crate::output::{JsonReport, Rows, html, json, markdown, text};
-use crate::solve::{Pruning, Watch};
+use crate::solve::Watch;
 
 /// A report, shown in the way that is asked for.
 trait Shown: Send + Sync {
@@ -148,48 +143,22 @@ pub fn answer(
     watch: &Watch,
 ) -> Result<(Report, Vec<Column>), Refused> {
     let (question, settings) = (&asked.question, &asked.settings);
-    let singularities = || {
-        let default = SingularitiesSettings::default();
-        SingularitiesSettings {
-            follow: settings.follow,
-            starts: settings.starts.unwrap_or(default.starts),
-            ..default
-        }
-    };
+    let singularities = &settings.singularities;
     Ok(match what {
         "check" => report(overview(mechanism)),
         "solve" => match question.solve(&AssemblySettings::default(), watch)? {
             Solved::Ended(ended) => report(*ended),
             Solved::Lost(lost) => report(*lost),
         },
-        "assemblies" => {
-            let wanted = Wanted {
-                all_complex: settings.all_complex,
-                proof: settings.prove.then(Pruning::default),
-                ..Wanted::default()
-            };
-            report(question.assemblies(wanted, watch)?)
-        }
+        "assemblies" => report(question.assemblies(settings.assemblies, watch)?),
         "mobility" => report(question.mobility(watch)?),
         "velocity" => report(question.velocity(watch)?),
         "statics" => report(question.statics(watch)?),
-        "singularities" => report(question.singularities(&singularities(), watch)?),
-        "along" => report(question.along(&singularities(), watch)?),
-        "loci" => report(question.loci(&singularities(), watch)?),
-        "workspace" => {
-            let default = WorkspaceSettings::default();
-            let settings = WorkspaceSettings {
-                nodes: settings.grid.clone(),
-                searched: settings.search.unwrap_or(default.searched),
-                starts: settings.starts.unwrap_or(default.starts),
-                ..default
-            };
-            report(question.workspace(&settings, watch)?)
-        }
-        "compare" => {
-            let default = CompareSettings::default().samples;
-            report(question.compare(settings.samples.unwrap_or(default), watch))
-        }
+        "singularities" => report(question.singularities(singularities, watch)?),
+        "along" => report(question.along(singularities, watch)?),
+        "loci" => report(question.loci(singularities, watch)?),
+        "workspace" => report(question.workspace(&settings.workspace, watch)?),
+        "compare" => report(question.compare(settings.compare.samples, watch)),
         "formulas" => {
             let frame = |name: &Option<String>| {
                 let frame = |name: &String| {
@@ -216,28 +185,7 @@ pub fn answer(
 fn motions(asked: &Asked, watch: &Watch) -> Result<(Report, Vec<Column>), Refused> {
     /// Rows that the text shows.
     const SHOWN: usize = 37;
-    let (question, settings) = (&asked.question, &asked.settings);
-    let default = SweepSettings::default();
-    let law = match &settings.law {
-        None => default.pace.law,
-        Some(word) => Law::from_word(word).ok_or_else(|| {
-            let laws = Law::ALL.map(Law::word);
-            let said = Complaint::new(format!("`{word}` is no law of motion"));
-            Refused::Said(said.help(format!("the laws are {}", listed(&laws))))
-        })?,
-    };
-    let settings = SweepSettings {
-        steps: settings.steps.unwrap_or(default.steps),
-        follow: settings.follow,
-        pace: Pace {
-            law,
-            duration: settings.duration.unwrap_or(default.pace.duration),
-        },
-        straightness: settings.straight,
-        certify: settings.certify,
-        ..default
-    };
-    let all = question.motions(&settings, watch)?;
+    let all = asked.question.motions(&asked.settings.sweep, watch)?;
     let names = all.columns();
     let mut columns = Column::named(row_columns(&names));
     let mut sink = |mode: Option<usize>, row: &Row| {

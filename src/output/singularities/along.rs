@@ -1,9 +1,9 @@
 //! Singularities along a motion.
 
-use super::{Once, details, note, words};
+use super::{details, note, words};
 use crate::analysis::singularities::{AlongEnd, AlongReport};
 use crate::mechanism::Variable;
-use crate::output::document::{Document, Section, cells};
+use crate::output::document::{Cell, Document, Section, cells};
 use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for AlongReport {
@@ -36,12 +36,12 @@ impl Report for AlongReport {
     /// The singularities on the way, in SI units and rad.
     fn rows(&self) -> Option<Rows<'_>> {
         let own = ["number", "part", "type", "zlatanov", "fold", "branches"];
-        let moved = self.moved.iter().map(|m| Variable::new(&m.name, m.unit));
-        let moved: Vec<Variable> = moved.collect();
-        let once = Once::new(&own, moved.iter().chain(&self.variables));
-        let columns = once.columns.clone();
+        let moved = self.moved.iter();
+        let moved = moved.map(|of| Variable::new(&of.name, of.unit).to_string());
+        let joints = self.variables.iter().map(Variable::to_string);
+        let columns = own.map(str::to_owned).into_iter().chain(moved);
         let rows = self.crossings.iter().enumerate();
-        let rows = rows.map(move |(i, crossing)| {
+        let rows = rows.map(|(i, crossing)| {
             let singularity = &crossing.singularity;
             let zlatanov = singularity.zlatanov.iter();
             let zlatanov: Vec<&str> = zlatanov.map(|kind| words::letters(*kind)).collect();
@@ -53,9 +53,10 @@ impl Report for AlongReport {
                 crossing.fold,
                 crossing.branches,
             ];
-            row.extend(once.values(crossing.moved.iter().chain(&crossing.joints)));
+            let values = crossing.moved.iter().chain(&crossing.joints);
+            row.extend(values.map(|value| Cell::from(*value)));
             row
         });
-        Some(Rows::new(columns, rows))
+        Some(Rows::new(columns.chain(joints), rows).once())
     }
 }

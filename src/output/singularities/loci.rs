@@ -1,6 +1,6 @@
 //! Singularity loci in a box of two coordinates.
 
-use super::{Once, kind_word, note, words};
+use super::{kind_word, note, words};
 use crate::analysis::singularities::{Cusp, Kind, Locus, LocusReport, Shape};
 use crate::description::count;
 use crate::mechanism::Variable;
@@ -35,11 +35,11 @@ impl Report for LocusReport {
     /// The points of the loci, then their cusps, in SI units and rad.
     fn rows(&self) -> Option<Rows<'_>> {
         let own = ["locus", "kind", "type", "shape", "configurations"];
-        let sides = self.bounds.iter().map(|b| Variable::new(&b.name, b.unit));
-        let sides: Vec<Variable> = sides.collect();
-        let variables = sides.iter().chain(&self.variables);
-        let once = Once::new(&own, variables.chain(&self.pose_variables));
-        let columns = once.columns.clone();
+        let sides = self.bounds.iter();
+        let sides = sides.map(|of| Variable::new(&of.name, of.unit).to_string());
+        let variables = self.variables.iter().chain(&self.pose_variables);
+        let columns = own.map(str::to_owned).into_iter().chain(sides);
+        let columns = columns.chain(variables.map(Variable::to_string));
         let points = self.loci.iter().enumerate().flat_map(|(i, locus)| {
             let points = locus.points.iter().zip(&locus.joints).zip(&locus.poses);
             let points = points.map(|((point, joints), poses)| (None, point, joints, poses));
@@ -47,7 +47,7 @@ impl Report for LocusReport {
                 (locus.cusps.iter()).map(|of| (Some("cusp"), &of.point, &of.joints, &of.poses));
             (points.chain(cusps)).map(move |point| (i, locus, point))
         });
-        let rows = points.map(move |(i, locus, (cusp, point, joints, poses))| {
+        let rows = points.map(|(i, locus, (cusp, point, joints, poses))| {
             let mut row = cells![
                 i + 1,
                 kind_word(locus.kind),
@@ -59,10 +59,10 @@ impl Report for LocusReport {
                 locus.configurations,
             ];
             let values = point.iter().chain(joints).chain(poses.iter().flatten());
-            row.extend(once.values(values));
+            row.extend(values.map(|value| Cell::from(*value)));
             row
         });
-        Some(Rows::new(columns, rows))
+        Some(Rows::new(columns, rows).once())
     }
 }
 
