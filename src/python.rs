@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 
 use crate::analysis::convert::to_axes;
 use crate::ask::{AskError, Points, Study};
-use crate::description::{Description, FileError, Problem, Role};
+use crate::description::{Description, FileError, Role};
 use crate::mechanism;
 use crate::output::Rows;
 use crate::output::complaint::Given;
@@ -67,11 +67,7 @@ impl Mechanism {
     /// Reads a text whose errors name it as `name`, and gives parameters other values.
     #[new]
     fn new(text: String, name: &str, parameters: Vec<(String, Number)>) -> PyResult<Self> {
-        let wrong = |problems: Vec<Problem>| FileError {
-            path: name.into(),
-            text: text.clone(),
-            problems,
-        };
+        let wrong = |problems| FileError::new(name, &text, problems);
         let style = Style::Plain;
         let mut description = Description::read(&text).map_err(|_| {
             let problems = mechanism::Mechanism::problems(&text);
@@ -79,11 +75,7 @@ impl Mechanism {
         })?;
         let values: Vec<String> = parameters.iter().map(|(_, v)| v.to_string()).collect();
         let set: Vec<Given> = (parameters.iter().zip(&values))
-            .map(|((name, _), value)| Given {
-                option: "with_parameters",
-                name,
-                value: Some(value),
-            })
+            .map(|((name, _), value)| Given::new("with_parameters", name, Some(value)))
             .collect();
         for (given, value) in set.iter().zip(&values) {
             description = (description.with_parameter(given.name, value)).map_err(|refused| {
@@ -129,16 +121,7 @@ impl Mechanism {
 
     /// What is odd about the file, in words; empty if nothing is.
     fn warnings(&self, name: &str) -> String {
-        let problems = self.mechanism.warnings().to_vec();
-        if problems.is_empty() {
-            return String::new();
-        }
-        let error = FileError {
-            path: name.into(),
-            text: self.text.clone(),
-            problems,
-        };
-        diagnostics::render(&error, Style::Plain)
+        diagnostics::warnings(&self.mechanism, name, &self.text, Style::Plain)
     }
 
     /// The mechanism as a file of tables, or of joint coordinates.

@@ -119,13 +119,7 @@ impl<'o> Posed<'o> {
         put: impl Fn(Question, String) -> Question,
     ) {
         for name in names {
-            let value = None;
-            let given = Given {
-                option,
-                name,
-                value,
-            };
-            self.given.push((role, given));
+            self.given.push((role, Given::new(option, name, None)));
             self.ask_with(|question| put(question, name.clone()));
         }
     }
@@ -262,12 +256,7 @@ fn refused(said: &Complaint, given: Option<Given>) -> Refusal {
 
 pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
     mechanism.frame(name).ok_or_else(|| {
-        let value = None;
-        let given = Given {
-            option,
-            name,
-            value,
-        };
+        let given = Given::new(option, name, None);
         refused(&unknown_frame(mechanism, name), Some(given))
     })
 }

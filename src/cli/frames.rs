@@ -6,9 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 use linkwork::analysis::frames::{AxesReport, FramesReport, FramesSettings, frames, joint_axes};
 use linkwork::ask::Question;
-use linkwork::description::{
-    AxesDescription, Convention, FileError, LoadError, Problem, is_mechanism, load_text,
-};
+use linkwork::description::{AxesDescription, Convention, LoadError, is_mechanism, load_text};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::frames as output;
 
@@ -49,13 +47,8 @@ impl Frames {
         if is_mechanism(&text) {
             return self.axes_of_mechanism();
         }
-        let refused = |problems: Vec<Problem>| {
-            Refusal::from(LoadError::Wrong(FileError {
-                path: self.file.clone(),
-                text: text.clone(),
-                problems,
-            }))
-        };
+        let refused =
+            |problems| Refusal::from(LoadError::wrong(&self.file, text.clone(), problems));
         let axes = AxesDescription::read(&text).map_err(refused)?;
         let report = frames(&axes, &self.settings()).map_err(refused)?;
         let mut answer = self.tables(&report)?;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::description::{self, FileError, LoadError, ProblemKind};
+use linkwork::description::{self, LoadError, ProblemKind};
 use linkwork::interchange::{ImportError, ImportSettings, load};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
@@ -67,15 +67,10 @@ impl Import {
             }
             // names and values of the imported part are sound: what is wrong stands in the file of loops
             let (path, text) = match (&self.loops, loops) {
-                (Some(path), Some((text, _))) => (path.clone(), text),
-                _ => (self.file.clone(), String::new()),
+                (Some(path), Some((text, _))) => (path, text),
+                _ => (&self.file, String::new()),
             };
-            let error = FileError {
-                path,
-                text,
-                problems,
-            };
-            return Err(LoadError::Wrong(error).into());
+            return Err(LoadError::wrong(path, text, problems).into());
         }
         let text = imported.description.to_ron();
         let said = |error| format!("the mechanism cannot be written: {error}");

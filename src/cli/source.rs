@@ -49,11 +49,7 @@ impl FromStr for Assignment {
 
 impl Assignment {
     pub fn given<'a>(&'a self, option: &'a str) -> Given<'a> {
-        Given {
-            option,
-            name: &self.name,
-            value: Some(&self.value),
-        }
+        Given::new(option, &self.name, Some(&self.value))
     }
 }
 
@@ -118,11 +114,7 @@ impl Source {
                 mechanism: Arc::new(mechanism),
             }),
             Err(problems) => {
-                let error = FileError {
-                    path: self.file.clone(),
-                    text,
-                    problems,
-                };
+                let error = FileError::new(&self.file, text, problems);
                 let set: Vec<Given> = self.set.iter().map(|set| set.given("--set")).collect();
                 let wrong = diagnostics::with_replacements(error, &description, &set, style());
                 Err(Refusal(wrong))
@@ -171,15 +163,6 @@ impl Loaded {
 
     /// The warnings about the file; empty if there are none.
     pub fn warnings(&self) -> String {
-        let problems = self.mechanism.warnings().to_vec();
-        if problems.is_empty() {
-            return String::new();
-        }
-        let error = FileError {
-            path: self.path.clone(),
-            text: self.text.clone(),
-            problems,
-        };
-        diagnostics::render(&error, style())
+        diagnostics::warnings(&self.mechanism, &self.path, &self.text, style())
     }
 }

@@ -45,11 +45,7 @@ pub enum LoadError {
 impl LoadError {
     /// A file with problems.
     pub fn wrong(path: impl AsRef<Path>, text: String, problems: Vec<Problem>) -> Self {
-        LoadError::Wrong(FileError {
-            path: path.as_ref().to_owned(),
-            text,
-            problems,
-        })
+        LoadError::Wrong(FileError::new(&path, text, problems))
     }
 }
 
@@ -119,6 +115,15 @@ pub fn load_text_within(path: impl AsRef<Path>, limit: u64) -> Result<String, Lo
 const MAX_SHOWN: usize = 100;
 
 impl FileError {
+    /// What is wrong in a file with this text.
+    pub fn new(path: impl AsRef<Path>, text: impl Into<String>, problems: Vec<Problem>) -> Self {
+        FileError {
+            path: path.as_ref().to_owned(),
+            text: text.into(),
+            problems,
+        }
+    }
+
     /// The problems worth showing, and how many more there are.
     pub fn shown(&self) -> (&[Problem], usize) {
         let shown = self.problems.len().min(MAX_SHOWN);

@@ -17,6 +17,17 @@ pub struct Given<'a> {
     pub value: Option<&'a str>,
 }
 
+impl<'a> Given<'a> {
+    /// An option with what it names and the value, if it gives one.
+    pub fn new(option: &'a str, name: &'a str, value: Option<&'a str>) -> Self {
+        Given {
+            option,
+            name,
+            value,
+        }
+    }
+}
+
 /// What is wrong with something, in words.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Complaint {

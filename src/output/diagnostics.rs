@@ -2,6 +2,7 @@
 //! options, each with the offending text underlined.
 
 use std::ops::Range;
+use std::path::Path;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -11,6 +12,7 @@ use crate::description::{
     Description, FileError, Lines, Problem, ReplacementError, Severity, count, listed,
 };
 use crate::interchange::{ImportProblem, WrongFile};
+use crate::mechanism::Mechanism;
 
 /// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
 const MAX_WIDTH: usize = 2000;
@@ -56,6 +58,14 @@ pub fn render(error: &FileError, style: Style) -> String {
         (error.problems.len() - errors, "warning"),
     ];
     ended(rendered, &kinds, &page.path, more)
+}
+
+/// The warnings about a mechanism; empty if there are none.
+pub fn warnings(mechanism: &Mechanism, path: impl AsRef<Path>, text: &str, style: Style) -> String {
+    match mechanism.warnings() {
+        [] => String::new(),
+        warnings => render(&FileError::new(path, text, warnings.to_vec()), style),
+    }
 }
 
 /// The problems, then how many there are: `3 problems in four_bar.ron`.
@@ -333,14 +343,9 @@ pub fn with_replacements(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanism::Mechanism;
 
     fn shown(text: &str) -> String {
-        let error = FileError {
-            path: "x.ron".into(),
-            text: text.into(),
-            problems: Mechanism::problems(text),
-        };
+        let error = FileError::new("x.ron", text, Mechanism::problems(text));
         render(&error, Style::Plain)
     }
 

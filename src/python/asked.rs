@@ -230,15 +230,10 @@ impl Asked {
 
     /// What is wrong with the question, in the words of the command line, under what says so if something does.
     pub fn refusal(&self, error: &Refused) -> PyErr {
-        let parts = self.parts.iter().map(|(role, option, name, value)| {
-            let value = value.as_deref();
-            let given = Given {
-                option,
-                name,
-                value,
-            };
-            (*role, given)
-        });
+        let parts = self
+            .parts
+            .iter()
+            .map(|(role, option, name, value)| (*role, Given::new(option, name, value.as_deref())));
         let given: Vec<(Role, Given)> = parts.collect();
         QuestionError::new_err(match error {
             Refused::Asked(error) => {
