@@ -168,6 +168,12 @@ impl Document {
         self
     }
 
+    /// With a section of one table; nothing if it has no rows.
+    #[must_use]
+    pub fn table(self, title: &str, table: impl Into<Table>) -> Self {
+        self.section(Section::new(title).table(table))
+    }
+
     /// With several sections.
     #[must_use]
     pub fn sections(self, sections: impl IntoIterator<Item = Section>) -> Self {

@@ -45,8 +45,8 @@ impl Report for MobilityReport {
                 )
                 .list(redundant),
             )
-            .section(Section::new("Loops").table(loops(&self.loops)))
-            .section(Section::new("Infinitesimal motions").table(twist_table(twists)))
+            .table("Loops", loops(&self.loops))
+            .table("Infinitesimal motions", twist_table(twists))
             .sections(shown.map(|(i, of)| branch(i, of)))
             .section(more_branches(self))
             .method(format!(

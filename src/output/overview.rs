@@ -15,15 +15,15 @@ impl Report for Overview {
     fn document(&self) -> Document {
         Document::new(&self.name, "")
             .notes(self.source.clone())
-            .section(Section::new("Parameters").table(parameters(self)))
+            .table("Parameters", parameters(self))
             .sections(self.coordinates.as_ref().map(coordinates))
-            .section(Section::new("Joints").table(joints(self)))
+            .table("Joints", joints(self))
             .sections(self.chains.iter().map(chain))
             .sections(platforms(self))
             .section(closures(self))
             .sections((!self.closures.is_empty()).then(|| loops(self)))
             .section(mobility(&self.count))
-            .section(Section::new("Closed forms").table(closed_forms(self)))
+            .table("Closed forms", closed_forms(self))
     }
 }
 

@@ -18,9 +18,9 @@ impl Report for AssemblyReport {
             .notes(left(self))
             .notes(idle(self))
             .notes(others(self))
-            .section(Section::new("Joints").table(joints(self)))
+            .table("Joints", joints(self))
             .sections(platforms)
-            .section(Section::new("Frames").table(tips(self)))
+            .table("Frames", tips(self))
             .sections(gaps)
             .method(found(self))
     }

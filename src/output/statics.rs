@@ -1,7 +1,7 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
-use super::document::{Cell, Digits, Document, Section, Table, TableOf};
+use super::document::{Cell, Digits, Document, Table, TableOf};
 use super::quantity::{metres, size};
 use super::report::Report;
 use crate::algebra::SiUnit;
@@ -11,22 +11,6 @@ use crate::description::{count, listed};
 impl Report for StaticsReport {
     fn document(&self) -> Document {
         let length = self.normalising_length;
-        let tables: [(&str, Table); 5] = [
-            ("Loads", loads(self).into()),
-            ("Loads on joints", forces(&self.joint_loads).into()),
-            (
-                "Held, with the force that holds it",
-                forces(&self.actuators).into(),
-            ),
-            (
-                "Closures, axes of ground, moments about the point given, that of the second frame",
-                reactions(&self.closures, length).into(),
-            ),
-            (
-                "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
-                reactions(&self.joints, length).into(),
-            ),
-        ];
         let answer = closing::after_moving(&self.pose, sentence(self));
         Document::new(&self.mechanism, answer)
             .note(format!(
@@ -35,7 +19,17 @@ impl Report for StaticsReport {
                 metres(length)
             ))
             .notes(closing::notes(&self.pose))
-            .sections(tables.map(|(title, table)| Section::new(title).table(table)))
+            .table("Loads", loads(self))
+            .table("Loads on joints", forces(&self.joint_loads))
+            .table("Held, with the force that holds it", forces(&self.actuators))
+            .table(
+                "Closures, axes of ground, moments about the point given, that of the second frame",
+                reactions(&self.closures, length),
+            )
+            .table(
+                "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
+                reactions(&self.joints, length),
+            )
     }
 
     fn is_yes(&self) -> bool {

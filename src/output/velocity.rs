@@ -17,11 +17,11 @@ impl Report for VelocityReport {
         let answer = closing::after_moving(&self.pose, sentence(self));
         Document::new(&self.mechanism, answer)
             .notes(closing::notes(&self.pose))
-            .section(Section::new("Joints").table(joints(self)))
+            .table("Joints", joints(self))
             .sections(self.frames.iter().map(frame))
             .sections(jacobian.map(|j| matrix(j, self.normalising_length)))
-            .section(Section::new("Transmission").table(transmission(&self.transmission)))
-            .section(Section::new("Instant centres").table(centres(&self.centres)))
+            .table("Transmission", transmission(&self.transmission))
+            .table("Instant centres", centres(&self.centres))
     }
 
     fn is_yes(&self) -> bool {
