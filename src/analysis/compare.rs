@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::EvaluationError;
 use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
-use crate::solve::{Stage, Watch};
+use crate::solve::{Progress, Stage, Watch};
 use crate::system::{FormulaNames, Named};
 use formula::{Values, identity};
 pub use proof::{Difference, Proof, Reason};
@@ -171,12 +171,10 @@ pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch)
     let total = settings.samples.saturating_add(1).saturating_mul(passes);
     let mut done = 0;
     let mut sampled = || {
-        let stops = watch.stops(Stage::Samples, done, Some(total));
+        let (stage, of) = (Stage::Samples, Some(total));
+        let flow = watch.at(Progress { stage, done, of });
         done = total.min(done + 1);
-        match stops {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        flow
     };
     let mut flow = samples.anywhere(&mut |at| {
         sampled()?;
@@ -235,7 +233,10 @@ impl<'a> Checked<'a> {
     fn new(mechanism: &Mechanism, form: &'a ClosedForm, proves: bool) -> Self {
         let named: Vec<(String, Quantity)> = match &form.gives {
             Given::Pose { entries, .. } => (entries.iter())
-                .map(|(entry, _)| (entry.to_string(), quantity(*entry)))
+                .map(|(entry, _)| match entry {
+                    MatrixEntry::Position(_) => (entry.to_string(), Quantity::Position),
+                    MatrixEntry::Rotation(..) => (entry.to_string(), Quantity::Rotation),
+                })
                 .collect(),
             Given::Identities(identities) => (identities.iter())
                 .map(|(name, _)| (name.clone(), Quantity::Identity))
@@ -300,10 +301,9 @@ impl<'a> Checked<'a> {
             }
             component.samples += 1;
             if component.worst.is_none() || difference > component.max_difference {
-                let names = mechanism.joints().iter().map(|joint| joint.name.clone());
                 component.max_difference = difference;
                 component.worst = Some(WorstSample {
-                    joints: names.zip(joints.iter().copied()).collect(),
+                    joints: mechanism.named_joints(joints),
                     closed_form,
                     chains,
                 });
@@ -355,13 +355,6 @@ impl<'a> Checked<'a> {
             worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
             components,
         }
-    }
-}
-
-fn quantity(entry: MatrixEntry) -> Quantity {
-    match entry {
-        MatrixEntry::Position(_) => Quantity::Position,
-        MatrixEntry::Rotation(..) => Quantity::Rotation,
     }
 }
 

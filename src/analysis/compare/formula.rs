@@ -1,31 +1,29 @@
 //! The values of a closed form's formulas.
 
-use std::borrow::Cow;
-
 use crate::algebra::{EvaluationError, Node, Operator};
 use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
 use crate::number::{Dual, Number};
 
 /// What the names in a closed form stand for at some joint values.
-pub(super) struct Values<'a, T: Number> {
+pub(super) struct Values<T> {
     parameters: Vec<T>,
-    joints: Cow<'a, [T]>,
+    joints: Vec<T>,
     locals: Vec<Result<T, EvaluationError>>,
 }
 
-impl<'a, T: Number> Values<'a, T> {
+impl<T: Number> Values<T> {
     /// At joint values, with the parameters of the mechanism.
-    pub fn at(mechanism: &Mechanism, form: &ClosedForm, joints: &'a [T]) -> Self {
+    pub fn at(mechanism: &Mechanism, form: &ClosedForm, joints: &[T]) -> Self {
         let parameters = mechanism.parameters().iter();
         let parameters = parameters.map(|p| T::from_f64(p.value)).collect();
-        Values::new(form, parameters, Cow::Borrowed(joints), &[])
+        Values::new(form, parameters, joints.to_vec(), &[])
     }
 
     /// For given values of parameters and joints, and of some local names.
     pub fn new(
         form: &ClosedForm,
         parameters: Vec<T>,
-        joints: Cow<'a, [T]>,
+        joints: Vec<T>,
         replaced: &[Option<T>],
     ) -> Self {
         let mut values = Values {

@@ -176,7 +176,7 @@ pub(super) struct Setting<'a> {
     form: &'a ClosedForm,
     pub letters: Letters<'a>,
     pub formal: Formal<'a>,
-    pub values: Values<'a, Symbolic>,
+    pub values: Values<Symbolic>,
 }
 
 impl<'a> Setting<'a> {
@@ -194,7 +194,7 @@ impl<'a> Setting<'a> {
         let parameters = mechanism.parameters_from(&independent).ok()?;
         let (joints, replaced) = own_variables(&letters, form, &parameters);
         let formal = Formal::new(mechanism, &parameters, joints.clone()).ok()?;
-        let values = Values::new(form, parameters, joints.into(), &replaced);
+        let values = Values::new(form, parameters, joints, &replaced);
         Some(Setting {
             form,
             letters,

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use crate::mechanism::{Configuration, Joint, Mechanism, Role};
+use crate::mechanism::{Configuration, Mechanism, Role};
 use crate::solve::{Newton, Stop};
 use crate::system::{Held, HeldPlatform, System, Work};
 
@@ -19,21 +19,37 @@ pub(super) struct Samples<'a> {
     mechanism: &'a Mechanism,
     count: usize,
     rng: Pcg64Mcg,
-    solver: Solver,
+    system: System<f64>,
+    work: Work<f64>,
+    /// Joints with given values: the actuated ones, or all where there are no closures.
+    held: Vec<bool>,
+    /// Whether any joint is held.
+    drives: bool,
     solved_home: Option<Configuration<f64>>,
 }
 
 impl<'a> Samples<'a> {
     pub fn new(mechanism: &'a Mechanism, count: usize, seed: u64) -> Self {
-        let mut solver = Solver::new(mechanism);
-        let home = mechanism.home();
-        Samples {
+        let closed = !mechanism.closures().is_empty();
+        let actuated = mechanism.joints().iter();
+        let actuated = actuated.map(|joint| joint.role == Role::Actuated || !closed);
+        let held: Vec<bool> = actuated.collect();
+        let joints = held.clone();
+        let platforms = vec![HeldPlatform::Free; mechanism.platforms().len()];
+        let system = System::new(mechanism.dimensions(), &Held { joints, platforms });
+        let mut samples = Samples {
             mechanism,
             count,
             rng: Pcg64Mcg::seed_from_u64(seed),
-            solved_home: solver.solve(&home, &home.joints),
-            solver,
-        }
+            work: system.work(),
+            system,
+            drives: held.contains(&true),
+            held,
+            solved_home: None,
+        };
+        let home = mechanism.home();
+        samples.solved_home = samples.solve(&home, &home.joints);
+        samples
     }
 
     /// Whether the home configuration assembles.
@@ -67,72 +83,26 @@ impl<'a> Samples<'a> {
         known.iter().try_for_each(|at| visit(Some(at)))?;
         let mut again = Pcg64Mcg::seed_from_u64(seed);
         let mut random = home.clone();
-        let solver = &mut self.solver;
         for _ in 0..self.count {
             scatter(self.mechanism, &mut random, &mut again);
             let mut target = random.joints.clone();
             let nearest = (known.iter())
                 .min_by(|a, b| {
-                    let distance = |at: &&Configuration<f64>| solver.distance(&at.joints, &target);
+                    let distance = |at: &&Configuration<f64>| self.distance(&at.joints, &target);
                     distance(a).total_cmp(&distance(b))
                 })
                 .unwrap_or(&home);
-            if !solver.drives {
+            if !self.drives {
                 // nothing is held: a shaken start ends somewhere else
                 for (value, near) in target.iter_mut().zip(&nearest.joints) {
                     *value = near + 0.3 * self.rng.random_range(-1.0..=1.0) * (*value - near);
                 }
             }
-            let found = solver.approach(nearest, &target);
+            let found = self.approach(nearest, &target);
             visit(found.as_ref())?;
             known.extend(found.filter(|_| known.len() < REMEMBERED));
         }
         ControlFlow::Continue(())
-    }
-}
-
-/// Gives every joint a random value.
-fn scatter(mechanism: &Mechanism, at: &mut Configuration<f64>, rng: &mut Pcg64Mcg) {
-    for (value, joint) in at.joints.iter_mut().zip(mechanism.joints()) {
-        *value = random_value(mechanism, joint, rng);
-    }
-}
-
-/// Within limits; where there are none an angle may be anything, a length differs from home by up
-/// to half the characteristic length.
-fn random_value(mechanism: &Mechanism, joint: &Joint, rng: &mut impl Rng) -> f64 {
-    let reach = match joint.kind.is_angle() {
-        true => PI,
-        false => 0.5 * mechanism.characteristic_length(),
-    };
-    let (low, high) = (joint.limits).unwrap_or((joint.home - reach, joint.home + reach));
-    rng.random_range(low..=high)
-}
-
-/// Finds assembled configurations with the actuated joints held.
-struct Solver {
-    system: System<f64>,
-    work: Work<f64>,
-    held: Vec<bool>,
-    /// Whether any joint is held.
-    drives: bool,
-}
-
-impl Solver {
-    fn new(mechanism: &Mechanism) -> Self {
-        let closed = !mechanism.closures().is_empty();
-        let joints = mechanism.joints().iter();
-        let held = joints.map(|joint| joint.role == Role::Actuated || !closed);
-        let held: Vec<bool> = held.collect();
-        let platforms = vec![HeldPlatform::Free; mechanism.platforms().len()];
-        let joints = held.clone();
-        let system = System::new(mechanism.dimensions(), &Held { joints, platforms });
-        Solver {
-            work: system.work(),
-            system,
-            drives: held.contains(&true),
-            held,
-        }
     }
 
     /// How far the held values are apart, in natural sizes.
@@ -177,5 +147,18 @@ impl Solver {
             at = self.solve(&at, &between)?;
         }
         Some(at)
+    }
+}
+
+/// Gives every joint a random value within its limits; where there are none an angle may be anything, a length differs
+/// from home by up to half the characteristic length.
+fn scatter(mechanism: &Mechanism, at: &mut Configuration<f64>, rng: &mut Pcg64Mcg) {
+    for (value, joint) in at.joints.iter_mut().zip(mechanism.joints()) {
+        let reach = match joint.kind.is_angle() {
+            true => PI,
+            false => 0.5 * mechanism.characteristic_length(),
+        };
+        let (low, high) = (joint.limits).unwrap_or((joint.home - reach, joint.home + reach));
+        *value = rng.random_range(low..=high);
     }
 }

@@ -2,7 +2,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::description::Description;
-use crate::solve::Progress;
 
 fn mechanism(forms: &str) -> Mechanism {
     let text = format!(
