@@ -39,18 +39,15 @@ pub fn prove(
     let within = |x: f64, side: Interval| side.low <= x && x <= side.high;
     let mut proof = Proof {
         unknowns: space.sides.len(),
-        ranges: space.ranges(),
+        ranges: space.named(&space.sides, |i| space.cut[i]),
         unbounded: space.unbounded.clone(),
         ..Proof::default()
     };
     let mut modes: Vec<(usize, Vec<f64>)> = Vec::new();
     for (mode, at) in known {
         let x = space.of(mechanism, at);
-        match x
-            .iter()
-            .zip(&space.sides)
-            .all(|(x, side)| within(*x, *side))
-        {
+        let mut sides = x.iter().zip(&space.sides);
+        match sides.all(|(x, side)| within(*x, *side)) {
             true => modes.push((*mode, x)),
             false => proof.outside.push(*mode),
         }
@@ -82,7 +79,7 @@ pub fn prove(
         })
     };
     let part = |sides: &Sides| Part {
-        ranges: space.named(sides),
+        ranges: space.named(sides, |_| true),
         modes: (modes.iter().filter(|(_, x)| near(sides, x, 1e-4)))
             .map(|(mode, _)| *mode)
             .collect(),
@@ -129,41 +126,20 @@ impl Space {
         asked: &Configuration<f64>,
     ) -> Result<Self, Unfit> {
         let variables = JointSpace::new(mechanism, held, &[], asked)?;
-        let mut space = Space {
-            names: Vec::new(),
-            cut: Vec::new(),
-            unbounded: Vec::new(),
-            sides: Vec::new(),
-            periods: Vec::new(),
-            variables,
-        };
-        space.bound(mechanism, held, asked)?;
-        Ok(space)
-    }
-
-    /// The ranges of all unknowns.
-    fn bound(
-        &mut self,
-        mechanism: &Mechanism,
-        held: &Held<f64>,
-        asked: &Configuration<f64>,
-    ) -> Result<(), Unfit> {
         let turns = Coordinates::new(mechanism, held).turns;
         let joints = mechanism.joints();
         let pi: Interval = Number::pi();
-        // from −x to x, in rad or m
-        let mut bounds: Vec<Option<Interval>> =
-            vec![None; self.variables.recut.dimensions.joint_scales.len()];
-        let mut periods = vec![None; bounds.len()];
-        let mut names: Vec<Option<(String, SiUnit)>> = vec![None; bounds.len()];
+        // in rad or m
+        let all = variables.recut.dimensions.joint_scales.len();
+        let mut bounds: Vec<Option<Interval>> = vec![None; all];
+        let mut periods = vec![None; all];
+        let mut names: Vec<Option<(String, SiUnit)>> = vec![None; all];
         // slides of one platform are perpendicular to each other: one of them is as long as all
-        let mut groups: Vec<usize> = (0..bounds.len()).collect();
+        let mut groups: Vec<usize> = (0..all).collect();
         let both_ways = |x: f64| Interval { low: -x, high: x };
         for (j, joint) in joints.iter().enumerate() {
-            names[j] = Some((
-                joint.name.clone(),
-                SiUnit::of_coordinate(joint.kind.is_angle()),
-            ));
+            let unit = SiUnit::of_coordinate(joint.kind.is_angle());
+            names[j] = Some((joint.name.clone(), unit));
             bounds[j] = match (turns[j], joint.limits) {
                 _ if held.joints[j] => Some(Interval::point(asked.joints[j])),
                 (Some(turns), _) => {
@@ -175,7 +151,7 @@ impl Space {
                 (None, None) => None,
             };
         }
-        for carried in &self.variables.recut.carried {
+        for carried in &variables.recut.carried {
             for (i, coordinate) in carried.freedoms().iter().enumerate() {
                 let j = carried.first + i;
                 let half = *coordinate == PoseCoordinate::Pitch && carried.halves_pitch();
@@ -194,8 +170,8 @@ impl Space {
                 }
             }
         }
-        for _ in 0..bounds.len() {
-            for (fixed, slides) in self.variables.enclosure.reaches() {
+        for _ in 0..all {
+            for (fixed, slides) in variables.enclosure.reaches() {
                 let open = slides.iter().filter(|(j, _)| bounds[*j].is_none());
                 let mut group: Vec<usize> = open.clone().map(|(j, _)| groups[*j]).collect();
                 group.dedup();
@@ -213,26 +189,34 @@ impl Space {
                 }
             }
         }
-        let enclosure = &self.variables.enclosure;
+        let mut space = Space {
+            variables,
+            names: Vec::new(),
+            cut: Vec::new(),
+            unbounded: Vec::new(),
+            sides: Vec::new(),
+            periods: Vec::new(),
+        };
+        let enclosure = &space.variables.enclosure;
         for (&j, &scale) in enclosure.unknowns().iter().zip(enclosure.scales()) {
             let angle = joints.get(j).is_some_and(|joint| joint.kind.is_angle());
             let bound = match (bounds[j], angle) {
                 (Some(bound), _) => bound,
                 (None, true) => return Err(Unfit::Endless(joints[j].name.clone())),
                 (None, false) => {
-                    self.unbounded
-                        .extend(names[j].iter().map(|(name, _)| name.clone()));
+                    let name = names[j].iter().map(|(name, _)| name.clone());
+                    space.unbounded.extend(name);
                     both_ways(FAR * mechanism.characteristic_length())
                 }
             };
-            self.sides.push(bound / Interval::point(scale));
             let limited = joints.get(j).is_some_and(|joint| joint.limits.is_some());
-            self.cut
-                .push(bounds[j].is_none() || limited && periods[j].is_none());
-            self.periods.push(periods[j]);
-            self.names.push(names[j].clone());
+            let cut = bounds[j].is_none() || limited && periods[j].is_none();
+            space.sides.push(bound / Interval::point(scale));
+            space.cut.push(cut);
+            space.periods.push(periods[j]);
+            space.names.push(names[j].take());
         }
-        Ok(())
+        Ok(space)
     }
 
     /// The variables of a configuration.
@@ -246,32 +230,18 @@ impl Space {
             .collect()
     }
 
-    fn named(&self, sides: &Sides) -> Vec<Range> {
-        let scaled = sides
-            .iter()
-            .zip(self.variables.enclosure.scales())
-            .zip(&self.names);
-        let ranges = scaled.filter_map(|((side, scale), name)| {
-            let (name, unit) = name.clone()?;
+    /// The sides of chosen unknowns that have a name.
+    fn named(&self, sides: &Sides, chosen: impl Fn(usize) -> bool) -> Vec<Range> {
+        let scales = self.variables.enclosure.scales();
+        let ranges = (0..sides.len()).filter(|&i| chosen(i)).filter_map(|i| {
+            let (name, unit) = self.names[i].clone()?;
             Some(Range {
                 name,
                 unit,
-                low: side.low * scale,
-                high: side.high * scale,
+                low: sides[i].low * scales[i],
+                high: sides[i].high * scales[i],
             })
         });
-        ranges.collect()
-    }
-
-    /// Where assemblies are sought of joints that may go beyond.
-    fn ranges(&self) -> Vec<Range> {
-        let mut all = self.named(&self.sides).into_iter();
-        let named = self
-            .names
-            .iter()
-            .zip(&self.cut)
-            .filter(|(name, _)| name.is_some());
-        let ranges = named.filter_map(|(_, cut)| all.next().filter(|_| *cut));
         ranges.collect()
     }
 }
