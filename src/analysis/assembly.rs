@@ -345,11 +345,6 @@ impl Reporter<'_> {
         }
     }
 
-    fn joint_names(&self, joints: &[usize]) -> Vec<String> {
-        let all = self.mechanism.joints();
-        joints.iter().map(|&i| all[i].name.clone()).collect()
-    }
-
     /// Angles that were solved for by the turn that is within their limits, if one is.
     fn by_limits(&self, mut at: Configuration<f64>) -> Configuration<f64> {
         let held = &self.search.held().joints;
@@ -360,19 +355,17 @@ impl Reporter<'_> {
     }
 
     fn assembled(&self, attempt: Attempt, freedoms: &Freedoms) -> AssemblyReport {
-        let outside: Vec<usize> = (self.mechanism.outside_limits(&attempt.at.joints)).collect();
-        let idle = if freedoms.are_local(self.mechanism, &attempt.at) {
-            freedoms.motions.len()
-        } else {
-            0
-        };
         if let Some(left) = &self.left {
-            return self.with_freedoms(attempt, freedoms, &outside, left);
+            return self.with_freedoms(attempt, freedoms, left);
         }
+        let idle = match freedoms.are_local(self.mechanism, &attempt.at) {
+            true => freedoms.motions.len(),
+            false => 0,
+        };
         let outcome = if freedoms.motions.len() > idle {
             singular::blame(self.mechanism, self.search.held(), &attempt.at, freedoms)
         } else {
-            self.converged(&outside)
+            self.converged(&attempt.at)
         };
         let mut report = self.report(attempt, outcome, freedoms.condition());
         if idle > 0 {
@@ -385,27 +378,23 @@ impl Reporter<'_> {
         report
     }
 
-    fn converged(&self, outside: &[usize]) -> Outcome {
-        match outside.is_empty() {
+    fn converged(&self, at: &Configuration<f64>) -> Outcome {
+        let outside = self.mechanism.outside_limits(&at.joints);
+        let names = outside.map(|joint| self.mechanism.joints()[joint].name.clone());
+        let joints: Vec<String> = names.collect();
+        match joints.is_empty() {
             true => Outcome::Converged,
-            false => Outcome::ConvergedOutsideLimits {
-                joints: self.joint_names(outside),
-            },
+            false => Outcome::ConvergedOutsideLimits { joints },
         }
     }
 
     /// Where freedoms are left, they are no singularity.
-    fn with_freedoms(
-        &self,
-        attempt: Attempt,
-        freedoms: &Freedoms,
-        outside: &[usize],
-        left: &Left,
-    ) -> AssemblyReport {
+    fn with_freedoms(&self, attempt: Attempt, freedoms: &Freedoms, left: &Left) -> AssemblyReport {
         let mut near = Neighbourhood::holding(self.mechanism, self.search.held());
         let residual = near.residual(&attempt.at);
         let tangent = near.tangent(attempt.at.clone());
         let condition = freedoms.condition_of_determined();
+        let outcome = self.converged(&attempt.at);
         let mut report = AssemblyReport {
             residual,
             condition,
@@ -415,7 +404,7 @@ impl Reporter<'_> {
                 singular: tangent.motions.len().saturating_sub(left.freedoms),
                 ..left.clone()
             }),
-            ..self.report(attempt, self.converged(outside), condition)
+            ..self.report(attempt, outcome, condition)
         };
         report.warnings.extend(report.warning());
         report
