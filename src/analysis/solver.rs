@@ -64,17 +64,14 @@ pub fn solver(
     );
     let (written, operations) = record(sample, || plan.write(frames));
     let written = written?;
-    let component = |variable: &Variable, value: &f64| Component {
-        name: variable.name(mechanism),
-        unit: variable.unit(mechanism),
-        value: *value,
-    };
     let components = |variables: &[Variable], values: &[f64]| -> Vec<Component> {
-        variables
-            .iter()
-            .zip(values)
-            .map(|(v, x)| component(v, x))
-            .collect()
+        let all = variables.iter().zip(values);
+        all.map(|(variable, &value)| Component {
+            name: variable.name(mechanism),
+            unit: variable.unit(mechanism),
+            value,
+        })
+        .collect()
     };
     Ok(Solver {
         mechanism: mechanism.name().into(),
@@ -100,7 +97,7 @@ enum Variable {
 }
 
 impl Variable {
-    fn of(self, at: &Configuration<f64>) -> f64 {
+    fn of<T: Number>(self, at: &Configuration<T>) -> T {
         match self {
             Variable::Held(coordinate) => coordinate.of(at),
             Variable::Joint(joint) => at.joints[joint],
@@ -153,11 +150,9 @@ impl<'a> Plan<'a> {
             }
         }
         for (platform, part) in held.platforms.iter().enumerate() {
-            let given = question.held_values(platform);
-            let given = given
-                .iter()
-                .map(|(c, _)| Variable::Held(Coordinate::Pose(platform, *c)));
-            inputs.extend(given);
+            for (c, _) in question.held_values(platform) {
+                inputs.push(Variable::Held(Coordinate::Pose(platform, c)));
+            }
             if *part != HeldPlatform::Pose {
                 state.extend((0..4).map(|i| Variable::Orientation(platform, i)));
                 state.extend((0..3).map(|i| Variable::Position(platform, i)));
@@ -202,30 +197,27 @@ impl<'a> Plan<'a> {
                 }
             }
         }
-        let joints = self
-            .held
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(joint, held)| match held {
-                true => value(Variable::Held(Coordinate::Joint(joint))),
-                false => value(Variable::Joint(joint)),
-            });
+        let joints = self.held.joints.iter().enumerate();
+        let joints = joints.map(|(joint, held)| match held {
+            true => value(Variable::Held(Coordinate::Joint(joint))),
+            false => value(Variable::Joint(joint)),
+        });
         let platforms = holding.platforms.iter().enumerate();
         let platforms = platforms.map(|(platform, part)| match part {
-            HeldPlatform::Pose => PlatformPose {
-                orientation: angles(platform).quaternion(),
-                position: Vector3(
-                    [PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
-                        .map(|c| held(platform, c)),
-                ),
-            },
-            _ => PlatformPose {
-                orientation: Quaternion(
-                    [0, 1, 2, 3].map(|i| value(Variable::Orientation(platform, i))),
-                ),
-                position: Vector3([0, 1, 2].map(|i| value(Variable::Position(platform, i)))),
-            },
+            HeldPlatform::Pose => {
+                let [x, y, z, ..] = PoseCoordinate::ALL;
+                PlatformPose {
+                    orientation: angles(platform).quaternion(),
+                    position: Vector3([x, y, z].map(|c| held(platform, c))),
+                }
+            }
+            _ => {
+                let q = [0, 1, 2, 3].map(|i| value(Variable::Orientation(platform, i)));
+                PlatformPose {
+                    orientation: Quaternion(q),
+                    position: Vector3([0, 1, 2].map(|i| value(Variable::Position(platform, i)))),
+                }
+            }
         });
         let at = Configuration {
             joints: joints.collect(),
@@ -233,20 +225,6 @@ impl<'a> Plan<'a> {
         };
         let dimensions = self.mechanism.dimensions().map(T::from_f64);
         (System::new(&dimensions, &holding), at)
-    }
-
-    /// The state of a configuration.
-    fn state_of(&self, at: &Configuration<Recorded>) -> Vec<Place> {
-        let value = |variable: &Variable| match *variable {
-            Variable::Joint(joint) => at.joints[joint],
-            Variable::Orientation(platform, i) => at.platforms[platform].orientation.0[i],
-            Variable::Position(platform, i) => at.platforms[platform].position.0[i],
-            Variable::Held(_) => unreachable!("what is held is no state"),
-        };
-        self.state
-            .iter()
-            .map(|variable| value(variable).place())
-            .collect()
     }
 
     /// Writes everything; names, values and operations are filled in afterwards.
@@ -264,12 +242,9 @@ impl<'a> Plan<'a> {
         let open: Vec<usize> = (0..rows)
             .filter(|&row| residual[row].constant() != Some(0.0))
             .collect();
+        let entry = |row: usize, column: usize| jacobian[column * rows + row];
         let matrix: Vec<Vec<Recorded>> = (open.iter())
-            .map(|&row| {
-                (0..unknowns)
-                    .map(|column| jacobian[column * rows + row])
-                    .collect()
-            })
+            .map(|&row| (0..unknowns).map(|column| entry(row, column)).collect())
             .collect();
         let of_inputs: Vec<Vec<Recorded>> = (0..given)
             .map(|input| {
@@ -305,7 +280,9 @@ impl<'a> Plan<'a> {
                 .map(|pivot| pivot.unsigned().place())
                 .collect(),
             step: places(&negated[0]),
-            moved: self.state_of(&moved),
+            moved: (self.state.iter())
+                .map(|variable| variable.of(&moved).place())
+                .collect(),
             frames: frames.collect(),
             ..Solver::default()
         })
@@ -317,11 +294,8 @@ impl<'a> Plan<'a> {
         let (system, at) = self.posed(&inputs, &state);
         let mut work = system.work();
         system.residual(&at, &mut work);
-        system
-            .residual_of(&work)
-            .iter()
-            .map(|row| row.slope)
-            .collect()
+        let rows = system.residual_of(&work).iter();
+        rows.map(|row| row.slope).collect()
     }
 
     /// The pose of a frame and its twists for unit rates of the inputs, from the rates of the unknowns.
@@ -333,10 +307,8 @@ impl<'a> Plan<'a> {
         (inputs, state): (&[Recorded], &[Recorded]),
         rates: &[Vec<Recorded>],
     ) -> FrameProgram {
-        let dimensions = self
-            .mechanism
-            .dimensions()
-            .map(|x| Dual::constant(Recorded::from_f64(x)));
+        let dimensions = self.mechanism.dimensions();
+        let dimensions = dimensions.map(|x| Dual::constant(Recorded::from_f64(x)));
         let kinematics = Kinematics::new(&dimensions, [frame]);
         let mut placement = kinematics.placement();
         let mut pose = Vec::new();
@@ -362,9 +334,8 @@ impl<'a> Plan<'a> {
                 }
             }
             kinematics.place(&at, &mut placement);
-            let placed = kinematics
-                .pose(frame, &placement)
-                .expect("the plan has the frame");
+            let placed = kinematics.pose(frame, &placement);
+            let placed = placed.expect("the plan has the frame");
             let axes = placed.rotation.0;
             // ω = ½ Σ aᵢ × ȧᵢ over the axes aᵢ of the frame
             let mut omega = Vector3::zero();
@@ -373,13 +344,8 @@ impl<'a> Plan<'a> {
                 omega += a.cross(&rate).scaled(0.5);
             }
             let velocity = placed.position.map(|x| x.slope);
-            twists.push(
-                [velocity.0, omega.0]
-                    .concat()
-                    .iter()
-                    .map(|x| x.place())
-                    .collect(),
-            );
+            let twist = [velocity.0, omega.0].concat();
+            twists.push(twist.iter().map(|x| x.place()).collect());
             pose = (axes.iter().chain([&placed.position]))
                 .flat_map(|column| column.0.map(|x| x.value.place()))
                 .collect();

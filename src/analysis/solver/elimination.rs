@@ -66,11 +66,7 @@ fn chosen(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Option
         if largest < LEAST {
             continue;
         }
-        let beside = rows
-            .iter()
-            .filter(|&&row| filled(matrix[row][column]))
-            .count()
-            - 1;
+        let beside = rows.iter().filter(|&&r| filled(matrix[r][column])).count() - 1;
         for &row in rows {
             let entry = matrix[row][column];
             let size = entry.real().abs();

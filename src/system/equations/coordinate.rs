@@ -5,6 +5,7 @@ use super::layout::Unknown;
 use crate::algebra::Measure;
 use crate::geometry::{Axis, Pose};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
+use crate::number::Number;
 
 /// A coordinate that can be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,11 +74,11 @@ impl Coordinate {
     }
 
     /// Its value in a configuration, in m or rad.
-    pub fn of(self, at: &Configuration<f64>) -> f64 {
+    pub fn of<T: Number>(self, at: &Configuration<T>) -> T {
         match self {
             Coordinate::Joint(joint) => at.joints[joint],
             Coordinate::Pose(platform, c) => c.of(&at.platforms[platform].pose()),
-            Coordinate::Turn(..) => 0.0,
+            Coordinate::Turn(..) => T::zero(),
         }
     }
 
