@@ -312,9 +312,7 @@ impl AssemblySolver {
             &held_home,
             Wanted {
                 certificates: false,
-                all_complex: false,
-                starts: true,
-                proof: None,
+                ..Wanted::default()
             },
             watch,
         );
@@ -327,12 +325,11 @@ impl AssemblySolver {
         let coordinates = &self.family.coordinates;
         let stays = coordinates.inputs_of(&home, &held_home) == coordinates.inputs_of(asked, held);
         if stays {
-            return Ok(Followed::Arrived(start));
+            return Ok(Ok(start));
         }
         if assembly.multiplicity != 1 {
-            return Ok(Followed::Meets {
-                multiplicity: assembly.multiplicity,
-            });
+            let multiplicity = assembly.multiplicity;
+            return Ok(Err(LostReason::MeetAtHome { multiplicity }));
         }
         follow::follow(
             &self.mechanism,

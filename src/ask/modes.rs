@@ -103,10 +103,12 @@ impl Question {
             check_count(&question).map_err(AskError::Question)?;
             let still = question.clone().with_spins_still();
             let solver = self.solver(&still, watch)?;
-            let followed = solver.follow(mode, &still.start(), &still.held(), watch);
-            match followed?.arrived(&self.mechanism, mode) {
+            match solver.follow(mode, &still.start(), &still.held(), watch)? {
                 Ok(at) => question = question.near(&at),
-                Err(lost) => return Ok(Solved::Lost(lost)),
+                Err(reason) => {
+                    let lost = LostMode::new(&self.mechanism, mode, reason);
+                    return Ok(Solved::Lost(Box::new(lost)));
+                }
             }
             // another start could end in another mode
             settings.restarts = 0;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use linkwork::analysis::assemblies::{
-    AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Followed, Wanted,
+    AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Followed, LostReason, Wanted,
 };
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::description::Description;
@@ -591,10 +591,9 @@ fn the_place_where_a_mode_ends_is_known_to_the_last_digits() {
     let (a, b, c) = (dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - 3.24);
     let part = (-b + (b * b - a * c).sqrt()) / a;
     for mode in [1, 2] {
-        let Followed::Fold(fold) = followed(&question, mode) else {
+        let Err(LostReason::Ceases(fold)) = followed(&question, mode) else {
             panic!("mode {mode} ends");
         };
-        assert!(fold.turns_back);
         assert!(
             (fold.fraction - part).abs() < 1e-13,
             "{} {part}",
@@ -620,7 +619,7 @@ fn no_mode_goes_on_beyond_its_fold_through_what_does_not_close() {
     {
         let asked_for = format!("{}", 0.1 * f64::from(tenths));
         let question = asked(&linkage, &["theta1"], &[("phi1", &asked_for)]);
-        let Followed::Fold(fold) = followed(&question, mode) else {
+        let Err(LostReason::Ceases(fold)) = followed(&question, mode) else {
             panic!("mode {mode} ends before {asked_for}");
         };
         let phi = *fold.inputs.get("phi1").unwrap();
@@ -628,7 +627,7 @@ fn no_mode_goes_on_beyond_its_fold_through_what_does_not_close() {
         assert!((phi - fold_at).abs() < 1e-12, "mode {mode}: {phi}");
     }
     let question = asked(&linkage, &["theta1"], &[("phi1", "2.3")]);
-    assert!(matches!(followed(&question, 1), Followed::Arrived(_)));
+    assert!(followed(&question, 1).is_ok());
 }
 
 /// Whatever roll and pitch are, the three planes of the legs leave the platform the yaw
@@ -647,15 +646,12 @@ fn single_angles_near_the_pitch_of_a_right_angle_lose_no_assembly() {
 fn a_mode_that_is_double_at_home_is_not_followed_along_a_branch_of_its_own_choice() {
     let linkage = with("parallelogram", &[]);
     let away = followed(&asked(&linkage, &[], &[("theta1", "30 deg")]), 1);
-    assert_eq!(away, Followed::Meets { multiplicity: 2 });
-    assert!(matches!(
-        followed(&asked(&linkage, &[], &[]), 1),
-        Followed::Arrived(_)
-    ));
+    assert_eq!(away, Err(LostReason::MeetAtHome { multiplicity: 2 }));
+    assert!(followed(&asked(&linkage, &[], &[]), 1).is_ok());
     // a mode by itself is followed
     let linkage = with("four_bar", &[]);
     let away = followed(&asked(&linkage, &[], &[("theta1", "30 deg")]), 1);
-    assert!(matches!(away, Followed::Arrived(_)));
+    assert!(away.is_ok());
 }
 
 /// The wrist's centre reaches √(d3² + (a2 + √(a3² + d4²))²) from the shoulder, and the wrist then turns

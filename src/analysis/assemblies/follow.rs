@@ -12,20 +12,8 @@ use crate::number::Number;
 use crate::solve::{Arrival, Progress, Stage, Stages, Tracker, Watch};
 use crate::system::{Held, System};
 
-/// Where a mode went when its inputs changed.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Followed {
-    /// It is assembled at the target inputs.
-    Arrived(Configuration<f64>),
-    /// It ceased to exist on the way: there it meets another mode, and beyond neither is real.
-    Fold(Fold),
-    /// Solutions meet there already where it starts, and its number does not tell which of them to
-    /// follow.
-    Meets {
-        /// How many meet: 0 if it is one of infinitely many.
-        multiplicity: usize,
-    },
-}
+/// The configuration at the target inputs, or why the mode was not followed to them.
+pub type Followed = Result<Configuration<f64>, LostReason>;
 
 /// Where a mode ceases to exist.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,28 +61,15 @@ pub enum LostReason {
     },
 }
 
-impl Followed {
-    /// The configuration at the target inputs, or why there is none.
-    ///
-    /// # Errors
-    /// If the mode was not followed to the inputs.
-    pub fn arrived(
-        self,
-        mechanism: &Mechanism,
-        mode: usize,
-    ) -> Result<Configuration<f64>, Box<LostMode>> {
-        let reason = match self {
-            Followed::Arrived(at) => return Ok(at),
-            Followed::Fold(fold) if fold.turns_back => LostReason::Ceases(fold),
-            Followed::Fold(fold) => LostReason::MeetsOthers(fold),
-            Followed::Meets { multiplicity } => LostReason::MeetAtHome { multiplicity },
-        };
-        Err(Box::new(LostMode {
+impl LostMode {
+    /// With the names that belong to a reason.
+    pub fn new(mechanism: &Mechanism, mode: usize, reason: LostReason) -> Self {
+        LostMode {
             mechanism: mechanism.name().into(),
             variables: Variable::joints(mechanism),
             mode,
             reason,
-        }))
+        }
     }
 }
 
@@ -163,7 +138,7 @@ pub(super) fn follow(
         for (j, value) in point.joints.iter_mut().enumerate() {
             *value = mechanism.by_limits(j, *value);
         }
-        return Ok(Followed::Arrived(point));
+        return Ok(Ok(point));
     }
     let mut last = c.placed(&x, from.0);
     for (input, value) in c.split(&inputs) {
@@ -171,13 +146,16 @@ pub(super) fn follow(
             last.joints[j] = C::from_f64(value[0]);
         }
     }
-    Ok(Followed::Fold(Fold {
+    let names = input_names(mechanism, family).into_iter();
+    let fold = Fold {
         fraction: done,
-        inputs: (input_names(mechanism, family).into_iter())
-            .zip(inputs)
-            .collect(),
+        inputs: names.zip(inputs).collect(),
         joints: named_joints(mechanism, &last.map(|z| z.re)),
         turns_back,
+    };
+    Ok(Err(match turns_back {
+        true => LostReason::Ceases(fold),
+        false => LostReason::MeetsOthers(fold),
     }))
 }
 
