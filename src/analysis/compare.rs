@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::EvaluationError;
 use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
+use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{FormulaNames, Named};
 use formula::{Values, identity};
@@ -277,7 +278,11 @@ impl<'a> Checked<'a> {
                 let pose = mechanism.transform(*relative_to, *of, at);
                 let compared = entries.iter().map(|(entry, formula)| {
                     let given = values.of(formula)?;
-                    let (found, natural) = entry_of(*entry, &pose, mechanism);
+                    let found = entry.of(&pose);
+                    let natural = match entry {
+                        MatrixEntry::Position(_) => mechanism.characteristic_length(),
+                        MatrixEntry::Rotation(..) => 1.0,
+                    };
                     let size = natural.max(given.abs()).max(found.abs());
                     Ok([given, found, size])
                 });
@@ -358,11 +363,13 @@ impl<'a> Checked<'a> {
     }
 }
 
-/// An entry of a pose and its natural size: the characteristic length, or 1.
-fn entry_of(entry: MatrixEntry, pose: &Pose<f64>, mechanism: &Mechanism) -> (f64, f64) {
-    match entry {
-        MatrixEntry::Position(i) => (pose.position.0[i], mechanism.characteristic_length()),
-        MatrixEntry::Rotation(i, j) => (pose.rotation.0[j].0[i], 1.0),
+impl MatrixEntry {
+    /// The entry of a pose.
+    fn of<T: Number>(self, pose: &Pose<T>) -> T {
+        match self {
+            MatrixEntry::Position(i) => pose.position.0[i],
+            MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
+        }
     }
 }
 

@@ -152,14 +152,10 @@ fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof
                 entries,
             } => {
                 let pose = setting.formal.transform(*relative_to, *of);
-                let proved = entries.iter().map(|(entry, formula)| {
-                    let chains = match *entry {
-                        MatrixEntry::Position(i) => pose.position.0[i],
-                        MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
-                    };
-                    setting.compared(formula, chains)
-                });
-                proved.collect()
+                let proved = |(entry, formula): &(MatrixEntry, _)| {
+                    setting.compared(formula, entry.of(&pose))
+                };
+                entries.iter().map(proved).collect()
             }
             Given::Identities(identities) => {
                 let equations = setting.equations();
