@@ -13,6 +13,9 @@ use crate::number::Number;
 
 pub use report::*;
 
+/// Terms of the longest formula that is printed.
+const MOST_TERMS: usize = 400;
+
 /// Which formulas are made, and how much work they may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulasSettings {
@@ -22,8 +25,6 @@ pub struct FormulasSettings {
     pub numbers: Vec<String>,
     /// Products of two terms made at most for each formula; one that takes more is listed as left out.
     pub most_products: usize,
-    /// Terms of the longest formula that is printed.
-    pub most_terms: usize,
 }
 
 impl Default for FormulasSettings {
@@ -32,7 +33,6 @@ impl Default for FormulasSettings {
             transform: None,
             numbers: vec![],
             most_products: 40_000,
-            most_terms: 400,
         }
     }
 }
@@ -114,7 +114,7 @@ impl Writer<'_> {
         let formulas = values.iter().map(|value| value.formula());
         let formulas: Vec<_> = formulas.collect::<Option<_>>()?;
         let sums: Vec<&Trigonometric> = formulas.iter().map(|formula| &**formula).collect();
-        if sums.iter().any(|sum| sum.len() > self.settings.most_terms) {
+        if sums.iter().any(|sum| sum.len() > MOST_TERMS) {
             return None;
         }
         let letters = Letters(self.mechanism);

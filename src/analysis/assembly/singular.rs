@@ -26,14 +26,10 @@ pub(super) fn blame(
     let (mut free, mut inputs) = (Vec::new(), Vec::new());
     let columns = jacobian.chunks_exact(rows.max(1));
     for (unknown, column) in system.unknowns().iter().zip(columns) {
-        let is_held = match *unknown {
-            Unknown::Joint(joint) => held.joints[joint],
-            Unknown::Twist(platform, _) => held.platforms[platform] == HeldPlatform::Pose,
-        };
-        match (is_held, *unknown) {
-            (false, _) => free.push(column),
-            (true, Unknown::Joint(joint)) => inputs.push((joint, column)),
-            (true, Unknown::Twist(..)) => {}
+        match *unknown {
+            Unknown::Joint(joint) if held.joints[joint] => inputs.push((joint, column)),
+            Unknown::Twist(platform, _) if held.platforms[platform] == HeldPlatform::Pose => {}
+            _ => free.push(column),
         }
     }
     let transposed: Vec<f64> = (0..rows)
@@ -41,16 +37,14 @@ pub(super) fn blame(
         .collect();
     let mut strongest = (0.0, 0, Vec::new());
     for w in Svd::of(free.len(), rows, &transposed).null_space() {
-        let drives = inputs
-            .iter()
-            .map(|(joint, column)| (*joint, dot(column, w).abs()));
-        let drives: Vec<(usize, f64)> = drives.collect();
+        let drives: Vec<(usize, f64)> = (inputs.iter())
+            .map(|(joint, column)| (*joint, dot(column, w).abs()))
+            .collect();
         let most = drives.iter().fold(0.0, |m: f64, (_, d)| m.max(*d));
         if most >= strongest.0 {
-            let shares = system
-                .closure_rows()
-                .map(|range| dot(&w[range.clone()], &w[range]));
-            let shares: Vec<f64> = shares.collect();
+            let shares: Vec<f64> = (system.closure_rows())
+                .map(|range| dot(&w[range.clone()], &w[range]))
+                .collect();
             let more = |best, i| if shares[i] > shares[best] { i } else { best };
             let closure = (0..shares.len()).fold(0, more);
             let powerless = (drives.iter()).filter(|(_, d)| most > STILL && *d > 0.1 * most);
