@@ -43,8 +43,6 @@ pub struct AssembliesSettings {
     /// Loops in a row that must bring nothing new, and lose no path, before the search ends; half as
     /// many again where a known bound is not reached, one where it is.
     pub quiet_loops: usize,
-    /// Seeds after which a search that found nothing gives up.
-    pub hopeless_seeds: usize,
     /// Seeds never exceeded.
     pub most_seeds: usize,
     /// Loops never exceeded.
@@ -57,7 +55,6 @@ impl Default for AssembliesSettings {
             seed: 1,
             quiet_seeds: 150,
             quiet_loops: 20,
-            hopeless_seeds: 600,
             most_seeds: 5000,
             most_loops: 200,
         }
@@ -147,18 +144,17 @@ impl AssemblySolver {
         watch: &Watch,
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        let bound = family::known_bound(mechanism, &family).map(|b| b.count);
-        let generic = search::search(
-            &family,
-            question(mechanism, &family),
-            bound,
-            settings,
-            watch,
-        );
-        let generic = generic.ok_or(AssembliesError::NoValue)?;
+        let bound = family::known_bound(mechanism, &family);
+        let count = bound.as_ref().map(|bound| bound.count);
+        let question = question(mechanism, &family);
+        let generic = search::search(&family, question, count, settings, watch);
         Ok(AssemblySolver {
+            mechanism: mechanism.clone(),
+            held: held.clone(),
+            family,
+            bound,
+            generic: generic.ok_or(AssembliesError::NoValue)?,
             interrupted: watch.is_stopped(),
-            ..Self::with(mechanism, held, family, generic)
         })
     }
 
@@ -177,26 +173,17 @@ impl AssemblySolver {
             && (stored.legwise.iter())
                 .all(|solutions_at_pose| solutions_at_pose.fits(&family.coordinates));
         let asked = stored.question == question(mechanism, &family);
-        match sizes && asked && stored.solves(&family) {
-            true => Ok(Self::with(mechanism, held, family, stored)),
-            false => Err(AssembliesError::StoredForAnotherQuestion),
+        if !(sizes && asked && stored.solves(&family)) {
+            return Err(AssembliesError::StoredForAnotherQuestion);
         }
-    }
-
-    fn with(
-        mechanism: &Mechanism,
-        held: &Held<f64>,
-        family: Family,
-        generic: GenericSolutions,
-    ) -> Self {
-        AssemblySolver {
+        Ok(AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
             bound: family::known_bound(mechanism, &family),
             family,
-            generic,
+            generic: stored,
             interrupted: false,
-        }
+        })
     }
 
     /// Whether the search for generic solutions was stopped before it was done.
@@ -256,16 +243,14 @@ impl AssemblySolver {
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
         let member = self.member(asked, held);
-        let ends = match self.generic.legwise.is_empty() {
-            true => None,
-            false => track::track_to_target(
-                &self.family,
-                &self.generic.member(),
-                &member,
-                &self.generic.legwise,
-                watch,
-            ),
-        };
+        let generic = &self.generic;
+        let ends = track::track_to_target(
+            &self.family,
+            &generic.member(),
+            &member,
+            &generic.legwise,
+            watch,
+        );
         let near = Neighbourhood::holding(&self.mechanism, held);
         let starts = |which| search::solved(&self.family, &near, asked, which, watch);
         let mut report = question.answer(

@@ -15,6 +15,9 @@ use crate::system::{
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 
+/// A condition number above this is worth a warning: four digits of the joint values are lost.
+const POOR_CONDITION: f64 = 1e4;
+
 /// How to look for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssemblySettings {
@@ -24,8 +27,6 @@ pub struct AssemblySettings {
     pub restarts: usize,
     /// Seed of the random starts.
     pub seed: u64,
-    /// A condition number above this is worth a warning: four digits of the joint values are lost.
-    pub poor_condition: f64,
 }
 
 impl Default for AssemblySettings {
@@ -34,7 +35,6 @@ impl Default for AssemblySettings {
             newton: Newton::default(),
             restarts: 40,
             seed: 1,
-            poor_condition: 1e4,
         }
     }
 }
@@ -240,7 +240,7 @@ pub fn assemble(
     let reporter = Reporter {
         question,
         mechanism: question.mechanism(),
-        settings,
+        seed: settings.seed,
         search,
         count,
         left,
@@ -274,7 +274,7 @@ fn nearest(question: &Question, search: &Search, found: Configuration<f64>) -> C
 struct Reporter<'a> {
     question: &'a Question<'a>,
     mechanism: &'a Mechanism,
-    settings: &'a AssemblySettings,
+    seed: u64,
     search: Search<'a>,
     count: Count,
     left: Option<Left>,
@@ -305,13 +305,12 @@ impl Reporter<'_> {
             frames.map(|(part, pose)| (part.name.clone(), FrameRecord::of(&(ground * *pose))));
         AssemblyReport {
             mechanism: mechanism.name().into(),
-            near_singular: attempt.report.stop == Stop::Solved
-                && condition > self.settings.poor_condition,
+            near_singular: attempt.report.stop == Stop::Solved && condition > POOR_CONDITION,
             condition,
             outcome,
             steps: attempt.report.steps,
             restarts: self.restarts,
-            seed: self.settings.seed,
+            seed: self.seed,
             residual: attempt.report.size.largest,
             mobility: self.count.mobility,
             idle: 0,
@@ -371,7 +370,7 @@ impl Reporter<'_> {
         if idle > 0 {
             // unknowns that nothing determines have no part in the conditioning of the others
             report.condition = freedoms.condition_of_determined();
-            report.near_singular = report.condition > self.settings.poor_condition;
+            report.near_singular = report.condition > POOR_CONDITION;
             report.idle = idle;
         }
         report.warnings.extend(report.warning());
@@ -398,7 +397,7 @@ impl Reporter<'_> {
         let mut report = AssemblyReport {
             residual,
             condition,
-            near_singular: condition > self.settings.poor_condition,
+            near_singular: condition > POOR_CONDITION,
             idle: tangent.idle.len(),
             left: Some(Left {
                 singular: tangent.motions.len().saturating_sub(left.freedoms),

@@ -334,8 +334,6 @@ fn turns_to_repeat(mechanism: &Mechanism, joint: usize) -> Option<f64> {
     let rows = rows.flat_map(|chain| &chain.rows);
     let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
     let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();
-    let turns = (1..=MOST).map(f64::from);
-    turns
-        .into_iter()
-        .find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
+    let mut turns = (1..=MOST).map(f64::from);
+    turns.find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
 }

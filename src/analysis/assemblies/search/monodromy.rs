@@ -114,6 +114,9 @@ fn search_one(
 /// Seeds started at once at the generic member, and at most at a corner of a loop.
 const BATCH: usize = 32;
 
+/// Seeds after which a search that found nothing gives up.
+const HOPELESS: usize = 600;
+
 /// From so many known solutions on it is asked whether their number is finite: more than the platforms and single
 /// loops that are studied have.
 const DOUBTFUL: usize = 200;
@@ -123,9 +126,7 @@ impl Search<'_> {
     fn run(&mut self) -> Option<bool> {
         let still = self.family.homotopy(&self.base, &self.base)?;
         while self.found.legwise.is_empty() {
-            if self.found.seeds >= self.settings.hopeless_seeds
-                || self.found.quiet_seeds >= self.settings.quiet_seeds
-            {
+            if self.found.seeds >= HOPELESS || self.found.quiet_seeds >= self.settings.quiet_seeds {
                 return Some(false);
             }
             if self.is_stopped_in_seeds() {
