@@ -14,8 +14,7 @@ use crate::algebra::{Affine, Node, SiUnit};
 use crate::description::AxisKind;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
-    Chain, FixedStep, Formula, Frame, Given, JointKind, Mechanism, NamedClosure, Platform, Row,
-    Symbol,
+    Chain, FixedStep, Formula, Given, JointKind, Mechanism, NamedClosure, Platform, Row, Symbol,
 };
 
 /// Says what a mechanism consists of.
@@ -78,10 +77,8 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
 
 fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
     let rows = mechanism.chains().iter().flat_map(|chain| &chain.rows);
-    let lengths = mechanism
-        .closures()
-        .iter()
-        .filter_map(|c| c.length.as_ref());
+    let closures = mechanism.closures().iter();
+    let lengths = closures.filter_map(|closure| closure.length.as_ref());
     let entries = rows.flat_map(|row| [&row.d, &row.theta]).chain(lengths);
     let used: HashSet<Symbol> = entries
         .flat_map(|entry| entry.terms.iter().map(|(symbol, _)| *symbol))
@@ -168,9 +165,7 @@ fn closure(mechanism: &Mechanism, closure: &NamedClosure) -> ClosureOverview {
     ClosureOverview {
         name: closure.name.clone(),
         kind: closure.kind,
-        frames: closure
-            .frames
-            .map(|frame: Frame| mechanism.frame_name(frame)),
+        frames: closure.frames.map(|frame| mechanism.frame_name(frame)),
         length: (closure.length.as_ref()).map(|length| written_affine(mechanism, length)),
         equations: closure.kind.equations(),
     }

@@ -52,10 +52,8 @@ pub(super) fn count(mechanism: &Mechanism) -> MobilityCount {
         }
     }
     for extension in mechanism.dimensions().closures.iter().map(|c| &c.extension) {
-        extension
-            .0
-            .iter()
-            .for_each(|&(joint, _)| used[joint] = true);
+        let joints = extension.0.iter();
+        joints.for_each(|&(joint, _)| used[joint] = true);
     }
     let variables = used.into_iter().filter(|&used| used).count();
     let closures = mechanism.closures().iter();

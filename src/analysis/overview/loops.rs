@@ -41,39 +41,29 @@ enum Link {
 pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
     let bodies = mechanism.bodies();
     let index = |body: Body| bodies.binary_search(&body).unwrap_or(0);
-    let mut tree: Vec<Vec<(usize, Link)>> = vec![Vec::new(); bodies.len()];
-    let join = |tree: &mut Vec<Vec<(usize, Link)>>, a: usize, b: usize, link: Link| {
-        tree[a].push((b, link));
-        tree[b].push((a, link));
+    let mut forest = Forest {
+        links: vec![Vec::new(); bodies.len()],
+        joined: (0..bodies.len()).collect(),
     };
     for (chain, part) in mechanism.chains().iter().enumerate() {
         let mut below = index(mechanism.body(part.on));
         for (i, row) in part.rows.iter().enumerate() {
             if !row.joints().is_empty() {
                 let body = index(mechanism.body(Frame::Link { chain, row: i + 1 }));
-                join(&mut tree, below, body, Link::Chain(chain));
+                forest.join(below, body, Link::Chain(chain));
                 below = body;
             }
         }
     }
-    let mut joined = Joined((0..bodies.len()).collect());
-    for (body, links) in tree.iter().enumerate() {
-        links
-            .iter()
-            .for_each(|&(other, _)| joined.join(body, other));
-    }
     let mut closing = Vec::new();
     for (i, closure) in mechanism.closures().iter().enumerate() {
         let [from, to] = closure.frames.map(|frame| index(mechanism.body(frame)));
-        match joined.root(from) == joined.root(to) {
+        match forest.root(from) == forest.root(to) {
             true => closing.push((i, from, to)),
-            false => {
-                join(&mut tree, from, to, Link::Closure(i));
-                joined.join(from, to);
-            }
+            false => forest.join(from, to, Link::Closure(i)),
         }
     }
-    let rooted = Rooted::new(&tree);
+    let rooted = Rooted::new(&forest.links);
     let loops = closing.into_iter().map(|(i, from, to)| {
         let mut way = rooted.way(from, to);
         way.push((to, Link::Closure(i)));
@@ -85,21 +75,27 @@ pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
     loops.collect()
 }
 
-/// Bodies that are joined, each with another one of the same tree, or itself.
-struct Joined(Vec<usize>);
+/// Bodies with the links that join them to trees.
+struct Forest {
+    links: Vec<Vec<(usize, Link)>>,
+    /// For each body another one of the same tree, or itself.
+    joined: Vec<usize>,
+}
 
-impl Joined {
+impl Forest {
     fn root(&mut self, mut body: usize) -> usize {
-        while self.0[body] != body {
-            self.0[body] = self.0[self.0[body]];
-            body = self.0[body];
+        while self.joined[body] != body {
+            self.joined[body] = self.joined[self.joined[body]];
+            body = self.joined[body];
         }
         body
     }
 
-    fn join(&mut self, a: usize, b: usize) {
+    fn join(&mut self, a: usize, b: usize, link: Link) {
+        self.links[a].push((b, link));
+        self.links[b].push((a, link));
         let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
+        self.joined[a.max(b)] = a.min(b);
     }
 }
 
