@@ -290,10 +290,8 @@ impl Reporter<'_> {
         let held = &self.search.held().joints;
         // of the coordinates of points those that are asked for
         let listed = |joint: &usize| held[*joint] || !mechanism.is_of_point(*joint);
-        let listed: Vec<usize> = (0..held.len()).filter(listed).collect();
-        let joints = listed
-            .iter()
-            .map(|&i| (i, &mechanism.joints()[i], at.joints[i]));
+        let joints = (0..held.len()).filter(listed);
+        let joints = joints.map(|i| (i, &mechanism.joints()[i], at.joints[i]));
         let platforms = mechanism.platforms().iter().zip(&at.platforms);
         let [own_chains, _] = mechanism.own_parts();
         let tips = (0..own_chains).map(|chain| Frame::Tip { chain });

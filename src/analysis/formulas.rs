@@ -7,7 +7,6 @@ mod report;
 use crate::algebra::{
     Budget, EvaluationError, Expression, Symbolic, Trigonometric, arrange, with_letters,
 };
-use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{ClosureKind, Formal, Frame, JointKind, Letters, Mechanism, Symbol};
 use crate::number::Number;
 
@@ -132,7 +131,8 @@ impl Writer<'_> {
         let names = [of, relative_to].map(|frame| self.mechanism.frame_name(frame));
         let entries = self.over_letters(|writer, formal| {
             let pose = formal.transform(relative_to, of);
-            writer.arranged(&entries(&pose))
+            let [x, y, z] = pose.rotation.rows();
+            writer.arranged(&[x, y, z, pose.position.0].concat())
         })?;
         let [of, relative_to] = names;
         let Some(entries) = entries else {
@@ -218,10 +218,8 @@ impl Writer<'_> {
 
     fn closure(&mut self, closure: usize) -> Result<(), EvaluationError> {
         let own = &self.mechanism.closures()[closure];
-        let carried = own
-            .frames
-            .iter()
-            .any(|frame| self.mechanism.carrier(*frame).is_some());
+        let carried = |frame: &Frame| self.mechanism.carrier(*frame).is_some();
+        let carried = own.frames.iter().any(carried);
         let same_axes = own.kind == ClosureKind::Rigid && carried;
         let found = self.over_letters(|writer, formal| {
             let mut found = formal.closure(closure);
@@ -230,13 +228,9 @@ impl Writer<'_> {
             }
             let zero = |value: &Symbolic| value.formula().is_some_and(|sum| sum.is_empty());
             let all = found.conditions.len();
-            let open: Vec<Symbolic> = found
-                .conditions
-                .into_iter()
-                .filter(|value| !zero(value))
-                .collect();
-            let equations = writer.arranged(&open);
-            let identically_zero = all - open.len();
+            found.conditions.retain(|value| !zero(value));
+            let equations = writer.arranged(&found.conditions);
+            let identically_zero = all - found.conditions.len();
             let distance = match own.kind {
                 ClosureKind::Distance => {
                     let gap = writer.arranged(&found.gap.0);
@@ -301,11 +295,4 @@ impl Writer<'_> {
         }
         self.report
     }
-}
-
-/// The rotation row by row, then the position.
-fn entries(pose: &Pose<Symbolic>) -> Vec<Symbolic> {
-    let rows = pose.rotation.rows();
-    let Vector3(position) = pose.position;
-    rows.into_iter().flatten().chain(position).collect()
 }

@@ -98,10 +98,6 @@ impl Span {
     }
 }
 
-fn is_platform(atom: &Atom, first: u32) -> bool {
-    matches!(atom, Atom::Symbol(symbol) if *symbol >= first)
-}
-
 /// The terms of the equations as factors: products of letters times a sine or cosine.
 fn factors(equations: &[Trigonometric]) -> Vec<Trigonometric> {
     let mut keys: BTreeSet<Key> = BTreeSet::new();
@@ -146,7 +142,7 @@ fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> 
     for (key, _) in equations.iter().flat_map(Trigonometric::terms) {
         let powers = key.powers.iter().cloned();
         let (own, others): (Powers, Powers) =
-            powers.partition(|(atom, _)| is_platform(atom, first));
+            powers.partition(|(atom, _)| matches!(atom, Atom::Symbol(symbol) if *symbol >= first));
         for (atom, _) in &own {
             if let Atom::Symbol(symbol) = atom {
                 platforms.insert((symbol - first) / 12);

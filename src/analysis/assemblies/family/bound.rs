@@ -77,10 +77,8 @@ impl<'a> Structure<'a> {
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
         let here = &mut way.here;
         let axes = here.system.axes(&here.at, &mut here.work);
-        let links = dimensions
-            .closures
-            .iter()
-            .zip(here.system.joints_of_closures());
+        let closures = dimensions.closures.iter();
+        let links = closures.zip(here.system.joints_of_closures());
         let small = SMALL * dimensions.characteristic_length;
         let links = links.zip(axes).map(|((closure, mut joints), axes)| {
             // a closure does not see a turn about the origin of its frame, or about the axis of that
@@ -119,9 +117,7 @@ impl<'a> Structure<'a> {
 
     fn turns(&self, joints: &[usize]) -> bool {
         let kind = |joint: &usize| self.mechanism.joints()[*joint].kind;
-        joints
-            .iter()
-            .all(|joint| kind(joint) == JointKind::Revolute)
+        (joints.iter()).all(|joint| kind(joint) == JointKind::Revolute)
     }
 
     /// Closures that can be closed one after another, each by two joints or one.
@@ -145,11 +141,9 @@ impl<'a> Structure<'a> {
                     ([], _) => Some(1),
                     ([_], ClosureKind::Distance) => Some(2),
                     ([_], _) if meets => Some(1),
-                    ([a, b], _) if meets => Some(if self.turns(&[*a]) || self.turns(&[*b]) {
-                        2
-                    } else {
-                        1
-                    }),
+                    ([a, b], _) if meets => {
+                        Some(1 + usize::from(self.turns(&[*a]) || self.turns(&[*b])))
+                    }
                     _ => None,
                 }
             };
@@ -184,11 +178,8 @@ impl<'a> Structure<'a> {
             turning.chain(fixed.map(|(_, z)| z)).collect::<Vec<_>>()
         };
         let all: Vec<Vector3<C>> = self.links.iter().flat_map(about).collect();
-        self.links
-            .iter()
-            .all(|link| link.kind == ClosureKind::Revolute)
-            && self.links.iter().all(|link| self.turns(&link.joints))
-            && all.windows(2).all(|pair| parallel(&pair[0], &pair[1]))
+        let turning = |link: &Link| link.kind == ClosureKind::Revolute && self.turns(&link.joints);
+        self.links.iter().all(turning) && all.windows(2).all(|pair| parallel(&pair[0], &pair[1]))
     }
 
     /// Two planar loops that only close together: the sextic coupler curve of a four-bar meets a
@@ -273,11 +264,8 @@ impl<'a> Structure<'a> {
         let to_platform =
             |link: &Link| on_platform(&link.frames[0]) != on_platform(&link.frames[1]);
         // two legs share no joint
-        let mut joints: Vec<usize> = self
-            .links
-            .iter()
-            .flat_map(|link| link.joints.clone())
-            .collect();
+        let joints = self.links.iter().flat_map(|link| &link.joints);
+        let mut joints: Vec<usize> = joints.copied().collect();
         joints.sort_unstable();
         let shared = joints.windows(2).any(|pair| pair[0] == pair[1]);
         if shared || !self.links.iter().all(to_platform) {
