@@ -209,9 +209,8 @@ impl Page {
             },
             Analysis::Assemblies => {
                 let report = asked.assemblies(Default::default(), watch)?;
-                let like = mechanism.home();
                 let states = report.assemblies.iter().map(|assembly| {
-                    let at = assembly.configuration(&like);
+                    let at = assembly.configuration();
                     json!({ "at": State::of(&at), "scene": Scene::of(mechanism, &at) })
                 });
                 answered(&report, &states.collect::<Vec<_>>())

@@ -262,7 +262,7 @@ impl AssemblySolver {
         );
         if let (Some(settings), false) = (&wanted.proof, report.interrupted) {
             let known = (report.assemblies.iter()).filter(|assembly| assembly.dimension == 0);
-            let known: Vec<_> = known.map(|a| (a.mode, a.configuration(asked))).collect();
+            let known: Vec<_> = known.map(|a| (a.mode, a.configuration())).collect();
             let proof = prove(&self.mechanism, (held, asked), &known, settings, watch);
             report.interrupted |= watch.is_stopped();
             report.proof = Some(proof);
@@ -306,7 +306,7 @@ impl AssemblySolver {
         }
         let found = modes.assemblies.iter().find(|a| a.mode == mode);
         let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
-        let start = assembly.configuration(&home);
+        let start = assembly.configuration();
         let coordinates = &self.family.coordinates;
         let stays = coordinates.inputs_of(&home, &held_home) == coordinates.inputs_of(asked, held);
         if stays {

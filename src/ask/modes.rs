@@ -143,14 +143,13 @@ impl Question {
         if report.interrupted {
             return Err(AskError::Interrupted);
         }
-        let like = question.start();
         let chosen = |number: usize| match self.mode {
             Mode::Number(mode) => number == mode,
             Mode::Nearest | Mode::All => true,
         };
         let modes: Modes = (report.assemblies.iter())
             .filter(|assembly| chosen(assembly.mode))
-            .map(|assembly| (Some(assembly.mode), assembly.configuration(&like)))
+            .map(|assembly| (Some(assembly.mode), assembly.configuration()))
             .collect();
         match (modes.is_empty(), self.mode) {
             (false, _) => Ok(modes),

@@ -6,7 +6,7 @@ use super::motions::Motions;
 use super::quantities::Metered;
 use super::ranges::still;
 use super::{AskError, Question, Role};
-use crate::analysis::assemblies::{AssemblySolver, Wanted};
+use crate::analysis::assemblies::{Assembly, AssemblySolver, Wanted};
 use crate::analysis::sweep::{
     CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, follow,
 };
@@ -309,7 +309,7 @@ fn seeds(
         let at = question.start();
         let report = solver.at_targets(&at, &question.held(), wanted, watch);
         let found = report.assemblies.iter();
-        seeds.extend(found.map(|assembly| assembly.configuration(&at)));
+        seeds.extend(found.map(Assembly::configuration));
     }
     seeds
 }

@@ -900,7 +900,7 @@ fn joint_values_are_given_by_the_turn_that_is_within_limits() {
         let report = answer(&question, 1);
         assert_eq!(report.real, 8, "{name}");
         for assembly in &report.assemblies {
-            let at = assembly.configuration(&mechanism.home());
+            let at = assembly.configuration();
             let gaps = Gap::of(&mechanism, &at);
             assert!(gaps.iter().all(|gap| gap.distance < 1e-9), "{name}");
             for ((joint, value), declared) in assembly.joints.0.iter().zip(mechanism.joints()) {

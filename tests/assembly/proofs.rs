@@ -108,7 +108,7 @@ fn without(mechanism: &Mechanism, withheld: usize) -> (Proof, Configuration<f64>
     let question = system::Question::new(mechanism);
     let (held, asked) = (question.held(), question.start());
     let mut known: Vec<_> = (report.assemblies.iter())
-        .map(|a| (a.mode, a.configuration(&asked)))
+        .map(|a| (a.mode, a.configuration()))
         .collect();
     let (_, missing) = known.remove(withheld);
     let settings = Pruning::default();

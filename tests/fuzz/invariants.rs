@@ -288,7 +288,6 @@ fn consistent(
     solved: Option<&(Configuration<f64>, bool)>,
 ) -> Broken {
     let (words, yes) = said(report);
-    let home = mechanism.home();
     hold!(
         report.real == report.assemblies.len(),
         "{} real, {} listed",
@@ -296,7 +295,7 @@ fn consistent(
         report.assemblies.len()
     );
     let points: Vec<Configuration<f64>> = (report.assemblies.iter())
-        .map(|a| a.configuration(&home))
+        .map(|a| a.configuration())
         .collect();
     for (i, at) in points.iter().enumerate() {
         let placed = Placed { mechanism, at };

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, PlatformPose};
 use crate::system::Gap;
 pub use crate::system::{Named, Unfit};
 
@@ -58,16 +58,15 @@ pub struct Assembly {
 
 impl Assembly {
     /// The assembly as a configuration.
-    pub fn configuration(&self, like: &Configuration<f64>) -> Configuration<f64> {
-        let mut at = like.clone();
-        for (value, (_, joint)) in at.joints.iter_mut().zip(&self.joints.0) {
-            *value = *joint;
+    pub fn configuration(&self) -> Configuration<f64> {
+        let platforms = self.platforms.values().map(|platform| PlatformPose {
+            orientation: Quaternion(platform.quaternion),
+            position: Vector3(platform.position),
+        });
+        Configuration {
+            joints: self.joints.values().copied().collect(),
+            platforms: platforms.collect(),
         }
-        for (pose, (_, platform)) in at.platforms.iter_mut().zip(&self.platforms.0) {
-            pose.orientation = Quaternion(platform.quaternion);
-            pose.position = Vector3(platform.position);
-        }
-        at
     }
 }
 
