@@ -97,7 +97,7 @@ pub(super) fn parts(value: &str) -> Vec<Part<'_>> {
 pub(super) fn trimmed(text: &str) -> &str {
     let mut lexemes = Lexemes::new(text);
     let Some(first) = lexemes.next() else {
-        return "";
+        return &text[..0];
     };
     let end = lexemes.last().map_or(first.end, |last| last.end);
     &text[first.start..end]
