@@ -44,6 +44,16 @@ pub struct Expression<N = String> {
     pub span: Range<usize>,
 }
 
+/// What is wrong with an expression, and where.
+#[derive(Debug, Clone, thiserror::Error, PartialEq)]
+#[error("{kind}")]
+pub struct ExpressionError<K> {
+    /// The smallest part that is wrong; empty at the end of a text.
+    pub span: Range<usize>,
+    /// What is wrong with it.
+    pub kind: K,
+}
+
 /// One node of the tree.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Node<N> {

@@ -1,21 +1,12 @@
 //! Expression → number.
 
-use std::ops::Range;
-
 use thiserror::Error;
 
-use super::{Expression, Function, Node, Operator};
+use super::{Expression, ExpressionError, Function, Node, Operator};
 use crate::number::Number;
 
 /// Why an expression has no value, and which part of it is the cause.
-#[derive(Debug, Clone, Error, PartialEq)]
-#[error("{kind}")]
-pub struct EvaluationError {
-    /// The smallest part that has no value.
-    pub span: Range<usize>,
-    /// Why it has none.
-    pub kind: EvaluationErrorKind,
-}
+pub type EvaluationError = ExpressionError<EvaluationErrorKind>;
 
 /// Why a part of an expression has no value. The numbers are the real parts of the arguments.
 #[derive(Debug, Clone, Copy, Error, PartialEq)]

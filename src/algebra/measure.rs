@@ -1,10 +1,8 @@
 //! The dimension of an expression (length, angle, none), as far as its units determine it.
 
-use std::ops::Range;
-
 use thiserror::Error;
 
-use super::{Constant, Expression, Function, Node, Operator, SiUnit, Unit};
+use super::{Constant, Expression, ExpressionError, Function, Node, Operator, SiUnit, Unit};
 
 /// The dimension of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -24,14 +22,7 @@ pub enum Measure {
 }
 
 /// A unit that does not fit, and which part of an expression has it.
-#[derive(Debug, Clone, Error, PartialEq)]
-#[error("{kind}")]
-pub struct MeasureError {
-    /// The smallest part that is wrong.
-    pub span: Range<usize>,
-    /// What is wrong with it.
-    pub kind: MeasureErrorKind,
-}
+pub type MeasureError = ExpressionError<MeasureErrorKind>;
 
 /// Why a unit does not fit.
 #[derive(Debug, Clone, Copy, Error, PartialEq)]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use thiserror::Error;
 
 use super::vocabulary::{continues_name, starts_name};
-use super::{Constant, Expression, Function, Node, Operator, Unit};
+use super::{Constant, Expression, ExpressionError, Function, Node, Operator, Unit};
 
 /// How deeply parentheses, calls, signs and powers may be nested.
 pub const MAX_NESTING: usize = 64;
@@ -15,14 +15,7 @@ pub const MAX_NESTING: usize = 64;
 pub const MAX_HEIGHT: usize = 500;
 
 /// Why a text is not an expression, and where.
-#[derive(Debug, Clone, Error, PartialEq)]
-#[error("{kind}")]
-pub struct ParseError {
-    /// The offending bytes; empty at the end of the text.
-    pub span: Range<usize>,
-    /// What is wrong there.
-    pub kind: ParseErrorKind,
-}
+pub type ParseError = ExpressionError<ParseErrorKind>;
 
 /// What is wrong with the text of an expression.
 #[derive(Debug, Clone, Error, PartialEq)]
