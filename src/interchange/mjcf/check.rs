@@ -8,32 +8,14 @@ use crate::geometry::Vector3;
 use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
 
-/// Elements that do not affect how bodies move.
-pub(super) const IRRELEVANT: &[&str] = &[
-    "asset",
-    "camera",
-    "composite",
-    "contact",
-    "custom",
-    "deformable",
-    "extension",
-    "geom",
-    "inertial",
-    "light",
-    "option",
-    "sensor",
-    "size",
-    "statistic",
-    "visual",
-    "material",
-    "mesh",
-    "pair",
-    "skin",
-    "plugin",
-    "texture",
-    "hfield",
-    "user",
-];
+const IRRELEVANT: &str = "asset camera composite contact custom deformable extension geom hfield inertial light \
+                          material mesh option pair plugin sensor size skin statistic texture user visual";
+
+/// Whether an element does not affect how bodies move.
+pub(super) fn is_irrelevant(node: Node) -> bool {
+    let mut irrelevant = IRRELEVANT.split(' ');
+    irrelevant.any(|element| element == node.tag_name().name())
+}
 
 /// How an axis is written.
 pub(super) const AXIS: &str = "axis=\"0 0 1\"";
@@ -72,8 +54,7 @@ pub(super) fn look<'a>(
         );
         return;
     }
-    let irrelevant = |part: Node| IRRELEVANT.contains(&part.tag_name().name());
-    if node.ancestors().any(irrelevant) {
+    if node.ancestors().any(is_irrelevant) {
         return;
     }
     let within = node.parent().map(|parent| parent.tag_name().name());

@@ -11,7 +11,7 @@ use mjcf_rs::body::JointType;
 use mjcf_rs::equality::Equality;
 use roxmltree::Node;
 
-use super::check::{AXIS, IRRELEVANT, look};
+use super::check::{AXIS, is_irrelevant, look};
 use super::constraints;
 use super::part::{Parts, pose};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
@@ -29,7 +29,7 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
     let mut seen: HashSet<(&str, String)> = HashSet::new();
     for node in root.descendants().filter(Node::is_element) {
         look(node, &mut problems, &mut seen);
-        if IRRELEVANT.contains(&node.tag_name().name()) {
+        if is_irrelevant(node) {
             removed.push(node.range());
         }
         // a named outermost class of defaults applies to everything

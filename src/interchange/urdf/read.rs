@@ -201,21 +201,21 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// The links, each after its parent.
     fn order(&mut self, joints: &[(Node, String)], hangs: &[Option<Hanging>]) -> Vec<String> {
-        let mut parent_of: HashMap<&str, (usize, &str)> = HashMap::new();
+        let mut joint_to: HashMap<&str, usize> = HashMap::new();
         let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
         for (i, hanging) in hangs.iter().enumerate() {
             let Some(Hanging { parent, child, .. }) = hanging else {
                 continue;
             };
-            if let Some((other, _)) = parent_of.get(child.as_str()) {
+            if let Some(&other) = joint_to.get(child.as_str()) {
                 let problem = ImportProblemKind::TwoParents {
                     link: child.clone(),
-                    joints: [*other, i].map(|i| joints[i].1.clone()),
+                    joints: [other, i].map(|i| joints[i].1.clone()),
                 };
                 self.problems.say(problem, joints[i].0);
                 continue;
             }
-            parent_of.insert(child, (i, parent));
+            joint_to.insert(child, i);
             below.entry(parent).or_default().push(child);
         }
         for (node, name) in joints {
@@ -238,16 +238,15 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Vec::new();
         }
         let links = self.links.iter().map(String::as_str);
-        let roots: Vec<&str> = links.filter(|link| !parent_of.contains_key(link)).collect();
+        let roots: Vec<&str> = links.filter(|link| !joint_to.contains_key(link)).collect();
         if roots.len() != 1 {
-            let links = |links: &[&str]| links.iter().map(|link| (*link).to_owned()).collect();
             let problem = match roots.as_slice() {
                 [] if self.links.is_empty() => ImportProblemKind::NothingMoves,
                 [] => ImportProblemKind::NoRoot {
                     links: self.links.clone(),
                 },
                 roots => ImportProblemKind::SeveralRoots {
-                    links: links(roots),
+                    links: roots.iter().map(|link| (*link).to_owned()).collect(),
                 },
             };
             self.problems.0.push(problem.anywhere());
