@@ -96,8 +96,6 @@ impl<N: Clone + PartialEq> Expression<N> {
         terms.into_iter().for_each(|(factor, e)| sum.add(factor, e));
         sum.written()
     }
-
-    /// The product.
     pub(crate) fn times(&self, other: &Self) -> Self {
         match (self.as_number(), other.as_number()) {
             (Some(0.0), _) | (_, Some(0.0)) => Expression::number(0.0),

@@ -71,7 +71,7 @@ pub enum ProblemKind {
     #[error("brackets are nested too deeply for a mechanism file")]
     TooDeep,
     /// The text is not RON.
-    #[error("{}", syntax::title(error, *found))]
+    #[error("{}", syntax::words(error, *found).title)]
     Syntax {
         /// The error of `ron`.
         error: Box<ron::Error>,

@@ -106,8 +106,6 @@ impl<T: Number> Kinematics<T> {
     pub fn pose<'a>(&self, frame: Frame, placement: &'a Placement<T>) -> Option<&'a Pose<T>> {
         Some(placement.pose(self.slot(frame)?))
     }
-
-    /// The slot of a frame of the plan.
     pub(crate) fn slot(&self, frame: Frame) -> Option<Slot> {
         self.frames.get(&frame).copied()
     }

@@ -324,8 +324,6 @@ impl<T: Number> Recut<T> {
             }
         }
     }
-
-    /// How many frames of a chain are used.
     fn uses(&self, of: usize) -> usize {
         let chains = self.dimensions.chains.iter().map(|chain| chain.on);
         let closures = self.dimensions.closures.iter().flat_map(|c| c.frames);

@@ -46,8 +46,6 @@ impl Mechanism {
     pub fn is_of_point(&self, joint: usize) -> bool {
         self.joints[joint].name.contains('.')
     }
-
-    /// How many points have coordinates among the joints.
     fn points_as_joints(&self) -> usize {
         let joints = 0..self.joints.len();
         joints.filter(|&joint| self.is_of_point(joint)).count() / 3
@@ -140,8 +138,6 @@ impl Mechanism {
         cut.set_dimensions(dimensions);
         cut.measured(self.characteristic_length())
     }
-
-    /// A name that nothing has.
     fn free_name(&self, name: &str) -> String {
         let joints = self.joints.iter().map(|joint| &joint.name);
         let chains = self.chains.iter().map(|chain| &chain.name);

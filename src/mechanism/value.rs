@@ -18,19 +18,13 @@ pub enum Value {
     /// An expression over the file's parameters such as `60 deg`; for a pose a list such as
     /// `[Tz(0.5), Rx(10 deg)]`. `home` is the value in the file.
     Text(String),
-    /// The value in the file.
-    Home,
     /// The whole pose of a platform in ground, in m.
     Pose(Pose<f64>),
 }
 
 impl Value {
     pub(crate) fn is_home(&self) -> bool {
-        match self {
-            Value::Home => true,
-            Value::Text(text) => text.trim() == "home",
-            Value::Number(_) | Value::Pose(_) => false,
-        }
+        matches!(self, Value::Text(text) if text.trim() == "home")
     }
 
     /// The number, in m, rad, N or N·m, and per unit of time for a rate.
@@ -66,16 +60,14 @@ impl Value {
             }
             Value::Number(value) => Ok((*value, None)),
             Value::Text(text) => read(mechanism, text, wanted),
-            Value::Home | Value::Pose(_) => Err(ValueError::NotANumber),
+            Value::Pose(_) => Err(ValueError::NotANumber),
         }
     }
-
-    /// The pose.
     pub(crate) fn pose(&self, mechanism: &Mechanism) -> Result<Pose<f64>, ValueError> {
         match self {
             Value::Pose(at) => Ok(*at),
             Value::Text(text) => pose(mechanism, text),
-            Value::Home | Value::Number(_) => Err(ValueError::NotAPose {
+            Value::Number(_) => Err(ValueError::NotAPose {
                 part: self.to_string(),
             }),
         }
@@ -83,12 +75,11 @@ impl Value {
 }
 
 /// As it would be written in a question.
-impl std::fmt::Display for Value {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Display for Value {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Value::Number(value) => write!(f, "{value}"),
             Value::Text(text) => write!(f, "{text}"),
-            Value::Home => write!(f, "home"),
             Value::Pose(_) => write!(f, "a pose"),
         }
     }

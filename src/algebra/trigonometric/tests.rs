@@ -145,8 +145,6 @@ fn expression() -> impl Strategy<Value = String> {
         ]
     })
 }
-
-/// The value by plain arithmetic.
 fn plain(text: &str) -> f64 {
     let value = Expression::parse(text).unwrap();
     value

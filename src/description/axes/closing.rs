@@ -19,8 +19,6 @@ impl Tables<'_> {
         let chain = ChainDescription::frame(&placed.name, base);
         self.made.chains.push(Named { name, value: chain });
     }
-
-    /// The closure of a joint that is cut.
     pub(super) fn close(&mut self, joint: usize) {
         let described = &self.axes.joints[joint];
         let Some(kind) = described.value.kind.closure() else {

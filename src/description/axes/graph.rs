@@ -16,10 +16,7 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// The bodies that joints connect.
-    ///
-    /// # Errors
-    /// If the joints do not say it, or do not hold all bodies to the ground.
+    /// The bodies that joints connect; an error if the joints do not say it, or do not hold all bodies to the ground.
     pub fn of(axes: &AxesDescription) -> Result<Self, Vec<Problem>> {
         let mut graph = Graph {
             bodies: vec![Spanned::nowhere(GROUND.into())],
@@ -157,10 +154,7 @@ impl AxesDescription {
         (0..self.joints.len()).filter(cut).collect()
     }
 
-    /// The joints that the file cuts, and those that are cut in any case.
-    ///
-    /// # Errors
-    /// If it names no joint, or leaves a loop closed.
+    /// The joints that the file cuts, and those that are cut in any case; an error if a loop stays closed.
     pub(crate) fn named_cuts(&self, graph: &Graph) -> Result<BTreeSet<usize>, Vec<Problem>> {
         let mut cuts = self.always_cut();
         let mut problems = Vec::new();
@@ -195,11 +189,9 @@ impl AxesDescription {
         }
     }
 
-    /// The joints to cut: joints that must keep their variables stay, then those with limits, those drawn in place, those of
-    /// one freedom and those near the ground. The chains are short then, and the same whatever the values of the parameters.
-    ///
-    /// # Errors
-    /// If the joints that must stay close a loop.
+    /// The joints to cut: joints that must keep their variables stay, then those with limits, those drawn in place, those
+    /// of one freedom and those near the ground. The chains are short then, and the same whatever the values of the
+    /// parameters. An error if the joints that must stay close a loop.
     pub(crate) fn placed_cuts(&self, graph: &Graph) -> Result<BTreeSet<usize>, Vec<Problem>> {
         let mut cuts = self.always_cut();
         let (driven, depths) = (self.driven(), graph.depths());

@@ -6,10 +6,8 @@ use crate::description::steps::{signed_sum, zero};
 use crate::description::{AxesProblem, AxisKind, Entry, Problem, ProblemKind, place_of};
 
 impl AxesDescription {
-    /// For each joint the change of its value against the drawing, over variables.
-    ///
-    /// # Errors
-    /// If values are given by one another, or are no sums.
+    /// For each joint the change of its value against the drawing, over variables; an error if values are given by one
+    /// another, or are no sums.
     pub(super) fn moved(&self) -> Result<Vec<Entry>, Vec<Problem>> {
         let axes = self;
         let mut problems = Vec::new();

@@ -18,7 +18,7 @@ impl ProblemKind {
     pub fn label(&self) -> String {
         use ProblemKind::*;
         match self {
-            Syntax { error, found } => syntax::label(error, *found).into(),
+            Syntax { error, found } => syntax::words(error, *found).label.into(),
             WrongType { expected, .. } => format!("must be {expected}"),
             WrongLength { found, .. } => {
                 format!("there {} {found}", if *found == 1 { "is" } else { "are" })
@@ -52,7 +52,7 @@ impl ProblemKind {
         use ProblemKind::*;
         let help = match self {
             TooDeep => "lists of rows and transforms need no extra brackets".into(),
-            Syntax { error, found } => return syntax::help(error, *found).map(str::to_owned),
+            Syntax { error, found } => return syntax::words(error, *found).help.map(str::to_owned),
             Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
             LaterVersion(_) => format!("this program reads version {VERSION}"),
             NotAVersion(_) => format!("write `version: {VERSION}`"),

@@ -4,88 +4,84 @@ use ron::Error;
 
 use crate::algebra::shown;
 
+/// What is wrong, a label for the place, and what to do about it.
+pub(in crate::description) struct Words {
+    pub title: String,
+    pub label: &'static str,
+    pub help: Option<&'static str>,
+}
+
 /// `found` is the character at which reading stopped.
-pub(in crate::description) fn title(error: &Error, found: Option<char>) -> String {
-    let title = match (error, found) {
-        (Error::Eof, _) => "the file ends unexpectedly",
-        (Error::ExpectedComma, Some('=')) | (Error::ExpectedMapColon, _) => "a colon is missing",
-        (Error::ExpectedComma, _) => "a comma or a closing bracket is missing",
-        (Error::ExpectedIdentifier, Some(')' | ']' | '}')) => "a closing bracket is missing",
-        (Error::UnexpectedChar(')' | ']' | '}'), _) => "a value or a closing bracket is missing",
-        (Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd, _) => {
-            "a comma or a closing `)` is missing"
+pub(in crate::description) fn words(error: &Error, found: Option<char>) -> Words {
+    const MISSING: &str = "missing before this";
+    const COLON: Option<&str> = Some("write `name: value`");
+    const COMMENT: Option<&str> = Some("a comment begins with `//`");
+    const QUOTES: Option<&str> = Some("write the straight quotes of the keyboard, `\"`");
+    let closing = matches!(found, Some(')' | ']' | '}'));
+    let (title, label, help) = match error {
+        Error::Eof => ("the file ends unexpectedly", "more is expected here", None),
+        Error::ExpectedComma if found == Some('=') => ("a colon is missing", "not a colon", COLON),
+        Error::ExpectedMapColon => ("a colon is missing", MISSING, COLON),
+        Error::ExpectedComma => ("a comma or a closing bracket is missing", MISSING, None),
+        Error::ExpectedIdentifier if closing => ("a closing bracket is missing", MISSING, None),
+        Error::ExpectedIdentifier => ("expected the name of a field", "", None),
+        Error::UnexpectedChar(')' | ']' | '}') => {
+            ("a value or a closing bracket is missing", MISSING, None)
         }
-        (Error::ExpectedArrayEnd, _) => "a comma or a closing `]` is missing",
-        (Error::ExpectedMapEnd, _) => "a comma or a closing `}` is missing",
-        (Error::ExpectedIdentifier, _) => "expected the name of a field",
-        (Error::ExpectedStringEnd, _) => "a string is not closed by `\"`",
-        (Error::InvalidEscape(_), _) => "a string contains `\\` followed by an unknown character",
-        (Error::UnclosedBlockComment, _) => "a comment is not closed by `*/`",
-        (Error::TrailingCharacters, Some(')' | ']' | '}')) => {
-            "a closing bracket has no opening one"
+        Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => {
+            ("a comma or a closing `)` is missing", MISSING, None)
         }
-        (Error::TrailingCharacters, _) => "there is text after the end of the mechanism",
-        (Error::ExpectedAttribute | Error::ExpectedAttributeEnd, _) => {
-            "this is not a RON attribute"
+        Error::ExpectedArrayEnd => ("a comma or a closing `]` is missing", MISSING, None),
+        Error::ExpectedMapEnd => ("a comma or a closing `}` is missing", MISSING, None),
+        Error::ExpectedStringEnd => ("a string is not closed by `\"`", "opened here", None),
+        Error::InvalidEscape(_) => {
+            let title = "a string contains `\\` followed by an unknown character";
+            (title, "", Some("write `\\\\` for a backslash"))
         }
-        (Error::IntegerOutOfBounds, _) => "the number is too large",
-        (Error::UnexpectedChar(c), _) => {
-            return format!("unexpected character `{}`", shown(*c));
+        Error::UnclosedBlockComment => ("a comment is not closed by `*/`", "", None),
+        Error::TrailingCharacters if closing => {
+            ("a closing bracket has no opening one", "one too many", None)
         }
-        (Error::SuggestRawIdentifier(name), _) => {
-            return format!("`{name}` is not the name of a field");
+        Error::TrailingCharacters => {
+            let title = "there is text after the end of the mechanism";
+            (
+                title,
+                "not part of it",
+                Some("a file holds one `Mechanism(…)`"),
+            )
         }
-        (Error::NoSuchExtension(name), _) => return format!("there is no RON extension `{name}`"),
-        (other, _) => return format!("this is not RON: {}", first_lower(&other.to_string())),
+        Error::ExpectedAttribute => ("this is not a RON attribute", "", COMMENT),
+        Error::ExpectedAttributeEnd => ("this is not a RON attribute", "", None),
+        Error::IntegerOutOfBounds => ("the number is too large", "", None),
+        other => {
+            let (title, help) = match other {
+                Error::UnexpectedChar(c) => {
+                    let help = match c {
+                        '#' => COMMENT,
+                        '=' if found == Some('=') => COLON,
+                        '“' | '”' | '„' | '‘' | '’' => QUOTES,
+                        _ => None,
+                    };
+                    (format!("unexpected character `{}`", shown(*c)), help)
+                }
+                Error::SuggestRawIdentifier(name) => {
+                    (format!("`{name}` is not the name of a field"), None)
+                }
+                Error::NoSuchExtension(name) => {
+                    (format!("there is no RON extension `{name}`"), None)
+                }
+                other => {
+                    let said = other.to_string();
+                    let mut characters = said.chars();
+                    let first = characters.next().into_iter().flat_map(char::to_lowercase);
+                    let said: String = first.chain(characters).collect();
+                    (format!("this is not RON: {said}"), None)
+                }
+            };
+            let label = "";
+            return Words { title, label, help };
+        }
     };
-    title.to_owned()
-}
-
-fn first_lower(text: &str) -> String {
-    let mut characters = text.chars();
-    let first = characters.next();
-    first
-        .into_iter()
-        .flat_map(char::to_lowercase)
-        .chain(characters)
-        .collect()
-}
-
-pub(in crate::description) fn label(error: &Error, found: Option<char>) -> &'static str {
-    match (error, found) {
-        (Error::Eof, _) => "more is expected here",
-        (Error::ExpectedComma, Some('=')) => "not a colon",
-        (Error::ExpectedIdentifier, Some(')' | ']' | '}'))
-        | (Error::UnexpectedChar(')' | ']' | '}'), _) => "missing before this",
-        (
-            Error::ExpectedComma
-            | Error::ExpectedStructLikeEnd
-            | Error::ExpectedOptionEnd
-            | Error::ExpectedArrayEnd
-            | Error::ExpectedMapEnd
-            | Error::ExpectedMapColon,
-            _,
-        ) => "missing before this",
-        (Error::TrailingCharacters, Some(')' | ']' | '}')) => "one too many",
-        (Error::TrailingCharacters, _) => "not part of it",
-        (Error::ExpectedStringEnd, _) => "opened here",
-        _ => "",
-    }
-}
-
-pub(in crate::description) fn help(error: &Error, found: Option<char>) -> Option<&'static str> {
-    match (error, found) {
-        (Error::UnexpectedChar('#') | Error::ExpectedAttribute, _) => {
-            Some("a comment begins with `//`")
-        }
-        (Error::ExpectedComma | Error::UnexpectedChar('='), Some('='))
-        | (Error::ExpectedMapColon, _) => Some("write `name: value`"),
-        (Error::UnexpectedChar('“' | '”' | '„' | '‘' | '’'), _) => {
-            Some("write the straight quotes of the keyboard, `\"`")
-        }
-        (Error::InvalidEscape(_), _) => Some("write `\\\\` for a backslash"),
-        (Error::TrailingCharacters, Some(')' | ']' | '}')) => None,
-        (Error::TrailingCharacters, _) => Some("a file holds one `Mechanism(…)`"),
-        _ => None,
-    }
+    let title = title.to_owned();
+    Words { title, label, help }
 }

@@ -39,8 +39,6 @@ pub(super) fn is_loop(node: Node) -> bool {
         _ => false,
     }
 }
-
-/// The loops of a robot.
 pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Loop> {
     let mut reader = LoopReader {
         tree,

@@ -17,8 +17,6 @@ use crate::interchange::tree::{Body, Coupling, Motion, Tree};
 
 /// A tree with remarks.
 pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
-
-/// Reads the text of a URDF file.
 pub(crate) fn read(text: &str) -> Read {
     let document = document(text).map_err(|problem| vec![problem])?;
     let robot = document.root_element();

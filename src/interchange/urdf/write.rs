@@ -255,8 +255,6 @@ impl UrdfWriter<'_> {
         }
         xml.close("link");
     }
-
-    /// The closures and lengths that are left out.
     fn losses(&self) -> Vec<Remark> {
         let fixes = |of: &Loop| {
             let fixes = |remark: &Remark| matches!(remark, Remark::Fixed { closure, .. } if *closure == of.name);
