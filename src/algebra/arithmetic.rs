@@ -96,6 +96,7 @@ impl<N: Clone + PartialEq> Expression<N> {
         terms.into_iter().for_each(|(factor, e)| sum.add(factor, e));
         sum.written()
     }
+
     pub(crate) fn times(&self, other: &Self) -> Self {
         match (self.as_number(), other.as_number()) {
             (Some(0.0), _) | (_, Some(0.0)) => Expression::number(0.0),

@@ -278,7 +278,6 @@ impl Problem {
     }
 }
 
-/// The titles of problems in one line.
 pub(super) fn titles(problems: &[Problem]) -> String {
     let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
     titles.join("; ")

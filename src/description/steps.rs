@@ -30,7 +30,6 @@ pub(crate) fn doing_something(steps: impl IntoIterator<Item = Displacement>) -> 
     steps.into_iter().filter(something).collect()
 }
 
-/// The displacements undone, last first.
 pub(crate) fn undone(steps: &[Displacement]) -> Vec<Displacement> {
     let undo = |step: &Displacement| step.try_map(|e| Ok::<_, Infallible>(negated(e)));
     let undone: Result<_, Infallible> = steps.iter().rev().map(undo).collect();

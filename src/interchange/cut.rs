@@ -290,7 +290,6 @@ fn places_in(
     })
 }
 
-/// The remarks on variables that others follow.
 fn followers(mechanism: &Mechanism, couplings: &[Coupling]) -> Vec<Remark> {
     let mut remarks = Vec::new();
     for joint in mechanism.joints() {

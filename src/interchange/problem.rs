@@ -184,13 +184,11 @@ impl ImportProblemKind {
         Some(help.to_owned())
     }
 
-    /// The problem, at a place.
     pub(super) fn at(self, span: Range<usize>) -> ImportProblem {
         let span = Some(span);
         ImportProblem { kind: self, span }
     }
 
-    /// The problem of the whole file.
     pub(super) fn anywhere(self) -> ImportProblem {
         let span = None;
         ImportProblem { kind: self, span }

@@ -204,12 +204,10 @@ fn about(axis: &Vector3<f64>, angle: f64) -> Rotation<f64> {
 }
 
 impl Tree {
-    /// All joints, in the order of the bodies.
     pub(super) fn joints(&self) -> impl Iterator<Item = &Joint> {
         self.bodies.iter().flat_map(|body| &body.joints)
     }
 
-    /// The body of that name.
     pub(super) fn body(&self, name: &str) -> Option<usize> {
         self.bodies.iter().position(|body| body.name == name)
     }

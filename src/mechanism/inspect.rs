@@ -133,6 +133,7 @@ impl Mechanism {
             on_it: on_it.map(|chain| chain.name.clone()).collect(),
         })
     }
+
     fn for_each_formula(&self, visit: &mut impl FnMut(&Formula)) {
         let fixed = |steps: &[FixedStep], visit: &mut dyn FnMut(&Formula)| {
             for step in steps {

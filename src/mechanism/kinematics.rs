@@ -106,6 +106,7 @@ impl<T: Number> Kinematics<T> {
     pub fn pose<'a>(&self, frame: Frame, placement: &'a Placement<T>) -> Option<&'a Pose<T>> {
         Some(placement.pose(self.slot(frame)?))
     }
+
     pub(crate) fn slot(&self, frame: Frame) -> Option<Slot> {
         self.frames.get(&frame).copied()
     }

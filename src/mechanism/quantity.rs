@@ -301,6 +301,7 @@ fn moving(mechanism: &Mechanism, kind: &str, name: &str) -> Option<Result<Measur
         _ => point(mechanism, name).map(|point| Measured::Size(point, order)),
     })
 }
+
 fn suggestion(mechanism: &Mechanism, name: &str) -> Option<String> {
     let mut known: Vec<String> = mechanism
         .parameters()

@@ -324,6 +324,7 @@ impl<T: Number> Recut<T> {
             }
         }
     }
+
     fn uses(&self, of: usize) -> usize {
         let chains = self.dimensions.chains.iter().map(|chain| chain.on);
         let closures = self.dimensions.closures.iter().flat_map(|c| c.frames);

@@ -46,6 +46,7 @@ impl Mechanism {
     pub fn is_of_point(&self, joint: usize) -> bool {
         self.joints[joint].name.contains('.')
     }
+
     fn points_as_joints(&self) -> usize {
         let joints = 0..self.joints.len();
         joints.filter(|&joint| self.is_of_point(joint)).count() / 3
@@ -138,6 +139,7 @@ impl Mechanism {
         cut.set_dimensions(dimensions);
         cut.measured(self.characteristic_length())
     }
+
     fn free_name(&self, name: &str) -> String {
         let joints = self.joints.iter().map(|joint| &joint.name);
         let chains = self.chains.iter().map(|chain| &chain.name);

@@ -63,6 +63,7 @@ impl Value {
             Value::Pose(_) => Err(ValueError::NotANumber),
         }
     }
+
     pub(crate) fn pose(&self, mechanism: &Mechanism) -> Result<Pose<f64>, ValueError> {
         match self {
             Value::Pose(at) => Ok(*at),

@@ -56,6 +56,7 @@ impl Mechanism {
     pub(crate) fn rows_that_vary(&self) -> &[Kept] {
         &self.rows_that_vary
     }
+
     pub(crate) fn equations_that_vary(&self) -> usize {
         let rows = self.rows_that_vary.iter().zip(&self.closures);
         let rows = rows.flat_map(|(kept, closure)| &kept[..closure.kind.equations()]);

@@ -145,6 +145,7 @@ fn expression() -> impl Strategy<Value = String> {
         ]
     })
 }
+
 fn plain(text: &str) -> f64 {
     let value = Expression::parse(text).unwrap();
     value

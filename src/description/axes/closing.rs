@@ -19,6 +19,7 @@ impl Tables<'_> {
         let chain = ChainDescription::frame(&placed.name, base);
         self.made.chains.push(Named { name, value: chain });
     }
+
     pub(super) fn close(&mut self, joint: usize) {
         let described = &self.axes.joints[joint];
         let Some(kind) = described.value.kind.closure() else {

@@ -26,6 +26,7 @@ pub(super) fn origin(steps: &[Displacement]) -> [Entry; 3] {
         _ => carried(steps, [zero(), zero(), zero()], true),
     }
 }
+
 pub(super) fn length(vector: &[Entry; 3]) -> Entry {
     let span = vector[2].span.clone();
     let values = vector.each_ref().map(|x| x.expression.fixed_value());

@@ -8,10 +8,10 @@ use crate::geometry::Vector3;
 use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
 
+/// Elements that do not affect how bodies move.
 const IRRELEVANT: &str = "asset camera composite contact custom deformable extension geom hfield inertial light \
                           material mesh option pair plugin sensor size skin statistic texture user visual";
 
-/// Whether an element does not affect how bodies move.
 pub(super) fn is_irrelevant(node: Node) -> bool {
     let mut irrelevant = IRRELEVANT.split(' ');
     irrelevant.any(|element| element == node.tag_name().name())

@@ -90,7 +90,6 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         self.parts[found].last().copied()
     }
 
-    /// The site of that name.
     fn site(&mut self, node: Node, attribute: &str, name: &str) -> Option<Attachment> {
         let bodies = self.model.bodies.iter().enumerate();
         let mut sites = bodies.flat_map(|(body, entry)| {
@@ -108,7 +107,6 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         })
     }
 
-    /// The sites of a constraint, if it has them.
     fn sites(&mut self, node: Node) -> Option<Option<[Attachment; 2]>> {
         let (Some(a), Some(b)) = (node.attribute("site1"), node.attribute("site2")) else {
             return Some(None);

@@ -6,7 +6,6 @@ use crate::interchange::page::turned;
 /// A body and its place in the tree: its first and its last part, if it was split.
 pub(super) type Parts = Vec<usize>;
 
-/// A pose of mjcf-rs.
 pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
     let (q, t) = (pose.rotation, pose.translation);
     Pose {

@@ -39,6 +39,7 @@ pub(super) fn is_loop(node: Node) -> bool {
         _ => false,
     }
 }
+
 pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Loop> {
     let mut reader = LoopReader {
         tree,
@@ -75,7 +76,6 @@ struct LoopReader<'a> {
 }
 
 impl LoopReader<'_> {
-    /// The link of that name.
     fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
         let links = self.tree.bodies.iter().map(|body| body.name.as_str());
         let found = self.tree.body(name);

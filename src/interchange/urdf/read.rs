@@ -17,6 +17,7 @@ use crate::interchange::tree::{Body, Coupling, Motion, Tree};
 
 /// A tree with remarks.
 pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
+
 pub(crate) fn read(text: &str) -> Read {
     let document = document(text).map_err(|problem| vec![problem])?;
     let robot = document.root_element();

@@ -255,6 +255,7 @@ impl UrdfWriter<'_> {
         }
         xml.close("link");
     }
+
     fn losses(&self) -> Vec<Remark> {
         let fixes = |of: &Loop| {
             let fixes = |remark: &Remark| matches!(remark, Remark::Fixed { closure, .. } if *closure == of.name);
