@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use quick_xml::Reader;
+use quick_xml::events::Event;
 use roxmltree::{Document, Node};
 
 use super::problem::{ImportProblem, ImportProblemKind};
@@ -45,39 +47,26 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
     })
 }
 
-/// Counts opening and closing tags, accurately enough to bound the depth.
+/// Refuses elements that are nested too deeply.
 fn check_depth(text: &str) -> Result<(), ImportProblem> {
-    let bytes = text.as_bytes();
+    let mut reader = Reader::from_str(text);
+    reader.config_mut().check_end_names = false;
+    reader.config_mut().allow_unmatched_ends = true;
     let mut depth: usize = 0;
-    let mut at = 0;
-    while let Some(found) = text[at..].find('<') {
-        let start = at + found;
-        let rest = &text[start..];
-        let skip = |end: &str| rest.find(end).map_or(text.len(), |i| start + i + end.len());
-        at = if rest.starts_with("<!--") {
-            skip("-->")
-        } else if rest.starts_with("<![CDATA[") {
-            skip("]]>")
-        } else if rest.starts_with("<?") {
-            skip("?>")
-        } else {
-            let end = tag_end(bytes, start);
-            if rest.starts_with("</") {
-                depth = depth.saturating_sub(1);
-            } else if bytes[end.saturating_sub(2).max(start)] != b'/' {
-                depth += 1;
-            }
-            if depth > MOST_LEVELS {
-                let problem = ImportProblemKind::TooDeep { most: MOST_LEVELS };
-                return Err(problem.at(start..next_char(text, start)));
-            }
-            end
-        };
-        if at >= text.len() {
-            break;
+    loop {
+        let start = reader.buffer_position() as usize;
+        match reader.read_event() {
+            Ok(Event::Start(_)) => depth += 1,
+            Ok(Event::End(_)) => depth = depth.saturating_sub(1),
+            // whatever else is wrong here ends the document for the other reader too
+            Ok(Event::Eof) | Err(_) => return Ok(()),
+            Ok(_) => {}
+        }
+        if depth > MOST_LEVELS {
+            let problem = ImportProblemKind::TooDeep { most: MOST_LEVELS };
+            return Err(problem.at(start..next_char(text, start)));
         }
     }
-    Ok(())
 }
 
 /// Behind the `>` of a tag; one within quotes does not count.
