@@ -140,7 +140,7 @@ fn circle<H: Turning>(
     let mut x = start.to_vec();
     settle(h, place(0), &mut x);
     let start = x.clone();
-    for turn in 1..=MOST_TURNS {
+    for _ in 0..MOST_TURNS {
         for k in 0..SAMPLES {
             samples.push(x.clone());
             let way = (place(k), place((k + 1) % SAMPLES));
@@ -153,9 +153,6 @@ fn circle<H: Turning>(
         // solutions on the circle are at least some root of the radius apart
         if apart < 1e-7 * (1.0 + norm(&start)) {
             return Some((samples, turned));
-        }
-        if turn == MOST_TURNS {
-            return None;
         }
     }
     None

@@ -134,11 +134,10 @@ impl Newton {
         point: &mut E::Point,
         trial: &mut E::Point,
         work: &mut E::Work,
-        steps: usize,
-        size: Size,
+        mut steps: usize,
+        mut size: Size,
     ) -> Report {
         const MOST: usize = 20;
-        let (mut steps, mut size) = (steps, size);
         for _ in 0..MOST {
             if size.largest == 0.0 {
                 break;

@@ -102,7 +102,7 @@ impl<'a> Watch<'a> {
     pub fn new(observer: &'a Observer<'a>) -> Self {
         Watch {
             observer: Some(observer),
-            stopped: AtomicBool::new(false),
+            ..Watch::none()
         }
     }
 

@@ -112,15 +112,9 @@ impl<'a> Search<'a> {
     pub fn go_on(&mut self, first: Attempt, restarts: usize, seed: u64, watch: &Watch) -> Searched {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let mut best = first;
-        if self.settles(&best) {
-            let attempt = self.normalised(best);
-            return Searched {
-                attempt,
-                restarts: 0,
-            };
-        }
+        let most = if self.settles(&best) { 0 } else { restarts };
         let mut made = 0;
-        for start in 1..=restarts {
+        for start in 1..=most {
             let assembled = best.report.stop == Stop::Solved;
             // an assembled configuration outside limits justifies a few more starts, not all
             if assembled && start > restarts / 4
@@ -141,9 +135,8 @@ impl<'a> Search<'a> {
                 best = attempt;
             }
         }
-        let attempt = self.normalised(best);
         Searched {
-            attempt,
+            attempt: self.normalised(best),
             restarts: made,
         }
     }
@@ -182,9 +175,18 @@ impl<'a> Search<'a> {
             && (self.mechanism.outside_limits(&attempt.at.joints)).all(|i| self.held.joints[i])
     }
 
+    /// The attempt, its passive turns brought back to (−π, π], into their limits, or to the turn that was guessed.
     fn normalised(&self, mut attempt: Attempt) -> Attempt {
-        if attempt.report.stop == Stop::Solved {
-            self.normalise_angles(&mut attempt.at);
+        for (i, joint) in self.mechanism.joints().iter().enumerate() {
+            let solved = attempt.report.stop == Stop::Solved;
+            if !solved || self.held.joints[i] || !self.mechanism.repeats(i) {
+                continue;
+            }
+            let guessed = self.question.guess_of(i).unwrap_or(0.0);
+            let middle = joint
+                .limits
+                .map_or(guessed, |(low, high)| 0.5 * (low + high));
+            attempt.at.joints[i] = turn_near(attempt.at.joints[i], middle);
         }
         attempt
     }
@@ -247,20 +249,6 @@ impl<'a> Search<'a> {
         self.held.keep(&start, &mut at);
         let joints = vec![true; at.joints.len()];
         self.fit(at, joints, &vec![false; self.held.platforms.len()])
-    }
-
-    /// Brings passive turns back to (−π, π], into their limits, or to the turn that was guessed.
-    fn normalise_angles(&self, at: &mut Configuration<f64>) {
-        for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            if self.held.joints[i] || !self.mechanism.repeats(i) {
-                continue;
-            }
-            let guessed = self.question.guess_of(i).unwrap_or(0.0);
-            let middle = joint
-                .limits
-                .map_or(guessed, |(low, high)| 0.5 * (low + high));
-            at.joints[i] = turn_near(at.joints[i], middle);
-        }
     }
 }
 

@@ -19,13 +19,13 @@ pub fn actuated(mechanism: &Mechanism) -> Vec<Coordinate> {
 /// What is driven: the held coordinates if all of them are joints, else the actuated joints.
 pub fn inputs_of(question: &Question) -> Vec<Coordinate> {
     let held = question.held_coordinates();
-    if held.iter().all(|h| matches!(h, Coordinate::Joint(_))) {
-        let mut held = held;
-        held.sort_by_key(|h| match h {
-            Coordinate::Joint(joint) => *joint,
-            Coordinate::Pose(..) | Coordinate::Turn(..) => usize::MAX,
-        });
-        return held;
+    let joint = |held: &Coordinate| match *held {
+        Coordinate::Joint(joint) => Some(joint),
+        Coordinate::Pose(..) | Coordinate::Turn(..) => None,
+    };
+    if let Some(mut joints) = held.iter().map(joint).collect::<Option<Vec<usize>>>() {
+        joints.sort_unstable();
+        return joints.into_iter().map(Coordinate::Joint).collect();
     }
     let actuated = actuated(question.mechanism());
     match actuated.is_empty() {

@@ -112,12 +112,8 @@ fn platforms(
     at: &Configuration<f64>,
     motions: &[Vec<f64>],
 ) -> Vec<Still> {
-    let firsts = system.unknowns().iter().enumerate();
-    let firsts = firsts.filter_map(|(first, unknown)| match *unknown {
-        Unknown::Twist(platform, 0) => Some((first, platform)),
-        _ => None,
-    });
-    let spins = firsts.filter_map(|(first, platform)| {
+    let spins = (0..mechanism.platforms().len()).filter_map(|platform| {
+        let first = system.place_of(Unknown::first_twist(platform))?;
         let omegas = (motions.iter()).map(|m| Vector3([m[first], m[first + 1], m[first + 2]]));
         let omega = omegas.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
         let line = at.platforms[platform]

@@ -71,7 +71,6 @@ impl<T: Number> FrameTwists<T> {
     ) -> Self {
         let points = points.iter().map(|&point| -> Point { point.into() });
         let places = Places::new(unknowns);
-        let column = |unknown| places.of(unknown);
         let plans = points.map(|point| {
             let slot = kinematics
                 .slot(point.frame)
@@ -81,10 +80,11 @@ impl<T: Number> FrameTwists<T> {
                 point,
                 slot,
                 movers: (movers.into_iter())
-                    .filter_map(|mover| Some((mover, column(Unknown::Joint(mover.joint))?)))
+                    .filter_map(|mover| Some((mover, places.of(Unknown::Joint(mover.joint))?)))
                     .collect(),
-                platform: platform
-                    .and_then(|platform| Some((platform, column(Unknown::first_twist(platform))?))),
+                platform: platform.and_then(|platform| {
+                    Some((platform, places.of(Unknown::first_twist(platform))?))
+                }),
             }
         });
         FrameTwists {
