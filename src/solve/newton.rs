@@ -4,7 +4,7 @@ use super::{Equations, Size};
 /// Marquardt 1963). Near a solution the damping is zero and convergence quadratic, redundant rows or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Newton {
-    /// A point is a solution when no dimensionless row exceeds this: rounding of about 1e-16 adds up along chains.
+    /// A point is a solution when no dimensionless row exceeds this: rounding of some 1e-16 adds up along chains.
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,

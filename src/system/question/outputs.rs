@@ -34,7 +34,7 @@ pub fn inputs_of(question: &Question) -> Vec<Coordinate> {
     }
 }
 
-/// The outputs by default: platforms; of an open chain tips; else passive joints on the ground; else joined points.
+/// The outputs by default: platforms; of an open chain tips; else joints on the ground not driven; else joined points.
 pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock> {
     let platforms = 0..mechanism.platforms().len();
     let platforms: Vec<Lock> = platforms

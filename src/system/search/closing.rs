@@ -100,7 +100,7 @@ pub struct Moved {
 }
 
 impl Moved {
-    /// Whether nothing moved by more than rounding when the pose was written down.
+    /// Whether the pose given was only rounded: nothing moved by more than a small part of a radian or of the length.
     pub fn is_small(&self) -> bool {
         self.size <= SMALL
     }

@@ -244,7 +244,7 @@ impl Motion {
         self.solve_rates()
     }
 
-    /// Goes on with rates that are a sum of [responses](Self::responses), of coordinates not at rest.
+    /// Goes on with a sum of [responses](Self::responses); those of coordinates at rest need not be known.
     pub fn set_rates(&mut self, responses: &[Vec<f64>], given: &[f64]) {
         self.given[0].copy_from_slice(given);
         self.changing.placed = false;
@@ -263,7 +263,7 @@ impl Motion {
         largest(self.row_rates())
     }
 
-    /// The same acceleration: more than rounding where a mechanism is mobile to first order only.
+    /// The largest acceleration at which one would open: more than rounding where only rates are possible.
     pub fn mismatch_of_accelerations(&mut self) -> f64 {
         largest(self.row_changes())
     }
