@@ -16,18 +16,15 @@ pub(super) fn of(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Held<f64>
                 held.platforms[platform] = HeldPlatform::Pose;
             }
             Coordinate::Pose(platform, coordinate) => {
-                let parts = held.platforms[platform].parts_mut();
-                parts
-                    .into_iter()
-                    .for_each(|parts| parts.coordinates.push((coordinate, 0.0)));
+                if let Some(parts) = held.platforms[platform].parts_mut() {
+                    parts.coordinates.push((coordinate, 0.0));
+                }
             }
             // the three turns of an orientation
             Coordinate::Turn(platform, _) => {
-                let parts = held.platforms[platform].parts_mut();
-                let identity = Pose::identity().rotation;
-                parts
-                    .into_iter()
-                    .for_each(|parts| parts.orientation = Some(identity));
+                if let Some(parts) = held.platforms[platform].parts_mut() {
+                    parts.orientation = Some(Pose::identity().rotation);
+                }
             }
         }
     }
