@@ -121,7 +121,7 @@ impl<'m> Record<'m> {
                 (MetKind::Turning { joint }, Some(if locks { 2 } else { 1 }))
             }
             Event::Fold => {
-                let inputs = self.inputs.iter();
+                let locked = self.so_far.inputs.iter().map(|input| input.name.clone());
                 let moving = curve.system().unknowns().iter().zip(&place.tangent);
                 let moving = moving.filter_map(|(unknown, rate)| match *unknown {
                     Unknown::Joint(joint) => Some((joint, rate.abs())),
@@ -129,9 +129,7 @@ impl<'m> Record<'m> {
                 });
                 let fastest = moving.max_by(|a, b| a.1.total_cmp(&b.1));
                 let kind = MetKind::Fold {
-                    locked: inputs
-                        .map(|input| input.coordinate.name(mechanism))
-                        .collect(),
+                    locked: locked.collect(),
                     moving: fastest
                         .filter(|(_, rate)| *rate > 1e-6)
                         .map(|(j, _)| name(j)),

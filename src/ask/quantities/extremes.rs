@@ -170,62 +170,48 @@ impl Extremes {
                     let Some(mut between) = passage.between(rows.each_ref()) else {
                         continue;
                     };
-                    let mut gap = None;
-                    let mut value = |part: f64| {
+                    // the value at a part of the way, with how far it may be off
+                    let mut read = |part: f64| {
                         let (at, when) = passage.at(&mut between, part)?;
                         meter.settle(&rows[1].values);
                         let value = meter.read(at, when)[i];
-                        if value.is_none() {
-                            gap = Some(part);
-                        }
-                        value
+                        Some((value, meter.noise()[i]))
                     };
+                    let mut gap = None;
                     let found = match peak.gap {
                         Some(_) => None,
-                        None => summit(0.0, 1.0, |part| Some(sense * value(part)?)),
+                        None => summit(0.0, 1.0, |part| {
+                            let (value, _) = read(part)?;
+                            if value.is_none() {
+                                gap = Some(part);
+                            }
+                            Some(sense * value?)
+                        }),
                     };
-                    let seen = found.map(|(part, _)| part);
-                    let place = match (peak.gap, gap) {
-                        (Some(gap), _) => Some(gap),
-                        (None, Some(gap)) if found.is_none() => {
-                            let mut value = |part: f64| {
-                                let (at, when) = passage.at(&mut between, part)?;
-                                meter.read(at, when)[i]
-                            };
-                            Some(middle_of_gap(gap, &mut value))
+                    let place = match (peak.gap, found, gap) {
+                        (Some(gap), ..) => gap,
+                        (None, Some((part, _)), _) => part,
+                        (None, None, Some(gap)) => {
+                            middle_of_gap(gap, &mut |part| read(part).and_then(|(value, _)| value))
                         }
-                        _ => seen,
-                    };
-                    let Some(place) = place else {
-                        continue;
+                        (None, None, None) => continue,
                     };
                     let sides = unbounded(place, &mut |part| {
-                        let (at, when) = passage.at(&mut between, part)?;
-                        meter.settle(&rows[1].values);
-                        let value = meter.read(at, when)[i]?;
+                        let (value, noise) = read(part)?;
                         // what is nothing but rounding grows where it is divided by little
-                        Some(if value.abs() > 4.0 * meter.noise()[i] {
-                            value
-                        } else {
-                            0.0
-                        })
+                        value.map(|x| if x.abs() > 4.0 * noise { x } else { 0.0 })
                     });
                     let Some((at, when)) = passage.at(&mut between, place) else {
                         continue;
                     };
-                    let time = (!passage.inputs.is_empty()).then_some(when);
                     if sides.iter().any(Option::is_some) {
-                        let inputs = passage.inputs(at);
-                        let joints = at.joints.clone();
-                        merge(
-                            &mut poles,
-                            Pole {
-                                time,
-                                inputs,
-                                joints,
-                                upwards: sides,
-                            },
-                        );
+                        let pole = Pole {
+                            time: (!passage.inputs.is_empty()).then_some(when),
+                            inputs: passage.inputs(at),
+                            joints: at.joints.clone(),
+                            upwards: sides,
+                        };
+                        merge(&mut poles, pole);
                     } else if let Some((_, height)) = found
                         && height > best.0
                     {
