@@ -175,14 +175,11 @@ fn elsewhere(
     (held, locked_at): (&Held<f64>, &Configuration<f64>),
     here: &MobilityReport,
 ) -> Vec<Elsewhere> {
-    let mechanism = search.near.mechanism();
+    let (mechanism, watch) = (search.near.mechanism(), search.watch);
     let slides = mechanism.slides_of_points();
     let mut found: Vec<Elsewhere> = Vec::new();
     for start in 0..here.elsewhere_starts {
-        if search
-            .watch
-            .stops(Stage::Starts, start, Some(here.elsewhere_starts))
-        {
+        if watch.stops(Stage::Starts, start, Some(here.elsewhere_starts)) {
             break;
         }
         let mut start = random_configuration(mechanism, &mechanism.home(), &mut search.rng);
