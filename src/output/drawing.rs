@@ -254,16 +254,9 @@ impl<'s> Stage<'s> {
                 false => self.line(&path.points, Layer::Path, Style::line(PATH, 1.6)),
             });
         }
-        let flat = self.flat;
-        let place = |piece: &Piece| {
-            (
-                flat.then_some(piece.layer),
-                if flat { 0.0 } else { piece.near },
-            )
-        };
-        pieces.sort_by(|a, b| {
-            let ((a, before), (b, after)) = (place(a), place(b));
-            a.cmp(&b).then(before.total_cmp(&after))
+        pieces.sort_by(|a, b| match self.flat {
+            true => a.layer.cmp(&b.layer),
+            false => a.near.total_cmp(&b.near),
         });
         pieces.into_iter().map(|piece| piece.shape)
     }

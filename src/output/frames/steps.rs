@@ -83,14 +83,13 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
             triple(&frame.x)
         ),
     );
-    let placed = if modified { 1..n + 1 } else { 1..n };
+    // all that follows the axis of joint k in the one convention follows that of joint k + 1 in the other
+    let ahead = usize::from(!modified);
+    let placed = 1..n + 1 - ahead;
     for k in placed.clone() {
         let (frame, normal) = (&chain.frames[k], &chain.normals[k]);
-        let joint = if modified { k } else { k + 1 };
-        say(
-            3,
-            format!("z{k} along the axis of joint {joint}: {}", triple(&frame.z)),
-        );
+        let (joint, z) = (k + ahead, triple(&frame.z));
+        say(3, format!("z{k} along the axis of joint {joint}: {z}"));
         let axes = match normal.relation {
             None => String::new(),
             found => format!("axes {k} and {} {}: ", k + 1, relation(found)),
@@ -128,16 +127,9 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
         ),
     );
     for (k, row) in (1..).zip(&chain.rows) {
-        let link = if modified { k - 1 } else { k };
-        let z = if modified { k } else { k - 1 };
-        let joint = &chain.joints[k - 1];
-        say(
-            9,
-            format!(
-                "b{k} at {}, where x{k} meets z{z}",
-                place(chain.normals[k].from)
-            ),
-        );
+        let (link, z) = (k - 1 + ahead, k - ahead);
+        let (joint, foot) = (&chain.joints[k - 1], place(chain.normals[k].from));
+        say(9, format!("b{k} at {foot}, where x{k} meets z{z}"));
         let theta = variable(degrees(row.theta), row.theta == 0.0, row.turn, joint);
         say(
             10,
@@ -146,13 +138,8 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
         let d = variable(metres(row.d), row.d == 0.0, row.slide, joint);
         say(11, format!("d{k} = {d}, along z{z} to b{k}"));
         say(12, format!("a{link} = {}, along x{link}", metres(row.a)));
-        let to = link + 1;
-        let (from, to) = if modified {
-            (link, to)
-        } else {
-            (link - 1, link)
-        };
-        let alpha = degrees(row.alpha);
+        let (alpha, from) = (degrees(row.alpha), link - ahead);
+        let to = from + 1;
         say(
             13,
             format!("α{link} = {alpha}, from z{from} to z{to} about x{link}"),

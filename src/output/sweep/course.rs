@@ -1,5 +1,6 @@
 //! The places of a mechanism along a motion, to be drawn over one another or one after the other.
 
+use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::scene::Scene;
 
@@ -112,28 +113,20 @@ impl Course {
             let scene = |at: &Configuration<f64>| (places.mode, self.scene(mechanism, at));
             let mut scenes: Vec<(Option<usize>, Scene)> =
                 places.taken.kept.iter().map(scene).collect();
-            let far = |a: [f64; 3], b: [f64; 3]| {
-                let apart = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
-                apart.sum::<f64>().sqrt()
-            };
             let returns = match &scenes[..] {
                 [(_, first), .., (_, last)] => {
                     let pairs = first.points().into_iter().zip(last.points());
-                    let apart = pairs.map(|(a, b)| far(a, b)).fold(0.0, f64::max);
-                    apart < 1e-6 * mechanism.characteristic_length()
+                    let apart = pairs.map(|(a, b)| (Vector3(a) - Vector3(b)).norm());
+                    apart.fold(0.0, f64::max) < 1e-6 * mechanism.characteristic_length()
                 }
                 _ => true,
             };
-            match returns {
+            if !returns {
+                let back: Vec<_> = scenes[1..scenes.len() - 1].iter().rev().cloned().collect();
+                scenes.extend(back);
+            } else if scenes.len() > 1 {
                 // the last place is the first of the next round
-                true if scenes.len() > 1 => {
-                    scenes.pop();
-                }
-                true => {}
-                false => {
-                    let back: Vec<_> = scenes[1..scenes.len() - 1].iter().rev().cloned().collect();
-                    scenes.extend(back);
-                }
+                scenes.pop();
             }
             scenes
         });
