@@ -264,16 +264,10 @@ fn tenth(pixels: f64) -> f64 {
 }
 
 fn escaped(words: &str) -> String {
-    let mut text = String::new();
-    for letter in words.chars() {
-        match letter {
-            '<' => text += "&lt;",
-            '&' => text += "&amp;",
-            '>' => text += "&gt;",
-            // what XML cannot hold
-            c if c.is_control() => text.push('\u{fffd}'),
-            c => text.push(c),
-        }
-    }
-    text
+    words
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        // what XML cannot hold
+        .replace(char::is_control, "\u{fffd}")
 }

@@ -127,18 +127,11 @@ fn inline(text: &str) -> String {
 }
 
 fn escaped(text: &str) -> String {
-    let mut written = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => written += "&amp;",
-            '<' => written += "&lt;",
-            '>' => written += "&gt;",
-            '"' => written += "&quot;",
-            '\'' => written += "&#39;",
-            c => written.push(c),
-        }
-    }
-    written
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace('\'', "&#39;")
 }
 
 #[cfg(test)]

@@ -136,10 +136,7 @@ impl Code {
 
 /// A name on one line of a comment, which it cannot end.
 fn plain(name: &str) -> String {
-    let kept = name
-        .chars()
-        .map(|c| if c.is_control() || c == '\\' { ' ' } else { c });
-    kept.collect::<String>()
+    name.replace(|c: char| c.is_control() || c == '\\', " ")
         .replace("*/", "* /")
         .replace("??", "? ?")
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::notation::plain_digit;
 use super::{notes, one_line, parts, rows};
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::analysis::formulas::{ClosureFormula, FormulasReport, Letter, Meaning};
@@ -92,18 +93,12 @@ fn identifier(name: &str) -> String {
         "gen", "Self", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
         "_",
     ];
-    let mut plain = String::new();
-    for c in name.chars() {
-        match c {
-            '₀'..='₉' => plain.push(char::from(b'0' + (c as u32 - '₀' as u32) as u8)),
-            c if c.is_alphanumeric() => plain.push(c),
-            _ => plain.push('_'),
-        }
-    }
-    let starts = plain
-        .chars()
-        .next()
-        .is_some_and(|c| c.is_alphabetic() || c == '_');
+    let letter = |c: char| match plain_digit(c) {
+        c if c.is_alphanumeric() => c,
+        _ => '_',
+    };
+    let plain: String = name.chars().map(letter).collect();
+    let starts = plain.starts_with(|c: char| c.is_alphabetic() || c == '_');
     let reserved = RESERVED.contains(&plain.as_str())
         || plain.starts_with("sin_")
         || plain.starts_with("cos_");

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::system::FormulaNames;
 use characters::{VULGAR, escaped, greek, parts, raised};
-pub(super) use characters::{lowered, upright};
+pub(super) use characters::{lowered, plain_digit, upright};
 
 /// For terminals or for TeX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +49,10 @@ impl Printed {
             tightness,
             compact: false,
         }
+    }
+
+    fn compact(self, compact: bool) -> Self {
+        Printed { compact, ..self }
     }
 }
 
@@ -221,18 +225,12 @@ impl Notation {
                     (word, Script::Latex) => format!("{value}\\,\\mathrm{{{word}}}"),
                 })
             }
-            Node::Constant(Constant::Pi) => Printed {
-                compact: true,
-                ..operand(match self.script {
-                    Script::Unicode => "π".into(),
-                    Script::Latex => "\\pi".into(),
-                })
+            Node::Constant(Constant::Pi) => match self.script {
+                Script::Unicode => operand("π".into()).compact(true),
+                Script::Latex => operand("\\pi".into()).compact(true),
             },
             Node::Constant(other) => operand(other.word().into()),
-            Node::Name(name) => Printed {
-                compact: self.is_compact(name),
-                ..operand(self.name(name))
-            },
+            Node::Name(name) => operand(self.name(name)).compact(self.is_compact(name)),
             Node::Negate(x) => {
                 let x = self.part(x, Tightness::Product);
                 product(format!("{}{x}", self.minus()))
@@ -243,14 +241,10 @@ impl Notation {
     }
 
     fn part(&self, expression: &Expression, tightness: Tightness) -> String {
-        let Printed {
-            text,
-            tightness: own,
-            ..
-        } = self.printed(expression);
-        match own >= tightness {
-            true => text,
-            false => self.enclosed(&text),
+        let printed = self.printed(expression);
+        match printed.tightness >= tightness {
+            true => printed.text,
+            false => self.enclosed(&printed.text),
         }
     }
 
@@ -291,10 +285,7 @@ impl Notation {
                     }
                     (Script::Latex, _) => format!("{{{base}}}^{{{}}}", self.print(y)),
                 };
-                Printed {
-                    compact,
-                    ..operand(text)
-                }
+                operand(text).compact(compact)
             }
         }
     }
@@ -354,13 +345,11 @@ impl Notation {
         let circular = matches!(function, Function::Sin | Function::Cos);
         if circular && let Some(indices) = self.indices(&arguments[0]) {
             let letter = if function == Function::Sin { 's' } else { 'c' };
-            return Printed {
-                compact: true,
-                ..operand(match self.script {
-                    Script::Unicode => format!("{letter}{}", lowered(&indices)),
-                    Script::Latex => format!("{letter}_{{{indices}}}"),
-                })
+            let text = match self.script {
+                Script::Unicode => format!("{letter}{}", lowered(&indices)),
+                Script::Latex => format!("{letter}_{{{indices}}}"),
             };
+            return operand(text).compact(true);
         }
         let inside: Vec<String> = arguments.iter().map(|x| self.print(x)).collect();
         let inside = inside.join(", ");

@@ -42,6 +42,12 @@ pub fn sentence(report: &SweepReport) -> String {
         false => format!(", {}", listed(&through)),
     };
     let place = last.map(|met| inputs_at(report, met)).unwrap_or_default();
+    let limit = match last.map(|met| &met.kind) {
+        Some(MetKind::Limit {
+            limit, unit, upper, ..
+        }) => format!("{} limit of {}", side(*upper), quantity(*limit, *unit)),
+        _ => String::new(),
+    };
     match (report.ending, last.map(|met| &met.kind)) {
         (SweepEnd::Complete, _) if through.is_empty() => {
             format!("{way}: complete, on one branch.")
@@ -70,18 +76,8 @@ pub fn sentence(report: &SweepReport) -> String {
                 listed(locked)
             )
         }
-        (
-            SweepEnd::Limit,
-            Some(MetKind::Limit {
-                joint,
-                limit,
-                unit,
-                upper,
-            }),
-        ) => format!(
-            "{joint} reaches its {} limit of {}{}.",
-            side(*upper),
-            quantity(*limit, *unit),
+        (SweepEnd::Limit, Some(MetKind::Limit { joint, .. })) => format!(
+            "{joint} reaches its {limit}{}.",
             match report.inputs.iter().any(|input| input.name == *joint) {
                 true => String::new(),
                 false => format!(" at {place}"),
@@ -111,18 +107,8 @@ pub fn sentence(report: &SweepReport) -> String {
              move."
                 .into()
         }
-        (
-            SweepEnd::OutsideLimits,
-            Some(MetKind::Limit {
-                joint,
-                limit,
-                unit,
-                upper,
-            }),
-        ) => format!(
-            "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode.",
-            side(*upper),
-            quantity(*limit, *unit)
+        (SweepEnd::OutsideLimits, Some(MetKind::Limit { joint, .. })) => format!(
+            "{joint} is outside its {limit} at the start: begin elsewhere, or in another mode."
         ),
         (SweepEnd::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(

@@ -33,11 +33,15 @@ pub(super) const VULGAR: [(f64, f64, char); 9] = [
 pub(super) fn parts(name: &str) -> (&str, String) {
     let digit = |c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c);
     let stem = name.trim_end_matches(digit);
-    let plain = |c: char| match c {
+    (stem, name[stem.len()..].chars().map(plain_digit).collect())
+}
+
+/// A lowered digit as a plain one; any other character as it is.
+pub(in crate::output::formulas) fn plain_digit(c: char) -> char {
+    match c {
         '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8),
         other => other,
-    };
-    (stem, name[stem.len()..].chars().map(plain).collect())
+    }
 }
 
 /// A name as it stands in running text of TeX, whatever it holds.
