@@ -20,11 +20,8 @@ use crate::analysis::formulas::{
 /// Sentences about what a reader might miss; none for most mechanisms.
 fn notes(report: &FormulasReport) -> Vec<String> {
     let mut notes = Vec::new();
-    let screws = report
-        .letters
-        .iter()
-        .filter(|l| l.meaning == Meaning::Screw);
-    for screw in screws {
+    let letters = report.letters.iter();
+    for screw in letters.filter(|letter| letter.meaning == Meaning::Screw) {
         notes.push(format!(
             "{} turns and slides at once: it stands as an angle in sines and cosines, and times its pitch in lengths.",
             screw.name

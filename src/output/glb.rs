@@ -45,11 +45,8 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
     }
     for (index, rod) in first.rods.iter().enumerate() {
         let colour = if rod.driven { DRIVEN } else { INK };
-        let ends = || {
-            scenes
-                .iter()
-                .map(|scene| scene.rods[index].ends.map(Vector3))
-        };
+        let place = |scene: &Scene| scene.rods[index].ends.map(Vector3);
+        let ends = || scenes.iter().map(place);
         let places = along(first, ends(), thick(0.25));
         file.node(&rod.name, &cylinder, (colour, 1.0), places);
         for end in [0, 1] {
@@ -211,10 +208,8 @@ fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<Placed>)>
     let b = (1..first.len()).find(wide)?;
     let to = frame(&first, [a, b]);
     let local = |corners: &[Point], to: &Rotation<f64>| -> Vec<Point> {
-        corners
-            .iter()
-            .map(|corner| to.inverse_rotate(&(*corner - corners[0])))
-            .collect()
+        let offsets = corners.iter().map(|corner| *corner - corners[0]);
+        offsets.map(|offset| to.inverse_rotate(&offset)).collect()
     };
     let outline = local(&first, &to);
     let mut places = Vec::new();

@@ -66,13 +66,11 @@ fn section(section: &Section, level: usize, page: &mut String) {
 }
 
 fn list(class: &str, lines: &[String]) -> String {
-    let items = lines
-        .iter()
-        .map(|line| format!("<li>{}</li>\n", inline(line)));
-    format!(
-        "<ul class=\"{class}\">\n{}</ul>\n",
-        items.collect::<String>()
-    )
+    let items = lines.iter();
+    let items: String = items
+        .map(|line| format!("<li>{}</li>\n", inline(line)))
+        .collect();
+    format!("<ul class=\"{class}\">\n{items}</ul>\n")
 }
 
 /// A table that a wide screen shows whole and a narrow one scrolls; words in the first column name

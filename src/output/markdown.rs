@@ -45,10 +45,8 @@ fn paragraph(text: &str) -> String {
 }
 
 fn list(lines: &[String]) -> String {
-    lines
-        .iter()
-        .map(|text| format!("- {}\n", line(text)))
-        .collect()
+    let items = lines.iter();
+    items.map(|text| format!("- {}\n", line(text))).collect()
 }
 
 fn table(table: &Table) -> String {

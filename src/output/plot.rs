@@ -295,15 +295,12 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
         let centre = at(LEFT + width / 2.0, ABOVE + height / 2.0);
         shapes.extend(strobe(scenes, *view, fit, centre));
     }
+    let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
     for (i, series) in chart.series.iter().enumerate() {
         // a gap ends a line; its pieces have one colour and one entry in the legend
-        let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
+        let pieces = series.points.split(|p| !finite(p));
         let style = stroke(i);
-        for piece in series
-            .points
-            .split(|p| !finite(p))
-            .filter(|piece| !piece.is_empty())
-        {
+        for piece in pieces.filter(|piece| !piece.is_empty()) {
             for part in within::inside(piece, chart.within) {
                 shapes.push(Shape::line(part.into_iter().map(place), style));
             }
@@ -315,18 +312,9 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
         line += LINE;
     }
     for (i, marks) in chart.marks.iter().enumerate() {
-        let finite = |p: &&(f64, f64)| p.0.is_finite() && p.1.is_finite();
-        let seen = |p: &&(f64, f64)| {
-            chart
-                .within
-                .is_none_or(|(low, high)| low <= p.1 && p.1 <= high)
-        };
-        let points = marks
-            .points
-            .iter()
-            .filter(finite)
-            .filter(seen)
-            .map(|p| place(*p));
+        let within = |y: f64| (chart.within).is_none_or(|(low, high)| (low..=high).contains(&y));
+        let points = marks.points.iter().filter(|p| finite(p) && within(p.1));
+        let points = points.map(|p| place(*p));
         for place in points.chain([at(right + 12.0, line)]) {
             let outline = SHAPES[i % SHAPES.len()].iter();
             let outline = outline.map(|(x, y)| (place.0 + x, place.1 + y));

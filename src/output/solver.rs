@@ -42,11 +42,10 @@ impl Code {
             ("frames", writer.frames()),
             ("sine", self.precision.sine(language)),
         ];
-        let filled = sections
-            .into_iter()
-            .fold(language.template().to_owned(), |text, (name, section)| {
-                text.replace(&format!("@{name}@\n"), &section)
-            });
+        let mut filled = language.template().to_owned();
+        for (name, section) in sections {
+            filled = filled.replace(&format!("@{name}@\n"), &section);
+        }
         self.named(filled, solver)
     }
 
@@ -97,12 +96,8 @@ impl Code {
         let list = |components: &[Component]| -> String {
             let lines = components.iter().enumerate().map(|(i, component)| {
                 let unit = component.unit.to_string();
-                let unit = if unit.is_empty() {
-                    String::new()
-                } else {
-                    format!(", {unit}")
-                };
-                format!("   {i:>3}  {}{unit}\n", plain(&component.name))
+                let comma = if unit.is_empty() { "" } else { ", " };
+                format!("   {i:>3}  {}{comma}{unit}\n", plain(&component.name))
             });
             lines.collect()
         };
@@ -113,11 +108,8 @@ impl Code {
             list(&solver.inputs),
             list(&solver.state),
         );
-        if solver
-            .state
-            .iter()
-            .any(|component| component.unit.to_string().is_empty())
-        {
+        let mut state = solver.state.iter();
+        if state.any(|component| component.unit.to_string().is_empty()) {
             lines += "qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.\n";
         }
         if !solver.frames.is_empty() {

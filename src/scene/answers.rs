@@ -24,10 +24,8 @@ impl Scene {
             };
             let apart = |other: Triple| (Vector3(at) - Vector3(other)).norm();
             // where there is a joint nobody doubts it
-            let joint = self
-                .joints
-                .iter()
-                .any(|joint| apart(joint.at) < 1e-6 * size);
+            let mut joints = self.joints.iter();
+            let joint = joints.any(|joint| apart(joint.at) < 1e-6 * size);
             if !joint && apart(middle) <= 1.5 * size {
                 self.centres.push(Mark {
                     name: centre.bodies.join(" / "),
@@ -67,12 +65,8 @@ impl Scene {
     #[must_use]
     pub fn with_gained(mut self, report: &SingularitiesReport) -> Self {
         let (middle, _) = self.extent();
-        let spaces = report
-            .singularity
-            .gained
-            .iter()
-            .flat_map(|gained| &gained.twists);
-        for space in spaces {
+        let gained = report.singularity.gained.iter();
+        for space in gained.flat_map(|gained| &gained.twists) {
             self.screws.extend(space.screws.iter().map(|screw| {
                 let along = Vector3(screw.direction);
                 // where the axis is nearest to the mechanism

@@ -73,11 +73,11 @@ impl Scene {
             let driven =
                 (joints.iter()).any(|&joint| mechanism.joints()[joint].role == Role::Actuated);
             bodies.into_iter().for_each(|body| self.attach(body, at));
+            let names = joints
+                .iter()
+                .map(|&joint| mechanism.joints()[joint].name.clone());
             self.joints.push(JointShape {
-                names: joints
-                    .iter()
-                    .map(|&joint| mechanism.joints()[joint].name.clone())
-                    .collect(),
+                names: names.collect(),
                 kind,
                 at: at.0,
                 axes: vec![axis.0],

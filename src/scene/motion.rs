@@ -28,19 +28,16 @@ impl Scene {
             let Some((low, high)) = of.limits else {
                 continue;
             };
-            let shape = self
-                .joints
-                .iter()
-                .find(|shape| shape.names.contains(&of.name));
-            let Some(shape) = shape else { continue };
+            let mut shapes = self.joints.iter();
+            let Some(shape) = shapes.find(|shape| shape.names.contains(&of.name)) else {
+                continue;
+            };
             let which = shape.names.iter().position(|name| *name == of.name);
             let axis = shape.axes[which.unwrap_or(0).min(shape.axes.len() - 1)];
             let rows = mechanism.dimensions().chains.iter().enumerate();
             let mut rows = rows.flat_map(|(chain, part)| {
-                part.rows
-                    .iter()
-                    .enumerate()
-                    .map(move |(row, of)| (chain, row, of))
+                let rows = part.rows.iter().enumerate();
+                rows.map(move |(row, of)| (chain, row, of))
             });
             let alone = |form: &LinearForm<f64>| matches!(form.0[..], [(only, _)] if only == joint);
             let Some((chain, row, form)) = rows.find_map(|(chain, row, of)| {
@@ -52,18 +49,13 @@ impl Scene {
             let factor = form.0[0].1;
             let mut ends = [low, high].map(|end| factor * (end - at.joints[joint]));
             ends.sort_by(f64::total_cmp);
-            let arm = pose(Frame::Link {
-                chain,
-                row: row + 1,
-            })
-            .rotation
-            .0[0]
-                .0;
+            let row = row + 1;
+            let [arm, ..] = pose(Frame::Link { chain, row }).rotation.0;
             self.travels.push(Travel {
                 joint: of.name.clone(),
                 at: shape.at,
                 axis,
-                arm: of.kind.is_angle().then_some(arm),
+                arm: of.kind.is_angle().then_some(arm.0),
                 ends,
             });
         }

@@ -125,10 +125,7 @@ impl Camera {
             chain
         };
         let (below, above) = (half(&mut seen.iter()), half(&mut seen.iter().rev()));
-        below
-            .into_iter()
-            .chain(above)
-            .map(|(_, point)| point)
-            .collect()
+        let round = below.into_iter().chain(above);
+        round.map(|(_, point)| point).collect()
     }
 }

@@ -23,27 +23,19 @@ impl Labels {
         beside: Vec<(String, Vector3<f64>)>,
     ) -> Vec<(String, Pixel)> {
         let scene = stage.scene;
-        let joints = scene
-            .joints
-            .iter()
-            .map(|joint| (joint.names.join(", "), Vector3(joint.at)));
+        let joints = scene.joints.iter();
+        let joints = joints.map(|joint| (joint.names.join(", "), Vector3(joint.at)));
         let rods = scene.rods.iter().map(|rod| {
             let [a, b] = rod.ends.map(Vector3);
             (rod.name.clone(), (a + b).times(0.5))
         });
-        let platforms = scene
-            .bodies
-            .iter()
-            .filter(|body| body.platform && !body.corners.is_empty());
+        let bodies = scene.bodies.iter();
+        let platforms = bodies.filter(|body| body.platform && !body.corners.is_empty());
         let platforms = platforms.map(|body| {
-            let sum = body
-                .corners
-                .iter()
-                .fold(Vector3::zero(), |sum, corner| sum + Vector3(*corner));
-            (
-                body.name.clone(),
-                sum.times(1.0 / body.corners.len() as f64),
-            )
+            let corners = body.corners.iter();
+            let sum = corners.fold(Vector3::zero(), |sum, corner| sum + Vector3(*corner));
+            let middle = sum.times(1.0 / body.corners.len() as f64);
+            (body.name.clone(), middle)
         });
         let reach = 1.4 * stage.size;
         let joints_taken = scene.joints.iter().map(|joint| {
@@ -101,10 +93,8 @@ impl Labels {
             (0.0, -1.0),
             (0.0, 1.0),
         ];
-        let distances = [1.0, 1.6, 2.4].map(|far| far * reach);
-        let places = distances
-            .into_iter()
-            .flat_map(|far| ways.map(|way| area(way, far)));
+        let distances = [1.0, 1.6, 2.4].map(|far| far * reach).into_iter();
+        let places = distances.flat_map(|far| ways.map(|way| area(way, far)));
         let covered = |place: &Area| -> f64 {
             let of = |taken: &Area| {
                 let across = place[2].min(taken[2]) - place[0].max(taken[0]);

@@ -11,16 +11,10 @@ type Point = Vector3<f64>;
 pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
     let at = Vector3(joint.at);
     let fill = if joint.driven { DRIVEN } else { WHITE };
-    let on_ground = joint
-        .bodies
-        .iter()
-        .any(|&body| stage.scene.bodies[body].ground);
-    let axis = |k: usize| {
-        joint
-            .axes
-            .get(k)
-            .map_or(stage.camera.towards, |axis| Vector3(*axis))
-    };
+    let mut bodies = joint.bodies.iter();
+    let on_ground = bodies.any(|&body| stage.scene.bodies[body].ground);
+    let towards = stage.camera.towards;
+    let axis = |k: usize| joint.axes.get(k).map_or(towards, |axis| Vector3(*axis));
     let flat = |k: usize| stage.camera.facing(&axis(k)).abs() > 1.0 - 1e-9;
     let mut pieces = Vec::new();
     match joint.kind {

@@ -17,9 +17,9 @@ pub fn rust(report: &FormulasReport) -> String {
         "// {}, by linkwork. Lengths in m, angles in rad.\n",
         one_line(&report.mechanism)
     );
-    notes(report)
-        .iter()
-        .for_each(|note| text += &format!("// {}\n", one_line(note)));
+    for note in notes(report) {
+        text += &format!("// {}\n", one_line(&note));
+    }
     for transform in report.links.iter().chain(&report.transforms) {
         let (of, relative_to) = (&transform.of, &transform.relative_to);
         let rows = rows(transform).map(|row| row.to_vec());
@@ -139,35 +139,27 @@ impl Writer<'_> {
         let given = given.filter(|(letter, _)| used.contains(letter));
         let given: Vec<String> = given.map(|(_, name)| format!("{name}: f64")).collect();
         let mut angles = Angles::new();
-        let rows: Vec<String> = rows
-            .iter()
-            .map(|row| {
-                let entries: Vec<String> = row
-                    .iter()
-                    .map(|e| spaced(&self.code(e, &mut angles)))
-                    .collect();
-                format!(
-                    "        [\n            {},\n        ],\n",
-                    entries.join(",\n            ")
-                )
-            })
-            .collect();
+        let rows = rows.iter().map(|row| {
+            let entries = row.iter().map(|e| spaced(&self.code(e, &mut angles)));
+            let entries: Vec<String> = entries.collect();
+            let entries = entries.join(",\n            ");
+            format!("        [\n            {entries},\n        ],\n")
+        });
+        let rows: String = rows.collect();
         let mut numbered: Vec<(&String, &(usize, bool, bool))> = angles.iter().collect();
         numbered.sort_by_key(|(_, (number, ..))| *number);
-        let lets: String = numbered
-            .into_iter()
-            .map(|(angle, of)| (spaced(angle), of))
-            .map(|(angle, (k, sin, cos))| match (sin, cos) {
-                (true, true) => format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n"),
-                (true, false) => format!("    let sin_{k} = f64::sin({angle});\n"),
-                _ => format!("    let cos_{k} = f64::cos({angle});\n"),
-            })
-            .collect();
+        let numbered = numbered.into_iter().map(|(angle, of)| (spaced(angle), of));
+        let lets = numbered.map(|(angle, (k, sin, cos))| match (sin, cos) {
+            (true, true) => format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n"),
+            (true, false) => format!("    let sin_{k} = f64::sin({angle});\n"),
+            _ => format!("    let cos_{k} = f64::cos({angle});\n"),
+        });
+        let lets: String = lets.collect();
         format!(
             "\n/// {}\n#[allow(clippy::all, non_snake_case)]\npub fn {name}({}) -> {gives} {{\n{lets}    [\n{}    ]\n}}\n",
             one_line(what),
             given.join(", "),
-            rows.concat()
+            rows
         )
     }
 

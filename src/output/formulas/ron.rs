@@ -79,13 +79,10 @@ fn wheres(locals: &BTreeMap<(usize, String), String>) -> String {
     if locals.is_empty() {
         return String::new();
     }
-    let locals = locals
-        .iter()
-        .map(|((_, name), meaning)| format!("\"{name}\": \"{meaning}\""));
-    format!(
-        "        where: {{ {} }},\n",
-        locals.collect::<Vec<_>>().join(", ")
-    )
+    let locals = locals.iter();
+    let locals = locals.map(|((_, name), meaning)| format!("\"{name}\": \"{meaning}\""));
+    let locals: Vec<String> = locals.collect();
+    format!("        where: {{ {} }},\n", locals.join(", "))
 }
 
 fn transform_of(
@@ -103,10 +100,8 @@ fn transform_of(
     let mut locals = BTreeMap::new();
     let mut quoted_entry = |e| format!("\"{}\"", shortened(notation, e, &mut locals));
     let rows = rows(transform).map(|row| row.map(&mut quoted_entry));
-    let rows = rows
-        .iter()
-        .map(|row| format!("            ({}),\n", row.join(", ")));
-    let rows: String = rows.collect();
+    let rows = rows.map(|row| format!("            ({}),\n", row.join(", ")));
+    let rows = rows.concat();
     let seen = match relative_to.as_str() {
         "ground" => String::new(),
         other => format!(", in: {}", quoted(other)),
@@ -144,10 +139,8 @@ fn closure_of(notation: &Notation, report: &FormulasReport, closure: &ClosureFor
     if equations.is_empty() {
         return String::new();
     }
-    let lines = equations
-        .iter()
-        .enumerate()
-        .map(|(i, equation)| format!("            \"equation{}\": \"{equation}\",\n", i + 1));
+    let lines = (1..).zip(&equations);
+    let lines = lines.map(|(i, of)| format!("            \"equation{i}\": \"{of}\",\n"));
     let lines: String = lines.collect();
     format!(
         "    {}: (\n{}        identities: {{\n{lines}        }},\n    ),\n",

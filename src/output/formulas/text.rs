@@ -80,10 +80,8 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
             _ if i + 1 == rows.len() => ('⎣', '⎦'),
             _ => ('⎢', '⎥'),
         };
-        let cells = row
-            .iter()
-            .zip(&widths)
-            .map(|(cell, w)| format!("{cell}{}", " ".repeat(w - width(cell))));
+        let cells = row.iter().zip(&widths);
+        let cells = cells.map(|(cell, w)| format!("{cell}{}", " ".repeat(w - width(cell))));
         let cells: Vec<String> = cells.collect();
         text += &format!("  {left} {} {right}\n", cells.join("  "));
     }

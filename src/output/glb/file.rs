@@ -100,10 +100,7 @@ impl File {
         }
         let normal = self.floats(&flat(&solid.normals), VEC3, true);
         let numbers = solid.triangles.as_flattened();
-        let bytes: Vec<u8> = numbers
-            .iter()
-            .flat_map(|number| number.to_le_bytes())
-            .collect();
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
         const UNSIGNED_INT: u32 = 5125;
         let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
         self.accessors.push(json!({
@@ -131,15 +128,8 @@ impl File {
         let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
         let view = self.view(&bytes, vertices.then_some(ARRAY_BUFFER));
         let ends = |better: fn(f32, f32) -> f32| -> Vec<f32> {
-            let of = |k: usize| {
-                numbers
-                    .iter()
-                    .copied()
-                    .skip(k)
-                    .step_by(width)
-                    .reduce(better)
-            };
-            (0..width).filter_map(of).collect()
+            let of = |k: usize| numbers.iter().copied().skip(k).step_by(width);
+            (0..width).filter_map(|k| of(k).reduce(better)).collect()
         };
         self.accessors.push(json!({
             "bufferView": view, "componentType": FLOAT, "count": numbers.len() / width, "type": kind,
@@ -191,18 +181,17 @@ impl File {
             json!({ "primitives": [primitive] })
         });
         let materials = self.materials.iter().map(|of| material(*of));
-        let lists = [
+        let lists: [(&str, Vec<Value>); 4] = [
             ("meshes", meshes.collect()),
             ("materials", materials.collect()),
             ("accessors", self.accessors),
             ("bufferViews", self.views),
         ];
         // lists without anything in them are not allowed
-        for (key, list) in lists
-            .into_iter()
-            .filter(|(_, list): &(_, Vec<Value>)| !list.is_empty())
-        {
-            text[key] = list.into();
+        for (key, list) in lists {
+            if !list.is_empty() {
+                text[key] = list.into();
+            }
         }
         if !self.bytes.is_empty() {
             text["buffers"] = json!([{ "byteLength": self.bytes.len() }]);

@@ -78,10 +78,8 @@ impl Picture {
             plot::label(&of.name(mechanism), unit)
         };
         let moved = |i: usize| {
-            inputs
-                .iter()
-                .chain(&input)
-                .any(|d| d.coordinate == Coordinate::Joint(i))
+            let mut moved = inputs.iter().chain(&input);
+            moved.any(|of| of.coordinate == Coordinate::Joint(i))
         };
         let joints = mechanism.joints().iter().enumerate();
         Picture {
@@ -213,10 +211,8 @@ impl Picture {
         let unit = |of: Coordinate| SiUnit::of_coordinate(of.is_angle(mechanism));
         let shown = |of: Coordinate| quantity::shown(of.of(at), unit(of));
         let input = self.input.map_or(f64::NAN, |input| shown(input.coordinate));
-        let outputs = self
-            .outputs
-            .iter()
-            .map(|(joint, _)| shown(Coordinate::Joint(*joint)));
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|(joint, _)| shown(Coordinate::Joint(*joint)));
         let points = row.points.iter().flatten().copied();
         let quantities = self.quantities.iter().zip(row.quantities);
         let quantities =
@@ -330,9 +326,8 @@ impl Picture {
                 series.points = plot::broken(&series.points, &poles);
             }
         }
-        let any = series
-            .iter()
-            .any(|series| !unbounded(&series.label).is_empty());
+        let mut all = series.iter();
+        let any = all.any(|series| !unbounded(&series.label).is_empty());
         Chart {
             title: self.title.clone(),
             x: self.input_label.clone(),

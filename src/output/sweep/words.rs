@@ -13,7 +13,7 @@ use crate::output::quantity::{at, form, metres, number, quantity, range};
 fn inputs_at(report: &SweepReport, met: &Met) -> String {
     let inputs = report.inputs.iter().zip(&met.inputs);
     let inputs = inputs.map(|(input, value)| at(&input.name, *value, input.unit));
-    listed(&inputs.collect::<Vec<_>>())
+    listed(inputs)
 }
 
 /// How a motion ended, in a sentence or two.
@@ -145,7 +145,7 @@ pub fn certified(report: &SweepReport) -> Vec<String> {
                 false => range(&of.name, *from, *to, of.unit),
             }
         });
-        listed(&ranges.collect::<Vec<_>>())
+        listed(ranges)
     });
     vec![format!(
         "the branch is certified but for {} ({boxes}, interval arithmetic)",
@@ -160,7 +160,7 @@ fn some(places: impl ExactSizeIterator<Item = String>) -> String {
         true => ", and elsewhere",
         false => "",
     };
-    listed(&places.take(SHOWN).collect::<Vec<_>>()) + beyond
+    listed(places.take(SHOWN)) + beyond
 }
 
 /// How the inputs went through their ranges in time, where quantities depend on it.
@@ -213,7 +213,7 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
         };
         let places = driven.iter().zip(values);
         let places = places.map(|((name, unit), value)| at(name, *value, *unit));
-        listed(&places.collect::<Vec<_>>())
+        listed(places)
     };
     let unbounded = motion.extremes.iter().filter(|of| !of.unbounded.is_empty());
     let missing = motion.extremes.iter().filter_map(|of| {
@@ -253,7 +253,7 @@ pub(super) fn shapes(motion: &MotionReport) -> Vec<String> {
             quantity(dwell.tolerance, dwell.unit),
             quantity(dwell.value, dwell.unit),
             number(dwell.times[1] - dwell.times[0]),
-            listed(&ranges.collect::<Vec<_>>())
+            listed(ranges)
         )
     });
     straight.chain(dwells).collect()
