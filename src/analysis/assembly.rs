@@ -301,7 +301,7 @@ impl Reporter<'_> {
         let ground = Pose::identity().inverse();
         let frames =
             frames.map(|(part, pose)| (part.name.clone(), FrameRecord::of(&(ground * *pose))));
-        AssemblyReport {
+        let mut report = AssemblyReport {
             mechanism: mechanism.name().into(),
             near_singular: attempt.report.stop == Stop::Solved && condition > POOR_CONDITION,
             condition,
@@ -339,7 +339,9 @@ impl Reporter<'_> {
                 .map(|problem| problem.kind.title())
                 .collect(),
             interrupted: self.interrupted,
-        }
+        };
+        report.warnings.extend(report.warning());
+        report
     }
 
     /// Angles that were solved for by the turn that is within their limits, if one is.
@@ -364,15 +366,15 @@ impl Reporter<'_> {
         } else {
             self.converged(&attempt.at)
         };
-        let mut report = self.report(attempt, outcome, freedoms.condition());
-        if idle > 0 {
+        let condition = match idle {
+            0 => freedoms.condition(),
             // unknowns that nothing determines have no part in the conditioning of the others
-            report.condition = freedoms.condition_of_determined();
-            report.near_singular = report.condition > POOR_CONDITION;
-            report.idle = idle;
+            _ => freedoms.condition_of_determined(),
+        };
+        AssemblyReport {
+            idle,
+            ..self.report(attempt, outcome, condition)
         }
-        report.warnings.extend(report.warning());
-        report
     }
 
     fn converged(&self, at: &Configuration<f64>) -> Outcome {
@@ -392,19 +394,15 @@ impl Reporter<'_> {
         let tangent = near.tangent(attempt.at.clone());
         let condition = freedoms.condition_of_determined();
         let outcome = self.converged(&attempt.at);
-        let mut report = AssemblyReport {
+        AssemblyReport {
             residual,
-            condition,
-            near_singular: condition > POOR_CONDITION,
             idle: tangent.idle.len(),
             left: Some(Left {
                 singular: tangent.motions.len().saturating_sub(left.freedoms),
                 ..left.clone()
             }),
             ..self.report(attempt, outcome, condition)
-        };
-        report.warnings.extend(report.warning());
-        report
+        }
     }
 
     fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
