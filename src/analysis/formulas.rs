@@ -51,13 +51,8 @@ pub fn formulas(
         report: FormulasReport {
             mechanism: mechanism.name().into(),
             names: mechanism.names_in_formulas(),
-            letters: vec![],
-            links: vec![],
-            transforms: vec![],
-            closures: vec![],
-            jacobians: vec![],
-            left_out: vec![],
             simplified: true,
+            ..FormulasReport::default()
         },
     };
     match settings.transform {

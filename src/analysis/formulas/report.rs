@@ -7,7 +7,7 @@ use crate::mechanism::ClosureKind;
 use crate::system::FormulaNames;
 
 /// A mechanism in closed form. Lengths are in m and angles in rad.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FormulasReport {
     /// Name of the mechanism.
     pub mechanism: String,
