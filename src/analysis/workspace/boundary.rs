@@ -24,16 +24,17 @@ pub(super) struct Boundary<'a> {
 impl Boundary<'_> {
     /// Where solutions within limits end on the edges of the grid, and where signs change.
     pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
-        let inputs = self.fill.problem.locks(&self.fill.problem.inputs);
-        let outputs = self.fill.problem.locks(&self.fill.problem.outputs);
-        let joints = self.fill.problem.mechanism.joints();
+        let Flood { problem, grid, .. } = *self.fill;
+        let inputs = problem.locks(&problem.inputs);
+        let outputs = problem.locks(&problem.outputs);
+        let joints = problem.mechanism.joints();
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
         let mut found: Vec<Crossing> = Vec::new();
         let mut at_nodes = std::collections::HashSet::new();
         let solutions = self.reached_set.solutions();
         for (s, solution) in solutions.filter(|(_, solution)| solution.within) {
-            let links = solution.links[..2 * self.fill.grid.dimensions()].iter();
+            let links = solution.links[..2 * grid.dimensions()].iter();
             for (d, link) in links.enumerate() {
                 match *link {
                     Link::Fold if limited => wanted.push((s, d, Until::Limit)),
@@ -80,11 +81,11 @@ impl Boundary<'_> {
                 self.reached_set.solution(s),
                 self.reached_set.configuration(s).owned(),
             );
-            let node = self.fill.grid.neighbour(solution.node, d)?;
+            let node = grid.neighbour(solution.node, d)?;
             let edge = Edge {
                 axis: d / 2,
-                values: self.fill.grid.values(solution.node),
-                to: self.fill.grid.values(node)[d / 2],
+                values: grid.values(solution.node),
+                to: grid.values(node)[d / 2],
             };
             let met = self.fill.walk(&edge, &at, until);
             let kind = |locks: &[Lock]| match locks == &inputs[..] {
@@ -125,22 +126,19 @@ impl Boundary<'_> {
     }
 
     fn slice(&self, crossings: &[Crossing], slice: usize, watch: &Watch) -> Vec<BoundaryCurve> {
-        let third = (self.fill.grid.dimensions() == 3).then(|| self.fill.grid.coordinate(2, slice));
+        let Flood { problem, grid, .. } = *self.fill;
+        let third = (grid.dimensions() == 3).then(|| grid.coordinate(2, slice));
         let question = match third {
             Some(value) => {
-                let axis = self.fill.problem.axes[2].coordinate;
-                self.fill
-                    .problem
-                    .question
-                    .clone()
-                    .at_values([(axis, value)])
+                let axis = problem.axes[2].coordinate;
+                problem.question.clone().at_values([(axis, value)])
             }
-            None => self.fill.problem.question.clone(),
+            None => problem.question.clone(),
         };
-        let problem = MapProblem::new(&question, &self.fill.problem.axes[..2]);
+        let problem = MapProblem::new(&question, &problem.axes[..2]);
         let here = |crossing: &&Crossing| {
             let node = self.reached_set.solution(crossing.solution).node;
-            crossing.direction < 4 && (third.is_none() || self.fill.grid.place(node, 2) == slice)
+            crossing.direction < 4 && (third.is_none() || grid.place(node, 2) == slice)
         };
         let here: Vec<&Crossing> = crossings.iter().filter(here).collect();
         let mut kinds: Vec<Kind> = Vec::new();

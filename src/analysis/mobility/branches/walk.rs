@@ -126,7 +126,7 @@ impl Walk<'_, '_, '_> {
             return;
         };
         // too near the meeting point a motion of high order looks finite
-        let distance = norm(&self.search.near.system().difference(&self.from.at, &at));
+        let distance = norm(&self.way(&at));
         if distance < 0.5 * reach
             && let Some((further, _)) = self.search.near.arrive(self.from, &way, reach)
         {
@@ -134,6 +134,11 @@ impl Walk<'_, '_, '_> {
         }
         let beside = self.tangent(at);
         self.look(beside);
+    }
+
+    /// From the singular configuration.
+    fn way(&self, to: &Configuration<f64>) -> Vec<f64> {
+        self.search.near.system().difference(&self.from.at, to)
     }
 
     fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
@@ -187,20 +192,12 @@ impl Walk<'_, '_, '_> {
 
     /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
-        at.motions.len() == 1
-            || self
-                .search
-                .near
-                .follows(at, step, &mut self.search.rng)
-                .is_some()
+        let Search { near, rng, .. } = &mut *self.search;
+        at.motions.len() == 1 || near.follows(at, step, rng).is_some()
     }
 
     fn add(&mut self, beside: Tangent, regular: bool) {
-        let way = self
-            .search
-            .near
-            .system()
-            .difference(&self.from.at, &beside.at);
+        let way = self.way(&beside.at);
         let clearly = MOVED_ON_A_BRANCH * BRANCH_STEP;
         let known = |seen: &&mut Seen| seen.regular == regular && seen.agrees(&beside);
         if let Some(known) = self.seen.iter_mut().find(known) {
@@ -223,11 +220,7 @@ impl Walk<'_, '_, '_> {
         const LEVELS: i32 = 4;
         let seen = &self.seen[number];
         let (basis, tangent) = (&seen.beside.motions, self.from);
-        let mut way = self
-            .search
-            .near
-            .system()
-            .difference(&tangent.at, &seen.beside.at);
+        let mut way = self.way(&seen.beside.at);
         remove(&mut way, &tangent.idle);
         let distance = norm(&way);
         // distances and the branch's motions there, as parts of the same basis
@@ -239,7 +232,7 @@ impl Walk<'_, '_, '_> {
             let Some(at) = self.search.near.settle(start, factor * distance) else {
                 break;
             };
-            let mut back = self.search.near.system().difference(&tangent.at, &at);
+            let mut back = self.way(&at);
             remove(&mut back, &tangent.idle);
             let along = dot(&back, &way) / (distance * distance);
             if !(0.5 * factor..2.0 * factor).contains(&along) {
