@@ -60,23 +60,18 @@ impl Setting<'_> {
         budget: &mut Budget,
     ) -> bool {
         let first = self.letters.platform(0, 0);
-        if Span::new(equations).contains(form) || follows(form, equations, first, budget) {
-            return true;
-        }
         // two closures are enough for what holds between two legs
         let count = self.letters.0.closures().len();
         let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
-        for pair in pairs.take(if count > 2 { MOST_PAIRS } else { 0 }) {
-            let mut own = Vec::new();
-            for closure in pair {
-                own.extend(self.of_closure(closure));
-            }
-            if follows(form, &own, first, budget) {
-                return true;
-            }
-        }
-        has_plain_angles(equations, self.letters.joint(0))
-            && eliminated(form, &elimination::equations(self.letters.0, &self.formal))
+        let mut pairs = pairs.take(if count > 2 { MOST_PAIRS } else { 0 });
+        Span::new(equations).contains(form)
+            || follows(form, equations, first, budget)
+            || pairs.any(|pair| {
+                let own = pair.map(|closure| self.of_closure(closure)).concat();
+                follows(form, &own, first, budget)
+            })
+            || has_plain_angles(equations, self.letters.joint(0))
+                && eliminated(form, &elimination::equations(self.letters.0, &self.formal))
     }
 
     /// How an identity differs from what the closures give: in one term, or altogether.
