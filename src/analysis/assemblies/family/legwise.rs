@@ -39,14 +39,6 @@ impl LegwiseSolutions {
             })
     }
 
-    pub fn of(coordinates: &Coordinates, x: &[C]) -> Self {
-        let legs = coordinates.legs.iter();
-        LegwiseSolutions {
-            pose: coordinates.pose_of(x).to_vec(),
-            legs: legs.map(|joints| vec![at(joints, x)]).collect(),
-        }
-    }
-
     fn point(&self, coordinates: &Coordinates, way: impl Fn(usize, usize) -> usize) -> Vec<C> {
         let joints = coordinates.free_joints.len();
         let mut x = vec![C::new(0.0, 0.0); joints];
@@ -82,10 +74,8 @@ impl LegwiseSolutions {
         let mut new = false;
         for (joints, ways) in coordinates.legs.iter().zip(&mut self.legs) {
             let way = at(joints, x);
-            if !ways
-                .iter()
-                .any(|known| coordinates.same_way(joints, known, &way))
-            {
+            let mut known = ways.iter();
+            if !known.any(|known| coordinates.same_way(joints, known, &way)) {
                 ways.push(way);
                 new = true;
             }
@@ -111,7 +101,11 @@ pub(crate) fn learn(
     match legwise.iter_mut().find(known) {
         Some(solutions_at_pose) => solutions_at_pose.learn(coordinates, x),
         None => {
-            legwise.push(LegwiseSolutions::of(coordinates, x));
+            let legs = coordinates.legs.iter();
+            legwise.push(LegwiseSolutions {
+                pose: pose.to_vec(),
+                legs: legs.map(|joints| vec![at(joints, x)]).collect(),
+            });
             true
         }
     }
