@@ -91,6 +91,11 @@ pub enum Remark {
     /// The rule that decided which joints are actuated.
     #[error("{0}")]
     Driven(&'static str),
+    #[error(
+        "links `{}` and `{}` look like the two halves of a cut joint: close it in a file of loops",
+        _0[0], _0[1]
+    )]
+    Halves([String; 2]),
     #[error("closure `{name}` is left out: it joins two frames of one body")]
     WithinBody { name: String },
     #[error("constraint `{name}` is left out: it is not active")]
@@ -119,6 +124,7 @@ impl Remark {
                 | Self::Floating { .. }
                 | Self::Unused { .. }
                 | Self::HomeLost { .. }
+                | Self::Halves(_)
         )
     }
 }

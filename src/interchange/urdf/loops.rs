@@ -14,6 +14,7 @@ use super::motion::AXIS;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, along_z, child, children, pose_of, tag};
+use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Loop, Tree};
 
 /// The types of joints that can close a loop, in the words of the formats.
@@ -40,7 +41,13 @@ pub(super) fn is_loop(node: Node) -> bool {
     }
 }
 
-pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Loop> {
+/// The loops of a robot.
+pub(super) fn read(
+    robot: Node,
+    tree: &Tree,
+    problems: &mut Problems,
+    remarks: &mut Vec<Remark>,
+) -> Vec<Loop> {
     let mut reader = LoopReader {
         tree,
         problems,
@@ -63,7 +70,21 @@ pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Loo
             }
         }
     }
-    reader.loops
+    let loops = reader.loops;
+    if loops.is_empty() {
+        let halves = |link: &str| {
+            let name = link.strip_suffix("_1")?;
+            let other = format!("{name}_2");
+            let found = name.starts_with("closing_") && tree.body(&other).is_some();
+            found.then_some(other)
+        };
+        for body in &tree.bodies {
+            if let Some(other) = halves(&body.name) {
+                remarks.push(Remark::Halves([body.name.clone(), other]));
+            }
+        }
+    }
+    loops
 }
 
 /// A kind of joint and the frames that it joins, by their bodies.
@@ -76,6 +97,7 @@ struct LoopReader<'a> {
 }
 
 impl LoopReader<'_> {
+    /// The link of that name.
     fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
         let links = self.tree.bodies.iter().map(|body| body.name.as_str());
         let found = self.tree.body(name);

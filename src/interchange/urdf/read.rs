@@ -2,6 +2,8 @@
 //!
 //! Only what moves is read: shapes and masses do not matter here, and whatever is wrong with them does not either. Loops,
 //! which URDF does not have, are read in the five ways in which programs have added them; `loops.rs` knows these.
+//! Versions of the format differ in two points: from 1.1 on `quat_xyzw` may turn an origin, and from 1.2 on a limit that
+//! is left out is none (before, it is 0).
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -10,7 +12,7 @@ use roxmltree::Node;
 use super::loops;
 use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{Problems, child, children, direction, document};
+use crate::interchange::page::{Problems, child, children, direction, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Motion, Tree};
@@ -18,12 +20,14 @@ use crate::interchange::tree::{Body, Coupling, Motion, Tree};
 /// A tree with remarks.
 pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
 
+/// Reads the text of a URDF file.
 pub(crate) fn read(text: &str) -> Read {
     let document = document(text).map_err(|problem| vec![problem])?;
     let robot = document.root_element();
     let mut reader = Reader {
         problems: Problems(Vec::new()),
         remarks: Vec::new(),
+        version: version(robot),
         links: Vec::new(),
         joints: Vec::new(),
     };
@@ -31,9 +35,19 @@ pub(crate) fn read(text: &str) -> Read {
     reader.finish(robot)
 }
 
+/// The version of the format that a file says it has; 1.0 if it says none that can be read.
+fn version(robot: Node) -> (u32, u32) {
+    let parse = |text: &str| {
+        let (major, minor) = text.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    };
+    robot.attribute("version").and_then(parse).unwrap_or((1, 0))
+}
+
 struct Reader<'a, 'i> {
     problems: Problems,
     remarks: Vec<Remark>,
+    version: (u32, u32),
     links: Vec<String>,
     joints: Vec<(Node<'a, 'i>, String)>,
 }
@@ -45,9 +59,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut names = HashSet::new();
         for node in robot.children().filter(Node::is_element) {
             let element = node.tag_name().name();
-            let namespace = node.tag_name().namespace();
             match element {
-                _ if namespace.is_some_and(|uri| uri.contains("xacro")) => {
+                _ if is_xacro(node) => {
                     let element = format!("xacro:{element}");
                     self.problems
                         .say(ImportProblemKind::Macro { element }, node);
@@ -129,11 +142,34 @@ impl<'a, 'i> Reader<'a, 'i> {
         for (body, pose) in tree.bodies.iter_mut().zip(poses) {
             body.home = body.floats().then_some(pose);
         }
-        tree.loops = loops::read(robot, &tree, &mut self.problems);
+        tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
         match self.problems.0.is_empty() {
             true => Ok((tree, self.remarks)),
             false => Err(self.problems.0),
         }
+    }
+
+    /// The origin of a joint, turned by `rpy` or `quat_xyzw`.
+    fn origin(&mut self, node: Node) -> Pose<f64> {
+        let mut pose = self.problems.origin(node);
+        if self.version < (1, 1) {
+            return pose;
+        }
+        if let Some([x, y, z, w]) = self.problems.numbers::<4>(node, "quat_xyzw") {
+            if node.has_attribute("rpy") {
+                let what = "an origin with both `rpy` and `quat_xyzw`";
+                (self.problems).unsupported::<()>(what, "leave one of them out", node);
+            }
+            match direction([x, y, z]).is_some() || w != 0.0 {
+                true => pose.rotation = turned([w, x, y, z]),
+                false => {
+                    let text = node.attribute("quat_xyzw").unwrap_or_default().to_owned();
+                    self.problems
+                        .say(ImportProblemKind::NoOrientation { text }, node);
+                }
+            }
+        }
+        pose
     }
 
     /// What a joint joins, where, and how it moves.
@@ -141,11 +177,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let kind = self.problems.word(node, "type", &TYPES);
         let mut origin = None;
         for part in children(node, "origin") {
-            let pose = self.problems.origin(part);
-            if part.has_attribute("quat_xyzw") {
-                let what = "an origin turned by `quat_xyzw`";
-                (self.problems).unsupported::<()>(what, "write `rpy`", part);
-            }
+            let pose = self.origin(part);
             origin.get_or_insert(pose);
         }
         let mut along = Vector3::unit(0);
@@ -160,6 +192,10 @@ impl<'a, 'i> Reader<'a, 'i> {
             };
             along = unit.unwrap_or(along);
         }
+        let absent = match self.version < (1, 2) {
+            true => (0.0, 0.0),
+            false => (f64::NEG_INFINITY, f64::INFINITY),
+        };
         let mut limits = None;
         for part in children(node, "limit") {
             let [low, high] = ["lower", "upper"].map(|name| self.problems.number(part, name));
@@ -169,7 +205,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 let what = format!("limits from {low} to {high}, the lower above the upper");
                 self.problems.unsupported::<()>(what, "exchange them", part);
             }
-            limits.get_or_insert((low.unwrap_or(0.0), high.unwrap_or(0.0)));
+            limits.get_or_insert((low.unwrap_or(absent.0), high.unwrap_or(absent.1)));
         }
         let mut mimic = None;
         if let Some(part) = child(node, "mimic") {
@@ -200,21 +236,21 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// The links, each after its parent.
     fn order(&mut self, joints: &[(Node, String)], hangs: &[Option<Hanging>]) -> Vec<String> {
-        let mut joint_to: HashMap<&str, usize> = HashMap::new();
+        let mut parent_of: HashMap<&str, (usize, &str)> = HashMap::new();
         let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
         for (i, hanging) in hangs.iter().enumerate() {
             let Some(Hanging { parent, child, .. }) = hanging else {
                 continue;
             };
-            if let Some(&other) = joint_to.get(child.as_str()) {
+            if let Some((other, _)) = parent_of.get(child.as_str()) {
                 let problem = ImportProblemKind::TwoParents {
                     link: child.clone(),
-                    joints: [other, i].map(|i| joints[i].1.clone()),
+                    joints: [*other, i].map(|i| joints[i].1.clone()),
                 };
                 self.problems.say(problem, joints[i].0);
                 continue;
             }
-            joint_to.insert(child, i);
+            parent_of.insert(child, (i, parent));
             below.entry(parent).or_default().push(child);
         }
         for (node, name) in joints {
@@ -237,15 +273,16 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Vec::new();
         }
         let links = self.links.iter().map(String::as_str);
-        let roots: Vec<&str> = links.filter(|link| !joint_to.contains_key(link)).collect();
+        let roots: Vec<&str> = links.filter(|link| !parent_of.contains_key(link)).collect();
         if roots.len() != 1 {
+            let links = |links: &[&str]| links.iter().map(|link| (*link).to_owned()).collect();
             let problem = match roots.as_slice() {
                 [] if self.links.is_empty() => ImportProblemKind::NothingMoves,
                 [] => ImportProblemKind::NoRoot {
                     links: self.links.clone(),
                 },
                 roots => ImportProblemKind::SeveralRoots {
-                    links: roots.iter().map(|link| (*link).to_owned()).collect(),
+                    links: links(roots),
                 },
             };
             self.problems.0.push(problem.anywhere());
@@ -267,4 +304,9 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         order
     }
+}
+
+fn is_xacro(node: Node) -> bool {
+    let namespace = node.tag_name().namespace();
+    namespace.is_some_and(|uri| uri.contains("xacro"))
 }
