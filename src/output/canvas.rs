@@ -184,19 +184,21 @@ impl Canvas {
 }
 
 fn element(text: &mut String, shape: &Shape) -> std::fmt::Result {
+    // a rectangle that stands upright, its corners in order
+    if let Shape::Outline { points, style, .. } = shape
+        && style.stroke.is_none()
+        && let [a, b, c, d] = points[..]
+        && (a.1, b.0, c.1, d.0) == (b.1, c.0, d.1, a.0)
+    {
+        let (x, y) = (tenth(a.0.min(c.0)), tenth(a.1.min(c.1)));
+        let (width, height) = (tenth((a.0 - c.0).abs()), tenth((a.1 - c.1).abs()));
+        let fill = style.fill.map_or(0, |(colour, _)| colour.0);
+        return writeln!(
+            text,
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"#{fill:06x}\"/>"
+        );
+    }
     match shape {
-        Shape::Outline { points, style, .. } if style.stroke.is_none() && is_rectangle(points) => {
-            let [a, _, b, _] = points[..] else {
-                return Ok(());
-            };
-            let (x, y) = (tenth(a.0.min(b.0)), tenth(a.1.min(b.1)));
-            let (width, height) = (tenth((a.0 - b.0).abs()), tenth((a.1 - b.1).abs()));
-            let fill = style.fill.map_or(0, |(colour, _)| colour.0);
-            writeln!(
-                text,
-                "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"#{fill:06x}\"/>"
-            )
-        }
         Shape::Outline {
             points,
             closed,
@@ -246,14 +248,6 @@ fn element(text: &mut String, shape: &Shape) -> std::fmt::Result {
             }
             writeln!(text, ">{}</text>", escaped(words))
         }
-    }
-}
-
-/// Whether points are the corners of a rectangle that stands upright, in order from the upper left one.
-fn is_rectangle(points: &[Pixel]) -> bool {
-    match points {
-        [a, b, c, d] => a.1 == b.1 && b.0 == c.0 && c.1 == d.1 && d.0 == a.0,
-        _ => false,
     }
 }
 

@@ -16,45 +16,28 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
     let towards = stage.camera.towards;
     let axis = |k: usize| joint.axes.get(k).map_or(towards, |axis| Vector3(*axis));
     let flat = |k: usize| stage.camera.facing(&axis(k)).abs() > 1.0 - 1e-9;
-    let mut pieces = Vec::new();
-    match joint.kind {
-        Symbol::Revolute | Symbol::Helical if flat(0) => {
-            if on_ground {
-                pieces.extend(support(stage, &at));
-            }
-            pieces.extend(ball(stage, &at, 0.75, fill));
-        }
-        Symbol::Revolute | Symbol::Helical => {
-            if on_ground {
-                pieces.extend(plate(stage, &at, &axis(0)));
-            }
-            pieces.extend(cylinder(stage, &at, &axis(0), 0.75, 1.1, fill));
-        }
-        Symbol::Cylindrical => {
-            pieces.extend(guide(stage, &at, &axis(0), on_ground));
-            pieces.extend(cylinder(stage, &at, &axis(0), 0.75, 1.4, fill));
-        }
-        Symbol::Prismatic => {
-            pieces.extend(guide(stage, &at, &axis(0), on_ground));
-            pieces.extend(block(stage, &at, &axis(0), [1.4, 0.8, 0.8], fill));
-        }
+    // what it stands on or slides along
+    let mut pieces = match joint.kind {
+        Symbol::Cylindrical | Symbol::Prismatic => guide(stage, &at, &axis(0), on_ground),
+        _ if !on_ground => Vec::new(),
+        Symbol::Revolute | Symbol::Helical if flat(0) => support(stage, &at),
+        Symbol::Revolute | Symbol::Helical | Symbol::Universal => plate(stage, &at, &axis(0)),
+        Symbol::Spherical => plate(stage, &at, &Vector3::unit(2)),
+        Symbol::Planar | Symbol::Rigid => Vec::new(),
+    };
+    pieces.extend(match joint.kind {
+        Symbol::Revolute | Symbol::Helical if flat(0) => ball(stage, &at, 0.75, fill),
+        Symbol::Revolute | Symbol::Helical => cylinder(stage, &at, &axis(0), 0.75, 1.1, fill),
+        Symbol::Cylindrical => cylinder(stage, &at, &axis(0), 0.75, 1.4, fill),
+        Symbol::Prismatic => block(stage, &at, &axis(0), [1.4, 0.8, 0.8], fill),
         Symbol::Universal => {
-            if on_ground {
-                pieces.extend(plate(stage, &at, &axis(0)));
-            }
-            for k in 0..2 {
-                pieces.extend(cylinder(stage, &at, &axis(k), 0.35, 1.2, fill));
-            }
+            let halves = [0, 1].map(|k| cylinder(stage, &at, &axis(k), 0.35, 1.2, fill));
+            halves.into_iter().flatten().collect()
         }
-        Symbol::Spherical => {
-            if on_ground {
-                pieces.extend(plate(stage, &at, &Vector3::unit(2)));
-            }
-            pieces.extend(ball(stage, &at, 0.9, fill));
-        }
-        Symbol::Planar => pieces.extend(block(stage, &at, &axis(0), [0.3, 1.5, 1.5], fill)),
-        Symbol::Rigid => {}
-    }
+        Symbol::Spherical => ball(stage, &at, 0.9, fill),
+        Symbol::Planar => block(stage, &at, &axis(0), [0.3, 1.5, 1.5], fill),
+        Symbol::Rigid => Vec::new(),
+    });
     pieces
 }
 
