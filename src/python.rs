@@ -229,13 +229,10 @@ impl Mechanism {
     ) -> PyResult<Vec<(String, Bound<'py, PyArray1<f64>>)>> {
         let count = counts.first().copied().unwrap_or_default();
         let points = match (rows, kind) {
-            (Some(rows), _) => Points::Given(
-                rows.as_array()
-                    .rows()
-                    .into_iter()
-                    .map(|row| row.to_vec())
-                    .collect(),
-            ),
+            (Some(rows), _) => {
+                let rows = rows.as_array();
+                Points::Given(rows.rows().into_iter().map(|row| row.to_vec()).collect())
+            }
             (None, "grid") => Points::Grid(counts),
             (None, "latin") => Points::LatinHypercube(count),
             (None, _) => Points::Sobol(count),

@@ -70,11 +70,8 @@ impl Generate {
         posed.mode(self.mode);
         let mechanism = posed.question.mechanism().clone();
         let named = |name: &String| Ok((name.clone(), asked::frame(&mechanism, name, "--frame")?));
-        let frames: Vec<_> = self
-            .frame
-            .iter()
-            .map(named)
-            .collect::<Result<_, Refusal>>()?;
+        let frames = self.frame.iter().map(named);
+        let frames: Vec<_> = frames.collect::<Result<_, Refusal>>()?;
         let solver = posed.ask(|question, watch| question.solver_program(&frames, watch))?;
         let solver = solver.map_err(|none| Refusal::from(complaint(&none)))?;
         let code = Code {

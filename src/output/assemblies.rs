@@ -96,16 +96,13 @@ fn sentence(report: &AssembliesReport) -> String {
                     clause(&winding, "stands", "stand")
                 ),
             };
+            let are = form(n, "is", "are");
             let listed = match n {
                 0 => "none was found to be real".to_owned(),
-                _ => format!(
-                    "{real}, found from random starts, {} listed",
-                    form(n, "is", "are")
-                ),
+                _ => format!("{real}, found from random starts, {are} listed"),
             };
-            format!(
-                "Solutions are infinite in number, whatever values are held{because}: {listed}."
-            )
+            let infinite = "Solutions are infinite in number, whatever values are held";
+            format!("{infinite}{because}: {listed}.")
         }
         (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => {
             sampled(report).unwrap_or_else(|| found(report.real))
@@ -125,11 +122,8 @@ fn sentence(report: &AssembliesReport) -> String {
 }
 
 fn posed(report: &AssembliesReport, poses: &[Pose<'_>]) -> String {
-    format!(
-        "{} of the {}",
-        count(poses.len(), "pose"),
-        are_posed(report)
-    )
+    let poses = count(poses.len(), "pose");
+    format!("{poses} of the {}", are_posed(report))
 }
 
 fn found(assemblies: usize) -> String {
@@ -199,11 +193,8 @@ fn meeting(report: &AssembliesReport) -> Option<String> {
     }
     let counted = !matches!(report.fit, Fit::FreedomLeft(_));
     (report.singular > 0 && counted).then(|| {
-        format!(
-            "solutions coincide at {}: {}",
-            count(report.singular, "singular point"),
-            listed(&doubles)
-        )
+        let points = count(report.singular, "singular point");
+        format!("solutions coincide at {points}: {}", listed(&doubles))
     })
 }
 

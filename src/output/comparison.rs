@@ -17,10 +17,8 @@ impl Report for CompareReport {
         }
         let notation = Notation::new(&self.names, Script::Unicode);
         let not_assembled = (self.not_assembled > 0).then(|| {
-            format!(
-                "no assembled configuration was found at {}, which were left out",
-                count(self.not_assembled, "random input")
-            )
+            let inputs = count(self.not_assembled, "random input");
+            format!("no assembled configuration was found at {inputs}, which were left out")
         });
         let home = (!self.home_assembles)
             .then(|| "the mechanism cannot be assembled from its home configuration".to_owned());

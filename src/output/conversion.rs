@@ -42,10 +42,8 @@ pub fn note(note: &ConversionNote) -> String {
             format!("the closure `{closure}` joins its frames rigidly and needs no variables")
         }
         ConversionNote::Variables { closure, joints } => {
-            format!(
-                "the closure `{closure}` has become table rows with the variables {}",
-                quoted(joints)
-            )
+            let joints = quoted(joints);
+            format!("the closure `{closure}` has become table rows with the variables {joints}")
         }
     }
 }

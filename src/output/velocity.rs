@@ -55,10 +55,10 @@ fn sentence(report: &VelocityReport) -> String {
     let loss = report.jacobian.as_ref().map_or(0, |jacobian| jacobian.loss);
     let lost = match loss {
         0 => String::new(),
-        loss => format!(
-            " Singular: {} lost; some motion of the inputs moves no output.",
-            count(loss, "freedom")
-        ),
+        loss => {
+            let lost = count(loss, "freedom");
+            format!(" Singular: {lost} lost; some motion of the inputs moves no output.")
+        }
     };
     match (moving.is_empty(), &report.first_order_only) {
         (_, Some(only)) => infinitesimal(&moving, only) + &lost,
@@ -98,12 +98,10 @@ fn infinitesimal(moving: &[String], only: &FirstOrderOnly) -> String {
         [] => "rates of what is held".to_owned(),
         moving => format!("rates with {}", listed(moving)),
     };
-    let why = match only.gap_after_step {
+    let (gap, mismatch) = (only.gap_after_step, only.mismatch);
+    let why = match gap {
         Some(gap) => format!("a finite step along them leaves the closures open by {gap:.1e}"),
-        None => format!(
-            "any accelerations open the closures, at {:.1e} per s²",
-            only.mismatch
-        ),
+        None => format!("any accelerations open the closures, at {mismatch:.1e} per s²"),
     };
     let so = match only.shaky {
         true => "the mechanism cannot move here",
@@ -175,12 +173,11 @@ fn frame(frame: &FrameRate) -> Section {
         ("dω/dt", ω.per_second(), frame.angular_acceleration),
     ];
     let axes = Table::of(0..3).words("", |i| ["x", "y", "z"][i]);
-    let table = columns
-        .into_iter()
-        .fold(axes, |table, (name, unit, value)| {
-            let component = |i: usize| value.map_or("none".into(), |v| Cell::from(v[i]));
-            table.numbers(name, component).in_unit(unit)
-        });
+    let columns = columns.into_iter();
+    let table = columns.fold(axes, |table, (name, unit, value)| {
+        let component = |i: usize| value.map_or("none".into(), |v| Cell::from(v[i]));
+        table.numbers(name, component).in_unit(unit)
+    });
     let spins = frame.spins.iter().map(|line| {
         let line = triple(line);
         format!("it spins about {line} at any rate; ω does not include that spin")

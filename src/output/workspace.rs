@@ -91,10 +91,9 @@ fn modes(report: &WorkspaceReport) -> Section {
         });
     let repeated = report.modes.iter().filter(|mode| mode.repeated > 0);
     let repeated = repeated.map(|mode| {
+        let (mode, nodes) = (mode.mode, count(mode.repeated, "node"));
         format!(
-            "mode {} overlaps itself: at {} a way round within the box leads to another configuration",
-            mode.mode,
-            count(mode.repeated, "node")
+            "mode {mode} overlaps itself: at {nodes} a way round within the box leads to another configuration"
         )
     });
     Section::new(format!("Modes{}", more(report.modes.len())))

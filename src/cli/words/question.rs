@@ -254,10 +254,8 @@ fn release(held: &[String]) -> String {
 /// The option that makes a demand: `--hold l1=0.7`.
 fn option(demand: &Demand) -> String {
     let Demand { verb, name, value } = demand;
-    let value = value
-        .as_ref()
-        .map(|value| format!("={value}"))
-        .unwrap_or_default();
+    let value = value.as_ref().map(|value| format!("={value}"));
+    let value = value.unwrap_or_default();
     format!("`--{} {}`", verb.word(), quoted(&format!("{name}{value}")))
 }
 

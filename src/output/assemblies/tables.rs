@@ -211,9 +211,8 @@ pub(super) fn reasons(report: &AssembliesReport) -> Section {
             None => reasons.push((reason, vec![a.mode.to_string()])),
         }
     }
-    let lines = reasons
-        .iter()
-        .map(|(reason, modes)| format!("{}: {reason}", listed(modes)));
+    let lines = reasons.iter();
+    let lines = lines.map(|(reason, modes)| format!("{}: {reason}", listed(modes)));
     Section::new("Not certified").list(lines)
 }
 
@@ -238,11 +237,8 @@ pub(super) fn complex(report: &AssembliesReport) -> Section {
             });
             let parts: Vec<String> = parts.collect();
             let (position, quaternion) = parts.split_at(3.min(parts.len()));
-            format!(
-                "{name}: position {} m, quaternion {}",
-                position.join(", "),
-                quaternion.join(", ")
-            )
+            let [position, quaternion] = [position, quaternion].map(|of| of.join(", "));
+            format!("{name}: position {position} m, quaternion {quaternion}")
         });
         let title = format!("{}{multiple}, condition {condition}", i + 1);
         Section::new(title).list(joints.chain(platforms))

@@ -103,10 +103,9 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 true => "Infinitesimally flexible (shaky): it".into(),
                 false => format!("{the_mechanism} is infinitesimally flexible (shaky): it"),
             };
+            let freedoms = freedoms(*infinitesimal);
             format!(
-                "{shaky} has {} to first order, none of them finite ({gap}), \
-                 so it cannot move.",
-                freedoms(*infinitesimal)
+                "{shaky} has {freedoms} to first order, none of them finite ({gap}), so it cannot move."
             )
         }
         Character::Singular => format!(
@@ -228,11 +227,9 @@ pub(super) fn idle(freedom: &LocalFreedom) -> String {
 }
 
 pub(super) fn elsewhere(report: &MobilityReport, other: &Elsewhere) -> String {
-    format!(
-        "The mobility depends on the assembly: near {} the mechanism has {}.",
-        listed(&values(&report.variables, other.joints.values())),
-        freedoms(other.mobility),
-    )
+    let near = listed(values(&report.variables, other.joints.values()));
+    let freedoms = freedoms(other.mobility);
+    format!("The mobility depends on the assembly: near {near} the mechanism has {freedoms}.")
 }
 
 /// ``closure `pin`: force along z, moments about x and y``

@@ -37,10 +37,8 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     }
     if singularity.gain > 0 {
         let moving = singularity.gained.as_ref().map(|gained| {
-            let moving = gained
-                .twists
-                .iter()
-                .filter(|space| !space.screws.is_empty());
+            let spaces = gained.twists.iter();
+            let moving = spaces.filter(|space| !space.screws.is_empty());
             let moving: Vec<&String> = moving.map(|space| &space.body).collect();
             match moving.is_empty() {
                 true => joints(gained),
