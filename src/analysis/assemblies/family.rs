@@ -9,7 +9,7 @@ pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, Input, size};
 pub(super) use legwise::{LegwiseSolutions, count, learn};
 
-use rand::Rng;
+use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Quaternion, Vector3};
@@ -17,7 +17,7 @@ use crate::mechanism::{Configuration, Dimensions, Mechanism};
 use crate::number::Number;
 use crate::system::{Held, HeldPlatform, System};
 
-/// A member: values of the independent parameters and of the inputs.
+/// A member: values of the independent parameters, then factors of other lengths, and values of the inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Member {
     pub parameters: Vec<C>,
@@ -32,9 +32,45 @@ pub(crate) struct Family {
     pub held: Held<C>,
     /// Values the mechanism itself has.
     pub parameters: Vec<C>,
+    /// Lengths with factors among the parameters.
+    lengths: Vec<Length>,
     pub home: Configuration<f64>,
     /// The equations with these values, if all expressions have one.
     own: Option<System<C>>,
+}
+
+/// A length that no parameter changes.
+#[derive(Clone, Copy, Debug)]
+enum Length {
+    /// Of the links before and after a joint.
+    Row {
+        chain: usize,
+        row: usize,
+    },
+    Rod {
+        closure: usize,
+    },
+}
+
+impl Length {
+    fn all(of: &Dimensions<C>) -> impl Iterator<Item = Length> + '_ {
+        let rows = of.chains.iter().enumerate().flat_map(|(chain, part)| {
+            let rows = 0..part.rows.len();
+            rows.map(move |row| Length::Row { chain, row })
+        });
+        rows.chain((0..of.closures.len()).map(|closure| Length::Rod { closure }))
+    }
+
+    fn of(self, dimensions: &mut Dimensions<C>) -> Vec<&mut C> {
+        match self {
+            Length::Row { chain, row } => {
+                let row = &mut dimensions.chains[chain].rows[row];
+                let links = [&mut row.before, &mut row.after].into_iter();
+                links.flat_map(|link| &mut link.position.0).collect()
+            }
+            Length::Rod { closure } => vec![&mut dimensions.closures[closure].length],
+        }
+    }
 }
 
 fn uniform(rng: &mut Pcg64) -> f64 {
@@ -58,12 +94,35 @@ impl Family {
             coordinates: Coordinates::new(mechanism, held),
             held: held.map(C::from_f64),
             parameters: independent.into_iter().map(value).collect(),
+            lengths: Vec::new(),
             home: mechanism.home(),
             mechanism: mechanism.clone(),
             own: None,
         };
+        let unknowns = System::new(mechanism.dimensions(), held).unknowns().len();
+        if family.coordinates.inputs.is_empty() && unknowns == mechanism.equations_that_vary() {
+            family.widen();
+        }
         family.own = family.system(&family.parameters);
         family
+    }
+
+    /// Lengths that no parameter changes get factors. With nothing to vary a family has one member, and no loop goes
+    /// through it. Equations as many as unknowns keep their isolated solutions when anything changes a little.
+    fn widen(&mut self) {
+        let other = self.random_parameters(&mut Pcg64::seed_from_u64(1));
+        let both = (self.dimensions(&self.parameters), self.dimensions(&other));
+        let (Some(mut own), Some(mut other)) = both else {
+            return;
+        };
+        let all: Vec<Length> = Length::all(&own).collect();
+        let fixed = all.into_iter().filter(|length| {
+            let (own, other) = (length.of(&mut own), length.of(&mut other));
+            own == other && own.iter().any(|x| **x != C::from_f64(0.0))
+        });
+        self.lengths = fixed.collect();
+        let factors = self.lengths.iter().map(|_| C::from_f64(1.0));
+        self.parameters.extend(factors);
     }
 
     /// The equations of members with these parameters. `None` if an expression has no value.
@@ -194,8 +253,14 @@ impl Family {
     }
 
     pub fn dimensions(&self, parameters: &[C]) -> Option<Dimensions<C>> {
+        let (parameters, factors) = parameters.split_at(parameters.len() - self.lengths.len());
         let values = self.mechanism.parameters_from(parameters).ok()?;
         let mut dimensions = self.mechanism.dimensions_over(&values).ok()?;
+        for (length, factor) in self.lengths.iter().zip(factors) {
+            for part in length.of(&mut dimensions) {
+                *part *= factor;
+            }
+        }
         // rows and unknowns keep their scale on the way from member to member
         dimensions.characteristic_length = self.coordinates.length;
         dimensions

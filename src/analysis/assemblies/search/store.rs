@@ -11,7 +11,7 @@ use crate::number::Number;
 
 const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// What is wrong with stored solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
