@@ -71,10 +71,8 @@ fn document(report: &FramesReport, steps: bool) -> Document {
         .sections(report.cuts.as_ref().map(cut_section));
     for chain in &overview.chains {
         document = document.section(overview::chain(chain));
-        let placed = report
-            .chains
-            .iter()
-            .find(|placed| placed.name == chain.name);
+        let mut placed = report.chains.iter();
+        let placed = placed.find(|placed| placed.name == chain.name);
         document = document.sections(placed.map(normals));
         if let (Some(placed), true) = (placed, steps) {
             let modified = report.convention == Convention::Modified;

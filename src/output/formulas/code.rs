@@ -68,10 +68,8 @@ fn arguments(letters: &[Letter]) -> Vec<(&str, String)> {
     });
     let mut named: Vec<_> = named.collect();
     named.sort();
-    let named = named.into_iter();
-    named
-        .map(|(_, letter, argument)| (letter, argument))
-        .collect()
+    let named = named.into_iter().map(|(_, letter, name)| (letter, name));
+    named.collect()
 }
 
 fn unique(name: &str, taken: &mut BTreeSet<String>) -> String {

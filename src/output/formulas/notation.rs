@@ -88,10 +88,9 @@ impl Notation {
             [only] => Some(only.clone()),
             _ => None,
         };
-        let bare: Vec<(&str, String)> = all()
-            .map(|name| parts(name))
-            .map(|(stem, digits)| (stem.trim_end_matches('_'), digits))
-            .collect();
+        let bare = all().map(|name| parts(name));
+        let bare = bare.map(|(stem, digits)| (stem.trim_end_matches('_'), digits));
+        let bare: Vec<(&str, String)> = bare.collect();
         let different: BTreeSet<&(&str, String)> = bare.iter().collect();
         Notation {
             script,

@@ -62,14 +62,8 @@ fn transform(notation: &Notation, transform: &TransformFormula) -> String {
 fn matrix(rows: &[Vec<String>]) -> Option<String> {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |text: &String| text.chars().count();
-    let widths: Vec<usize> = (0..columns)
-        .map(|column| {
-            rows.iter()
-                .map(|row| width(&row[column]))
-                .max()
-                .unwrap_or(0)
-        })
-        .collect();
+    let widest = |column: usize| rows.iter().map(|row| width(&row[column])).max();
+    let widths: Vec<usize> = (0..columns).filter_map(widest).collect();
     if widths.iter().sum::<usize>() + 2 * columns > WIDEST {
         return None;
     }
