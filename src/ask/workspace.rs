@@ -150,7 +150,7 @@ impl Question {
                     .any(|held| matches!(held, Coordinate::Turn(of, _) if *of == platform))
             {
                 let platform = mechanism.platforms()[platform].name.clone();
-                return Err(AskError::Question(QuestionError::AnglesLocked { platform }));
+                return Err(AskError::Question(QuestionError::AnglesLocked(platform)));
             }
         }
         check_count(&question).map_err(|error| AskError::Mapped {

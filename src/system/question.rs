@@ -112,7 +112,7 @@ impl<'a> Question<'a> {
         } else {
             match self.demand(Verb::Free, name, None)? {
                 Target::Coordinate(Coordinate::Joint(joint)) => self.joints[joint] = false,
-                _ => return Err(QuestionError::NotAJoint { name: name.into() }),
+                _ => return Err(QuestionError::NotAJoint(name.into())),
             }
         }
         self.split_changed = true;

@@ -402,7 +402,7 @@ fn loads_that_make_no_sense_are_refused() {
         refused("tip", "0,0,1"),
         ForceError::Point(PointError::NoFrame(_))
     ));
-    assert_eq!(refused("top", "1,2"), ForceError::Components { given: 2 });
+    assert_eq!(refused("top", "1,2"), ForceError::Components(2));
     assert!(matches!(refused("top", "1,2,x"), ForceError::Value(_)));
     assert!(matches!(refused("top", "1,2,0/0"), ForceError::Value(_)));
     let joint = Load::default().joint(&question, "phi4", "1");

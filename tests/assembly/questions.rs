@@ -94,7 +94,7 @@ fn a_whole_pose_has_no_locked_angles() {
         &Watch::none(),
     );
     assert!(
-        matches!(&refused, Err(QuestionError::AnglesLocked { platform }) if platform == "top"),
+        matches!(&refused, Err(QuestionError::AnglesLocked(platform)) if platform == "top"),
         "{refused:?}"
     );
 }

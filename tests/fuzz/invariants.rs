@@ -223,7 +223,7 @@ fn sensible(error: &QuestionError) -> Broken {
         QuestionError::TooMany { .. }
         | QuestionError::TooFew { .. }
         | QuestionError::Dependent { .. }
-        | QuestionError::AnglesLocked { .. } => Ok(()),
+        | QuestionError::AnglesLocked(_) => Ok(()),
         _ => Err(format!("not to be expected: {error}")),
     }
 }

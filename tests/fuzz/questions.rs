@@ -122,7 +122,7 @@ pub fn asked(mechanism: &Mechanism, dice: &mut Dice) -> Result<Asked, String> {
             Err(AskError::Question(
                 QuestionError::TooMany { .. }
                 | QuestionError::Dependent { .. }
-                | QuestionError::AnglesLocked { .. },
+                | QuestionError::AnglesLocked(_),
             )) => {}
             Err(error) => return Err(format!("{}: {error}", with.line())),
         }

@@ -55,7 +55,7 @@ pub fn complaint_of(error: &QuestionError, holding: &dyn Fn(&[String]) -> String
                      `.yaw`, a point's `left+0.5,0.2.x`, `.y` or `.z`, or a whole platform"
                 .into(),
         }),
-        QuestionError::NotAJoint { .. } => said
+        QuestionError::NotAJoint(_) => said
             .label("not a joint")
             .help("a platform is free unless it is held with --hold"),
         QuestionError::Value { text, error, .. } => value(text, error),
@@ -73,7 +73,7 @@ pub fn complaint_of(error: &QuestionError, holding: &dyn Fn(&[String]) -> String
             listed(hold),
             holding(hold)
         )),
-        QuestionError::AnglesLocked { platform } => said.help(format!(
+        QuestionError::AnglesLocked(platform) => said.help(format!(
             "hold joints instead of `{platform}`, or describe `{platform}` by a frame that is turned"
         )),
         QuestionError::Dependent { free, hold } => said.help(format!(
@@ -106,10 +106,10 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
             ),
             false => format!("give {}", held_at(held)),
         }),
-        DriveError::NotTurned { platform } => {
+        DriveError::NotTurned(platform) => {
             said("not held").help(format!("hold it: {}", instead(platform)))
         }
-        DriveError::Mixed { platform } => said("given twice").help(format!(
+        DriveError::Mixed(platform) => said("given twice").help(format!(
             "give either roll, pitch and yaw, or {platform}.wx, {platform}.wy and {platform}.wz"
         )),
         DriveError::Structure => said("")
@@ -142,7 +142,7 @@ pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -
             let bodies = listed(instead);
             said("on the ground").help(format!("load a body that moves, such as {bodies}"))
         }
-        ForceError::Components { .. } => said("")
+        ForceError::Components(_) => said("")
             .help("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m")
             .at(Part::WholeValue),
         ForceError::UnknownJoint {

@@ -115,9 +115,8 @@ fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), Q
     for (i, held) in held.platforms.iter().enumerate() {
         let pitched = held.target(PoseCoordinate::Pitch).is_some();
         if pitched && RollPitchYaw::is_locked(&start.platforms[i].pose().rotation) {
-            return Err(QuestionError::AnglesLocked {
-                platform: mechanism.platforms()[i].name.clone(),
-            });
+            let platform = &mechanism.platforms()[i];
+            return Err(QuestionError::AnglesLocked(platform.name.clone()));
         }
     }
     Ok(())
@@ -151,8 +150,8 @@ pub fn check_angle(
     let slope = coordinate.slope(&pose, mechanism.characteristic_length());
     match slope.iter().all(|x| x.abs() <= 1.0 / RANK_TOLERANCE) {
         true => Ok(()),
-        false => Err(QuestionError::AnglesLocked {
-            platform: mechanism.platforms()[platform].name.clone(),
-        }),
+        false => Err(QuestionError::AnglesLocked(
+            mechanism.platforms()[platform].name.clone(),
+        )),
     }
 }

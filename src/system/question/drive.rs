@@ -69,22 +69,12 @@ pub enum DriveError {
         /// Those of its coordinates that are held.
         held: Vec<String>,
     },
-    /// A platform turns as given only where its whole orientation is held.
-    #[error(
-        "an angular velocity of `{platform}` can be given only if its whole orientation is held"
-    )]
-    NotTurned {
-        /// The platform.
-        platform: String,
-    },
-    /// How a platform turns was given both by its angles and about the axes of ground.
-    #[error(
-        "the rotation of `{platform}` is given twice, by its angles and about the axes of ground"
-    )]
-    Mixed {
-        /// The platform.
-        platform: String,
-    },
+    /// The platform of that name turns as given only where its whole orientation is held.
+    #[error("an angular velocity of `{0}` can be given only if its whole orientation is held")]
+    NotTurned(String),
+    /// How the platform of that name turns was given both by its angles and about the axes of ground.
+    #[error("the rotation of `{0}` is given twice, by its angles and about the axes of ground")]
+    Mixed(String),
     /// Nothing is held, for the mechanism is a structure: nothing can be driven.
     #[error("nothing can be driven: the mechanism is a structure")]
     Structure,
@@ -145,9 +135,8 @@ impl Drive {
         // a rate has the unit of its coordinate per unit of time, which is not written
         let value = number(question, name, value, coordinate.measure(mechanism))?;
         self.given = true;
-        let mixed = |platform: usize| DriveError::Mixed {
-            platform: mechanism.platforms()[platform].name.clone(),
-        };
+        let mixed =
+            |platform: usize| DriveError::Mixed(mechanism.platforms()[platform].name.clone());
         match coordinate {
             Coordinate::Pose(platform, c) if !self.coordinates.contains(&coordinate) => {
                 if self.turned.contains(&platform) {
@@ -227,9 +216,9 @@ impl Drive {
             {
                 Ok(Coordinate::Pose(platform, c))
             }
-            Some(Coordinate::Turn(platform, _)) => Err(DriveError::NotTurned {
-                platform: mechanism.platforms()[platform].name.clone(),
-            }),
+            Some(Coordinate::Turn(platform, _)) => Err(DriveError::NotTurned(
+                mechanism.platforms()[platform].name.clone(),
+            )),
             Some(_) if held.is_empty() && is_structure(question) => Err(DriveError::Structure),
             Some(_) => Err(DriveError::NotHeld {
                 name: name.into(),

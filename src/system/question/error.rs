@@ -35,11 +35,8 @@ pub enum QuestionError {
         /// What was demanded then.
         second: Demand,
     },
-    /// Only joints can be freed.
-    NotAJoint {
-        /// The name.
-        name: String,
-    },
+    /// Only joints can be freed, not what has this name.
+    NotAJoint(String),
     /// More is held than the mechanism has freedoms.
     TooMany {
         /// Freedoms of the mechanism.
@@ -58,11 +55,8 @@ pub enum QuestionError {
         /// Coordinates which, held too, leave a question that has an answer.
         hold: Vec<String>,
     },
-    /// Roll and yaw of a platform turn about one axis where it is pitched by ±90°.
-    AnglesLocked {
-        /// The platform.
-        platform: String,
-    },
+    /// Roll and yaw of the platform of that name turn about one axis, for it is pitched by ±90°.
+    AnglesLocked(String),
     /// The right number is held, but what is held depends on itself and something else is free.
     Dependent {
         /// Held coordinates to free.
@@ -87,7 +81,7 @@ impl QuestionError {
             QuestionError::UnknownName { name, .. } => {
                 format!("`{name}` is neither a joint nor a coordinate of a platform")
             }
-            QuestionError::NotAJoint { name } => {
+            QuestionError::NotAJoint(name) => {
                 format!("`{name}` is not a joint, and only joints are held by themselves")
             }
             QuestionError::Contradiction { first, second } => {
@@ -108,7 +102,7 @@ impl QuestionError {
                 freedoms(*mobility),
                 are(*held)
             ),
-            QuestionError::AnglesLocked { platform } => format!(
+            QuestionError::AnglesLocked(platform) => format!(
                 "roll and yaw of `{platform}` turn about the same axis here, for its pitch is ±90°"
             ),
             QuestionError::Dependent { free, hold } => format!(

@@ -35,12 +35,9 @@ pub enum ForceError {
         /// Platforms, or the tips of chains if there are none.
         instead: Vec<String>,
     },
-    /// Neither three nor six components.
-    #[error("a wrench has three components (N) or six (N and N·m), but {given} were given")]
-    Components {
-        /// How many were given.
-        given: usize,
-    },
+    /// Neither three nor six components, but so many.
+    #[error("a wrench has three components (N) or six (N and N·m), but {0} were given")]
+    Components(usize),
     /// There is no joint of that name.
     #[error("`{name}` is not a joint")]
     UnknownJoint {
@@ -78,8 +75,7 @@ impl Load {
         let parts: Vec<&str> = inside.split(',').map(str::trim).collect();
         let measures = [[Measure::Force; 3], [Measure::Moment; 3]].concat();
         if ![3, 6].contains(&parts.len()) {
-            let given = parts.len();
-            return Err(ForceError::Components { given });
+            return Err(ForceError::Components(parts.len()));
         }
         let values = (parts.iter().zip(measures))
             .map(|(part, wanted)| {

@@ -33,7 +33,7 @@ impl Question<'_> {
         value: impl Into<Value>,
     ) -> Result<(Coordinate, f64), QuestionError> {
         let Target::Coordinate(coordinate) = self.target(name)? else {
-            return Err(QuestionError::NotAJoint { name: name.into() });
+            return Err(QuestionError::NotAJoint(name.into()));
         };
         Ok((coordinate, self.number(name, &value.into(), coordinate)?))
     }
