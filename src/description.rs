@@ -33,13 +33,16 @@ pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;
 pub use load::{FileError, LoadError, load, load_text, load_text_within};
-pub(crate) use naming::{first_free, free_variable, variable_name};
+#[cfg(feature = "interchange")]
+pub(crate) use naming::variable_name;
+pub(crate) use naming::{first_free, free_variable};
 pub use naming::{names_of, place_of};
 pub use parts::*;
 pub use problem::*;
 pub use reader::is_mechanism;
 pub use replacement::ReplacementError;
 pub use suggestion::nearest;
+#[cfg(feature = "interchange")]
 pub(crate) use words::joined;
 pub use words::{count, listed, quoted};
 
