@@ -32,8 +32,6 @@ pub trait Conditions: Sync {
 pub struct Pruning {
     /// Boxes after which the search ends.
     pub most_boxes: usize,
-    /// Boxes with no side longer than this are not halved, in rad or characteristic lengths.
-    pub least_side: f64,
     /// Boxes too small to be halved after which the search ends: about a set of solutions there is no end of them.
     pub most_left: usize,
 }
@@ -42,7 +40,6 @@ impl Default for Pruning {
     fn default() -> Self {
         Pruning {
             most_boxes: 2_000_000,
-            least_side: 1e-6,
             most_left: 2000,
         }
     }
@@ -149,14 +146,7 @@ pub fn prune<C: Conditions>(
         let allowed = settings.most_boxes - all.boxes;
         let most = PIECE.min(allowed.div_ceil(batch.len()));
         let pieces = pool.each(batch.len(), |work, i| {
-            piece(
-                conditions,
-                &batch[i],
-                (periods, &regions),
-                most,
-                settings.least_side,
-                work,
-            )
+            piece(conditions, &batch[i], (periods, &regions), most, work)
         });
         for piece in pieces {
             all.boxes += piece.boxes;
@@ -185,9 +175,10 @@ fn piece<C: Conditions>(
     start: &Sides,
     (periods, regions): (&[Option<Interval>], &[Sides]),
     most: usize,
-    least_side: f64,
     work: &mut C::Work,
 ) -> Pruned {
+    /// Boxes with no side longer than this are not halved, in rad or characteristic lengths.
+    const LEAST_SIDE: f64 = 1e-6;
     /// Halves are not equal, so that no face passes through what lies in the middle.
     const SHARE: f64 = 0.487;
     let mut done = Pruned {
@@ -227,8 +218,8 @@ fn piece<C: Conditions>(
         match (empty, place) {
             (true, _) => {}
             (_, Some(place)) => done.met[place] += 1,
-            _ if longest <= least_side && one => done.found.push(sides),
-            _ if longest <= least_side => done.left.push(sides),
+            _ if longest <= LEAST_SIDE && one => done.found.push(sides),
+            _ if longest <= LEAST_SIDE => done.left.push(sides),
             _ => {
                 let x = sides[along];
                 let middle = x.low + SHARE * x.width();

@@ -8,22 +8,20 @@ pub struct Newton {
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,
-    /// The longest step in any unknown, in rad or characteristic lengths: no rotation is linear beyond about 1 rad.
-    pub longest_step: f64,
-    /// The first damping tried after a failed step.
-    pub first_damping: f64,
-    /// A minimum is reached when a step lowers the sum of squares by less than this fraction.
-    pub least_progress: f64,
 }
+
+/// The longest step in any unknown, in rad or characteristic lengths: no rotation is linear beyond about 1 rad.
+const LONGEST_STEP: f64 = 1.0;
+/// The first damping tried after a failed step.
+const FIRST_DAMPING: f64 = 1e-3;
+/// A minimum is reached when a step lowers the sum of squares by less than this fraction.
+const LEAST_PROGRESS: f64 = 1e-9;
 
 impl Default for Newton {
     fn default() -> Self {
         Newton {
             tolerance: 1e-12,
             max_steps: 100,
-            longest_step: 1.0,
-            first_damping: 1e-3,
-            least_progress: 1e-9,
         }
     }
 }
@@ -73,7 +71,7 @@ impl Newton {
             }
             // a slow step may be the way round a bend; several in a row are a minimum
             let progress = 1.0 - size.squares / before.squares;
-            let is_slow = progress < self.least_progress;
+            let is_slow = progress < LEAST_PROGRESS;
             slow = if is_slow { slow + 1 } else { 0 };
             if slow == 3 {
                 return report(Stop::Minimum, steps + 1, size);
@@ -100,7 +98,7 @@ impl Newton {
             equations.factorise(*damping, work);
             let longest = equations.step(work);
             if longest.is_finite() {
-                let fraction = (self.longest_step / longest).min(1.0);
+                let fraction = (LONGEST_STEP / longest).min(1.0);
                 equations.advance(point, fraction, work, trial);
                 let next = equations.residual(trial, work);
                 if next.squares < size.squares {
@@ -118,7 +116,7 @@ impl Newton {
                     return None;
                 }
             }
-            *damping = (*damping * 8.0).max(self.first_damping);
+            *damping = (*damping * 8.0).max(FIRST_DAMPING);
             if *damping > 1e8 {
                 return None;
             }

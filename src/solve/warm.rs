@@ -9,12 +9,6 @@ use crate::number::{Extent, Field, Number};
 pub struct Warm {
     /// A point is a solution when no dimensionless row exceeds this.
     pub tolerance: f64,
-    /// Steps after which to give up.
-    pub max_steps: usize,
-    /// A step must multiply the residual by less than this, or the Jacobian is renewed, which costs one to three steps.
-    pub contraction: f64,
-    /// The longest step in any unknown, in rad or characteristic lengths: longer ones may lead to another branch.
-    pub longest_step: f64,
     /// The highest order of extrapolation, at most 5; 0 starts from the last solution.
     pub extrapolation: usize,
 }
@@ -23,9 +17,6 @@ impl Default for Warm {
     fn default() -> Self {
         Warm {
             tolerance: 1e-12,
-            max_steps: 20,
-            contraction: 1e-3,
-            longest_step: 0.5,
             extrapolation: ORDERS - 1,
         }
     }
@@ -47,6 +38,12 @@ pub struct WarmReport {
 /// Orders of extrapolation: none, constant moves, moves that change linearly, quadratically and so on.
 const ORDERS: usize = 6;
 
+/// Steps after which to give up.
+const MAX_STEPS: usize = 20;
+/// A step must multiply the residual by less than this, or the Jacobian is renewed, which costs one to three steps.
+const CONTRACTION: f64 = 1e-3;
+/// The longest step in any unknown, in rad or characteristic lengths: longer ones may lead to another branch.
+const LONGEST_STEP: f64 = 0.5;
 /// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell what is left.
 const STALE: f64 = 1e-2;
 
@@ -143,7 +140,7 @@ impl Warm {
         if report.solved {
             std::mem::swap(point, &mut trail.next);
             let known = self.extrapolation > 0 && trail.factorised;
-            let small = known && equations.step(work) <= self.longest_step;
+            let small = known && equations.step(work) <= LONGEST_STEP;
             trail.learn(small.then(|| &*equations.step_mut(work)));
         } else {
             trail.forget();
@@ -161,7 +158,7 @@ impl Warm {
         work: &mut E::Work,
     ) -> WarmReport {
         // a guess worth having leaves less to do than it did
-        let mut longest_step = self.longest_step;
+        let mut longest_step = LONGEST_STEP;
         let steps = equations.step_mut(work);
         if order > 0 {
             let mut longest = 0.0f64;
@@ -188,7 +185,7 @@ impl Warm {
         loop {
             // also false for a residual that is not a number
             report.solved = report.residual <= self.tolerance;
-            if report.solved || report.steps == self.max_steps {
+            if report.solved || report.steps == MAX_STEPS {
                 return report;
             }
             let fresh = !trail.factorised;
@@ -204,8 +201,8 @@ impl Warm {
             let residual = equations.residual(&trail.spare, work).largest;
             let acceptable = longest <= longest_step && residual < report.residual;
             let enough = match residual <= self.tolerance {
-                true => STALE.max(self.contraction),
-                false => self.contraction,
+                true => STALE,
+                false => CONTRACTION,
             };
             let gained = residual <= enough * report.residual;
             trail.factorised = acceptable && gained;
