@@ -1,5 +1,8 @@
 //! Infinitely many generic solutions are noticed instead of collected.
 
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use linkwork::analysis::assemblies::{
     AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Wanted,
 };
@@ -7,7 +10,7 @@ use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::Report;
-use linkwork::solve::Watch;
+use linkwork::solve::{Progress, Watch};
 
 /// A five-bar whose cranks are geared with a ratio; a point of it is held instead of the crank.
 fn geared(ratio: &str) -> Question {
@@ -170,4 +173,26 @@ fn where_nearly_every_seed_gives_a_new_solution_the_family_has_a_dimension() {
     // a ball beside the axis goes round a circle, which meets the rod's sphere twice
     let (fit, generic, _) = found(&on_its_axis(0.1));
     assert_eq!((fit, generic), (Fit::Finite, 2));
+}
+
+#[test]
+fn an_interrupted_search_lists_the_assembly_that_is_drawn() {
+    // of an H4, whose complex solutions are found by the thousand: one of its real ones is the home position
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/axes/h4.ron");
+    let calls = AtomicUsize::new(0);
+    let few = |_: Progress| match calls.fetch_add(1, Ordering::Relaxed) < 5 {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    let mechanism = Mechanism::load(file).unwrap();
+    let home = mechanism.home();
+    let report = Question::new(mechanism)
+        .assemblies(Wanted::default(), &Watch::new(&few))
+        .unwrap();
+    assert!(report.interrupted && report.may_lack_some());
+    assert_eq!(report.real, 1);
+    let found = report.assemblies[0].configuration(&home);
+    for (a, b) in found.platforms.iter().zip(&home.platforms) {
+        assert!((a.position - b.position).norm() < 1e-9);
+    }
 }

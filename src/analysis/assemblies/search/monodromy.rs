@@ -153,7 +153,11 @@ impl Search<'_> {
                 }
                 self.newton_seeds(&still);
             }
-            if self.found.quiet_loops > 0 && !self.mirror(&still) && !self.close_legs(&still) {
+            if self.found.quiet_loops > 0
+                && !self.mirror(&still)
+                && !self.close_legs(&still)
+                && !self.look_far_out(&still)
+            {
                 return Some(false);
             }
         }
@@ -213,6 +217,29 @@ impl Search<'_> {
         let (mut still, mut new) = (still.clone(), false);
         for x in points.into_iter().flatten().map(|x| conjugate(&x)) {
             if stands_alone(&mut still, C::from_f64(0.0), &x) {
+                new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
+            }
+        }
+        if new {
+            self.found.quiet_loops = 0;
+        }
+        new
+    }
+
+    /// Newton iterations from points about as far out as paths are followed; whether one of them ended at a solution that
+    /// is new. Where angles are nearly imaginary neither seeds nor loops nearer in may lead to it.
+    fn look_far_out(&mut self, still: &ParameterHomotopy<'_>) -> bool {
+        const TRIES: usize = 512;
+        const REACH: f64 = 64.0;
+        let (seed, loops) = (self.settings.seed, self.found.loops as u64);
+        let ends = crate::solve::each(TRIES, still, |homotopy, k| {
+            // streams beyond those of seeds and loops
+            let mut rng = generator(seed, (1 << 47) + (loops << 16) + k as u64);
+            newton_seeds(homotopy, REACH, &mut rng)
+        });
+        let mut new = false;
+        for end in ends {
+            if let Seed::Isolated(x) = end {
                 new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
             }
         }

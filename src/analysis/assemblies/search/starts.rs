@@ -21,10 +21,12 @@ pub(crate) fn solved(
     watch: &Watch,
 ) -> Vec<Configuration<f64>> {
     let points = crate::solve::each(which.len(), near, |near, k| {
-        if watch.stops(Stage::Starts, k, Some(which.len())) {
+        let number = which.start + k;
+        // the assembly beside home is known even when the search was stopped
+        if watch.stops(Stage::Starts, k, Some(which.len())) && number > 0 {
             return None;
         }
-        near.solve(&Newton::default(), started(family, asked, which.start + k))
+        near.solve(&Newton::default(), started(family, asked, number))
     });
     points.into_iter().flatten().collect()
 }
