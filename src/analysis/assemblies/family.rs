@@ -15,7 +15,7 @@ use rand_pcg::Pcg64;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Mechanism};
 use crate::number::Number;
-use crate::system::{Held, HeldPlatform, System};
+use crate::system::{Held, HeldPlatform, Mobility, System};
 
 /// A member: values of the independent parameters, then factors of other lengths, and values of the inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,7 +100,12 @@ impl Family {
             own: None,
         };
         let unknowns = System::new(mechanism.dimensions(), held).unknowns().len();
-        if family.coordinates.inputs.is_empty() && unknowns == mechanism.equations_that_vary() {
+        let is_square = unknowns == mechanism.equations_that_vary();
+        let is_rigid = || {
+            let near = Mobility::near(mechanism, &family.home);
+            near.is_some_and(|near| near.count() + near.idle() == 0)
+        };
+        if family.coordinates.inputs.is_empty() && is_square && is_rigid() {
             family.widen();
         }
         family.own = family.system(&family.parameters);
@@ -108,7 +113,8 @@ impl Family {
     }
 
     /// Lengths that no parameter changes get factors. With nothing to vary a family has one member, and no loop goes
-    /// through it. Equations as many as unknowns keep their isolated solutions when anything changes a little.
+    /// through it. Independent equations as many as unknowns keep their solutions when anything changes a little; of an
+    /// overconstrained mechanism they would be lost.
     fn widen(&mut self) {
         let other = self.random_parameters(&mut Pcg64::seed_from_u64(1));
         let both = (self.dimensions(&self.parameters), self.dimensions(&other));
