@@ -19,7 +19,7 @@ mod watch;
 pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
 pub use branching::BranchPoint;
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
-pub use deflation::deflating_step;
+pub use deflation::{deflating_step, step_off_saddle};
 pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use minimum::walk_down;

@@ -191,7 +191,7 @@ fn an_interrupted_search_lists_the_assembly_that_is_drawn() {
         .unwrap();
     assert!(report.interrupted && report.may_lack_some());
     assert_eq!(report.real, 1);
-    let found = report.assemblies[0].configuration(&home);
+    let found = report.assemblies[0].configuration();
     for (a, b) in found.platforms.iter().zip(&home.platforms) {
         assert!((a.position - b.position).norm() < 1e-9);
     }

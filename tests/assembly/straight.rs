@@ -16,13 +16,76 @@ fn report(text: &str) -> AssembliesReport {
 
 /// A bead of 0.2 m on its own x axis between two rods, `post` away from ground.
 fn bead(post: f64) -> AssembliesReport {
+    beads(&[Bead::of(post)])
+}
+
+/// A bead of 0.2 m between rods on a line.
+#[derive(Clone, Copy)]
+struct Bead {
+    /// Where the line begins and where along x it goes.
+    line: &'static str,
+    /// How far it is to the post at its end.
+    post: f64,
+    rods: [f64; 2],
+    /// The line of the bead in its own frame, and how far its origin is from that.
+    body: &'static str,
+    aside: f64,
+}
+
+impl Bead {
+    fn of(post: f64) -> Self {
+        Bead {
+            line: "Tx(0)",
+            post,
+            rods: [0.9; 2],
+            body: "Tx(0)",
+            aside: 0.0,
+        }
+    }
+}
+
+/// Lines in space, and lines of beads.
+const LINES: [(&str, &str); 6] = [
+    ("Rz(0.7)", "Tx(0)"),
+    (r#"Ry("90 deg")"#, r#"Rz("90 deg")"#),
+    ("T(0.3, -1, 2), Rz(2.4), Ry(-0.8), Rx(1)", "Tx(0)"),
+    ("T(-2, 0.4, 0.1), Rz(-1.3), Ry(0.3)", "Rz(0.4), Ry(1)"),
+    ("Rz(0.9), Ry(-2.1)", "Rz(-2.2), Ry(-0.7)"),
+    ("T(1, 1, 1), Ry(0.2), Rx(0.6)", "Rz(1.7), Ry(2.9)"),
+];
+
+const ISOLATED: &str = "1 assembly was found. It is isolated, at the limit of what is possible; in general 3 freedoms are \
+                        left with what is held.";
+
+/// Beads that have nothing to do with one another.
+fn beads(beads: &[Bead]) -> AssembliesReport {
+    let [mut platforms, mut chains, mut closures] = [const { String::new() }; 3];
+    for (
+        k,
+        Bead {
+            line,
+            post,
+            rods: [r, s],
+            body,
+            aside,
+        },
+    ) in beads.iter().enumerate()
+    {
+        let middle = 0.5 * post;
+        platforms += &format!(
+            r#""p{k}": Platform(home: [{line}, T({middle:?}, -{aside:?}, 0)], frames: {{
+                "A": [{body}, T(0.1, {aside:?}, 0)], "B": [{body}, T(-0.1, {aside:?}, 0)] }}),"#
+        );
+        chains += &format!(
+            r#""near{k}": Chain(base: [{line}]), "post{k}": Chain(base: [{line}, Tx({post:?})]),"#
+        );
+        closures += &format!(
+            r#""r{k}": Distance("near{k}", "p{k}.B", {r:?}), "s{k}": Distance("p{k}.A", "post{k}", {s:?}),"#
+        );
+    }
     report(&format!(
-        r#"Mechanism(
-            version: 1, name: "bead between rods", convention: Modified,
-            platforms: {{ "p": Platform(home: [Tx(1)], frames: {{ "A": [Tx(0.1)], "B": [Tx(-0.1)] }}) }},
-            chains: {{ "post": Chain(base: [Tx({post:?})]) }},
-            closures: {{ "r1": Distance("ground", "p.B", 0.9), "r2": Distance("p.A", "post", 0.9) }},
-        )"#
+        r#"Mechanism(version: 1, name: "beads between rods", convention: Modified,
+            platforms: {{ {platforms} }}, chains: {{ {chains} }}, closures: {{ {closures} }})"#
     ))
 }
 
@@ -36,7 +99,7 @@ fn rods_stretched_straight_leave_one_assembly() {
     );
     assert_eq!((report.real, report.assemblies[0].dimension), (1, 0));
     // 0.9 + 0.2 + 0.9 = 2: the bead is in the middle
-    let [x, y, z] = report.assemblies[0].platforms.get("p").unwrap().position;
+    let [x, y, z] = report.assemblies[0].platforms.get("p0").unwrap().position;
     let off = (x - 1.0).abs().max(y.abs()).max(z.abs());
     assert!(off < 1e-6, "{off}");
     let said = text::render(&report.document());
@@ -55,6 +118,91 @@ fn a_little_slack_leaves_infinitely_many() {
     let report = bead(1.9);
     assert!(report.assemblies.iter().all(|a| a.multiplicity == 0));
     assert!(report.document().answer.contains("Infinitely many"));
+}
+
+#[test]
+fn a_bead_between_stretched_rods_is_isolated_whatever_their_direction() {
+    for (line, body) in LINES {
+        let bead = |post| Bead {
+            line,
+            body,
+            ..Bead::of(post)
+        };
+        let stretched = beads(&[bead(2.0)]);
+        assert_eq!(stretched.document().answer, ISOLATED, "{line} {body}");
+        assert_eq!(stretched.assemblies[0].dimension, 0);
+        let short = beads(&[bead(2.0 + 1e-6)]);
+        assert_eq!(short.document().answer, "No assembly was found.");
+    }
+}
+
+#[test]
+fn a_bead_folded_flat_does_not_count_its_spin_either() {
+    // 1.2 = 0.2 + 0.5 + 0.5: the ends are too near for the rods to stand any other way
+    for (line, body) in [LINES[0], LINES[1], LINES[4]] {
+        let folded = |post| {
+            beads(&[Bead {
+                line,
+                body,
+                rods: [1.2, 0.5],
+                ..Bead::of(post)
+            }])
+        };
+        let report = folded(0.5);
+        assert_eq!(report.document().answer, ISOLATED, "{line} {body}");
+        assert_eq!(folded(0.5 - 1e-6).real, 0);
+    }
+}
+
+#[test]
+fn the_least_slack_leaves_infinitely_many_whatever_the_direction() {
+    for (line, body) in LINES {
+        for slack in [1e-2, 1e-3, 1e-4] {
+            let report = beads(&[Bead {
+                line,
+                body,
+                ..Bead::of(2.0 - slack)
+            }]);
+            assert!(report.real > 0, "{slack} {line} {body}");
+            let all = report.assemblies.iter();
+            assert!(
+                all.clone().all(|a| (a.multiplicity, a.dimension) == (0, 3)),
+                "{slack} {line} {body}"
+            );
+            let answer = report.document().answer;
+            let begins = "Infinitely many assemblies: 3 freedoms are left with what is held.";
+            assert!(
+                answer.starts_with(begins),
+                "{slack} {line} {body}: {answer}"
+            );
+        }
+    }
+}
+
+#[test]
+fn dimensions_of_bodies_apart_add_up() {
+    let at = |post, line| Bead {
+        line,
+        aside: 0.2,
+        ..Bead::of(post)
+    };
+    let far = "T(0, 5, 0), Rz(0.4), Ry(0.3)";
+    // where it is stretched, each body turns about the line beside it
+    let (straight, slack) = (1, 4);
+    for (first, second, dimension) in [
+        (2.0, 2.0, 2 * straight),
+        (2.0, 1.9, straight + slack),
+        (1.9, 2.0, slack + straight),
+        (1.9, 1.8, 2 * slack),
+    ] {
+        let report = beads(&[at(first, "Tx(0)"), at(second, far)]);
+        assert!(report.real > 0, "{first} {second}");
+        for assembly in &report.assemblies {
+            assert_eq!(assembly.dimension, dimension, "{first} {second}");
+        }
+    }
+    let report = beads(&[at(2.0, "Tx(0)"), at(2.1, far)]);
+    assert_eq!(report.real, 0);
 }
 
 #[test]

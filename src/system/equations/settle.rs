@@ -3,10 +3,11 @@
 use super::{System, Work};
 use crate::linear::{SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
-use crate::solve::{Equations, Newton, Report, Stop, deflating_step};
+use crate::solve::{Equations, Newton, Report, Stop, deflating_step, step_off_saddle};
 
 /// Newton's method from `at`. Where equations only touch zero, as those of rods stretched straight, it
-/// nears a solution ever more slowly: it is led there by the slopes that vanish there.
+/// nears a solution ever more slowly: it is led there by the slopes that vanish there. Where it ends at a
+/// saddle, as rods a little longer than a straight line, it goes on from beside that.
 pub fn solve(
     newton: &Newton,
     system: &System<f64>,
@@ -15,16 +16,50 @@ pub fn solve(
 ) -> Report {
     /// What may be left then, which is of second order in the distance.
     const NEARLY: f64 = 1e-5;
+    const SADDLE: f64 = 0.05;
     const REACH: f64 = 1e-3;
+    /// A few for each part that is straight.
+    const SADDLES: usize = 8;
     let mut trial = at.clone();
     let mut report = newton.solve(system, at, &mut trial, work);
-    let nearly = report.stop != Stop::Solved && report.size.largest < NEARLY;
     let dense = system.unknowns().len() <= SPECTRUM_LIMIT;
-    let touching = (nearly && dense)
-        .then(|| touching(system, work, at.clone(), newton.tolerance))
-        .flatten();
-    if nearly && let Some(settled) = touching.or_else(|| settle(system, work, at.clone(), REACH)) {
-        *at = settled;
+    let mut found = None;
+    for _ in 0..SADDLES {
+        if report.stop == Stop::Solved || report.size.largest >= SADDLE || !dense {
+            break;
+        }
+        let Some(level) = level(system, work, at.clone()) else {
+            break;
+        };
+        let left = system.linearise(&level, work).largest;
+        if left <= newton.tolerance {
+            found = Some(level);
+            break;
+        }
+        let lost = lost(left);
+        let step = step_off_saddle(
+            system.unknowns().len(),
+            lost,
+            linearised(system, work, &level),
+        );
+        let Some(step) = step else { break };
+        let mut beside = system.displaced(&level, &step);
+        let again = newton.solve(system, &mut beside, &mut trial, work);
+        if again.size.squares >= report.size.squares {
+            break;
+        }
+        *at = beside;
+        report = Report {
+            steps: report.steps + again.steps,
+            ..again
+        };
+    }
+    let nearly = report.stop != Stop::Solved && report.size.largest < NEARLY;
+    if nearly && found.is_none() {
+        found = settle(system, work, at.clone(), REACH);
+    }
+    if let Some(found) = found {
+        *at = found;
         report.stop = Stop::Solved;
         report.size = system.linearise(at, work);
     }
@@ -44,24 +79,37 @@ impl System<f64> {
     }
 }
 
-/// The assembled configuration beside a point at which equations only touch zero.
-fn touching(
+/// Singular values that vanish where so much of the equations is left are no larger beside the largest:
+/// slopes are of first order in the distance, and what is left of second.
+fn lost(left: f64) -> f64 {
+    (10.0 * left.sqrt()).clamp(1e-4, 3e-2)
+}
+
+/// Residual and Jacobian at a configuration displaced.
+fn linearised<'a>(
+    system: &'a System<f64>,
+    work: &'a mut Work<f64>,
+    at: &'a Configuration<f64>,
+) -> impl FnMut(&[f64]) -> (Vec<f64>, Vec<f64>) + 'a {
+    move |shift: &[f64]| {
+        system.linearise(&system.displaced(at, shift), work);
+        let residual = system.residual_of(work).to_vec();
+        (residual, system.dense_jacobian(work))
+    }
+}
+
+/// The configuration beside a point where the slopes vanish that nearly do there, and of the equations no
+/// more is left than what they do not see.
+fn level(
     system: &System<f64>,
     work: &mut Work<f64>,
     mut at: Configuration<f64>,
-    tolerance: f64,
 ) -> Option<Configuration<f64>> {
     const STEPS: usize = 8;
     const REACH: f64 = 0.05;
     for _ in 0..STEPS {
-        // slopes are of first order in the distance
-        let left = system.linearise(&at, work).largest;
-        let lost = (10.0 * left.sqrt()).clamp(1e-4, 3e-2);
-        let step = deflating_step(system.unknowns().len(), lost, |shift| {
-            system.linearise(&system.displaced(&at, shift), work);
-            let residual = system.residual_of(work).to_vec();
-            (residual, system.dense_jacobian(work))
-        })?;
+        let lost = lost(system.linearise(&at, work).largest);
+        let step = deflating_step(system.unknowns().len(), lost, linearised(system, work, &at))?;
         let length = norm(&step);
         if length > REACH {
             return None;
@@ -71,7 +119,7 @@ fn touching(
             break;
         }
     }
-    (system.linearise(&at, work).largest <= tolerance).then_some(at)
+    Some(at)
 }
 
 /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to

@@ -5,7 +5,7 @@ use super::shake::shaken;
 use crate::geometry::RollPitchYaw;
 use crate::linear::{INDEPENDENT, Svd, norm, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
-use crate::solve::{Equations, Newton, Stop};
+use crate::solve::{Equations, Newton};
 use crate::system::{Coordinate, Held, Places, System, Unknown, Work};
 
 /// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
@@ -152,12 +152,9 @@ impl Mobility {
         let mut found: Vec<(Freedoms, Configuration<f64>)> = Vec::new();
         // the start itself, and three points nearby in directions without symmetry
         for k in shakes {
-            let mut at = shaken(mechanism, start, k);
-            let mut trial = at.clone();
-            let report = Newton::default().solve(near.system(), &mut at, &mut trial, &mut work);
-            if report.stop != Stop::Solved {
+            let Some(at) = near.solve(&Newton::default(), shaken(mechanism, start, k)) else {
                 continue;
-            }
+            };
             let freedoms = Freedoms::of(near.system(), &at, &mut work);
             // no other configuration has fewer
             if freedoms.motions.len() == fewest && near.tangent(at.clone()).idle.is_empty() {

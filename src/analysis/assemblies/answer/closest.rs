@@ -6,7 +6,7 @@ use crate::analysis::assemblies::family::C;
 use crate::analysis::assemblies::report::{ClosestApproach, Named};
 use crate::mechanism::Configuration;
 use crate::solve::{Newton, Stop};
-use crate::system::{Gap, Work, approach};
+use crate::system::{Gap, Work, approach, solve};
 
 impl Question<'_> {
     /// The smallest gaps that Newton's method leaves from the target configuration and from the
@@ -29,8 +29,7 @@ impl Question<'_> {
             point
         });
         for mut point in std::iter::once(self.asked.clone()).chain(lifted) {
-            let mut trial = point.clone();
-            let report = newton.solve(&self.system, &mut point, &mut trial, work);
+            let report = solve(&newton, &self.system, &mut point, work);
             // ties are settled by the order of starts; a clearly smaller gap wins
             if report.size.squares.is_finite()
                 && best
