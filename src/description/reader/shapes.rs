@@ -9,24 +9,23 @@ use super::*;
 pub(super) struct Fields<'a> {
     pub structure: Structure,
     pub span: Range<usize>,
-    /// In the order of the file; what is taken leaves its name.
-    pieces: Vec<(Spanned<&'a str>, Option<Piece<'a>>)>,
+    pieces: Vec<(&'a str, Piece<'a>)>,
     /// Fields that are there under a misspelt name: they must not be called missing too.
     misspelt: Vec<&'static str>,
 }
 
 impl<'a> Fields<'a> {
     pub(super) fn take(&mut self, field: &str) -> Option<Piece<'a>> {
-        let mut pieces = self.pieces.iter_mut();
-        pieces.find(|(name, _)| name.value == field)?.1.take()
+        let place = self.pieces.iter().position(|(name, _)| *name == field)?;
+        Some(self.pieces.swap_remove(place).1)
     }
 
     /// Whether one of some fields is there, rightly spelt or not.
     pub(super) fn gives(&self, fields: &[&str]) -> bool {
-        let there = |&(ref name, piece): &(Spanned<&str>, Option<Piece>)| {
-            piece.is_some() && fields.contains(&name.value)
-        };
-        self.pieces.iter().any(there) || fields.iter().any(|field| self.misspelt.contains(field))
+        let there = |field| self.pieces.iter().any(|(name, _)| name == field);
+        fields
+            .iter()
+            .any(|field| there(field) || self.misspelt.contains(field))
     }
 
     /// Where to point at something that is missing: all of a structure would be too much to underline.
@@ -98,17 +97,19 @@ impl Reader {
                 return None;
             }
         };
+        let mut first: HashMap<&str, Range<usize>> = HashMap::new();
         for (name, value) in found {
-            let mut pieces = fields.pieces.iter();
-            if let Some((first, _)) = pieces.find(|(first, _)| first.value == name.value) {
+            if let Some(first) = first.get(name.value) {
                 let field = name.value.to_owned();
                 let problem = ProblemKind::DuplicateField { field }.at(name.span);
                 let note = Note::FirstHere(Noun::Field);
-                self.problems.push(problem.with(first.span.clone(), note));
+                self.problems.push(problem.with(first.clone(), note));
                 continue;
             }
-            let known = structure.fields().contains(&name.value);
-            if !known {
+            first.insert(name.value, name.span.clone());
+            if structure.fields().contains(&name.value) {
+                fields.pieces.push((name.value, value));
+            } else {
                 let meant = nearest(name.value, structure.fields());
                 fields.misspelt.extend(meant);
                 let kind = ProblemKind::UnknownField {
@@ -116,9 +117,8 @@ impl Reader {
                     field: name.value.to_owned(),
                     suggestion: meant.map(str::to_owned),
                 };
-                self.note(kind, name.span.clone());
+                self.note(kind, name.span);
             }
-            fields.pieces.push((name, known.then_some(value)));
         }
         Some(fields)
     }

@@ -6,7 +6,7 @@ use super::Question;
 use super::error::QuestionError;
 use crate::description::Role;
 use crate::geometry::RollPitchYaw;
-use crate::linear::RANK_TOLERANCE;
+use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::Newton;
 use crate::system::{Coordinate, Mobility, System};
@@ -18,6 +18,13 @@ pub struct Count {
     pub mobility: Option<usize>,
     /// Coordinates held.
     pub held: usize,
+}
+
+/// Where a mechanism is examined.
+enum Place {
+    Start,
+    Assembly,
+    Home,
 }
 
 /// Compares the held coordinates with the freedoms of the mechanism.
@@ -32,10 +39,19 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     let start = question.start();
     check_locked(question, &start)?;
     let system = || System::new(mechanism.dimensions(), &question.held());
-    let solved = std::iter::once_with(|| system().solved(&Newton::default(), &start));
-    let starts = [Some(start.clone())].into_iter().chain(solved);
+    let place = |place: Place| match place {
+        Place::Start => Some(start.clone()),
+        Place::Assembly => system().solved(&Newton::default(), &start),
+        Place::Home => Some(mechanism.home()),
+    };
+    let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
+    let places = match unknowns > SPECTRUM_LIMIT {
+        // steps of least norm with nothing held converge slowly where there are many loops
+        true => [Place::Assembly, Place::Start, Place::Home],
+        false => [Place::Start, Place::Assembly, Place::Home],
+    };
     let mut refused = None;
-    for at in starts.chain([Some(mechanism.home())]).flatten() {
+    for at in places.into_iter().filter_map(place) {
         let Some(mobility) = Mobility::near(mechanism, &at) else {
             continue;
         };
