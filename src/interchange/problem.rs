@@ -199,7 +199,7 @@ fn quoted(names: &[String]) -> String {
     const MOST: usize = 8;
     let shown = names.iter().take(MOST).map(|name| format!("`{name}`"));
     let more = (names.len() > MOST).then(|| format!("{} more", names.len() - MOST));
-    listed(&shown.chain(more).collect::<Vec<_>>())
+    listed(shown.chain(more))
 }
 
 fn or(words: &[&str]) -> String {

@@ -62,7 +62,7 @@ impl ProblemKind {
             | UnknownName { suggestion: Some(meant), .. }
             | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
             UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", quoted(known)),
-            UnknownField { structure, .. } => format!("its fields are {}", quoted(&structure.fields())),
+            UnknownField { structure, .. } => format!("its fields are {}", quoted(structure.fields())),
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
             }

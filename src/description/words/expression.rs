@@ -32,7 +32,7 @@ pub(in crate::description) fn help(error: &ParseErrorKind) -> Option<String> {
             let units = Unit::ALL.map(Unit::word);
             return Some(format!(
                 "write `*` to multiply; the units are {}",
-                quoted(&units)
+                quoted(units)
             ));
         }
         UnknownFunction(name) => {
@@ -41,7 +41,7 @@ pub(in crate::description) fn help(error: &ParseErrorKind) -> Option<String> {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => format!(
                     "write `*` to multiply; the functions are {}",
-                    quoted(&functions)
+                    quoted(functions)
                 ),
             });
         }
@@ -105,7 +105,7 @@ pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
         MeasureErrorKind::Argument(..) => "divide by something that has the same unit".into(),
         MeasureErrorKind::LengthAsAngle(_) => format!(
             "write {}, or divide by a length; a number without unit is in rad",
-            joined(&units_of(Measure::Angle), "or")
+            joined(units_of(Measure::Angle), "or")
         ),
     }
 }
