@@ -49,10 +49,7 @@ impl Iterator for Lexemes<'_> {
             b'"' => string_end(bytes, start)?,
             b'\'' => character_end(text, start),
             _ if matches!(bytes[raw..], [b'r', b'"' | b'#', ..]) => raw_string_end(text, raw)?,
-            first if in_word(first) => {
-                let length = bytes[start..].iter().take_while(|&&byte| in_word(byte));
-                start + length.count()
-            }
+            _ if text[start..].starts_with(in_word) => word_end(text, start),
             _ => start + text[start..].chars().next()?.len_utf8(),
         };
         Some(start..self.at)
@@ -111,8 +108,13 @@ fn is_blank(character: char) -> bool {
     )
 }
 
-fn in_word(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.' | b'+' | b'-')
+fn in_word(character: char) -> bool {
+    character.is_alphanumeric() || matches!(character, '_' | '.' | '+' | '-')
+}
+
+fn word_end(text: &str, start: usize) -> usize {
+    let length = text[start..].find(|character| !in_word(character));
+    length.map_or(text.len(), |length| start + length)
 }
 
 /// An opening bracket that is not closed before another kind of bracket, or the text, ends.
@@ -172,7 +174,8 @@ fn raw_string_end(text: &str, start: usize) -> Option<usize> {
     let hashes = text[start + 1..].bytes().take_while(|&b| b == b'#').count();
     let content = start + 1 + hashes;
     if text.as_bytes().get(content) != Some(&b'"') {
-        return Some(content);
+        // a name that would be a keyword of Rust
+        return Some(word_end(text, content));
     }
     let ending = format!("\"{}", "#".repeat(hashes));
     text[content + 1..]

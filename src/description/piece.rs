@@ -295,6 +295,8 @@ mod tests {
         assert_eq!(found("{}"), Found::Map);
         assert_eq!(found("(1, 2)"), Found::Tuple);
         assert_eq!(found("( /* c */ a : 2)"), Found::Fields);
+        assert_eq!(found("(aθ: 2)"), Found::Fields);
+        assert_eq!(found("(r#a: 2)"), Found::Fields);
         assert_eq!(found("true"), Found::Word("true".into()));
         assert_eq!(found("Tx (1)"), Found::Call("Tx".into()));
         assert_eq!(found("base(1)"), Found::Call("base".into()));

@@ -112,15 +112,8 @@ pub fn step_off_saddle(
     /// What differences leave of a curvature, beside slopes near 1.
     const ROUNDED: f64 = 1e-6;
     let split = Split::of(columns, lost, linearised(&vec![0.0; columns]))?;
-    let gap = DVector::from_column_slice(
-        split
-            .off(DMatrix::from_column_slice(
-                split.residual.len(),
-                1,
-                split.residual.as_slice(),
-            ))
-            .as_slice(),
-    );
+    let left = DMatrix::from_column_slice(split.residual.len(), 1, split.residual.as_slice());
+    let gap = split.off(left).column(0).into_owned();
     let size = gap.norm();
     let mut form = DMatrix::zeros(split.free.ncols(), split.free.ncols());
     for (j, mut form) in form.column_iter_mut().enumerate() {
