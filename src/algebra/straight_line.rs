@@ -327,12 +327,13 @@ impl Recorded {
     }
 }
 
+// called, not inlined: speed does not matter where operations are written down once
 operators!([Recorded]
-    #[inline] Add add |a, b| with(|list| list.add(a, b));
-    #[inline] Sub sub |a, b| with(|list| list.subtract(a, b));
-    #[inline] Mul mul |a, b| with(|list| list.multiply(a, b));
-    #[inline] Div div |a, b| with(|list| list.divide(a, b));
-    #[inline] Neg neg |a| with(|list| list.negate(a));
+    #[inline(never)] Add add |a, b| with(|list| list.add(a, b));
+    #[inline(never)] Sub sub |a, b| with(|list| list.subtract(a, b));
+    #[inline(never)] Mul mul |a, b| with(|list| list.multiply(a, b));
+    #[inline(never)] Div div |a, b| with(|list| list.divide(a, b));
+    #[inline(never)] Neg neg |a| with(|list| list.negate(a));
 );
 
 impl Number for Recorded {

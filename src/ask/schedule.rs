@@ -29,7 +29,7 @@ pub enum TableErrorKind {
     #[error("the first column is `{0}` and not the time in s")]
     NoTime(String),
     /// A column belongs to nothing that can move.
-    #[error("`{name}` is neither a joint nor a coordinate of a platform")]
+    #[error("`{name}` is neither a joint nor a coordinate of a platform or point")]
     Unknown {
         /// The name.
         name: String,

@@ -60,14 +60,12 @@ pub fn complaint(
             }
         }
         AskError::Question(error) => question::complaint(error),
+        AskError::NotMapped(_, error) => question::complaint(error),
         AskError::Mapped {
             error,
             mapped,
             missing,
         } => wrong_count(error, mapped, missing).unwrap_or_else(|| question::complaint(error)),
-        AskError::NotMapped(_, error) => {
-            no_platform(mechanism, error).unwrap_or_else(|| question::complaint(error))
-        }
         AskError::Drive(_, error) => driven_complaint(error, option("--rate")),
         AskError::Load(_, error) => load_complaint(mechanism, error, option("--load")),
         AskError::Motionless { .. } => said.label("stands still").help(
@@ -240,23 +238,6 @@ fn mappable(mechanism: &Mechanism) -> String {
         false => format!("--map {}=0..1", joint.name),
     });
     options.collect::<Vec<String>>().join(" ")
-}
-
-fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Complaint> {
-    let QuestionError::UnknownName {
-        name,
-        suggestion: None,
-    } = error
-    else {
-        return None;
-    };
-    let title = format!("`{name}` is no joint, and the mechanism has no platform");
-    let joints = listed(mechanism.joints().iter().map(|joint| &joint.name));
-    let help = format!(
-        "map joints ({joints}); to map where a link is, give the file a platform that is closed to it by `Rigid`"
-    );
-    let said = Complaint::new(title).label("not known").help(help);
-    mechanism.platforms().is_empty().then_some(said)
 }
 
 /// More or less is mapped and held than there are freedoms. `missing` are coordinates that would do. Nothing where the

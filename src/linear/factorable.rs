@@ -15,9 +15,6 @@ impl Factorable for f64 {
 }
 
 impl Factorable for Complex<f64> {
-    #[cfg(feature = "sparse")]
-    type Sparse = super::SparseNormal<Complex<f64>>;
-    #[cfg(not(feature = "sparse"))]
     type Sparse = DenseOnly;
 }
 

@@ -807,7 +807,7 @@ fn questions_without_a_meaning_are_refused_with_a_remedy() {
                 "--map",
                 "y=0..1",
             ],
-            "has no platform",
+            "a point's `left+0.5,0.2.x`",
         ),
     ];
     for (arguments, expected) in cases {

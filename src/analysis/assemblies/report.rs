@@ -315,8 +315,15 @@ impl AssembliesReport {
             Some(proof) if proof.ranges.is_empty() => return false,
             _ => {}
         }
-        let missed = [self.lost, self.unexpected, self.multiple, self.conjugates];
+        // with a freedom left, multiple solutions are where the sets of solutions cross
+        let multiple = self.fit == Fit::Finite && self.multiple > 0;
         let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
-        self.interrupted || !listed || missed != [0; 4] || self.exhausted && self.fit == Fit::Finite
+        self.interrupted || !listed || multiple || self.missed() > 0
+    }
+
+    /// How many solutions are known to be missing, or ends of paths undecided; one more if the search ended at its limits.
+    pub(crate) fn missed(&self) -> usize {
+        let exhausted = self.exhausted && self.fit == Fit::Finite;
+        self.lost + self.unexpected + self.conjugates + usize::from(exhausted)
     }
 }

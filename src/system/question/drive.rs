@@ -44,7 +44,7 @@ pub enum DriveError {
     #[error(transparent)]
     Question(QuestionError),
     /// There is nothing of that name.
-    #[error("`{name}` is neither a joint nor a coordinate of a platform")]
+    #[error("`{name}` is neither a joint nor a coordinate of a platform or point")]
     UnknownName {
         /// The name.
         name: String,

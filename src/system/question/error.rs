@@ -79,7 +79,7 @@ impl QuestionError {
     pub fn title(&self) -> String {
         match self {
             QuestionError::UnknownName { name, .. } => {
-                format!("`{name}` is neither a joint nor a coordinate of a platform")
+                format!("`{name}` is neither a joint nor a coordinate of a platform or point")
             }
             QuestionError::NotAJoint(name) => {
                 format!("`{name}` is not a joint, and only joints are held by themselves")
