@@ -44,6 +44,8 @@ pub use model::{
     Parameter, Platform, Row, Symbol,
 };
 
+use std::sync::Arc;
+
 use crate::description::{Coordinates, Problem};
 
 pub(crate) use closure::{Closure, EVERY_ROW, Kept, Side, needs};
@@ -53,25 +55,27 @@ pub(crate) use letters::{Formal, Letters};
 pub(crate) use recut::Recut;
 pub(crate) use turns::{principal, turn_near, turns};
 
-/// A valid mechanism. It is immutable; its existence proves that its description is meaningful.
+/// A valid mechanism. It is immutable; its existence proves that its description is meaningful. Copies share what does not
+/// depend on the values of parameters.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
     name: String,
     source: Option<String>,
     parameters: Vec<Parameter>,
     joints: Vec<Joint>,
-    chains: Vec<Chain>,
+    chains: Arc<Vec<Chain>>,
     platforms: Vec<Platform>,
-    closures: Vec<model::Closure>,
-    closed_forms: Vec<ClosedForm>,
-    outputs: Vec<Quantity>,
+    closures: Arc<Vec<model::Closure>>,
+    closed_forms: Arc<Vec<ClosedForm>>,
+    outputs: Arc<Vec<Quantity>>,
+    homes: Arc<model::Homes>,
     dimensions: Dimensions<f64>,
     /// For each joint whether a full turn leaves every frame where it is.
     repeating: Vec<bool>,
     /// For each closure the rows that do not vanish in every configuration.
     rows_that_vary: Vec<Kept>,
-    coordinates: Option<Box<Coordinates>>,
-    warnings: Vec<Problem>,
+    coordinates: Option<Arc<Coordinates>>,
+    warnings: Arc<Vec<Problem>>,
 }
 
 /// A frame of a mechanism; chains, platforms and frames by their indices.

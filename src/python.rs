@@ -244,13 +244,7 @@ impl Mechanism {
         let deviate: Vec<(String, Value)> = (deviate.iter())
             .map(|(name, deviation)| (name.clone(), deviation.into()))
             .collect();
-        let study = Study::new(
-            self.description.clone(),
-            &asked.question,
-            &vary,
-            &deviate,
-            points,
-        );
+        let study = Study::new(&asked.question, &vary, &deviate, points);
         let study = study.map_err(|error| asked.refusal(&error.into()))?;
         let range = study.shard(part.0, part.1);
         let range = range.map_err(|error| asked.refusal(&AskError::from(error).into()))?;

@@ -18,7 +18,7 @@ use super::study_error::StudyError;
 use super::{AskError, Question, Role, Unmeasured};
 use crate::algebra::{Measure, SiUnit};
 use crate::analysis::sweep::Pace;
-use crate::description::{Description, ReplacementError, nearest};
+use crate::description::nearest;
 use crate::mechanism::{Measured, Mechanism, Order, Parameter, Quantity, Variable};
 use crate::solve::{Progress, Stage, Watch, each};
 use crate::system::{self, Coordinate, Driven, QuestionError, check_count};
@@ -30,13 +30,14 @@ const ASSEMBLIES: &str = "assemblies";
 #[derive(Clone)]
 pub struct Study {
     question: Question,
-    description: Description,
     points: Points,
     varied: Vec<Varied>,
     ranges: Vec<Spread>,
     /// Whether assemblies are counted.
     counted: bool,
     columns: Vec<Variable>,
+    /// Whether links spin about their own lines.
+    spins: bool,
 }
 
 /// What is varied: a parameter or a coordinate.
@@ -44,7 +45,8 @@ pub struct Study {
 struct Varied {
     name: String,
     unit: SiUnit,
-    is_parameter: bool,
+    /// The index of the parameter.
+    parameter: Option<usize>,
 }
 
 /// Some rows of a study.
@@ -59,7 +61,7 @@ pub struct StudyRows {
 }
 
 impl Varied {
-    fn parameter(of: &Parameter) -> Self {
+    fn parameter(index: usize, of: &Parameter) -> Self {
         Varied {
             name: of.name.clone(),
             unit: match of.measure {
@@ -67,7 +69,7 @@ impl Varied {
                 Measure::Length => SiUnit::METRE,
                 _ => SiUnit::ONE,
             },
-            is_parameter: true,
+            parameter: Some(index),
         }
     }
 
@@ -75,7 +77,7 @@ impl Varied {
         Varied {
             name: name.into(),
             unit: SiUnit::of_coordinate(of.is_angle(mechanism)),
-            is_parameter: false,
+            parameter: None,
         }
     }
 }
@@ -84,8 +86,9 @@ impl Varied {
 fn parameter<'m>(
     mechanism: &'m Mechanism,
     name: &str,
-) -> Result<Option<&'m Parameter>, StudyError> {
-    let found = mechanism.parameters().iter().find(|of| of.name == name);
+) -> Result<Option<(usize, &'m Parameter)>, StudyError> {
+    let mut parameters = mechanism.parameters().iter().enumerate();
+    let found = parameters.find(|(_, of)| of.name == name);
     if found.is_none()
         && let Err(QuestionError::UnknownName { suggestion, .. }) =
             system::Question::new(mechanism).value(name, "home")
@@ -115,14 +118,13 @@ fn number(
 }
 
 impl Study {
-    /// A study of a question about the mechanism of a description: what it reports
+    /// A study of a question: what it reports
     /// ([`Question::report`], and `assemblies`, the number of real ones), at points of what it moves ([`Question::input`]),
     /// which may be parameters too. What has a `deviation` varies normally about its value, with this standard deviation.
     ///
     /// # Errors
     /// If the question or the points are wrong.
     pub fn new(
-        description: Description,
         question: &Question,
         vary: &[(String, system::Value, system::Value)],
         deviations: &[(String, system::Value)],
@@ -132,10 +134,10 @@ impl Study {
         let plain = system::Question::new(&mechanism);
         let (mut varied, mut ranges) = (Vec::new(), Vec::new());
         for (index, (name, from, to)) in vary.iter().enumerate() {
-            if let Some(parameter) = parameter(&mechanism, name)? {
+            if let Some((index, parameter)) = parameter(&mechanism, name)? {
                 let number = |value| number(&mechanism, parameter, value);
                 ranges.push(Spread::Even(number(from)?, number(to)?));
-                varied.push(Varied::parameter(parameter));
+                varied.push(Varied::parameter(index, parameter));
                 continue;
             }
             let (of, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
@@ -148,8 +150,8 @@ impl Study {
                 return Err(StudyError::Twice(name.clone()).into());
             }
             let (value, deviation) = match parameter(&mechanism, name)? {
-                Some(parameter) => {
-                    varied.push(Varied::parameter(parameter));
+                Some((index, parameter)) => {
+                    varied.push(Varied::parameter(index, parameter));
                     (parameter.value, number(&mechanism, parameter, deviation)?)
                 }
                 None => {
@@ -204,14 +206,14 @@ impl Study {
         question.reports = kept.filter(|list| !list.is_empty()).collect();
         let mut study = Study {
             question,
-            description,
             points,
             varied,
             ranges,
             counted,
             columns: Vec::new(),
+            spins: true,
         };
-        study.columns = study.named()?;
+        (study.columns, study.spins) = study.named()?;
         Ok(study)
     }
 
@@ -251,8 +253,8 @@ impl Study {
         }
     }
 
-    /// What the columns are.
-    fn named(&self) -> Result<Vec<Variable>, AskError> {
+    /// What the columns are, and whether links spin about their own lines. Dimensions decide neither.
+    fn named(&self) -> Result<(Vec<Variable>, bool), AskError> {
         let mechanism = self.question.mechanism();
         let mut columns = vec![Variable::plain("row")];
         columns.extend(
@@ -269,7 +271,8 @@ impl Study {
         check_count(&held).map_err(AskError::Question)?;
         let (quantities, _) = posed.measured_by_rates(&held)?;
         columns.extend(quantities.iter().map(|of| Variable::new(&of.name, of.unit)));
-        Ok(columns)
+        let spins = !held.with_spins_still().still().is_empty();
+        Ok((columns, spins))
     }
 
     fn point(&self, index: usize) -> Vec<f64> {
@@ -282,7 +285,7 @@ impl Study {
         row.extend(point.iter().map(|x| Some(*x)));
         let found = self.made(&point).and_then(|mechanism| {
             let asked = self.at(&point, &mechanism);
-            asked.measured_here(self.counted).ok()
+            asked.measured_here(self.counted, self.spins).ok()
         });
         match found {
             Some(values) => row.extend(values),
@@ -299,25 +302,15 @@ impl Study {
     /// The mechanism with the parameters of a point.
     fn made(&self, point: &[f64]) -> Option<Mechanism> {
         let named = self.varied.iter().zip(point);
-        let mut parameters = named.filter(|(of, _)| of.is_parameter);
-        let changed = parameters.try_fold(
-            self.description.clone(),
-            |description, (of, value)| -> Result<Description, ReplacementError> {
-                let unit = if of.unit == SiUnit::RADIAN {
-                    " rad"
-                } else {
-                    ""
-                };
-                description.with_parameter(&of.name, &format!("{value:?}{unit}"))
-            },
-        );
-        Mechanism::new(&changed.ok()?).ok()
+        let given = named.filter_map(|(of, value)| Some((of.parameter?, *value)));
+        let given: Vec<(usize, f64)> = given.collect();
+        self.question.mechanism().with_values(&given).ok()
     }
 
     /// The question at a point.
     fn at(&self, point: &[f64], mechanism: &Mechanism) -> Question {
         let named = self.varied.iter().zip(point);
-        let coordinates = named.filter(|(of, _)| !of.is_parameter);
+        let coordinates = named.filter(|(of, _)| of.parameter.is_none());
         let asked = self.question.about(mechanism.clone());
         coordinates.fold(asked, |asked, (of, value)| {
             asked.let_go(&of.name).hold(&of.name, *value)
@@ -369,10 +362,12 @@ impl Question {
     }
 
     /// Whether the mechanism assembles, how many ways if that is asked for, and the quantities there.
-    fn measured_here(&self, counted: bool) -> Result<Vec<Option<f64>>, AskError> {
+    fn measured_here(&self, counted: bool, spins: bool) -> Result<Vec<Option<f64>>, AskError> {
         let watch = &Watch::none();
-        let held = self.resolved()?;
-        check_count(&held).map_err(AskError::Question)?;
+        let mut held = self.resolved()?;
+        if !spins {
+            held = held.without_spins();
+        }
         let still = held.clone().with_spins_still();
         let count = counted.then(|| {
             let report = self.all(&still, NUMBERED, watch);

@@ -111,10 +111,7 @@ impl Study {
             None if self.grid.len() == 1 => Points::Grid(vec![self.grid[0]; vary.len()]),
             None => Points::Grid(self.grid.clone()),
         };
-        let description = &posed.loaded.description;
-        let study = posed.ask(|question, _| {
-            ask::Study::new(description.clone(), question, &vary, &deviate, points)
-        })?;
+        let study = posed.ask(|question, _| ask::Study::new(question, &vary, &deviate, points))?;
         let (part, of) = self.shard;
         let range = study.shard(part, of).map_err(Refusal::error)?;
         let rows = watched(|watch| study.rows(range, watch));

@@ -9,9 +9,10 @@ mod parameters;
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::lift::product;
-use super::model::{Chain, FixedStep, Joint, JointKind, Platform, Row};
+use super::model::{Chain, FixedStep, Formula, Homes, Joint, JointHome, JointKind, Platform, Row};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Measure;
@@ -132,9 +133,9 @@ impl Mechanism {
             doubtful,
         };
         let parameters = builder.parameters(description);
-        let joints = builder.joints(description);
+        let (joints, homes) = builder.joints(description);
         let chains = builder.chains(description);
-        let platforms = builder.platforms(description);
+        let (platforms, poses) = builder.platforms(description);
         let closures = builder.closures(description, &chains);
         let closed_forms = builder.closed_forms(description);
         if let Some(coordinates) = &description.coordinates {
@@ -148,25 +149,30 @@ impl Mechanism {
             source: description.source.as_ref().map(|s| s.value.clone()),
             parameters,
             joints,
-            chains: chains
-                .into_iter()
-                .filter_map(ResolvedChain::finished)
-                .collect(),
+            chains: Arc::new(
+                (chains.into_iter())
+                    .filter_map(ResolvedChain::finished)
+                    .collect(),
+            ),
             platforms,
-            closures,
-            closed_forms,
-            outputs: Vec::new(),
+            closures: closures.into(),
+            closed_forms: closed_forms.into(),
+            outputs: Arc::default(),
+            homes: Arc::new(Homes {
+                joints: homes,
+                platforms: poses,
+            }),
             dimensions: super::Dimensions::empty(),
             repeating: Vec::new(),
             rows_that_vary: Vec::new(),
-            coordinates: description.coordinates.clone(),
-            warnings: Vec::new(),
+            coordinates: description.coordinates.clone().map(Arc::from),
+            warnings: Arc::default(),
         };
         let refused = |problem: &Problem| problem.severity() == Severity::Error;
         if !builder.problems.iter().any(refused) {
             mechanism.infer_kinds();
             builder.check_joint_units(description, &mechanism.joints);
-            mechanism.outputs = builder.outputs(description, &mechanism);
+            mechanism.outputs = builder.outputs(description, &mechanism).into();
             inspect::inspect(&mechanism, description, &mut builder.problems);
         }
         if !builder.problems.iter().any(refused) {
@@ -191,20 +197,26 @@ impl Mechanism {
         if builder.problems.iter().any(refused) {
             return Err(builder.problems);
         }
-        mechanism.warnings = builder.problems;
+        mechanism.warnings = builder.problems.into();
         Ok(mechanism)
     }
 }
 
 impl Builder<'_> {
-    fn joints(&mut self, description: &Description) -> Vec<Joint> {
+    fn joints(&mut self, description: &Description) -> (Vec<Joint>, Vec<JointHome>) {
         let mut joints = Vec::new();
+        let mut written = Vec::new();
         for Named { name, value } in &description.joints {
-            let home = self.constant(&value.home).map(|(_, home)| home);
+            let home = self.constant(&value.home);
+            let (formula, home) = home.unwrap_or_else(|| (Formula::number(0.0), 0.0));
             let limits = value.limits.as_ref().and_then(|(low, high)| {
                 let (low, high) = (self.constant(low), self.constant(high));
-                Some((low?.1, high?.1))
+                low.zip(high)
             });
+            let (limits, formulas) = limits
+                .map(|(low, high)| ((low.1, high.1), [low.0, high.0]))
+                .unzip();
+            written.push((formula, formulas));
             if let (Some((low, high)), Some((l, h))) = (limits, &value.limits)
                 && low > high
             {
@@ -217,11 +229,11 @@ impl Builder<'_> {
                 name: name.value.clone(),
                 role: value.role,
                 kind: JointKind::Revolute,
-                home: home.unwrap_or(0.0),
+                home,
                 limits,
             });
         }
-        joints
+        (joints, written)
     }
 
     fn fixed(&mut self, displacements: &[Displacement]) -> Vec<FixedStep> {
@@ -309,8 +321,8 @@ impl Builder<'_> {
         }
     }
 
-    fn platforms(&mut self, description: &Description) -> Vec<Platform> {
-        let mut platforms = Vec::new();
+    fn platforms(&mut self, description: &Description) -> (Vec<Platform>, Vec<Vec<FixedStep>>) {
+        let (mut platforms, mut homes) = (Vec::new(), Vec::new());
         for Named { name, value } in &description.platforms {
             let home = self.fixed(&value.home);
             platforms.push(Platform {
@@ -320,7 +332,8 @@ impl Builder<'_> {
                     .map(|frame| (frame.name.value.clone(), self.fixed(&frame.value)))
                     .collect(),
             });
+            homes.push(home);
         }
-        platforms
+        (platforms, homes)
     }
 }

@@ -52,24 +52,12 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     });
     let entries = mechanism.affine_entries();
     let in_rows_and_lengths: HashSet<usize> = entries.flat_map(joints_of).collect();
-    // homes and limits were evaluated and are kept as values only
-    let homes_and_limits = description.joints.iter().flat_map(|joint| {
-        let limits = joint.value.limits.iter();
-        limits
-            .flat_map(|(low, high)| [low, high])
-            .chain([&joint.value.home])
-    });
-    let platform_homes = description.platforms.iter();
-    let platform_homes = platform_homes.flat_map(|p| p.value.home.iter().flat_map(|d| d.entries()));
     let outputs = description.outputs.iter().map(|output| &output.value);
     let coordinates = description.coordinates.iter();
     let places = coordinates.flat_map(|c| c.axes.places().flat_map(|place| place.entries()));
-    let evaluated: HashSet<&str> = (homes_and_limits
-        .chain(platform_homes)
-        .chain(outputs)
-        .chain(places))
-    .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
-    .collect();
+    let evaluated: HashSet<&str> = (outputs.chain(places))
+        .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
+        .collect();
     for (i, named) in description.parameters.iter().enumerate() {
         let name = named.name.value.clone();
         if !used.contains(&Symbol::Parameter(i)) && !evaluated.contains(name.as_str()) {
@@ -143,7 +131,13 @@ impl Mechanism {
         for parameter in &self.parameters {
             visit(&parameter.definition);
         }
-        for chain in &self.chains {
+        for (home, limits) in &self.homes.joints {
+            limits.iter().flatten().chain([home]).for_each(&mut *visit);
+        }
+        for home in &self.homes.platforms {
+            fixed(home, visit);
+        }
+        for chain in self.chains.iter() {
             fixed(&chain.base, visit);
             fixed(&chain.tip, visit);
             for row in &chain.rows {
@@ -158,7 +152,7 @@ impl Mechanism {
             visit(&affine.constant);
             affine.terms.iter().for_each(|(_, factor)| visit(factor));
         }
-        for form in &self.closed_forms {
+        for form in self.closed_forms.iter() {
             form.locals.iter().for_each(|(_, formula)| visit(formula));
             match &form.gives {
                 Given::Pose { entries, .. } => entries.iter().for_each(|(_, f)| visit(f)),

@@ -10,7 +10,7 @@ use crate::description::{Convention, Role};
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::number::Number;
 
-fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T, EvaluationError> {
+pub(super) fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T, EvaluationError> {
     formula.evaluate(&|symbol| match *symbol {
         Symbol::Parameter(i) => parameters[i],
         Symbol::Joint(_) | Symbol::Local(_) => unreachable!("a dimension is resolved in the scope of parameters, where joints and local names are refused"),

@@ -125,6 +125,17 @@ pub struct Chain {
     pub tip: Vec<FixedStep>,
 }
 
+/// The home of a joint, and its lowest and highest value.
+pub(crate) type JointHome = (Formula, Option<[Formula; 2]>);
+
+/// Where joints and platforms are at home, and the limits of joints, as written.
+#[derive(Clone, Debug)]
+pub(crate) struct Homes {
+    pub joints: Vec<JointHome>,
+    /// For each platform the steps to its home pose.
+    pub platforms: Vec<Vec<FixedStep>>,
+}
+
 /// A rigid body whose pose is unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Platform {

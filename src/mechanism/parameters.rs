@@ -1,8 +1,10 @@
 //! The parameters as coordinates of a family of mechanisms.
 
 use super::Mechanism;
+use super::lift::{product, value};
 use super::model::{Formula, Symbol};
-use crate::algebra::EvaluationError;
+use crate::algebra::{EvaluationError, EvaluationErrorKind, LARGEST};
+use crate::description::{Problem, ProblemKind};
 use crate::number::Number;
 
 fn uses(formula: &Formula) -> impl Iterator<Item = usize> {
@@ -49,5 +51,60 @@ impl Mechanism {
             }
         }
         Ok(values.into_iter().map(|v| v.unwrap_or(T::zero())).collect())
+    }
+
+    /// The same mechanism with other values of some parameters, by their indices, in m or rad: what depends on them, homes
+    /// and limits too, has the value of its definition there. Nothing is read or resolved again; the warnings are those of
+    /// the file.
+    ///
+    /// # Errors
+    /// If something has no value there, lower and upper limits are reversed, or an axis of joint coordinates has no direction.
+    pub fn with_values(&self, given: &[(usize, f64)]) -> Result<Mechanism, Problem> {
+        let no_value = |error: EvaluationError| ProblemKind::NoValue(error.kind).at(error.span);
+        let mut changed = self.clone();
+        for &(parameter, value) in given {
+            let definition = &mut changed.parameters[parameter].definition;
+            let span = definition.span.clone();
+            let kind = match value.is_finite() {
+                true if value.abs() <= LARGEST => None,
+                true => Some(EvaluationErrorKind::TooLarge(value)),
+                false => Some(EvaluationErrorKind::NotFinite),
+            };
+            if let Some(kind) = kind {
+                return Err(ProblemKind::NoValue(kind).at(span));
+            }
+            *definition = Formula::number(value);
+            definition.span = span;
+        }
+        let values = changed.parameters_from::<f64>(&[]).map_err(no_value)?;
+        for (parameter, value) in changed.parameters.iter_mut().zip(&values) {
+            parameter.value = *value;
+        }
+        let of = |formula: &Formula| value(formula, &values).map_err(no_value);
+        for (joint, (home, limits)) in changed.joints.iter_mut().zip(&self.homes.joints) {
+            joint.home = of(home)?;
+            if let Some([low, high]) = limits {
+                let (l, h) = (of(low)?, of(high)?);
+                if l > h {
+                    let name = joint.name.clone();
+                    let kind = ProblemKind::LimitsReversed {
+                        joint: name,
+                        low: l,
+                        high: h,
+                    };
+                    return Err(kind.at(low.span.start..high.span.end));
+                }
+                joint.limits = Some((l, h));
+            }
+        }
+        for (platform, home) in changed.platforms.iter_mut().zip(&self.homes.platforms) {
+            platform.home = product(home, &values).map_err(no_value)?;
+        }
+        if let Some(fault) = changed.fault_of_axes() {
+            return Err(fault);
+        }
+        let dimensions = changed.dimensions_over(&values).map_err(no_value)?;
+        changed.set_dimensions(dimensions);
+        Ok(changed)
     }
 }

@@ -1,6 +1,7 @@
 //! Points of a mechanism as its joints: on a plane, or with their coordinates.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Row, Symbol};
 use super::{Body, ClosureKind, Convention, Frame, Mechanism, NamedPoint, Point, Role};
@@ -114,7 +115,7 @@ impl Mechanism {
                 true => cut.free_name(&format!("slides of {called}")),
                 false => cut.free_name(called),
             };
-            cut.chains.push(Chain {
+            Arc::make_mut(&mut cut.chains).push(Chain {
                 name,
                 on,
                 convention: Convention::Modified,
@@ -127,7 +128,7 @@ impl Mechanism {
             }
         });
         let name = cut.free_name(&format!("coordinates of {called}"));
-        cut.closures.push(Closure {
+        Arc::make_mut(&mut cut.closures).push(Closure {
             name,
             kind: ClosureKind::Spherical,
             frames: tips,

@@ -58,7 +58,7 @@ impl Mechanism {
     }
 
     pub(crate) fn equations_that_vary(&self) -> usize {
-        let rows = self.rows_that_vary.iter().zip(&self.closures);
+        let rows = self.rows_that_vary.iter().zip(self.closures.iter());
         let rows = rows.flat_map(|(kept, closure)| &kept[..closure.kind.equations()]);
         rows.filter(|varies| **varies).count()
     }

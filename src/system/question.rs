@@ -48,6 +48,8 @@ pub struct Question<'a> {
     split_changed: bool,
     /// What stands still so that links do not spin about their own lines.
     still: Vec<Still>,
+    /// Whether it is known that no link spins about its own line.
+    spinless: bool,
     /// The demands made by name so far.
     demands: Vec<(Target, Demand)>,
 }
@@ -68,6 +70,7 @@ impl<'a> Question<'a> {
             changed: false,
             split_changed: false,
             still: Vec::new(),
+            spinless: false,
             demands: Vec::new(),
             mechanism,
         }

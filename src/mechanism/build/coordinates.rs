@@ -1,10 +1,13 @@
 //! Checks of joint coordinates that need their values.
 
-use std::ops::Range;
+use std::f64::consts::FRAC_PI_2;
 
+use super::super::Mechanism;
 use super::Builder;
 use crate::algebra::Measure;
-use crate::description::{AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, ProblemKind};
+use crate::description::{
+    AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, Problem, ProblemKind,
+};
 use crate::geometry::Vector3;
 
 /// Axes of a universal joint this near to a right angle are perpendicular, in rad.
@@ -17,7 +20,11 @@ impl Builder<'_> {
         for joint in &coordinates.axes.joints {
             let places = [Some(&joint.value.place), joint.value.second.as_ref()];
             for place in places.into_iter().flatten() {
-                self.check_place(&joint.name.value, joint.value.kind, place);
+                let mut vector = |entries: &_, measure| self.vector(entries, measure);
+                if let Some(fault) = fault(&joint.name.value, joint.value.kind, place, &mut vector)
+                {
+                    self.problems.push(fault);
+                }
             }
             // a home that is wrong hides what is made of it
             let wanted = match joint.value.kind {
@@ -36,45 +43,6 @@ impl Builder<'_> {
         }
     }
 
-    fn check_place(&mut self, joint: &str, kind: AxisKind, place: &AxisPlace) {
-        let span = |entries: &[Entry; 3]| entries[0].span.start..entries[2].span.end;
-        let (lost, span) = match place {
-            AxisPlace::Along(_, direction) => {
-                let found = self.vector(direction, Measure::Open);
-                (found.is_some_and(|v| v.norm() == 0.0), span(direction))
-            }
-            AxisPlace::Through(first, second) if kind != AxisKind::Distance => {
-                let ends = [first, second].map(|point| self.vector(point, Measure::Length));
-                let [first_end, second_end] = ends;
-                let along = first_end.zip(second_end).map(|(a, b)| b - a);
-                let whole = span(first).start..span(second).end;
-                (along.is_some_and(|v| v.norm() == 0.0), whole)
-            }
-            AxisPlace::Cross(_, [first, second]) => {
-                let ends = [first, second].map(|one| self.vector(one, Measure::Open));
-                let whole = span(first).start..span(second).end;
-                let lost = ends.iter().flatten().any(|v| v.norm() == 0.0);
-                if let ([Some(a), Some(b)], false) = (ends, lost) {
-                    let angle = (a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0).acos();
-                    if (angle - std::f64::consts::FRAC_PI_2).abs() > PERPENDICULAR {
-                        let joint = joint.to_owned();
-                        self.refuse_axes(AxesProblem::NotPerpendicular { joint, angle }, &whole);
-                    }
-                }
-                (lost, whole)
-            }
-            _ => return,
-        };
-        if lost {
-            let joint = joint.to_owned();
-            self.refuse_axes(AxesProblem::NoDirection { joint }, &span);
-        }
-    }
-
-    fn refuse_axes(&mut self, problem: AxesProblem, span: &Range<usize>) {
-        self.refuse(ProblemKind::Axes(Box::new(problem)), span);
-    }
-
     fn vector(&mut self, entries: &[Entry; 3], measure: Measure) -> Option<Vector3<f64>> {
         let values = entries.each_ref().map(|entry| match measure {
             Measure::Open => self.constant(entry),
@@ -84,5 +52,69 @@ impl Builder<'_> {
             return None;
         };
         Some(Vector3([x, y, z]))
+    }
+}
+
+/// What is wrong with the values of an axis, given the values of vectors.
+fn fault(
+    joint: &str,
+    kind: AxisKind,
+    place: &AxisPlace,
+    vector: &mut dyn FnMut(&[Entry; 3], Measure) -> Option<Vector3<f64>>,
+) -> Option<Problem> {
+    let span = |entries: &[Entry; 3]| entries[0].span.start..entries[2].span.end;
+    let (ends, span) = match place {
+        AxisPlace::Along(_, direction) => {
+            ([vector(direction, Measure::Open), None], span(direction))
+        }
+        AxisPlace::Through(first, second) if kind != AxisKind::Distance => {
+            let [from, to] = [first, second].map(|point| vector(point, Measure::Length));
+            let along = from.zip(to).map(|(a, b)| b - a);
+            ([along, None], span(first).start..span(second).end)
+        }
+        AxisPlace::Cross(_, [first, second]) => {
+            let ends = [first, second].map(|one| vector(one, Measure::Open));
+            (ends, span(first).start..span(second).end)
+        }
+        _ => return None,
+    };
+    let joint = joint.to_owned();
+    let problem = match ends {
+        _ if ends.iter().flatten().any(|v| v.norm() == 0.0) => AxesProblem::NoDirection { joint },
+        [Some(a), Some(b)] => {
+            let angle = (a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0).acos();
+            if (angle - FRAC_PI_2).abs() <= PERPENDICULAR {
+                return None;
+            }
+            AxesProblem::NotPerpendicular { joint, angle }
+        }
+        _ => return None,
+    };
+    Some(ProblemKind::Axes(Box::new(problem)).at(span))
+}
+
+impl Mechanism {
+    /// The first axis of joint coordinates that is wrong for the values of the parameters.
+    pub(in super::super) fn fault_of_axes(&self) -> Option<Problem> {
+        let value = |name: &String| {
+            let known = self.parameters.iter().find(|of| of.name == *name);
+            known.map_or(f64::NAN, |of| of.value)
+        };
+        let mut vector = |entries: &[Entry; 3], _| {
+            let values = entries
+                .each_ref()
+                .map(|entry| entry.expression.evaluate(&value).ok());
+            let [Some(x), Some(y), Some(z)] = values else {
+                return None;
+            };
+            Some(Vector3([x, y, z]))
+        };
+        let mut joints = self.coordinates.iter().flat_map(|made| &made.axes.joints);
+        joints.find_map(|joint| {
+            let places = [Some(&joint.value.place), joint.value.second.as_ref()].into_iter();
+            places
+                .flatten()
+                .find_map(|place| fault(&joint.name.value, joint.value.kind, place, &mut vector))
+        })
     }
 }

@@ -65,6 +65,9 @@ impl Question<'_> {
     /// Without it a finite number of assemblies would be infinite, and each configuration of a curve one of a surface.
     pub fn with_spins_still(mut self) -> Self {
         let mechanism = self.mechanism;
+        if self.spinless {
+            return self;
+        }
         // near home, so that questions that differ in values make the same choice
         let near = |at| Mobility::near(mechanism, &at);
         let Some(mobility) = near(mechanism.home()).or_else(|| near(self.start())) else {
@@ -91,6 +94,12 @@ impl Question<'_> {
                 .collect();
             self.still.extend(pivots(&mut idle, &rows));
         }
+        self
+    }
+
+    /// The same question about a mechanism none of whose links spins about its own line, which then is not worked out.
+    pub(crate) fn without_spins(mut self) -> Self {
+        self.spinless = true;
         self
     }
 
