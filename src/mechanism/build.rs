@@ -7,6 +7,8 @@ mod entries;
 mod outputs;
 mod parameters;
 
+pub(super) use closures::fault_of_length;
+
 use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;

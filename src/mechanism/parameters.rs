@@ -1,6 +1,7 @@
 //! The parameters as coordinates of a family of mechanisms.
 
 use super::Mechanism;
+use super::build::fault_of_length;
 use super::lift::{product, value};
 use super::model::{Formula, Symbol};
 use crate::algebra::{EvaluationError, EvaluationErrorKind, LARGEST};
@@ -102,6 +103,13 @@ impl Mechanism {
         }
         if let Some(fault) = changed.fault_of_axes() {
             return Err(fault);
+        }
+        for closure in self.closures.iter() {
+            if let Some(length) = closure.length.as_ref().filter(|of| of.is_constant())
+                && let Some(fault) = fault_of_length(&closure.name, of(&length.constant)?)
+            {
+                return Err(fault.at(length.constant.span.clone()));
+            }
         }
         let dimensions = changed.dimensions_over(&values).map_err(no_value)?;
         changed.set_dimensions(dimensions);

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use linkwork::algebra::{Expression, Node, Operator};
+use linkwork::algebra::{Expression, Measure, Node, Operator};
 use linkwork::analysis::compare::{CompareSettings, Verdict, compare};
 use linkwork::description::{Description, Entry};
 use linkwork::geometry::{Axis, Pose};
@@ -582,4 +582,82 @@ fn storage_of_another_dimension_forgets_what_affected_a_closure_there() {
     // the column of b over the rows of the first closure
     let column = &after[free.rows()..][..3];
     assert_eq!(column, [0.0; 3]);
+}
+
+#[test]
+fn other_values_of_parameters_make_what_the_file_makes_with_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/axes");
+    let axes = folder.read_dir().unwrap();
+    let axes = axes.map(|entry| entry.unwrap().path());
+    let (mut changed, mut refused) = (0, 0);
+    for path in files().into_iter().chain(axes) {
+        let description = description(&path);
+        let mechanism = Mechanism::new(&description).unwrap();
+        for (index, parameter) in mechanism.parameters().iter().enumerate() {
+            for value in [1.1 * parameter.value + 0.01, 0.0] {
+                let unit = match parameter.measure {
+                    Measure::Angle => " rad",
+                    _ => "",
+                };
+                let text = format!("{value:?}{unit}");
+                let written = description.clone().with_parameter(&parameter.name, &text);
+                let written = Mechanism::new(&written.unwrap());
+                let given = mechanism.with_values(&[(index, value)]);
+                let name = format!("{} with {} = {text}", stem(&path), parameter.name);
+                let (Ok(written), Ok(given)) = (&written, &given) else {
+                    let given = given.as_ref().err();
+                    assert_eq!(given.is_none(), written.is_ok(), "{name}: {given:?}");
+                    refused += 1;
+                    continue;
+                };
+                assert_eq!(given.dimensions(), written.dimensions(), "{name}");
+                assert_eq!(given.joints(), written.joints(), "{name}");
+                assert_eq!(given.home(), written.home(), "{name}");
+                let values = |of: &Mechanism| -> Vec<f64> {
+                    of.parameters().iter().map(|p| p.value).collect()
+                };
+                assert_eq!(values(given), values(written), "{name}");
+                let neighbour = mechanism.with_values(&[(index, value + 0.01)]).unwrap();
+                assert_ne!(values(&neighbour), values(given), "{name}");
+                changed += 1;
+            }
+        }
+    }
+    assert!(changed > 300 && refused > 0, "{changed}, {refused}");
+}
+
+#[test]
+fn values_that_make_no_mechanism_are_refused_as_in_the_file() {
+    let text = r#"Mechanism(version: 1, name: "slide", convention: Standard,
+        parameters: { "low": 0.1, "k": 2 },
+        joints: { "s": Actuated(home: "1/k", limits: ("low", 1)) },
+        chains: { "one": Chain(rows: [(d: "s")]), "two": Chain(base: [Tz(0.5)]) },
+        closures: { "p": Spherical("one", "two") })"#;
+    let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+    let of = |values: &[(usize, f64)]| {
+        let found = mechanism.with_values(values);
+        found.map(|of| of.joints()[0].clone()).map_err(|problem| {
+            let place = &text[problem.span.clone()];
+            (format!("{:?}", problem.kind), place.to_owned())
+        })
+    };
+    let joint = of(&[(0, 0.2), (1, 4.0)]).unwrap();
+    assert_eq!((joint.home, joint.limits), (0.25, Some((0.2, 1.0))));
+    for (values, kind, place) in [
+        ([(0, 2.0)], "LimitsReversed", "low\", 1"),
+        ([(1, 0.0)], "NoValue(DivisionByZero)", "k"),
+        ([(1, 1e31)], "NoValue(TooLarge", "2"),
+        ([(1, f64::NAN)], "NoValue(NotFinite", "2"),
+    ] {
+        let (found, at) = of(&values).unwrap_err();
+        assert!(found.starts_with(kind) && at == place, "{found} at {at}");
+    }
+    let shaft = r#"Axes(version: 1, name: "shaft", parameters: { "z": 1 }, joints: {
+        "in": Revolute(point: (0, 0, 0), direction: (0, 0, "z"), role: Actuated, between: ("ground", "in")),
+        "out": Revolute(point: (1, 0, 0), direction: (0, 0, 1), between: ("ground", "in")),
+    })"#;
+    let shaft = Mechanism::new(&Description::read(shaft).unwrap()).unwrap();
+    assert!(shaft.with_values(&[(0, 2.0)]).is_ok());
+    let refused = shaft.with_values(&[(0, 0.0)]).unwrap_err();
+    assert!(format!("{:?}", refused.kind).contains("NoDirection"));
 }

@@ -4,7 +4,7 @@ use super::super::model::{Closure, Row};
 use super::super::{Body, Frame};
 use super::{Builder, ResolvedChain};
 use crate::algebra::Measure;
-use crate::description::{ClosureDescription, ClosureKind, Description, Entry, Named, ProblemKind};
+use crate::description::{ClosureDescription, ClosureKind, Description, Named, ProblemKind};
 
 impl Builder<'_> {
     pub(super) fn closures(
@@ -29,8 +29,9 @@ impl Builder<'_> {
             if let (ClosureKind::Distance, Some((entry, Some(affine)))) = (value.kind, length)
                 && affine.is_constant()
                 && let Some(length) = self.value(&affine.constant)
+                && let Some(fault) = fault_of_length(&name.value, length)
             {
-                self.check_length(&name.value, entry, length);
+                self.refuse(fault, &entry.span);
             }
         }
         closures
@@ -50,16 +51,6 @@ impl Builder<'_> {
             let [first, second] = &described.frames;
             let span = first.span.start..second.span.end;
             self.refuse(ProblemKind::SameBody { closure }, &span);
-        }
-    }
-
-    /// A distance that no joint changes has a sign and a size that can be judged now.
-    fn check_length(&mut self, closure: &str, entry: &Entry, length: f64) {
-        let closure = closure.to_owned();
-        if length < 0.0 {
-            self.refuse(ProblemKind::NegativeDistance { length }, &entry.span);
-        } else if length == 0.0 {
-            self.refuse(ProblemKind::ZeroDistance { closure }, &entry.span);
         }
     }
 
@@ -102,5 +93,15 @@ impl Builder<'_> {
             let mut words = written.split(|c: char| !(c.is_alphanumeric() || c == '_'));
             words.any(|word| self.doubtful.contains(word))
         })
+    }
+}
+
+/// What is wrong with a distance that no joint changes.
+pub(in super::super) fn fault_of_length(closure: &str, length: f64) -> Option<ProblemKind> {
+    let closure = closure.to_owned();
+    match length {
+        _ if length < 0.0 => Some(ProblemKind::NegativeDistance { length }),
+        0.0 => Some(ProblemKind::ZeroDistance { closure }),
+        _ => None,
     }
 }
