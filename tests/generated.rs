@@ -303,6 +303,72 @@ int main(void)
     assert_eq!(verdicts[8..], ["4", "4"], "{said}");
 }
 
+/// Three points at their distances place a body; the sign of its quaternion is that of the last one, unless it is square
+/// to it.
+#[test]
+fn a_platform_on_three_balls_is_placed_from_them() {
+    let iterated = |question: &Question| {
+        let solver = question.solver_program(&[], &Watch::none());
+        let solver = solver.unwrap().unwrap();
+        (solver.step.len(), solver.placed.len(), solver.unknowns)
+    };
+    let rps = load("three_rps");
+    assert_eq!(iterated(&rps), (3, 7, 9));
+    let partly = rps.clone().free("l1").hold("top.z", 0.42);
+    assert_eq!(iterated(&partly), (10, 0, 10));
+    assert_eq!(iterated(&load("stewart_gough_6sps")), (6, 0, 6));
+    if !has_cc() {
+        return;
+    }
+    let solver = rps.solver_program(&[], &Watch::none()).unwrap().unwrap();
+    let folder = folder("three_balls");
+    let text = code(Language::C, "made").solver(&solver);
+    fs::write(folder.join("made.h"), text).unwrap();
+    let main = r#"#include <stdio.h>
+#include "made.h"
+int main(void)
+{
+    static const double from[][4] = {{1, 0, 0, 0}, {-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    int k, i;
+    for (k = 0; k < 5; ++k) {
+        double x[MADE_STATE], size, off = 0;
+        double sign = 0;
+        int verdict;
+        for (i = 0; i < MADE_STATE; ++i) x[i] = made_start_state[i] + (i < 3 ? 0.01 : 0);
+        for (i = 0; i < 4; ++i) x[3 + i] = from[k][i];
+        verdict = made_solve(made_start_inputs, x);
+        size = x[3] * x[3] + x[4] * x[4] + x[5] * x[5] + x[6] * x[6] - 1;
+        for (i = 0; i < 4; ++i) sign += x[3 + i] * made_start_state[3 + i];
+        sign = sign < 0 ? -1 : 1;
+        for (i = 0; i < MADE_STATE; ++i) {
+            const double gap = x[i] * (i >= 3 && i < 7 ? sign : 1) - made_start_state[i];
+            off = off > fabs(gap) ? off : fabs(gap);
+        }
+        printf("%d %g %g %.1e\n", verdict, sign, fabs(size) < 1e-14 ? 0 : size, off);
+    }
+    return 0;
+}
+"#;
+    fs::write(folder.join("main.c"), main).unwrap();
+    let program = folder.join("main");
+    let main = folder.join("main.c");
+    compiled(cc().arg(main).arg("-o").arg(&program).arg("-lm"));
+    let said = String::from_utf8(Command::new(&program).output().unwrap().stdout).unwrap();
+    let lines: Vec<Vec<&str>> = said.lines().map(|line| line.split(' ').collect()).collect();
+    let off = |line: &[&str]| line[3].parse::<f64>().unwrap();
+    for (line, sign) in lines.iter().zip(["1", "-1"]) {
+        assert_eq!(line[..3], ["0", sign, "0"], "{said}");
+        assert!(off(line) < 1e-13, "{said}");
+    }
+    // turned by 180° the search is one over all unknowns, which ends in an assembly or says that it does not
+    for line in &lines[2..] {
+        assert!(
+            ["0", "2", "3"].contains(&line[0]) && line[2] == "0",
+            "{said}"
+        );
+    }
+}
+
 #[test]
 fn twists_of_frames_are_the_derivatives_of_their_poses() {
     if !has_cc() {
@@ -388,6 +454,21 @@ int main(void)
             .parse()
             .unwrap();
         assert!(worst < 1e-7, "{name}: {worst:e}");
+    }
+}
+
+/// However few are asked for, so that a solver that starts at one finds the next and no other assembly.
+#[test]
+fn configurations_to_test_with_are_near_one_another() {
+    for count in [2, 10, 50, 100] {
+        let examples = load("axes/excavator").examples(count, &Watch::none());
+        let examples = examples.unwrap();
+        assert_eq!(examples.len(), count);
+        for pair in examples.windows(2) {
+            let states = pair[0].1.iter().zip(&pair[1].1);
+            let moved = states.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+            assert!(moved < 0.5, "{moved} of {count}");
+        }
     }
 }
 

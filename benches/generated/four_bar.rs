@@ -62,9 +62,13 @@ fn larger(size: f64, x: f64) -> f64 {
     if size > x { size } else { x }
 }
 
-/// √x for x ≥ 0, by Newton's method for 1/√x.
+/// √x for x ≥ 0: by its series near 1, where quaternions are, otherwise by Newton's method for 1/√x.
 #[inline]
 fn root(x: f64) -> f64 {
+    let e = x - 1.0;
+    if absolute(e) < 1e-4 {
+        return 1.0 + e * (0.5 - e * (0.125 - e * 0.0625));
+    }
     if !(x > 0.0) {
         return 0.0;
     }
@@ -82,25 +86,27 @@ fn root(x: f64) -> f64 {
 /// (fdlibm, Sun 1993).
 #[inline(always)]
 fn sine_cosine(x: f64) -> (f64, f64) {
-    let turns: f64 = x * 0.6366197723675814 + if x < 0.0 { -0.5 } else { 0.5 };
-    let quarter = turns as i32;
-    let k = quarter as f64;
+    // adding 3·2ⁿ rounds to the nearest integer and leaves it in the lowest bits
+    let shifted: f64 = x * 0.6366197723675814 + 6755399441055744.0;
+    let quarter = shifted.to_bits();
+    let k = shifted - 6755399441055744.0;
     let r: f64 = ((x - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
     let z: f64 = r * r;
-    let s: f64 = r + r * z * ((-0.16666666666666632) + z * (0.00833333333332249 + z * ((-0.0001984126982985795) + z * (2.7557313707070068e-6 + z * ((-2.5050760253406863e-8) + z * 1.58969099521155e-10)))));
-    let c: f64 = (1.0 - 0.5 * z) + z * z * (0.0416666666666666 + z * ((-0.001388888888887411) + z * (2.480158728947673e-5 + z * ((-2.7557314351390663e-7) + z * (2.087572321298175e-9 + z * (-1.1359647557788195e-11))))));
+    let w: f64 = z * z;
+    let s: f64 = r + r * z * (((-0.16666666666666632) + z * 0.00833333333332249) + w * (((-0.0001984126982985795) + z * 2.7557313707070068e-6) + w * ((-2.5050760253406863e-8) + z * 1.58969099521155e-10)));
+    let c: f64 = (1.0 - 0.5 * z) + w * ((0.0416666666666666 + z * (-0.001388888888887411)) + w * ((2.480158728947673e-5 + z * (-2.7557314351390663e-7)) + w * (2.087572321298175e-9 + z * (-1.1359647557788195e-11))));
     let (first, second) = if quarter & 1 == 1 { (c, s) } else { (s, c) };
     (
         if quarter & 2 == 2 { -first } else { first },
-        if (quarter + 1) & 2 == 2 { -second } else { second },
+        if quarter.wrapping_add(1) & 2 == 2 { -second } else { second },
     )
 }
 
-/// Sine and cosine after a further turn.
+/// Sine and cosine after a further turn, one of several of which the longest is known.
 #[inline(always)]
-fn turn(by: f64, sine: &mut f64, cosine: &mut f64) {
+fn turn(by: f64, longest: f64, sine: &mut f64, cosine: &mut f64) {
     let (s, c) = (*sine, *cosine);
-    let (sin_by, versine) = if absolute(by) < 0.015625 {
+    let (sin_by, versine) = if longest < 0.015625 {
         let z = by * by;
         (
             by - by * z * (1.0 / 6.0 - z * (1.0 / 120.0)),
@@ -166,10 +172,10 @@ fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
     let x1: f64 = x[1];
     let d0: f64 = d[0];
     let d1: f64 = d[1];
-    let t97: f64 = x0 + d0;
-    let t98: f64 = x1 + d1;
-    y[0] = t97;
-    y[1] = t98;
+    let t101: f64 = x0 + d0;
+    let t102: f64 = x1 + d1;
+    y[0] = t101;
+    y[1] = t102;
 }
 
 /// Unit quaternions again after a small change.
@@ -228,32 +234,32 @@ fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
         let t51: f64 = (-0.8888888888888888) * t21;
         let t55: f64 = 0.7777777777777777 * s1;
         let t57: f64 = 0.7777777777777777 * c1;
-        let t68: f64 = 1.0 / t49;
-        let t70: f64 = t51 * t68;
-        let t72: f64 = t55 * t70;
-        let t73: f64 = t57 - t72;
-        let t74: f64 = t38 * t70;
-        let t76: f64 = t39 + t74;
-        let t80: f64 = 1.0 / t73;
-        let t81: f64 = t76 * t80;
-        let t82: f64 = t55 * t81;
-        let t84: f64 = t38 + t82;
-        let t85: f64 = t68 * t84;
-        let t93: f64 = -t81;
-        if !(absolute(t49) > LEAST_PIVOT) { return false; }
-        if !(absolute(t73) > LEAST_PIVOT) { return false; }
-        let d0: f64 = t85;
-        let d1: f64 = t93;
+        let t69: f64 = t49 * t57;
+        let t71: f64 = t51 * t55;
+        let t72: f64 = t71 - t69;
+        let t73: f64 = 1.0 / t72;
+        let t74: f64 = t38 * t57;
+        let t75: f64 = t39 * t55;
+        let t76: f64 = t74 + t75;
+        let t77: f64 = t73 * t76;
+        let t78: f64 = t38 * t51;
+        let t80: f64 = t39 * t49;
+        let t82: f64 = t78 + t80;
+        let t84: f64 = t73 * t82;
+        let t96: f64 = -t77;
+        if !(absolute(t72) > 0.769800358919501 * LEAST_PIVOT) { return false; }
+        let d0: f64 = t96;
+        let d1: f64 = t84;
         let mut longest: f64 = 0.0;
         longest = larger(longest, d0);
         longest = larger(longest, d1);
         if !(longest <= LONGEST_STEP) { return false; }
-        let t97: f64 = x0 + d0;
-        let t98: f64 = x1 + d1;
-        let y0: f64 = t97;
-        let y1: f64 = t98;
-        turn(y0 - x0, &mut s0, &mut c0);
-        turn(y1 - x1, &mut s1, &mut c1);
+        let t101: f64 = x0 + d0;
+        let t102: f64 = x1 + d1;
+        turn(d0, longest, &mut s0, &mut c0);
+        turn(d1, longest, &mut s1, &mut c1);
+        let y0: f64 = t101;
+        let y1: f64 = t102;
         x0 = y0;
         x1 = y1;
     }
@@ -407,7 +413,8 @@ fn careful(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
 
 /// Whether all numbers are finite and of a size that sines take.
 fn near(numbers: &[f64]) -> bool {
-    numbers.iter().all(|&x| absolute(x) < 1e5)
+    // of all, without a branch for each
+    numbers.iter().fold(true, |near, &x| near & (absolute(x) < 1e5))
 }
 
 /// Finds the state for inputs u, starting from x.

@@ -75,9 +75,13 @@ fn larger(size: f64, x: f64) -> f64 {
     if size > x { size } else { x }
 }
 
-/// √x for x ≥ 0, by Newton's method for 1/√x.
+/// √x for x ≥ 0: by its series near 1, where quaternions are, otherwise by Newton's method for 1/√x.
 #[inline]
 fn root(x: f64) -> f64 {
+    let e = x - 1.0;
+    if absolute(e) < 1e-4 {
+        return 1.0 + e * (0.5 - e * (0.125 - e * 0.0625));
+    }
     if !(x > 0.0) {
         return 0.0;
     }
@@ -95,25 +99,27 @@ fn root(x: f64) -> f64 {
 /// (fdlibm, Sun 1993).
 #[inline(always)]
 fn sine_cosine(x: f64) -> (f64, f64) {
-    let turns: f64 = x * 0.6366197723675814 + if x < 0.0 { -0.5 } else { 0.5 };
-    let quarter = turns as i32;
-    let k = quarter as f64;
+    // adding 3·2ⁿ rounds to the nearest integer and leaves it in the lowest bits
+    let shifted: f64 = x * 0.6366197723675814 + 6755399441055744.0;
+    let quarter = shifted.to_bits();
+    let k = shifted - 6755399441055744.0;
     let r: f64 = ((x - k * 1.5707963267341256) - k * 6.077100506303966e-11) - k * 2.0222662487959506e-21;
     let z: f64 = r * r;
-    let s: f64 = r + r * z * ((-0.16666666666666632) + z * (0.00833333333332249 + z * ((-0.0001984126982985795) + z * (2.7557313707070068e-6 + z * ((-2.5050760253406863e-8) + z * 1.58969099521155e-10)))));
-    let c: f64 = (1.0 - 0.5 * z) + z * z * (0.0416666666666666 + z * ((-0.001388888888887411) + z * (2.480158728947673e-5 + z * ((-2.7557314351390663e-7) + z * (2.087572321298175e-9 + z * (-1.1359647557788195e-11))))));
+    let w: f64 = z * z;
+    let s: f64 = r + r * z * (((-0.16666666666666632) + z * 0.00833333333332249) + w * (((-0.0001984126982985795) + z * 2.7557313707070068e-6) + w * ((-2.5050760253406863e-8) + z * 1.58969099521155e-10)));
+    let c: f64 = (1.0 - 0.5 * z) + w * ((0.0416666666666666 + z * (-0.001388888888887411)) + w * ((2.480158728947673e-5 + z * (-2.7557314351390663e-7)) + w * (2.087572321298175e-9 + z * (-1.1359647557788195e-11))));
     let (first, second) = if quarter & 1 == 1 { (c, s) } else { (s, c) };
     (
         if quarter & 2 == 2 { -first } else { first },
-        if (quarter + 1) & 2 == 2 { -second } else { second },
+        if quarter.wrapping_add(1) & 2 == 2 { -second } else { second },
     )
 }
 
-/// Sine and cosine after a further turn.
+/// Sine and cosine after a further turn, one of several of which the longest is known.
 #[inline(always)]
-fn turn(by: f64, sine: &mut f64, cosine: &mut f64) {
+fn turn(by: f64, longest: f64, sine: &mut f64, cosine: &mut f64) {
     let (s, c) = (*sine, *cosine);
-    let (sin_by, versine) = if absolute(by) < 0.015625 {
+    let (sin_by, versine) = if longest < 0.015625 {
         let z = by * by;
         (
             by - by * z * (1.0 / 6.0 - z * (1.0 / 120.0)),
@@ -493,59 +499,59 @@ fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
     let d3: f64 = d[3];
     let d4: f64 = d[4];
     let d5: f64 = d[5];
-    let t931: f64 = 1.159383754414387 * d3;
-    let t932: f64 = 1.159383754414387 * d4;
-    let t933: f64 = 1.159383754414387 * d5;
-    let t935: f64 = 0.5 * d0;
-    let t936: f64 = 0.5 * d1;
-    let t937: f64 = 0.5 * d2;
-    let t938: f64 = x1 * t935;
-    let t939: f64 = x0 - t938;
-    let t940: f64 = x2 * t936;
-    let t941: f64 = t939 - t940;
-    let t942: f64 = x3 * t937;
-    let t943: f64 = t941 - t942;
-    let t944: f64 = x0 * t935;
-    let t945: f64 = x1 + t944;
-    let t946: f64 = x3 * t936;
-    let t947: f64 = t945 + t946;
-    let t948: f64 = x2 * t937;
-    let t949: f64 = t947 - t948;
-    let t950: f64 = x3 * t935;
-    let t951: f64 = x2 - t950;
-    let t952: f64 = x0 * t936;
-    let t953: f64 = t951 + t952;
-    let t954: f64 = x1 * t937;
-    let t955: f64 = t953 + t954;
-    let t956: f64 = x2 * t935;
-    let t957: f64 = x3 + t956;
-    let t958: f64 = x1 * t936;
-    let t959: f64 = t957 - t958;
-    let t960: f64 = x0 * t937;
-    let t961: f64 = t959 + t960;
-    let t962: f64 = t943 * t943;
-    let t963: f64 = t949 * t949;
-    let t964: f64 = t962 + t963;
-    let t965: f64 = t955 * t955;
-    let t966: f64 = t964 + t965;
-    let t967: f64 = t961 * t961;
-    let t968: f64 = t966 + t967;
-    let t969: f64 = root(t968);
-    let t970: f64 = 1.0 / t969;
-    let t971: f64 = t943 * t970;
-    let t972: f64 = t949 * t970;
-    let t973: f64 = t955 * t970;
-    let t974: f64 = t961 * t970;
-    let t975: f64 = x4 + t931;
-    let t976: f64 = x5 + t932;
-    let t977: f64 = x6 + t933;
-    y[0] = t971;
-    y[1] = t972;
-    y[2] = t973;
-    y[3] = t974;
-    y[4] = t975;
-    y[5] = t976;
-    y[6] = t977;
+    let t961: f64 = 1.159383754414387 * d3;
+    let t962: f64 = 1.159383754414387 * d4;
+    let t963: f64 = 1.159383754414387 * d5;
+    let t965: f64 = 0.5 * d0;
+    let t966: f64 = 0.5 * d1;
+    let t967: f64 = 0.5 * d2;
+    let t968: f64 = x1 * t965;
+    let t969: f64 = x0 - t968;
+    let t970: f64 = x2 * t966;
+    let t971: f64 = t969 - t970;
+    let t972: f64 = x3 * t967;
+    let t973: f64 = t971 - t972;
+    let t974: f64 = x0 * t965;
+    let t975: f64 = x1 + t974;
+    let t976: f64 = x3 * t966;
+    let t977: f64 = t975 + t976;
+    let t978: f64 = x2 * t967;
+    let t979: f64 = t977 - t978;
+    let t980: f64 = x3 * t965;
+    let t981: f64 = x2 - t980;
+    let t982: f64 = x0 * t966;
+    let t983: f64 = t981 + t982;
+    let t984: f64 = x1 * t967;
+    let t985: f64 = t983 + t984;
+    let t986: f64 = x2 * t965;
+    let t987: f64 = x3 + t986;
+    let t988: f64 = x1 * t966;
+    let t989: f64 = t987 - t988;
+    let t990: f64 = x0 * t967;
+    let t991: f64 = t989 + t990;
+    let t992: f64 = t973 * t973;
+    let t993: f64 = t979 * t979;
+    let t994: f64 = t992 + t993;
+    let t995: f64 = t985 * t985;
+    let t996: f64 = t994 + t995;
+    let t997: f64 = t991 * t991;
+    let t998: f64 = t996 + t997;
+    let t999: f64 = root(t998);
+    let t1000: f64 = 1.0 / t999;
+    let t1001: f64 = t973 * t1000;
+    let t1002: f64 = t979 * t1000;
+    let t1003: f64 = t985 * t1000;
+    let t1004: f64 = t991 * t1000;
+    let t1005: f64 = x4 + t961;
+    let t1006: f64 = x5 + t962;
+    let t1007: f64 = x6 + t963;
+    y[0] = t1001;
+    y[1] = t1002;
+    y[2] = t1003;
+    y[3] = t1004;
+    y[4] = t1005;
+    y[5] = t1006;
+    y[6] = t1007;
 }
 
 /// Unit quaternions again after a small change.
@@ -1028,82 +1034,100 @@ fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
         let t539: f64 = t493 - t538;
         let t540: f64 = t467 * t533;
         let t541: f64 = t497 - t540;
-        let t548: f64 = 1.0 / t505;
-        let t549: f64 = t520 * t548;
-        let t550: f64 = t507 * t549;
-        let t551: f64 = t522 - t550;
-        let t552: f64 = t509 * t549;
-        let t553: f64 = t524 - t552;
-        let t554: f64 = t511 * t549;
-        let t555: f64 = t526 - t554;
-        let t564: f64 = t535 * t548;
-        let t565: f64 = t507 * t564;
-        let t566: f64 = t537 - t565;
-        let t567: f64 = t509 * t564;
-        let t568: f64 = t539 - t567;
-        let t569: f64 = t511 * t564;
-        let t570: f64 = t541 - t569;
-        let t579: f64 = 1.0 / t566;
-        let t580: f64 = t551 * t579;
-        let t581: f64 = t568 * t580;
-        let t582: f64 = t553 - t581;
-        let t583: f64 = t570 * t580;
-        let t584: f64 = t555 - t583;
-        let t595: f64 = 1.0 / t582;
+        let t548: f64 = t522 * t539;
+        let t549: f64 = t524 * t537;
+        let t550: f64 = t548 - t549;
+        let t551: f64 = t507 * t539;
+        let t552: f64 = t509 * t537;
+        let t554: f64 = t552 - t551;
+        let t555: f64 = t507 * t524;
+        let t556: f64 = t509 * t522;
+        let t557: f64 = t555 - t556;
+        let t558: f64 = t520 * t539;
+        let t559: f64 = t524 * t535;
+        let t561: f64 = t559 - t558;
+        let t562: f64 = t505 * t539;
+        let t563: f64 = t509 * t535;
+        let t564: f64 = t562 - t563;
+        let t565: f64 = t505 * t524;
+        let t566: f64 = t509 * t520;
+        let t568: f64 = t566 - t565;
+        let t569: f64 = t520 * t537;
+        let t570: f64 = t522 * t535;
+        let t571: f64 = t569 - t570;
+        let t572: f64 = t505 * t537;
+        let t573: f64 = t507 * t535;
+        let t575: f64 = t573 - t572;
+        let t576: f64 = t505 * t522;
+        let t577: f64 = t507 * t520;
+        let t578: f64 = t576 - t577;
+        let t579: f64 = t505 * t550;
+        let t580: f64 = t507 * t561;
+        let t581: f64 = t579 + t580;
+        let t582: f64 = t509 * t571;
+        let t583: f64 = t581 + t582;
+        let t584: f64 = 1.0 / t583;
+        let t585: f64 = t511 * t550;
+        let t586: f64 = t526 * t554;
+        let t587: f64 = t585 + t586;
+        let t588: f64 = t541 * t557;
+        let t589: f64 = t587 + t588;
+        let t590: f64 = t584 * t589;
+        let t591: f64 = t511 * t561;
+        let t592: f64 = t526 * t564;
+        let t593: f64 = t591 + t592;
+        let t594: f64 = t541 * t568;
+        let t595: f64 = t593 + t594;
         let t596: f64 = t584 * t595;
-        let t597: f64 = t568 * t596;
-        let t598: f64 = t570 - t597;
-        let t599: f64 = t579 * t598;
-        let t600: f64 = t507 * t599;
-        let t601: f64 = t511 - t600;
-        let t602: f64 = t509 * t596;
-        let t603: f64 = t601 - t602;
-        let t604: f64 = t548 * t603;
-        let t605: f64 = t459 * t604;
-        let t606: f64 = t467 - t605;
-        let t607: f64 = t461 * t599;
+        let t597: f64 = t511 * t571;
+        let t598: f64 = t526 * t575;
+        let t599: f64 = t597 + t598;
+        let t600: f64 = t541 * t578;
+        let t601: f64 = t599 + t600;
+        let t602: f64 = t584 * t601;
+        let t603: f64 = t463 * t602;
+        let t604: f64 = t467 - t603;
+        let t605: f64 = t461 * t596;
+        let t606: f64 = t604 - t605;
+        let t607: f64 = t459 * t590;
         let t608: f64 = t606 - t607;
-        let t609: f64 = t463 * t596;
-        let t610: f64 = t608 - t609;
-        let t611: f64 = t502 * t610;
-        let t612: f64 = t419 * t611;
-        let t613: f64 = t423 - t612;
-        let t614: f64 = t413 * t604;
+        let t609: f64 = t502 * t608;
+        let t610: f64 = t419 * t609;
+        let t611: f64 = t423 - t610;
+        let t612: f64 = t417 * t602;
+        let t613: f64 = t611 - t612;
+        let t614: f64 = t415 * t596;
         let t615: f64 = t613 - t614;
-        let t616: f64 = t415 * t599;
+        let t616: f64 = t413 * t590;
         let t617: f64 = t615 - t616;
-        let t618: f64 = t417 * t596;
-        let t619: f64 = t617 - t618;
-        let t620: f64 = t441 * t619;
-        let t621: f64 = t339 * t620;
-        let t622: f64 = t325 - t621;
-        let t623: f64 = t338 * t611;
+        let t618: f64 = t441 * t617;
+        let t619: f64 = t339 * t618;
+        let t620: f64 = t325 - t619;
+        let t621: f64 = t338 * t609;
+        let t622: f64 = t620 - t621;
+        let t623: f64 = t337 * t602;
         let t624: f64 = t622 - t623;
-        let t625: f64 = t331 * t604;
+        let t625: f64 = t334 * t596;
         let t626: f64 = t624 - t625;
-        let t627: f64 = t334 * t599;
+        let t627: f64 = t331 * t590;
         let t628: f64 = t626 - t627;
-        let t629: f64 = t337 * t596;
-        let t630: f64 = t628 - t629;
-        let t631: f64 = t365 * t630;
-        let t889: f64 = -t604;
-        let t890: f64 = -t599;
-        let t891: f64 = -t596;
-        let t892: f64 = -t611;
-        let t893: f64 = -t620;
-        let t894: f64 = -t631;
-        if !(absolute(t340) > LEAST_PIVOT) { return false; }
-        if !(absolute(t421) > LEAST_PIVOT) { return false; }
-        if !(absolute(t465) > LEAST_PIVOT) { return false; }
-        if !(absolute(t505) > LEAST_PIVOT) { return false; }
-        if !(absolute(t566) > LEAST_PIVOT) { return false; }
-        if !(absolute(t582) > LEAST_PIVOT) { return false; }
-        let d0: f64 = t889;
-        let d1: f64 = t890;
-        let d2: f64 = t891;
-        let d3: f64 = t892;
-        let d4: f64 = t893;
-        let d5: f64 = t894;
+        let t629: f64 = t365 * t628;
+        let t925: f64 = -t590;
+        let t926: f64 = -t596;
+        let t927: f64 = -t602;
+        let t928: f64 = -t609;
+        let t929: f64 = -t618;
+        let t930: f64 = -t629;
+        if !(absolute(t340) > 1.0 * LEAST_PIVOT) { return false; }
+        if !(absolute(t421) > 1.0 * LEAST_PIVOT) { return false; }
+        if !(absolute(t465) > 1.0 * LEAST_PIVOT) { return false; }
+        if !(absolute(t583) > 0.10790763242084472 * LEAST_PIVOT) { return false; }
+        let d0: f64 = t925;
+        let d1: f64 = t926;
+        let d2: f64 = t927;
+        let d3: f64 = t928;
+        let d4: f64 = t929;
+        let d5: f64 = t930;
         let mut longest: f64 = 0.0;
         longest = larger(longest, d0);
         longest = larger(longest, d1);
@@ -1112,59 +1136,59 @@ fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
         longest = larger(longest, d4);
         longest = larger(longest, d5);
         if !(longest <= LONGEST_STEP) { return false; }
-        let t931: f64 = 1.159383754414387 * d3;
-        let t932: f64 = 1.159383754414387 * d4;
-        let t933: f64 = 1.159383754414387 * d5;
-        let t935: f64 = 0.5 * d0;
-        let t936: f64 = 0.5 * d1;
-        let t937: f64 = 0.5 * d2;
-        let t938: f64 = x1 * t935;
-        let t939: f64 = x0 - t938;
-        let t940: f64 = x2 * t936;
-        let t941: f64 = t939 - t940;
-        let t942: f64 = x3 * t937;
-        let t943: f64 = t941 - t942;
-        let t944: f64 = x0 * t935;
-        let t945: f64 = x1 + t944;
-        let t946: f64 = x3 * t936;
-        let t947: f64 = t945 + t946;
-        let t948: f64 = x2 * t937;
-        let t949: f64 = t947 - t948;
-        let t950: f64 = x3 * t935;
-        let t951: f64 = x2 - t950;
-        let t952: f64 = x0 * t936;
-        let t953: f64 = t951 + t952;
-        let t954: f64 = x1 * t937;
-        let t955: f64 = t953 + t954;
-        let t956: f64 = x2 * t935;
-        let t957: f64 = x3 + t956;
-        let t958: f64 = x1 * t936;
-        let t959: f64 = t957 - t958;
-        let t960: f64 = x0 * t937;
-        let t961: f64 = t959 + t960;
-        let t962: f64 = t943 * t943;
-        let t963: f64 = t949 * t949;
-        let t964: f64 = t962 + t963;
-        let t965: f64 = t955 * t955;
-        let t966: f64 = t964 + t965;
-        let t967: f64 = t961 * t961;
-        let t968: f64 = t966 + t967;
-        let t969: f64 = root(t968);
-        let t970: f64 = 1.0 / t969;
-        let t971: f64 = t943 * t970;
-        let t972: f64 = t949 * t970;
-        let t973: f64 = t955 * t970;
-        let t974: f64 = t961 * t970;
-        let t975: f64 = x4 + t931;
-        let t976: f64 = x5 + t932;
-        let t977: f64 = x6 + t933;
-        let y0: f64 = t971;
-        let y1: f64 = t972;
-        let y2: f64 = t973;
-        let y3: f64 = t974;
-        let y4: f64 = t975;
-        let y5: f64 = t976;
-        let y6: f64 = t977;
+        let t961: f64 = 1.159383754414387 * d3;
+        let t962: f64 = 1.159383754414387 * d4;
+        let t963: f64 = 1.159383754414387 * d5;
+        let t965: f64 = 0.5 * d0;
+        let t966: f64 = 0.5 * d1;
+        let t967: f64 = 0.5 * d2;
+        let t968: f64 = x1 * t965;
+        let t969: f64 = x0 - t968;
+        let t970: f64 = x2 * t966;
+        let t971: f64 = t969 - t970;
+        let t972: f64 = x3 * t967;
+        let t973: f64 = t971 - t972;
+        let t974: f64 = x0 * t965;
+        let t975: f64 = x1 + t974;
+        let t976: f64 = x3 * t966;
+        let t977: f64 = t975 + t976;
+        let t978: f64 = x2 * t967;
+        let t979: f64 = t977 - t978;
+        let t980: f64 = x3 * t965;
+        let t981: f64 = x2 - t980;
+        let t982: f64 = x0 * t966;
+        let t983: f64 = t981 + t982;
+        let t984: f64 = x1 * t967;
+        let t985: f64 = t983 + t984;
+        let t986: f64 = x2 * t965;
+        let t987: f64 = x3 + t986;
+        let t988: f64 = x1 * t966;
+        let t989: f64 = t987 - t988;
+        let t990: f64 = x0 * t967;
+        let t991: f64 = t989 + t990;
+        let t992: f64 = t973 * t973;
+        let t993: f64 = t979 * t979;
+        let t994: f64 = t992 + t993;
+        let t995: f64 = t985 * t985;
+        let t996: f64 = t994 + t995;
+        let t997: f64 = t991 * t991;
+        let t998: f64 = t996 + t997;
+        let t999: f64 = root(t998);
+        let t1000: f64 = 1.0 / t999;
+        let t1001: f64 = t973 * t1000;
+        let t1002: f64 = t979 * t1000;
+        let t1003: f64 = t985 * t1000;
+        let t1004: f64 = t991 * t1000;
+        let t1005: f64 = x4 + t961;
+        let t1006: f64 = x5 + t962;
+        let t1007: f64 = x6 + t963;
+        let y0: f64 = t1001;
+        let y1: f64 = t1002;
+        let y2: f64 = t1003;
+        let y3: f64 = t1004;
+        let y4: f64 = t1005;
+        let y5: f64 = t1006;
+        let y6: f64 = t1007;
         x0 = y0;
         x1 = y1;
         x2 = y2;
@@ -1323,7 +1347,8 @@ fn careful(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
 
 /// Whether all numbers are finite and of a size that sines take.
 fn near(numbers: &[f64]) -> bool {
-    numbers.iter().all(|&x| absolute(x) < 1e5)
+    // of all, without a branch for each
+    numbers.iter().fold(true, |near, &x| near & (absolute(x) < 1e5))
 }
 
 /// Finds the state for inputs u, starting from x.

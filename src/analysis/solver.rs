@@ -4,18 +4,26 @@
 //! The one kinematics runs over recorded operations; nothing is derived a second time.
 
 mod elimination;
+mod iteration;
+mod placing;
 mod report;
 
-pub use report::{Component, FrameProgram, Solver};
+pub use report::{Component, Divisor, FrameProgram, Solver};
 
-use crate::algebra::{Place, Recorded, SiUnit, record};
+use crate::algebra::{Recorded, SiUnit, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, PlatformPose, PoseCoordinate};
+use crate::mechanism::{
+    Configuration, Dimensions, Frame, Kinematics, Mechanism, PlatformPose, PoseCoordinate,
+};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, HeldPlatform, Question, System, Unknown};
-use elimination::eliminate;
+use elimination::{Pivot, eliminate};
+use iteration::{Iteration, Rows, negated, numbered, places};
+
+/// The part of its natural size beyond which a pivot is not small.
+pub const LEAST_PIVOT: f64 = 1e-4;
 
 /// Why there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -171,8 +179,8 @@ impl<'a> Plan<'a> {
         (of(&self.inputs), of(&self.state))
     }
 
-    /// The equations and the configuration with given numbers as inputs and state.
-    fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (System<T>, Configuration<T>) {
+    /// What is held and the configuration with given numbers as inputs and state.
+    fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (Held<T>, Configuration<T>) {
         let value = |variable: Variable| {
             let among = |of: &[Variable]| of.iter().position(|v| *v == variable);
             match among(&self.inputs) {
@@ -223,8 +231,11 @@ impl<'a> Plan<'a> {
             joints: joints.collect(),
             platforms: platforms.collect(),
         };
-        let dimensions = self.mechanism.dimensions().map(T::from_f64);
-        (System::new(&dimensions, &holding), at)
+        (holding, at)
+    }
+
+    fn dimensions<T: Number>(&self) -> Dimensions<T> {
+        self.mechanism.dimensions().map(T::from_f64)
     }
 
     /// Writes everything; names, values and operations are filled in afterwards.
@@ -232,57 +243,48 @@ impl<'a> Plan<'a> {
         let (given, kept) = (self.inputs.len(), self.state.len());
         let inputs: Vec<Recorded> = (0..given).map(Recorded::input).collect();
         let state: Vec<Recorded> = (given..given + kept).map(Recorded::input).collect();
-        let (system, at) = self.posed(&inputs, &state);
-        let mut work = system.work();
-        system.linearise(&at, &mut work);
-        let residual = system.residual_of(&work).to_vec();
-        let (rows, unknowns) = (system.rows(), system.unknowns().len());
-        let jacobian = system.dense_jacobian(&work);
-        // rows that vanish whatever the unknowns are say nothing
-        let open: Vec<usize> = (0..rows)
-            .filter(|&row| residual[row].constant() != Some(0.0))
-            .collect();
-        let entry = |row: usize, column: usize| jacobian[column * rows + row];
-        let matrix: Vec<Vec<Recorded>> = (open.iter())
-            .map(|&row| (0..unknowns).map(|column| entry(row, column)).collect())
-            .collect();
-        let of_inputs: Vec<Vec<Recorded>> = (0..given)
-            .map(|input| {
-                let all = self.slope(input, &inputs, &state);
-                open.iter().map(|&row| all[row]).collect()
-            })
-            .collect();
-        let rows: Vec<Recorded> = open.iter().map(|&row| residual[row]).collect();
-        let mut sides = vec![rows.clone()];
-        sides.extend(of_inputs);
-        let (solutions, pivots) = eliminate(matrix.clone(), sides, unknowns)
+        let (held, at) = self.posed(&inputs, &state);
+        let dimensions = self.dimensions();
+        let system = System::new(&dimensions, &held);
+        let rows = Rows::of(&system, &at);
+        let unknowns = system.unknowns().len();
+        let mut sides = vec![rows.residual.clone()];
+        sides.extend((0..given).map(|input| rows.among(&self.slope(input, &inputs, &state))));
+        let (solutions, mut pivots) = eliminate(rows.jacobian.clone(), sides, unknowns)
             .map_err(|rank| NoSolver::Singular { rank, unknowns })?;
-        let negated: Vec<Vec<Recorded>> = (solutions.into_iter())
-            .map(|solution| solution.into_iter().map(|x| -x).collect())
-            .collect();
+        let mut solutions = solutions.into_iter().map(negated);
+        let step = solutions.next().expect("one for each side");
+        let rates: Vec<Vec<Recorded>> = solutions.collect();
+        let mut iteration = Iteration {
+            rows: rows.residual.iter().map(|&row| (row, 1.0)).collect(),
+            step: step.into_iter().enumerate().collect(),
+            placed: Vec::new(),
+        };
+        if let Some((few, more)) = self.placing(&system, held, &dimensions, &at) {
+            iteration = few;
+            pivots.extend(more);
+        }
         let first_step = given + kept;
         let step: Vec<Recorded> = (first_step..first_step + unknowns)
             .map(Recorded::input)
             .collect();
         let moved = system.displaced(&at, &step);
-        let places = |numbers: &[Recorded]| -> Vec<Place> {
-            numbers.iter().map(|number| number.place()).collect()
-        };
-        let frames = frames.iter().map(|(name, frame)| {
-            self.frame(name, *frame, &system, (&inputs, &state), &negated[1..])
-        });
+        let frames = frames
+            .iter()
+            .map(|(name, frame)| self.frame(name, *frame, &system, (&inputs, &state), &rates));
         Ok(Solver {
             unknowns,
-            residual: places(&rows),
-            jacobian: matrix.iter().map(|row| places(row)).collect(),
-            pivots: (pivots.into_iter())
-                .filter(|pivot| pivot.constant().is_none())
-                .map(|pivot| pivot.unsigned().place())
+            residual: places(&rows.residual),
+            jacobian: rows.jacobian.iter().map(|row| places(row)).collect(),
+            iterated: (iteration.rows.iter())
+                .map(|(row, factor)| (row.place(), *factor))
                 .collect(),
-            step: places(&negated[0]),
+            pivots: pivots.iter().filter_map(Pivot::divisor).collect(),
+            step: numbered(&iteration.step),
             moved: (self.state.iter())
                 .map(|variable| variable.of(&moved).place())
                 .collect(),
+            placed: numbered(&iteration.placed),
             frames: frames.collect(),
             ..Solver::default()
         })
@@ -291,7 +293,8 @@ impl<'a> Plan<'a> {
     /// The derivatives of all rows by an input.
     fn slope(&self, input: usize, inputs: &[Recorded], state: &[Recorded]) -> Vec<Recorded> {
         let (inputs, state) = (varied(inputs, Some(input)), varied(state, None));
-        let (system, at) = self.posed(&inputs, &state);
+        let (held, at) = self.posed(&inputs, &state);
+        let system = System::new(&self.dimensions(), &held);
         let mut work = system.work();
         system.residual(&at, &mut work);
         let rows = system.residual_of(&work).iter();
@@ -307,9 +310,7 @@ impl<'a> Plan<'a> {
         (inputs, state): (&[Recorded], &[Recorded]),
         rates: &[Vec<Recorded>],
     ) -> FrameProgram {
-        let dimensions = self.mechanism.dimensions();
-        let dimensions = dimensions.map(|x| Dual::constant(Recorded::from_f64(x)));
-        let kinematics = Kinematics::new(&dimensions, [frame]);
+        let kinematics = Kinematics::new(&self.dimensions(), [frame]);
         let mut placement = kinematics.placement();
         let mut pose = Vec::new();
         let mut twists = Vec::new();

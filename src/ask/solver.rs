@@ -34,10 +34,12 @@ impl Question {
     pub fn examples(&self, count: usize, watch: &Watch) -> Result<Vec<Example>, AskError> {
         /// Amplitudes to begin with, in rad and in characteristic lengths.
         const WIDEST: f64 = 0.3;
+        /// The most of it for one configuration, so that each is near the one before it however few there are.
+        const PER_STEP: f64 = 0.003;
         /// How often they are halved where the mechanism cannot follow.
         const HALVINGS: usize = 8;
         let (question, start) = self.posed(watch)?;
-        let mut amplitude = WIDEST;
+        let mut amplitude = WIDEST.min(PER_STEP * count as f64);
         let mut found = Vec::new();
         for _ in 0..HALVINGS {
             found = follow(&question, &start, amplitude, count);

@@ -67,25 +67,21 @@ impl<T: Number> Quaternion<T> {
     /// The quaternion of a rotation, by the largest of the four components (Shepperd 1978).
     #[inline]
     pub fn from_rotation(rotation: &Rotation<T>) -> Self {
-        let r = rotation.rows();
-        let one = T::one();
-        let four = [
-            one + r[0][0] + r[1][1] + r[2][2],
-            one + r[0][0] - r[1][1] - r[2][2],
-            one - r[0][0] + r[1][1] - r[2][2],
-            one - r[0][0] - r[1][1] + r[2][2],
-        ];
-        let larger = |i: usize, best: usize| four[i].real() > four[best].real();
+        let columns = products(rotation);
+        let larger = |i: usize, best: usize| columns[i][i].real() > columns[best][best].real();
         let largest = (1..4).fold(0, |best, i| if larger(i, best) { i } else { best });
-        let (a, b, c) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]);
-        let (d, e, f) = (r[1][0] + r[0][1], r[0][2] + r[2][0], r[2][1] + r[1][2]);
-        Quaternion(match largest {
-            0 => [four[0], a, b, c],
-            1 => [a, four[1], d, e],
-            2 => [b, d, four[2], f],
-            _ => [c, e, f, four[3]],
-        })
-        .normalised()
+        Quaternion(columns[largest]).normalised()
+    }
+
+    /// The quaternion q of a rotation on the side of another one, p, and (p·q)²: q = q(q·p)/|q·p|, of which the products
+    /// of components of q are linear in the rotation. At p·q = 0 neither side is nearer.
+    pub fn near(&self, rotation: &Rotation<T>) -> (Self, T) {
+        let dot = |a: &[T; 4], [w, x, y, z]: [T; 4]| (a[0] * w + a[1] * x) + (a[2] * y + a[3] * z);
+        // 4 q (q·p)
+        let along = products(rotation).map(|column| dot(&column, self.0));
+        let square = dot(&along, self.0).scale(0.25);
+        let factor = T::from_f64(0.25) / square.sqrt();
+        (Quaternion(along.map(|x| x * factor)), square)
     }
 
     /// The same rotation with a scalar part that is not negative, so that it prints one way only.
@@ -99,6 +95,21 @@ impl<T: Number> Quaternion<T> {
             _ => *self,
         }
     }
+}
+
+/// 4 q qᵀ of the quaternion q of a rotation.
+#[inline]
+fn products<T: Number>(rotation: &Rotation<T>) -> [[T; 4]; 4] {
+    let r = rotation.rows();
+    let one = T::one();
+    let (a, b, c) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]);
+    let (d, e, f) = (r[1][0] + r[0][1], r[0][2] + r[2][0], r[2][1] + r[1][2]);
+    [
+        [one + r[0][0] + r[1][1] + r[2][2], a, b, c],
+        [a, one + r[0][0] - r[1][1] - r[2][2], d, e],
+        [b, d, one - r[0][0] + r[1][1] - r[2][2], f],
+        [c, e, f, one - r[0][0] - r[1][1] + r[2][2]],
+    ]
 }
 
 /// Roll, pitch and yaw in radians: rotations about the fixed x, then y, then z axis, R = Rz(yaw)·Ry(pitch)·Rx(roll).

@@ -5,7 +5,7 @@ mod sections;
 
 pub use language::{Language, Precision};
 
-use crate::analysis::solver::{Component, Solver};
+use crate::analysis::solver::{Component, LEAST_PIVOT, Solver};
 use crate::ask::Example;
 use sections::Writer;
 
@@ -76,6 +76,7 @@ impl Code {
         let text = counts.into_iter().fold(text, |text, (name, count)| {
             text.replace(name, &count.to_string())
         });
+        let text = text.replace("@least_pivot@", &format!("{LEAST_PIVOT:e}"));
         let words = self.precision.words(self.language);
         let text = words.fold(text, |text, (name, word)| text.replace(name, word));
         text.replace("@NAME@", &self.name.to_uppercase())

@@ -1,5 +1,6 @@
 //! Gaussian elimination in an order that is chosen at one point, for numbers that are not known yet.
 
+use super::Divisor;
 use crate::algebra::Recorded;
 use crate::number::Number;
 
@@ -8,19 +9,48 @@ const LEAST: f64 = 1e-6;
 /// A pivot is at least this part of the largest entry in its column.
 const PART: f64 = 0.1;
 
+/// The most unknowns that are solved for at once at the end.
+const LAST: usize = 3;
+
+/// A number that is divided by.
+pub(super) struct Pivot {
+    pub number: Recorded,
+    /// What is made of it by the division.
+    pub inverse: Recorded,
+    /// How large it is at the start if the last pivot in it is 1.
+    pub scale: f64,
+}
+
+impl Pivot {
+    /// The same in a program, unless it is constant.
+    pub fn divisor(&self) -> Option<Divisor> {
+        let varies = self.number.constant().is_none();
+        varies.then(|| Divisor {
+            place: self.number.unsigned().place(),
+            inverse: self.inverse.unsigned().place(),
+            scale: self.scale,
+        })
+    }
+}
+
 /// Solves A x = b for each of several right-hand sides, with the pivots in the order of elimination. Rows that are left
 /// over depend on the others. The rank, if it is less than the number of unknowns.
+///
+/// Where every pivot would make new entries the last three unknowns or two follow by Cramer's rule, with one division.
 pub(super) fn eliminate(
     mut matrix: Vec<Vec<Recorded>>,
     mut sides: Vec<Vec<Recorded>>,
     unknowns: usize,
-) -> Result<(Vec<Vec<Recorded>>, Vec<Recorded>), usize> {
+) -> Result<(Vec<Vec<Recorded>>, Vec<Pivot>), usize> {
     let is_zero = |x: Recorded| x.constant() == Some(0.0);
     let mut rows: Vec<usize> = (0..matrix.len()).collect();
     let mut columns: Vec<usize> = (0..unknowns).collect();
     let mut order = Vec::with_capacity(unknowns);
     while !columns.is_empty() {
-        let (row, column) = chosen(&matrix, &rows, &columns).ok_or(order.len())?;
+        let (row, column, fills) = chosen(&matrix, &rows, &columns).ok_or(order.len())?;
+        if fills && columns.len() <= LAST {
+            break;
+        }
         rows.retain(|&r| r != row);
         columns.retain(|&c| c != column);
         let pivot = matrix[row][column];
@@ -41,22 +71,117 @@ pub(super) fn eliminate(
         }
         order.push((row, column, inverse));
     }
-    let pivots = order.iter().map(|&(row, column, _)| matrix[row][column]);
-    let pivots = pivots.collect();
+    let pivots = order.iter().map(|&(row, column, inverse)| Pivot {
+        number: matrix[row][column],
+        inverse,
+        scale: 1.0,
+    });
+    let mut pivots: Vec<Pivot> = pivots.collect();
+    let mut last = Vec::new();
+    if !columns.is_empty() {
+        let eliminated = order.len();
+        let (rows, scale) =
+            independent(&matrix, rows, &columns).map_err(|rank| eliminated + rank)?;
+        let cofactors = cofactors(&matrix, &rows, &columns);
+        let first = cofactors.iter().zip(&columns);
+        let number = first.fold(Recorded::zero(), |sum, (c, &column)| {
+            sum + c[0] * matrix[rows[0]][column]
+        });
+        let inverse = Recorded::one() / number;
+        pivots.push(Pivot {
+            number,
+            inverse,
+            scale,
+        });
+        last.extend(
+            columns
+                .into_iter()
+                .zip(cofactors)
+                .map(|(column, cofactors)| {
+                    let rows = rows.clone();
+                    (column, move |side: &[Recorded]| {
+                        let parts = rows.iter().zip(&cofactors).map(|(&row, &c)| side[row] * c);
+                        parts.fold(Recorded::zero(), |sum, part| sum + part) * inverse
+                    })
+                }),
+        );
+    }
     let solutions = sides.into_iter().map(|side| {
         let mut x = vec![Recorded::zero(); unknowns];
-        for (k, &(row, column, inverse)) in order.iter().enumerate().rev() {
-            let later = order[k + 1..].iter();
-            let sum = later.fold(side[row], |sum, &(_, c, _)| sum - matrix[row][c] * x[c]);
+        let mut known: Vec<usize> = Vec::with_capacity(unknowns);
+        for (column, of) in &last {
+            x[*column] = of(&side);
+            known.push(*column);
+        }
+        for &(row, column, inverse) in order.iter().rev() {
+            let later = known.iter().rev();
+            let sum = later.fold(side[row], |sum, &c| sum - matrix[row][c] * x[c]);
             x[column] = sum * inverse;
+            known.push(column);
         }
         x
     });
     Ok((solutions.collect(), pivots))
 }
 
-/// The pivot that makes the fewest new entries; constants first, then the largest.
-fn chosen(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Option<(usize, usize)> {
+/// As many independent rows as there are columns, by the largest entries of what is left at the sample; and the product
+/// of all pivots but the last. The rank, if it is less.
+fn independent(
+    matrix: &[Vec<Recorded>],
+    mut rows: Vec<usize>,
+    columns: &[usize],
+) -> Result<(Vec<usize>, f64), usize> {
+    let real = |row: &usize| columns.iter().map(|&c| matrix[*row][c].real()).collect();
+    let mut left: Vec<Vec<f64>> = rows.iter().map(real).collect();
+    let (mut found, mut scale, mut last) = (Vec::new(), 1.0, 1.0);
+    for _ in columns {
+        let places = (0..rows.len()).flat_map(|r| (0..columns.len()).map(move |c| (r, c)));
+        let size = |&(r, c): &(usize, usize)| left[r][c].abs();
+        let largest = places.max_by(|a, b| size(a).total_cmp(&size(b)));
+        let (r, c) = largest
+            .filter(|place| size(place) >= LEAST)
+            .ok_or(found.len())?;
+        let pivot = left.remove(r);
+        found.push(rows.remove(r));
+        for row in &mut left {
+            let factor = row[c] / pivot[c];
+            row.iter_mut()
+                .zip(&pivot)
+                .for_each(|(x, p)| *x -= factor * p);
+            row[c] = 0.0;
+        }
+        scale *= last;
+        last = pivot[c].abs();
+    }
+    found.sort_unstable();
+    Ok((found, scale))
+}
+
+/// For each column its cofactors by rows.
+fn cofactors(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Vec<Vec<Recorded>> {
+    let without = |of: &[usize], i: usize| [&of[..i], &of[i + 1..]].concat();
+    let cofactor = |r: usize, c: usize| {
+        let (rows, columns) = (without(rows, r), without(columns, c));
+        let minor = match (&rows[..], &columns[..]) {
+            (&[r, s], &[c, d]) => matrix[r][c] * matrix[s][d] - matrix[r][d] * matrix[s][c],
+            (rows, columns) => matrix[rows[0]][columns[0]],
+        };
+        if (r + c).is_multiple_of(2) {
+            minor
+        } else {
+            -minor
+        }
+    };
+    let all = (0..columns.len()).map(|c| (0..rows.len()).map(|r| cofactor(r, c)).collect());
+    all.collect()
+}
+
+/// The pivot that makes the fewest new entries, and whether it makes any; constants first, then the largest.
+fn chosen(
+    matrix: &[Vec<Recorded>],
+    rows: &[usize],
+    columns: &[usize],
+) -> Option<(usize, usize, bool)> {
     let filled = |x: Recorded| x.constant() != Some(0.0);
     // new entries and whether the pivot varies, its size, its place
     let mut best = ((usize::MAX, true), 0.0, None);
@@ -77,7 +202,7 @@ fn chosen(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Option
             let cost = (beside * along, entry.constant().is_none());
             let (least, most, _) = best;
             if cost < least || (cost == least && size > most * (1.0 + 1e-9)) {
-                best = (cost, size, Some((row, column)));
+                best = (cost, size, Some((row, column, cost.0 > 0)));
             }
         }
     }

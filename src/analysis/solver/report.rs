@@ -24,6 +24,17 @@ pub struct FrameProgram {
     pub twists: Vec<Vec<Place>>,
 }
 
+/// A number that is divided by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Divisor {
+    /// Its place.
+    pub place: Place,
+    /// The place of what is made of it.
+    pub inverse: Place,
+    /// Its natural size: it is small where it is small beside this.
+    pub scale: f64,
+}
+
 /// A solver as a straight-line program. Its inputs are numbered: what is held, then the state, then a step of the
 /// unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -42,12 +53,17 @@ pub struct Solver {
     pub residual: Vec<Place>,
     /// Places of the entries of their Jacobian J, row by row.
     pub jacobian: Vec<Vec<Place>>,
-    /// Places of the pivots that are not constant.
-    pub pivots: Vec<Place>,
-    /// Places of the components of the step −J⁻¹ r, dimensionless.
-    pub step: Vec<Place>,
+    /// Places of the rows that Newton's method brings to zero: the closure rows, or distances between the points where a
+    /// platform stands on three balls, which hold if those do; with the factors by which no closure row is larger.
+    pub iterated: Vec<(Place, f64)>,
+    /// What is divided by.
+    pub pivots: Vec<Divisor>,
+    /// The unknowns that are iterated, with the places of their components of the step −J⁻¹ r, dimensionless.
+    pub step: Vec<(usize, Place)>,
     /// Places of the state moved by a step.
     pub moved: Vec<Place>,
+    /// Components of the state that follow from the others, with their places.
+    pub placed: Vec<(usize, Place)>,
     /// Frames whose poses and twists are wanted.
     pub frames: Vec<FrameProgram>,
 }

@@ -71,11 +71,11 @@ impl Language {
         }
     }
 
-    /// Sine and cosine after a small turn.
+    /// Sine and cosine after a turn by one of the steps.
     pub(super) fn turned_on(self, sin: &str, cos: &str, by: &str) -> String {
         match self {
-            Language::C => format!("@name@_turn({by}, &{sin}, &{cos});\n"),
-            Language::Rust => format!("turn({by}, &mut {sin}, &mut {cos});\n"),
+            Language::C => format!("@name@_turn({by}, longest, &{sin}, &{cos});\n"),
+            Language::Rust => format!("turn({by}, longest, &mut {sin}, &mut {cos});\n"),
         }
     }
 
@@ -184,6 +184,7 @@ impl Precision {
             ("@close@", "1e-9", "2e-3"),
             ("@farthest@", "1e5", "1e4"),
             ("@two_over_pi@", "0.6366197723675814", "0.63661975@f@"),
+            ("@round@", "6755399441055744.0", "12582912.0"),
             ("@polynomials@", "fdlibm, Sun 1993", "Cephes, Moshier 1989"),
             ("@root_guess@", guesses[0], guesses[1]),
             ("@root_steps@", "4", "3"),
@@ -241,10 +242,15 @@ impl Precision {
         };
         let number = |x: f64| self.operand(x, language);
         let series = |of: Series| -> String {
-            let last = of.len() - 1;
-            of[..last].iter().rev().fold(number(of[last]), |sum, x| {
-                format!("({} + z * {sum})", number(*x))
-            })
+            // in pairs, by w = z²: more at once than one after the other
+            let pairs = of.chunks(2).map(|pair| match pair {
+                [x, y] => format!("({} + z * {})", number(*x), number(*y)),
+                rest => number(rest[0]),
+            });
+            let pairs: Vec<String> = pairs.collect();
+            let sum = pairs.into_iter().rev();
+            sum.reduce(|sum, pair| format!("({pair} + w * {sum})"))
+                .unwrap_or_default()
         };
         let [p, q, s] = parts.map(number);
         let half = self.literal(0.5, language);
@@ -252,10 +258,11 @@ impl Precision {
         [
             bound("r", &format!("((x - k * {p}) - k * {q}) - k * {s}")),
             bound("z", "r * r"),
+            bound("w", "z * z"),
             bound("s", &format!("r + r * z * {}", series(sine))),
             bound(
                 "c",
-                &format!("({one} - {half} * z) + z * z * {}", series(cosine)),
+                &format!("({one} - {half} * z) + w * {}", series(cosine)),
             ),
         ]
         .map(|line| format!("    {line}"))

@@ -1,6 +1,6 @@
 //! The straight-line parts of a solver.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::language::{bound, larger, operation, variable};
 use super::{Code, Language};
@@ -106,14 +106,22 @@ impl<'a> Writer<'a> {
     /// Newton's method where every step is a good one.
     pub fn fast(&self) -> String {
         let Solver {
-            residual,
+            iterated,
             step,
             moved,
+            placed,
             state,
             ..
         } = self.solver;
         let language = self.code.language;
-        let used = self.needed([residual, step].into_iter().flatten().copied());
+        let zero = self.code.precision.literal(0.0, language);
+        let steps = || step.iter().map(|(_, place)| *place);
+        let rows = || iterated.iter().map(|(row, _)| *row);
+        let used = self.needed(rows().chain(steps()));
+        let follows: BTreeMap<usize, Place> = placed.iter().copied().collect();
+        let free: Vec<usize> = (0..state.len())
+            .filter(|i| !follows.contains_key(i))
+            .collect();
         let angles = self.angles(&used);
         let mut text = self.text(1, true);
         text.numbers(&used, "u");
@@ -122,7 +130,7 @@ impl<'a> Writer<'a> {
                 .copied()
                 .filter(|&place| self.given[place as usize]),
         );
-        for i in 0..state.len() {
+        for i in &free {
             text.line(&variable(&format!("x{i}"), &format!("x[{i}]")));
         }
         for i in &angles {
@@ -135,13 +143,13 @@ impl<'a> Writer<'a> {
             Language::Rust => "for _ in 0..MOST_STEPS {\n",
         });
         text.indent = 2;
-        text.operations(self.needed(residual.iter().copied()));
-        text.line(&variable(
-            "size",
-            &self.code.precision.literal(0.0, language),
-        ));
-        for &row in residual {
-            text.line(&larger("size", &self.name(row, true)));
+        text.operations(self.needed(rows()));
+        text.line(&variable("size", &zero));
+        for &(row, factor) in iterated {
+            let name = self.name(row, true);
+            let factor = (factor != 1.0).then(|| self.code.precision.literal(factor, language));
+            let row = factor.map_or(name.clone(), |factor| format!("{factor} * {name}"));
+            text.line(&larger("size", &row));
         }
         // where rounding is reached the rows no longer halve
         let settled = "!(size < HALF * last)";
@@ -154,42 +162,61 @@ impl<'a> Writer<'a> {
             }
         };
         text.line(&condition);
-        for i in 0..state.len() {
-            text.line(&format!("    x[{i}] = x{i};\n"));
+        text.indent = 3;
+        let known = text.known.clone();
+        let of_placed = self.needed(follows.values().copied());
+        let before = of_placed.iter().filter_map(|&place| self.state_of(place));
+        for i in before.filter(|i| follows.contains_key(i)) {
+            text.line(&bound(&format!("x{i}"), &format!("x[{i}]")));
         }
-        text.line("    return @yes@;\n}\n");
+        text.operations(of_placed.iter().copied());
+        text.pivots(&of_placed);
+        for i in 0..state.len() {
+            let value = follows.get(&i).map(|&place| self.name(place, true));
+            let value = value.unwrap_or_else(|| format!("x{i}"));
+            text.line(&format!("x[{i}] = {value};\n"));
+        }
+        text.line("return @yes@;\n");
+        text.known = known;
+        text.indent = 2;
+        text.line("}\n");
         text.line("/* a step that does not halve the rows is not to be trusted */\n");
         text.line(&language.gives_up_if(settled));
         text.line("last = size;\n");
-        text.operations(self.needed(step.iter().copied()));
+        text.operations(self.needed(steps()));
         text.pivots(&used);
-        for (i, &part) in step.iter().enumerate() {
-            text.line(&bound(&format!("d{i}"), &self.name(part, true)));
+        for (i, part) in step {
+            text.line(&bound(&format!("d{i}"), &self.name(*part, true)));
         }
-        text.line(&variable(
-            "longest",
-            &self.code.precision.literal(0.0, language),
-        ));
-        for i in 0..step.len() {
+        text.line(&variable("longest", &zero));
+        for (i, _) in step {
             text.line(&larger("longest", &format!("d{i}")));
         }
         text.line(&language.gives_up_if("!(longest <= LONGEST_STEP)"));
-        text.operations(self.needed(moved.iter().copied()));
-        // all at once: one may depend on another
-        for (i, &to) in moved.iter().enumerate() {
-            text.line(&bound(&format!("y{i}"), &self.name(to, true)));
-        }
+        text.operations(self.needed(free.iter().map(|i| moved[*i])));
         for &i in &angles {
-            let turn =
-                language.turned_on(&format!("s{i}"), &format!("c{i}"), &format!("y{i} - x{i}"));
-            text.line(&turn);
+            let by = self.change(i);
+            text.line(&language.turned_on(&format!("s{i}"), &format!("c{i}"), &by));
         }
-        for i in 0..moved.len() {
+        // all at once: one may depend on another
+        for i in &free {
+            text.line(&bound(&format!("y{i}"), &self.name(moved[*i], true)));
+        }
+        for i in &free {
             text.line(&format!("x{i} = y{i};\n"));
         }
         text.indent = 1;
         text.line("}\n");
         text.text
+    }
+
+    /// By how much a step changes a number of the state.
+    fn change(&self, i: usize) -> String {
+        let to = self.solver.moved[i];
+        match self.solver.operations[to as usize] {
+            Operation::Add(x, d) if self.state_of(x) == Some(i) => self.name(d, true),
+            _ => format!("{} - x{i}", self.name(to, true)),
+        }
     }
 
     /// Rows and Jacobian into arrays.
@@ -215,11 +242,13 @@ impl<'a> Writer<'a> {
 
     /// The state moved by a step.
     pub fn moved(&self) -> String {
-        let Solver { moved, step, .. } = self.solver;
+        let Solver {
+            moved, unknowns, ..
+        } = self.solver;
         let used = self.needed(moved.iter().copied());
         let mut text = self.text(1, false);
         text.numbers(&used, "x");
-        for i in 0..step.len() {
+        for i in 0..*unknowns {
             let read = format!("d[{i}]");
             text.line(&bound(&format!("d{i}"), &read));
         }
@@ -230,10 +259,12 @@ impl<'a> Writer<'a> {
         text.text
     }
 
-    /// Unit quaternions after a small change: one step of Newton's method for 1/√(q·q).
+    /// Unit quaternions after a small change, but for those that are not iterated: one step of Newton's method for 1/√(q·q).
     pub fn normalise(&self) -> String {
         let mut text = self.text(1, false);
-        let first = |(_, component): &(usize, &Component)| component.name.ends_with(".qw");
+        let placed = |i: usize| self.solver.placed.iter().any(|(of, _)| *of == i);
+        let first =
+            |&(i, component): &(usize, &Component)| component.name.ends_with(".qw") && !placed(i);
         for (i, _) in self.solver.state.iter().enumerate().filter(first) {
             let squares: Vec<String> = (i..i + 4).map(|i| format!("x[{i}] * x[{i}]")).collect();
             let of = |x: f64| self.code.precision.literal(x, self.code.language);
@@ -295,9 +326,11 @@ impl Text<'_, '_> {
     /// Gives up where a pivot that is used is too small.
     fn pivots(&mut self, used: &BTreeSet<Place>) {
         let Writer { code, solver, .. } = self.writer;
-        for pivot in solver.pivots.iter().filter(|pivot| used.contains(pivot)) {
-            let name = self.writer.name(*pivot, self.carries);
-            let small = format!("!(@fabs@({name}) > LEAST_PIVOT)");
+        let pivots = solver.pivots.iter();
+        for pivot in pivots.filter(|pivot| used.contains(&pivot.inverse)) {
+            let name = self.writer.name(pivot.place, self.carries);
+            let scale = code.precision.literal(pivot.scale, code.language);
+            let small = format!("!(@fabs@({name}) > {scale} * LEAST_PIVOT)");
             self.line(&code.language.gives_up_if(&small));
         }
     }

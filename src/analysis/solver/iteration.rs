@@ -1,0 +1,118 @@
+//! What Newton's method runs on: all closure equations, or fewer where platforms leave.
+
+use super::elimination::{Pivot, eliminate};
+use super::placing::placings;
+use super::{Plan, Variable};
+use crate::algebra::{Place, Recorded};
+use crate::mechanism::{Configuration, Dimensions};
+use crate::solve::Equations;
+use crate::system::{Held, System};
+
+/// What Newton's method runs on.
+pub(super) struct Iteration {
+    /// With the factors by which no closure row is larger.
+    pub rows: Vec<(Recorded, f64)>,
+    /// The steps of unknowns by their places.
+    pub step: Vec<(usize, Recorded)>,
+    /// What follows afterwards, by its places in the state.
+    pub placed: Vec<(usize, Recorded)>,
+}
+
+/// Rows that do not vanish whatever the unknowns are, which would say nothing.
+pub(super) struct Rows {
+    pub open: Vec<usize>,
+    pub residual: Vec<Recorded>,
+    pub jacobian: Vec<Vec<Recorded>>,
+}
+
+impl Rows {
+    pub fn of(system: &System<Recorded>, at: &Configuration<Recorded>) -> Self {
+        let mut work = system.work();
+        system.linearise(at, &mut work);
+        let residual = system.residual_of(&work);
+        let (rows, unknowns) = (system.rows(), system.unknowns().len());
+        let jacobian = system.dense_jacobian(&work);
+        let open = (0..rows).filter(|&row| residual[row].constant() != Some(0.0));
+        let open: Vec<usize> = open.collect();
+        let row = |&row: &usize| (0..unknowns).map(|c| jacobian[c * rows + row]).collect();
+        Rows {
+            residual: open.iter().map(|&row| residual[row]).collect(),
+            jacobian: open.iter().map(row).collect(),
+            open,
+        }
+    }
+
+    /// Those of all numbers that belong to open rows.
+    pub fn among(&self, all: &[Recorded]) -> Vec<Recorded> {
+        self.open.iter().map(|&row| all[row]).collect()
+    }
+}
+
+pub(super) fn negated(of: Vec<Recorded>) -> Vec<Recorded> {
+    of.into_iter().map(|x| -x).collect()
+}
+
+pub(super) fn places(of: &[Recorded]) -> Vec<Place> {
+    of.iter().map(|number| number.place()).collect()
+}
+
+pub(super) fn numbered(of: &[(usize, Recorded)]) -> Vec<(usize, Place)> {
+    of.iter().map(|(i, number)| (*i, number.place())).collect()
+}
+
+impl Plan<'_> {
+    /// The iteration without the poses of platforms that stand on three balls, if there are any.
+    pub(super) fn placing(
+        &self,
+        system: &System<Recorded>,
+        mut held: Held<Recorded>,
+        dimensions: &Dimensions<Recorded>,
+        at: &Configuration<Recorded>,
+    ) -> Option<(Iteration, Vec<Pivot>)> {
+        let placings = placings(self.mechanism, &self.held);
+        let (mut few, mut reached) = (dimensions.clone(), at.clone());
+        let (mut more, mut own) = (Vec::new(), Vec::new());
+        for placing in &placings {
+            let (pose, pivot) = placing.pose(dimensions, at);
+            reached.platforms[placing.platform] = pose;
+            placing.leave(&mut few, &mut held);
+            more.push(pivot);
+            own.push(placing.platform);
+        }
+        if own.is_empty() {
+            return None;
+        }
+        let few = System::new(&few, &held);
+        let rows = Rows::of(&few, at);
+        let closure = |row: usize| few.closure_rows().position(|rows| rows.contains(&row));
+        let factor = |row: usize| {
+            let mut own = placings.iter();
+            let placing = own.find(|p| closure(row).is_some_and(|c| p.closures.contains(&c)));
+            placing.map_or(1.0, |p| p.stretch(few.characteristic_length()))
+        };
+        let unknowns = few.unknowns().len();
+        let (mut solutions, pivots) =
+            eliminate(rows.jacobian, vec![rows.residual.clone()], unknowns).ok()?;
+        more.extend(pivots);
+        let step = negated(solutions.pop()?).into_iter().zip(few.unknowns());
+        let step = step.filter_map(|(x, &unknown)| Some((system.place_of(unknown)?, x)));
+        let placed = self
+            .state
+            .iter()
+            .enumerate()
+            .filter_map(|(i, variable)| match variable {
+                Variable::Orientation(platform, _) | Variable::Position(platform, _) => {
+                    own.contains(platform).then(|| (i, variable.of(&reached)))
+                }
+                _ => None,
+            });
+        let iteration = Iteration {
+            rows: (rows.residual.into_iter())
+                .zip(rows.open.into_iter().map(factor))
+                .collect(),
+            step: step.collect(),
+            placed: placed.collect(),
+        };
+        Some((iteration, more))
+    }
+}
