@@ -69,6 +69,8 @@ fn follow(
     amplitude: f64,
     count: usize,
 ) -> Vec<Example> {
+    /// Unknowns move less from one configuration to the next, in rad and in characteristic lengths.
+    const FARTHEST: f64 = 0.3;
     let mechanism = question.mechanism();
     let held = question.held();
     let joints = (0..held.joints.len()).filter(|joint| held.joints[*joint]);
@@ -115,8 +117,11 @@ fn follow(
             at = question.start();
         }
         trial.clone_from(&at);
+        let before = at.clone();
         let report = newton.solve(&system, &mut at, &mut trial, &mut work);
-        if report.stop != Stop::Solved {
+        let moved = system.difference(&before, &at);
+        // farther than that it may be another assembly
+        if report.stop != Stop::Solved || moved.iter().any(|part| part.abs() > FARTHEST) {
             break;
         }
         found.push(values(question, &at));
