@@ -303,12 +303,12 @@ impl Search<'_> {
         new
     }
 
-    /// Asks the trace test where loops begin to bring nothing new, and once more if they still do not.
+    /// Asks the trace test where loops begin to bring nothing new.
     fn trace(&mut self) {
-        const ASKED: [usize; 2] = [3, 8];
+        const ASKED: usize = 3;
         const MOST: usize = 300;
         let count = self.found.count();
-        if ASKED.contains(&self.found.quiet_loops)
+        if self.found.quiet_loops == ASKED
             && self.traced != Some(count)
             && self.bound != Some(count)
             && count <= MOST

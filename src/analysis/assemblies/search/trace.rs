@@ -22,11 +22,11 @@ use crate::solve::{Progress, Watch};
 
 /// Sums that are zero but for rounding, relative to the sum of absolute values.
 const ROUNDING: f64 = 1e-9;
-/// Ways along which points of the cut are carried, and how many of them that bring no new one lead to a verdict.
-const LEVELS: usize = 24;
-const QUIET: usize = 4;
-/// With more points of the cut than this, for each solution, loops are faster.
-const COSTLY: usize = 12;
+/// Levels to which points were carried without a new one, after which there is a verdict.
+const QUIET: usize = 6;
+/// Paths for each solution, and some more, after which loops are faster: those that are saved take about as many.
+const PATHS: usize = 40;
+const MORE: usize = 16;
 
 /// Whether the identity holds for every direction of the family. `false` where it does not, or where that is not found
 /// out at a reasonable cost.
@@ -37,20 +37,22 @@ pub(crate) fn holds(
     rng: &mut Pcg64,
     watch: (&Watch, Progress),
 ) -> bool {
+    let mut paths = PATHS * (solutions.len() + MORE);
     let directions = family.directions().unwrap_or_default();
     let along = |direction: &Direction| {
-        holds_along(family, base, direction, solutions, rng, watch).unwrap_or(false)
+        let holds = holds_along(family, base, direction, solutions, (&mut *rng, &mut paths), watch);
+        holds.unwrap_or(false)
     };
     !directions.is_empty() && directions.iter().all(along)
 }
 
-/// `None` where paths are lost.
+/// `None` where paths are lost, or too many.
 fn holds_along(
     family: &Family,
     base: &Member,
     direction: &Direction,
     solutions: &[Vec<C>],
-    rng: &mut Pcg64,
+    (rng, paths): (&mut Pcg64, &mut usize),
     watch: (&Watch, Progress),
 ) -> Option<bool> {
     let (zero, one) = (C::from_f64(0.0), C::from_f64(1.0));
@@ -76,31 +78,31 @@ fn holds_along(
         Some(apart <= 1e-6 * place(*s).norm().max(1.0) && family.coordinates.same(x, w))
     };
 
-    let values: Vec<C> = solutions.iter().map(|x| value(x)).collect();
-    let mut sizes: Vec<f64> = values.iter().map(|v| v.norm()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let size = sizes[sizes.len() / 2].max(1.0);
+    let size = value(solutions.first()?).norm().max(1.0);
     let mut cut = Cut::new(way, form.clone());
     let (mut known, mut quiet) = (Vec::<Vec<C>>::new(), 0);
-    for level in 0..LEVELS {
-        let reach = size * [1.0, 2.0, 4.0, 1.0, 8.0][level % 5];
-        cut.to = C::from_polar(reach * rng.random_range(0.3..1.0), rng.random_range(-3.1..3.1));
+    loop {
+        let mut any = |lowest: f64, highest: f64| {
+            C::new(rng.random_range(lowest..highest), rng.random_range(-3.1..3.1))
+        };
+        cut.to = (any(-1.0, 2.0) + size.ln()).exp();
         // from elsewhere on the curve each time, where other points are near
-        let elsewhere = C::from_polar([1.0, 0.5, 2.0, 4.0][level % 4], rng.random_range(-3.1..3.1));
+        let elsewhere = match turn {
+            Some(rate) => any(-3.0, 3.0) / rate,
+            None => any(-1.5, 2.0).exp(),
+        };
         let starts = cut.spread(solutions, elsewhere, watch);
         let (before, starts) = (known.len(), [known, starts].concat());
+        *paths = paths.checked_sub(starts.len())?;
         known = Vec::new();
         for y in cut.carried(&starts, watch) {
             if !known.iter().any(|z| same(&y, z) == Some(true)) {
                 known.push(y);
             }
         }
-        if known.len() > COSTLY * (solutions.len() + 4) {
-            return None;
-        }
         quiet = if known.len() > before { 0 } else { quiet + 1 };
         if std::env::var("TRACE").is_ok() {
-            eprintln!("    level {level}: {} of {}", known.len(), starts.len());
+            eprintln!("    {} of {}", known.len(), starts.len());
         }
         if quiet == 0 {
             continue;
@@ -127,7 +129,6 @@ fn holds_along(
             return Some(false);
         }
     }
-    None
 }
 
 #[cfg(test)]
