@@ -22,6 +22,8 @@ use crate::solve::{Progress, Watch};
 
 /// Sums that are zero but for rounding, relative to the sum of absolute values.
 const ROUNDING: f64 = 1e-9;
+/// So many points are started from for each level, or one for each solution.
+const STARTS: usize = 8;
 /// Levels to which points were carried without a new one, after which there is a verdict.
 const QUIET: usize = 6;
 /// Paths for each solution, and some more, after which loops are faster: those that are saved take about as many.
@@ -78,23 +80,22 @@ fn holds_along(
         Some(apart <= 1e-6 * place(*s).norm().max(1.0) && family.coordinates.same(x, w))
     };
 
-    let size = value(solutions.first()?).norm().max(1.0);
     let mut cut = Cut::new(way, form.clone());
     let (mut known, mut quiet) = (Vec::<Vec<C>>::new(), 0);
     loop {
-        let mut any = |lowest: f64, highest: f64| {
-            C::new(rng.random_range(lowest..highest), rng.random_range(-3.1..3.1))
-        };
-        cut.to = (any(-1.0, 2.0) + size.ln()).exp();
-        // from elsewhere on the curve each time, where other points are near
-        let elsewhere = match turn {
-            Some(rate) => any(-3.0, 3.0) / rate,
-            None => any(-1.5, 2.0).exp(),
-        };
-        let starts = cut.spread(solutions, elsewhere, watch);
-        let (before, starts) = (known.len(), [known, starts].concat());
+        // from other places of the curve each time, where other points are near
+        let mut starts = Vec::new();
+        for _ in 0..STARTS.div_ceil(solutions.len()) {
+            let far = C::new(rng.random_range(-3.0..3.0), rng.random_range(-3.1..3.1));
+            let elsewhere = turn.map_or_else(|| (far * 0.6).exp(), |rate| far / rate);
+            starts.extend(cut.spread(solutions, elsewhere, watch));
+        }
+        let there = value(starts.first()?);
+        let beside = C::new(rng.random_range(-0.7..0.7), rng.random_range(-0.7..0.7));
+        cut.to = there + beside * there.norm();
+        let before = known.len();
+        starts.append(&mut known);
         *paths = paths.checked_sub(starts.len())?;
-        known = Vec::new();
         for y in cut.carried(&starts, watch) {
             if !known.iter().any(|z| same(&y, z) == Some(true)) {
                 known.push(y);
