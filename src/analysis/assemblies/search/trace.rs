@@ -22,10 +22,10 @@ use crate::solve::{Progress, Watch};
 
 /// Sums that are zero but for rounding, relative to the sum of absolute values.
 const ROUNDING: f64 = 1e-9;
+/// And relative to the least that a known solution has in it, so that one like it would be missed.
+const SEEN: f64 = 1e-3;
 /// So many points are started from for each level, or one for each solution.
 const STARTS: usize = 8;
-/// Levels to which points were carried without a new one, after which there is a verdict.
-const QUIET: usize = 6;
 /// Paths for each solution, and some more, after which loops are faster: those that are saved take about as many.
 const PATHS: usize = 40;
 const MORE: usize = 16;
@@ -42,13 +42,20 @@ pub(crate) fn holds(
     let mut paths = PATHS * (solutions.len() + MORE);
     let directions = family.directions().unwrap_or_default();
     let along = |direction: &Direction| {
-        let holds = holds_along(family, base, direction, solutions, (&mut *rng, &mut paths), watch);
-        holds.unwrap_or(false)
+        holds_along(
+            family,
+            base,
+            direction,
+            solutions,
+            (&mut *rng, &mut paths),
+            watch,
+        )
+        .is_some()
     };
     !directions.is_empty() && directions.iter().all(along)
 }
 
-/// `None` where paths are lost, or too many.
+/// `None` if the identity does not hold before paths are lost, or too many.
 fn holds_along(
     family: &Family,
     base: &Member,
@@ -56,7 +63,7 @@ fn holds_along(
     solutions: &[Vec<C>],
     (rng, paths): (&mut Pcg64, &mut usize),
     watch: (&Watch, Progress),
-) -> Option<bool> {
+) -> Option<()> {
     let (zero, one) = (C::from_f64(0.0), C::from_f64(1.0));
     let other = family.moved(base, direction, rng);
     let way = family.homotopy(base, &other)?;
@@ -81,13 +88,13 @@ fn holds_along(
     };
 
     let mut cut = Cut::new(way, form.clone());
-    let (mut known, mut quiet) = (Vec::<Vec<C>>::new(), 0);
+    let (mut known, mut asked) = (Vec::<Vec<C>>::new(), 0);
     loop {
         // from other places of the curve each time, where other points are near
         let mut starts = Vec::new();
         for _ in 0..STARTS.div_ceil(solutions.len()) {
             let far = C::new(rng.random_range(-3.0..3.0), rng.random_range(-3.1..3.1));
-            let elsewhere = turn.map_or_else(|| (far * 0.6).exp(), |rate| far / rate);
+            let elsewhere = turn.map_or_else(|| far.exp(), |rate| far / rate);
             starts.extend(cut.spread(solutions, elsewhere, watch));
         }
         let there = value(starts.first()?);
@@ -101,13 +108,11 @@ fn holds_along(
                 known.push(y);
             }
         }
-        quiet = if known.len() > before { 0 } else { quiet + 1 };
-        if std::env::var("TRACE").is_ok() {
-            eprintln!("    {} of {}", known.len(), starts.len());
-        }
-        if quiet == 0 {
+        // while more are found some are missing, and what failed for these fails for them again
+        if known.len() > before || known.len() == asked {
             continue;
         }
+        asked = known.len();
         let of = |points: &[Vec<C>]| -> Vec<C> {
             points.iter().map(|x| one / (value(x) - cut.to)).collect()
         };
@@ -119,15 +124,10 @@ fn holds_along(
         }
         let sum: C = terms.iter().sum();
         let all: f64 = terms.iter().map(|z| z.norm()).sum();
-        let least = (terms[..solutions.len()].iter()).map(|z| z.norm()).fold(f64::INFINITY, f64::min);
-        if std::env::var("TRACE").is_ok() {
-            eprintln!("      sum {:.1e} of {all:.1e} least {least:.1e}", sum.norm());
-        }
-        if sum.norm() <= ROUNDING * all && sum.norm() <= 1e-3 * least {
-            return Some(true);
-        }
-        if quiet == QUIET {
-            return Some(false);
+        let sizes = terms[..solutions.len()].iter().map(|z| z.norm());
+        let least = sizes.fold(f64::INFINITY, f64::min);
+        if sum.norm() <= ROUNDING * all && sum.norm() <= SEEN * least {
+            return Some(());
         }
     }
 }
@@ -137,8 +137,8 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
-    use crate::analysis::assemblies::search::{GenericSolutions, search};
     use crate::analysis::assemblies::AssembliesSettings;
+    use crate::analysis::assemblies::search::{GenericSolutions, search};
     use crate::description::Description;
     use crate::mechanism::Mechanism;
     use crate::solve::Stage;
@@ -149,7 +149,13 @@ mod tests {
         let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
         let family = Family::new(&mechanism, &Question::new(&mechanism).held());
         let settings = AssembliesSettings::default();
-        let found = search(&family, String::new(), Some(count), &settings, &Watch::none());
+        let found = search(
+            &family,
+            String::new(),
+            Some(count),
+            &settings,
+            &Watch::none(),
+        );
         let found = found.unwrap();
         assert_eq!(found.count(), count);
         (family, found)
@@ -172,7 +178,10 @@ mod tests {
             (include_str!("../../../../mechanisms/five_bar.ron"), 2),
             (include_str!("../../../../mechanisms/triangle.ron"), 2),
             (include_str!("../../../../mechanisms/planar_3rpr.ron"), 6),
-            (include_str!("../../../../mechanisms/stephenson_six_bar.ron"), 6),
+            (
+                include_str!("../../../../mechanisms/stephenson_six_bar.ron"),
+                6,
+            ),
         ] {
             let (family, found) = known(text, count);
             let points = found.legwise.iter();

@@ -131,7 +131,11 @@ impl<'f> Cut<'f> {
         let mut sum = C::from_f64(0.0);
         for k in 0..POINTS {
             let step = C::from_polar(radius, std::f64::consts::TAU * k as f64 / POINTS as f64);
-            let mut beside: Vec<C> = x.iter().zip(&self.along).map(|(x, v)| x + v * step).collect();
+            let mut beside: Vec<C> = x
+                .iter()
+                .zip(&self.along)
+                .map(|(x, v)| x + v * step)
+                .collect();
             self.way.settle(&mut beside);
             if !polish(&mut self.way, s + step, &mut beside) {
                 return None;
