@@ -21,7 +21,7 @@ pub use follow::{Fold, Followed, LostMode, LostReason};
 pub use proof::prove;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
-    Named, Part, PoseReport, Proof, Range, Unfit,
+    Named, Part, PoseReport, Proof, Range, Traced, Unfit,
 };
 pub use search::{GenericSolutions, StoredError};
 

@@ -10,7 +10,7 @@ use super::closing;
 use super::document::{Document, Section};
 use super::quantity::{are, at, clause, form, metres};
 use super::report::{Remarks, Report};
-use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
+use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit, Traced};
 use crate::description::{count, listed};
 use crate::linear::RANK_TOLERANCE;
 use tables::{Pose, are_posed, by_pose, complex, joints, met, overview, platforms, poses, reasons};
@@ -272,6 +272,15 @@ fn searched(report: &AssembliesReport) -> String {
         format!("{quiet} found no more"),
         bound,
     ];
+    if let Some(traced) = report.traced {
+        let moved = match traced {
+            Traced::Inputs => "the inputs",
+            Traced::Parameters => "the parameters",
+        };
+        parts.push(format!(
+            "the trace test holds: no loop of {moved} leads from these to others"
+        ));
+    }
     if report.exhausted {
         parts.push("the search ended at its limits and there may be more".into());
     }

@@ -15,4 +15,5 @@ mod seeds;
 mod special_inputs;
 mod stores;
 mod straight;
+mod traces;
 mod witness;

@@ -13,7 +13,9 @@ use std::ops::Range;
 
 use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
-use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
+use super::report::{
+    AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named, Traced,
+};
 use super::search::GenericSolutions;
 use super::track::{End, Ends, Local, ParameterHomotopy, are_one};
 use crate::algebra::SiUnit;
@@ -292,6 +294,10 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
+            traced: (generic.traced).then_some(match generic.inputs.is_empty() {
+                true => Traced::Parameters,
+                false => Traced::Inputs,
+            }),
             exhausted: generic.exhausted,
             seed: generic.seed,
             ..AssembliesReport::default()

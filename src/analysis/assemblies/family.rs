@@ -24,6 +24,25 @@ pub(crate) struct Member {
     pub inputs: Vec<C>,
 }
 
+/// A way through the family along which solutions are algebraic in one variable t.
+#[derive(Clone, Debug)]
+pub(crate) struct Direction {
+    /// Places of the flat inputs that move; none if the parameters do.
+    inputs: Vec<usize>,
+    /// Turns after which the one angle that moves repeats: t is the exponential of i times the angle over them. Without
+    /// an angle t is the way itself.
+    turns: Option<f64>,
+}
+
+impl Direction {
+    /// The rate of log t on the way from one member to another, if t is an exponential.
+    pub fn turning(&self, from: &Member, to: &Member) -> Option<C> {
+        let place = *self.inputs.first()?;
+        let turns = self.turns?;
+        Some((to.inputs[place] - from.inputs[place]) * C::new(0.0, 1.0 / turns))
+    }
+}
+
 /// All members of the family of one question.
 #[derive(Clone, Debug)]
 pub(crate) struct Family {
@@ -208,6 +227,52 @@ impl Family {
             Input::Orientation(_) => vec![false; 4],
         });
         lengths.flatten().collect()
+    }
+
+    /// After how many turns an angle repeats, if it does; `None` for a joint that is no angle.
+    pub fn turns(&self, joint: usize) -> Option<Option<f64>> {
+        let is_angle = self.mechanism.joints()[joint].kind.is_angle();
+        is_angle.then(|| self.coordinates.turns[joint])
+    }
+
+    /// Directions that make up all motions of the inputs: lengths and poses together, each angle by itself; without
+    /// inputs the dimensions. `None` if an angle never comes back to the same place.
+    pub fn directions(&self) -> Option<Vec<Direction>> {
+        let (mut straight, mut directions) = (Vec::new(), Vec::new());
+        let mut places = 0..;
+        for &input in &self.coordinates.inputs {
+            let turns = match input {
+                Input::Joint(j) => self.turns(j),
+                Input::Target(_, coordinate) => coordinate.is_angle().then_some(Some(1.0)),
+                Input::Pose(_) | Input::Orientation(_) => None,
+            };
+            let own = places.by_ref().take(input.width());
+            match turns {
+                None => straight.extend(own),
+                Some(turns) => directions.push(Direction {
+                    inputs: own.collect(),
+                    turns: Some(turns?),
+                }),
+            }
+        }
+        if !straight.is_empty() || directions.is_empty() {
+            directions.push(Direction {
+                inputs: straight,
+                turns: None,
+            });
+        }
+        Some(directions)
+    }
+
+    /// Another member in a direction.
+    pub fn moved(&self, from: &Member, direction: &Direction, rng: &mut Pcg64) -> Member {
+        let mut to = from.clone();
+        let inputs = self.random_inputs(rng, 1.0);
+        (direction.inputs.iter()).for_each(|&place| to.inputs[place] = inputs[place]);
+        if from.inputs.is_empty() {
+            to.parameters = self.random_parameters(rng);
+        }
+        to
     }
 
     /// A random complex point, far from assembled. `reach` says how far out, as for inputs: complex

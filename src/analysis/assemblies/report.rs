@@ -109,6 +109,17 @@ pub enum Fit {
     AlwaysMultiple,
 }
 
+/// What leads from the generic solutions to no others, by the trace test of Leykin, Rodriguez and Sottile 2018: in double
+/// precision, and for those solutions only that are connected with these at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Traced {
+    /// No loop of the inputs through complex values.
+    Inputs,
+    /// No loop of the parameters through complex values; there are no inputs.
+    Parameters,
+}
+
 /// Assemblies that are connected, infinitely many, at the target inputs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Continuum {
@@ -204,6 +215,10 @@ pub struct AssembliesReport {
     pub bound: Option<usize>,
     /// Which structure that is, and where the bound is shown.
     pub bound_source: Option<String>,
+    /// What the trace test holds for, if it does. It is asked where the solutions reach no known bound and it costs no
+    /// more than the loops that it saves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub traced: Option<Traced>,
     /// How the question fits the mechanism.
     pub fit: Fit,
     /// Newton seeds tried at the generic member.

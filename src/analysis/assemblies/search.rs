@@ -5,6 +5,7 @@ mod newton_starts;
 mod solutions;
 mod starts;
 mod store;
+mod trace;
 
 pub(super) use monodromy::search;
 pub use solutions::GenericSolutions;

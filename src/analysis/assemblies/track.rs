@@ -1,6 +1,7 @@
 //! Path tracking along parameter homotopies between members of the family.
 
 mod along;
+mod cut;
 mod fold;
 mod homotopy;
 mod local;
@@ -10,6 +11,7 @@ mod simple;
 mod target;
 
 pub(super) use along::{polish, tracked};
+pub(super) use cut::{Cut, Form};
 pub(super) use fold::located;
 pub(super) use homotopy::ParameterHomotopy;
 pub(super) use local::Local;

@@ -26,7 +26,7 @@ pub(crate) enum Input {
 
 impl Input {
     /// How many flat inputs it is.
-    fn width(self) -> usize {
+    pub fn width(self) -> usize {
         match self {
             Input::Joint(_) | Input::Target(..) => 1,
             Input::Pose(_) => 7,

@@ -8,7 +8,7 @@
 //!
 //! If a component is known in part, a random element of its monodromy group keeps the known solutions
 //! among themselves with probability ½ at most (those that do are a proper subgroup). A loop that lost
-//! a path does not count.
+//! a path does not count. Where the trace test shows that no loop can find more, the search does not wait for that.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -16,6 +16,7 @@ use rand_pcg::Pcg64;
 use super::super::AssembliesSettings;
 use super::newton_starts::{Seed, newton, newton_seeds, solution};
 use super::solutions::GenericSolutions;
+use super::trace;
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Member, learn, size};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
@@ -36,6 +37,8 @@ struct Search<'a> {
     settings: &'a AssembliesSettings,
     base: Member,
     found: GenericSolutions,
+    /// The trace test holds for so many solutions.
+    traced: Option<usize>,
     /// So many solutions are doubted to be all of a finite number.
     doubtful: usize,
 }
@@ -53,6 +56,7 @@ pub(crate) fn search(
     if first.count() == 0
         || watch.is_stopped()
         || first.exhausted
+        || first.traced
         || bound.is_none_or(|bound| first.count() >= bound)
     {
         return Some(first);
@@ -98,9 +102,11 @@ fn search_one(
         settings,
         base,
         found,
+        traced: None,
         doubtful: DOUBTFUL,
     };
     search.found.exhausted = search.run()?;
+    search.found.traced = search.traced == Some(search.found.count());
     if bound == Some(search.found.count()) {
         // no more are possible, so that what seemed to be others were these
         search.found.multiple = 0;
@@ -120,6 +126,9 @@ const HOPELESS: usize = 600;
 /// From so many known solutions on it is asked whether their number is finite: more than the platforms and single
 /// loops that are studied have.
 const DOUBTFUL: usize = 200;
+
+/// So many loops to one through other dimensions.
+const RESIZED: usize = 6;
 
 impl Search<'_> {
     /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
@@ -143,6 +152,7 @@ impl Search<'_> {
                 if self.is_endless(&still) {
                     return Some(false);
                 }
+                self.trace();
             }
             if self.bound == Some(self.found.count()) {
                 return Some(false);
@@ -293,9 +303,34 @@ impl Search<'_> {
         new
     }
 
-    /// Where the known bound is reached, one loop confirms it; below it the end is doubted.
+    /// Asks the trace test where loops begin to bring nothing new.
+    fn trace(&mut self) {
+        const ASKED: usize = 3;
+        const MOST: usize = 300;
+        let count = self.found.count();
+        if self.found.quiet_loops == ASKED
+            && self.traced != Some(count)
+            && self.bound != Some(count)
+            && count <= MOST
+        {
+            let points = self.found.legwise.iter();
+            let points = points.flat_map(|s| s.points(&self.family.coordinates));
+            let points: Vec<Vec<C>> = points.collect();
+            let stream = (1 << 46) + self.found.loops as u64;
+            let mut rng = generator(self.settings.seed, stream);
+            let watch = (self.watch, self.in_loops());
+            let holds = trace::holds(self.family, &self.base, &points, &mut rng, watch);
+            self.traced = holds.then_some(count);
+        }
+    }
+
+    /// Where the known bound is reached, one loop confirms it; below it the end is doubted, unless the trace test holds:
+    /// then loops through other dimensions, every sixth one, may bring more.
     fn enough_loops(&self) -> usize {
         let quiet = self.settings.quiet_loops.max(1);
+        if self.traced == Some(self.found.count()) {
+            return quiet.min(RESIZED);
+        }
         match self.bound.map(|bound| self.found.count().cmp(&bound)) {
             Some(std::cmp::Ordering::Equal) => 1,
             Some(_) => quiet + quiet / 2,
@@ -386,7 +421,7 @@ impl Search<'_> {
         self.found.loops += 1;
         let mut rng = generator(self.settings.seed, (self.found.loops as u64) << 1);
         // at special dimensions the inputs alone may not exchange all solutions
-        let resize = self.found.loops.is_multiple_of(6) || self.base.inputs.is_empty();
+        let resize = self.found.loops.is_multiple_of(RESIZED) || self.base.inputs.is_empty();
         // small loops go round few branch points, and solutions far out meet at inputs far out
         let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.found.loops % 5];
         let mut member = || Member {

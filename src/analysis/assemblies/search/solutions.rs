@@ -30,6 +30,9 @@ pub struct GenericSolutions {
     pub quiet_seeds: usize,
     /// Loops since the last discovery in which no path was lost.
     pub quiet_loops: usize,
+    /// Whether the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub traced: bool,
     /// Whether every seed led to another solution: they are not finite in number, and none is kept.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub endless: bool,

@@ -66,7 +66,7 @@ fn follow(
 }
 
 /// Newton steps until the last digits; whether the point is a solution then.
-pub(crate) fn polish(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &mut [C]) -> bool {
+pub(crate) fn polish(homotopy: &mut impl Homotopy, s: C, x: &mut [C]) -> bool {
     for _ in 0..4 {
         let step = homotopy.correct(s, x);
         if !step.is_finite() {
