@@ -75,6 +75,17 @@ pub fn rank(singular_values: &[f64]) -> usize {
         .count()
 }
 
+/// Whether so many equations are independent at a solution near a point where the Jacobian has these singular values,
+/// largest first, and so much of the equations is left: slopes that vanish at a solution are here about the root of
+/// that (Newton and Kantorovich; rows and unknowns are scaled so that curvatures are about 1).
+pub fn independent(equations: usize, singular_values: &[f64], left: f64) -> bool {
+    const SURE: f64 = 100.0;
+    let left = left.max(f64::EPSILON);
+    let largest = singular_values.first().copied().unwrap_or(0.0);
+    let sure = |least: f64| least > lost(largest) && least * least > SURE * left;
+    equations == 0 || (singular_values.get(equations - 1)).is_some_and(|least| sure(*least))
+}
+
 /// What counts as lost beside the largest singular value.
 fn lost(largest: f64) -> f64 {
     (RANK_TOLERANCE * largest).max(CANCELLED)

@@ -82,6 +82,15 @@ impl<T: Factorable> Bordered<T> {
         }
     }
 
+    /// Takes pivots into account that are larger than this beside the largest: where unknowns are known to be determined,
+    /// however badly.
+    pub fn trust(&mut self, tolerance: f64) {
+        self.border.trust(tolerance);
+        for factor in &mut self.factors {
+            factor.qr.trust(tolerance);
+        }
+    }
+
     /// Number of rows: those of the blocks in order, then the extra ones.
     pub fn rows(&self) -> usize {
         self.rows

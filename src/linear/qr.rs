@@ -16,6 +16,8 @@ pub struct Qr<T: Field> {
     scales: Vec<T::Size>,
     order: Vec<usize>,
     rank: usize,
+    /// Pivots count as lost that are this small beside the largest.
+    tolerance: f64,
 }
 
 impl<T: Field> Qr<T> {
@@ -30,7 +32,13 @@ impl<T: Field> Qr<T> {
             scales: vec![T::Size::zero(); pivots],
             order: (0..pivots).collect(),
             rank: 0,
+            tolerance: RANK_TOLERANCE,
         }
+    }
+
+    /// Takes smaller pivots into account than [`RANK_TOLERANCE`].
+    pub(super) fn trust(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
     }
 
     /// Starts a new matrix of `rows` rows, all zero.
@@ -109,7 +117,7 @@ impl<T: Field> Qr<T> {
             if k == 0 {
                 largest = largest.max(least);
             }
-            if least <= RANK_TOLERANCE * largest || least == 0.0 {
+            if least <= self.tolerance * largest || least == 0.0 {
                 break;
             }
             if best != k {

@@ -94,7 +94,9 @@ pub fn deflating_step(
             return None;
         }
         let bent = bent.try_svd(true, true, f64::EPSILON, SWEEPS)?;
-        let flat = (FLAT * bent.singular_values.max()).max(ROUNDED);
+        // the nearer, the less do differences mistake the shape of a set for curvature
+        let flat = FLAT.min(0.1 * lost);
+        let flat = (flat * bent.singular_values.max()).max(ROUNDED);
         step -= free * bent.solve(&slope, flat).ok()?;
     }
     let finite = step.iter().all(|x| x.is_finite());

@@ -87,3 +87,35 @@ fn rods_stretched_straight_along_two_lines_hold_a_body_still() {
     assert_eq!((report.mobility, report.character), (0, Character::Shaky));
     assert!(report.branches_complete);
 }
+
+/// A bead of 0.2 m between rods of 0.9 m on a line in space, `post` long, drawn a little beside it.
+fn drawn_beside(line: &str, post: f64) -> MobilityReport {
+    let platform = format!(
+        r#""p": Platform(home: [{line}, T(1.02, 0.05, 0.01), Rz(0.1)],
+            frames: {{ "A": [Tx(0.1)], "B": [Tx(-0.1)] }})"#
+    );
+    let chains =
+        format!(r#""near": Chain(base: [{line}]), "post": Chain(base: [{line}, Tx({post:?})])"#);
+    let closures = r#""r": Distance("near", "p.B", 0.9), "s": Distance("p.A", "post", 0.9)"#;
+    report(&platform, &chains, closures)
+}
+
+#[test]
+fn a_pose_that_is_not_closed_is_closed_to_where_rods_are_straight() {
+    for line in [
+        "Tx(0)",
+        "T(0.3, -1, 2), Rz(2.4), Ry(-0.8), Rx(1)",
+        "T(-2, 0.4, 0.1), Rz(-1.3), Ry(0.3)",
+        "T(5, 3, -4), Rz(0.9), Ry(-2.1)",
+    ] {
+        let report = drawn_beside(line, 2.0);
+        // both rods pull along one line: one of their two equations is redundant, and the spin is idle
+        let of = (report.rank, report.redundant, report.infinitesimal);
+        assert_eq!(of, (1, 1, 4), "{line}");
+        assert_eq!(report.mobility, 0, "{line}");
+        let slack = drawn_beside(line, 2.0 - 1e-6);
+        let of = (slack.rank, slack.redundant, slack.infinitesimal);
+        assert_eq!(of, (2, 0, 3), "{line}");
+        assert_eq!(slack.mobility, 3, "{line}");
+    }
+}

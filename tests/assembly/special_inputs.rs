@@ -702,3 +702,34 @@ fn complex_solutions_have_a_condition() {
         );
     }
 }
+
+/// Held level, the platform of a 3-RPS turns about x or about y. About y both legs beside it are equally long, which
+/// they are not here: these solutions go to infinity, where a complex rotation grows without bound.
+#[test]
+fn solutions_that_a_held_angle_sends_to_infinity_are_decided_at_once() {
+    let platform = with("three_rps", &[]);
+    for (yaw, real, finite, infinite) in [("0 deg", 8, 32, 32), ("1 deg", 8, 64, 0)] {
+        let report = answer(&asked(&platform, &["l1"], &[("top.yaw", yaw)]), 1);
+        assert_eq!(report.real, real, "{yaw}");
+        let ends = report.complex + report.half_a_turn_away;
+        assert_eq!((ends, report.at_infinity), (finite, infinite), "{yaw}");
+        assert_eq!(report.retried, 0, "{yaw}");
+    }
+}
+
+/// With a narrow hand the solutions of free rods that turn it are thousands of lengths away, and poles on the way.
+#[test]
+fn solutions_that_pass_far_out_are_followed_to_where_they_end() {
+    let delta = with("delta", &[]);
+    for seed in [3, 53, 54] {
+        let level = answer(&asked(&delta, &[], &[]), seed);
+        let of = (level.generic, level.complex, level.at_infinity, level.real);
+        assert_eq!(of, (40, 28, 12, 16), "seed {seed}");
+        assert_eq!(level.conjugates, 0, "seed {seed}");
+        // at angles that are not equal fewer are as far out
+        let arms = [("theta1", "10 deg"), ("theta2", "-5 deg"), ("theta3", "20 deg")];
+        let askew = answer(&asked(&delta, &[], &arms), seed);
+        assert_eq!(askew.complex + askew.at_infinity, 40, "seed {seed}");
+        assert!(askew.at_infinity < 12 && askew.conjugates == 0, "seed {seed}");
+    }
+}

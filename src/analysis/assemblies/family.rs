@@ -54,6 +54,8 @@ pub(crate) struct Family {
     /// Lengths with factors among the parameters.
     lengths: Vec<Length>,
     pub home: Configuration<f64>,
+    /// Number of closure equations that do not vanish everywhere.
+    pub varying_equations: usize,
     /// The equations with these values, if all expressions have one.
     own: Option<System<C>>,
 }
@@ -115,11 +117,12 @@ impl Family {
             parameters: independent.into_iter().map(value).collect(),
             lengths: Vec::new(),
             home: mechanism.home(),
+            varying_equations: mechanism.equations_that_vary(),
             mechanism: mechanism.clone(),
             own: None,
         };
         let unknowns = System::new(mechanism.dimensions(), held).unknowns().len();
-        let is_square = unknowns == mechanism.equations_that_vary();
+        let is_square = unknowns == family.varying_equations;
         let is_rigid = || {
             let near = Mobility::near(mechanism, &family.home);
             near.is_some_and(|near| near.count() + near.idle() == 0)

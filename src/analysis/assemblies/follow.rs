@@ -112,9 +112,7 @@ pub(super) fn follow(
         ..Tracker::default().tightened(0.05)
     };
     let mut stages = Stages::new(c.count(), (watch, Progress::of(Stage::Paths)));
-    homotopy.stops_where_open = true;
     let track = tracker.track(&mut homotopy, whole, &mut x, &mut stages);
-    homotopy.stops_where_open = false;
     if watch.is_stopped() {
         return Err(AssembliesError::Interrupted);
     }

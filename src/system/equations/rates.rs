@@ -3,7 +3,7 @@
 use super::layout::HoldRow;
 use super::{System, Work};
 use crate::geometry::Rotation;
-use crate::linear::{CANCELLED, Factorable, Qr};
+use crate::linear::{CANCELLED, Factorable, Qr, RANK_TOLERANCE};
 use crate::mechanism::PoseCoordinate;
 use crate::mechanism::{Configuration, Side};
 use crate::number::Extent;
@@ -79,6 +79,31 @@ impl<T: Factorable> System<T> {
         self.step(work)
     }
 
+    /// Divides equations by the length of their row of the Jacobian where that exceeds 1, and writes these factors down:
+    /// beside long rows the pivots of others would seem lost.
+    pub fn shorten_rows(&self, work: &mut Work<T>, factors: &mut [f64]) {
+        let width = self.empty.shared().len().max(1);
+        let mut first = 0;
+        for b in 0..self.empty.blocks().len() {
+            let rows = self.empty.blocks()[b].block.rows;
+            let entries = work.jacobian.block_mut(b);
+            for r in 0..rows {
+                factors[first + r] = shorten(entries, r, rows);
+            }
+            first += rows;
+        }
+        for (row, factor_of) in work
+            .hold_rows
+            .chunks_exact_mut(width)
+            .zip(&mut factors[first..])
+        {
+            *factor_of = shorten(row, 0, 1);
+        }
+        for (row, factor) in work.residual.iter_mut().zip(factors) {
+            *row = row.scale(*factor);
+        }
+    }
+
     /// A column of the Jacobian last evaluated, over all rows.
     pub fn column_into(&self, unknown: usize, work: &Work<T>, out: &mut [T]) {
         out.fill(T::zero());
@@ -121,6 +146,15 @@ impl<T: Factorable> System<T> {
         Some(self.hold_rows().start + before.sum::<usize>())
     }
 
+    /// Factorises the Jacobian last evaluated where solutions are known to be isolated, however badly they are
+    /// determined: only pivots that rounding loses are.
+    pub fn factorise_isolated(&self, work: &mut Work<T>) {
+        const ROUNDING: f64 = 1e-13;
+        work.jacobian.trust(ROUNDING);
+        work.jacobian.factorise(&work.hold_rows, 0.0);
+        work.jacobian.trust(RANK_TOLERANCE);
+    }
+
     /// How many unknowns the factors last made leave undetermined.
     pub fn undetermined(&self, work: &Work<T>) -> usize {
         work.jacobian.nullity()
@@ -145,10 +179,10 @@ impl<T: Factorable> System<T> {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let mut dense = self.dense_jacobian(work);
         for r in 0..rows {
-            shorten(dense.iter_mut().skip(r).step_by(rows));
+            shorten(&mut dense, r, rows);
         }
         for column in dense.chunks_exact_mut(rows.max(1)) {
-            shorten(column.iter_mut());
+            shorten(column, 0, 1);
         }
         let pivots = pivots_of(rows, columns, &dense);
         match (columns, pivots.len()) {
@@ -177,12 +211,14 @@ fn pivots_of<T: Factorable>(rows: usize, columns: usize, dense: &[T]) -> Vec<f64
     (0..qr.rank()).map(size).collect()
 }
 
-/// Shortens a vector that is longer than 1.
-fn shorten<'a, T: Factorable>(vector: impl Iterator<Item = &'a mut T>) {
-    let mut entries: Vec<&mut T> = vector.collect();
-    let squares: f64 = entries.iter().map(|x| x.norm_squared().greatest()).sum();
-    if squares > 1.0 {
-        let factor = 1.0 / squares.sqrt();
-        entries.iter_mut().for_each(|x| **x = x.scale(factor));
+/// Shortens the vector of every so many of some entries if it is longer than 1, by the factor returned.
+fn shorten<T: Factorable>(entries: &mut [T], first: usize, step: usize) -> f64 {
+    let own = entries.iter().skip(first).step_by(step);
+    let squares: f64 = own.map(|x| x.norm_squared().greatest()).sum();
+    let factor = 1.0 / squares.max(1.0).sqrt();
+    if factor < 1.0 {
+        let own = entries.iter_mut().skip(first).step_by(step);
+        own.for_each(|x| *x = x.scale(factor));
     }
+    factor
 }

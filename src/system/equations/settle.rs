@@ -1,7 +1,7 @@
 //! Assembled configurations where the equations may lose rank.
 
 use super::{System, Work};
-use crate::linear::{SPECTRUM_LIMIT, norm};
+use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
 use crate::solve::{Equations, Newton, Report, Stop, deflating_step, step_off_saddle};
 
@@ -17,12 +17,21 @@ pub fn solve(
     /// What may be left then, which is of second order in the distance.
     const NEARLY: f64 = 1e-5;
     const SADDLE: f64 = 0.05;
+    /// How far from where Newton's method ends a saddle is.
+    const NEAR: f64 = 0.1;
     const REACH: f64 = 1e-3;
     /// A few for each part that is straight.
     const SADDLES: usize = 8;
     let mut trial = at.clone();
     let mut report = newton.solve(system, at, &mut trial, work);
     let dense = system.unknowns().len() <= SPECTRUM_LIMIT;
+    if report.stop == Stop::Solved && dense {
+        if let Some(level) = levelled(system, work, at, report.size.largest) {
+            *at = level;
+            report.size = system.linearise(at, work);
+        }
+        return report;
+    }
     let mut found = None;
     for _ in 0..SADDLES {
         if report.stop == Stop::Solved || report.size.largest >= SADDLE || !dense {
@@ -34,6 +43,10 @@ pub fn solve(
         let left = system.linearise(&level, work).largest;
         if left <= newton.tolerance {
             found = Some(level);
+            break;
+        }
+        // a saddle is where it was
+        if norm(&system.difference(at, &level)) > NEAR {
             break;
         }
         let lost = lost(left);
@@ -98,6 +111,26 @@ fn linearised<'a>(
     }
 }
 
+/// The configuration where slopes vanish beside an assembled one where they nearly do, if rounding does not tell these
+/// from one another by what is `left` of the equations.
+fn levelled(
+    system: &System<f64>,
+    work: &mut Work<f64>,
+    at: &Configuration<f64>,
+    left: f64,
+) -> Option<Configuration<f64>> {
+    /// Slopes that are left where what is left of the equations is within Newton's tolerance.
+    const NEARLY: f64 = 1e-5;
+    const ROUNDING: f64 = 1e-15;
+    let lost = |tolerance| system.nullity(tolerance, work);
+    if lost(NEARLY) == lost(RANK_TOLERANCE) {
+        return None;
+    }
+    let level = level(system, work, at.clone())?;
+    let near = norm(&system.difference(at, &level)) <= NEARLY;
+    (near && system.linearise(&level, work).largest <= left.max(ROUNDING)).then_some(level)
+}
+
 /// The configuration beside a point where the slopes vanish that nearly do there, and of the equations no
 /// more is left than what they do not see.
 fn level(
@@ -105,21 +138,31 @@ fn level(
     work: &mut Work<f64>,
     mut at: Configuration<f64>,
 ) -> Option<Configuration<f64>> {
-    const STEPS: usize = 8;
-    const REACH: f64 = 0.05;
+    const STEPS: usize = 30;
+    /// Longer steps must lower what is left.
+    const LONG: f64 = 0.05;
+    const LONGEST: f64 = 0.3;
+    let mut before = f64::INFINITY;
+    let mut last = f64::INFINITY;
     for _ in 0..STEPS {
-        let lost = lost(system.linearise(&at, work).largest);
-        let step = deflating_step(system.unknowns().len(), lost, linearised(system, work, &at))?;
-        let length = norm(&step);
-        if length > REACH {
+        let left = system.linearise(&at, work).largest;
+        let lost = lost(left);
+        let mut step =
+            deflating_step(system.unknowns().len(), lost, linearised(system, work, &at))?;
+        last = norm(&step);
+        if last > LONG && left > 0.9 * before {
             return None;
         }
+        before = left;
+        if last > LONGEST {
+            step.iter_mut().for_each(|x| *x *= LONGEST / last);
+        }
         at = system.displaced(&at, &step);
-        if length < 1e-15 {
+        if last < 1e-9 {
             break;
         }
     }
-    Some(at)
+    (last <= LONG).then_some(at)
 }
 
 /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to

@@ -2,7 +2,7 @@
 
 use super::Question;
 use crate::description::Role;
-use crate::geometry::Vector3;
+use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{Coordinate, Held, Mobility, Neighbourhood, Spin, System, Unknown};
 
@@ -133,12 +133,27 @@ fn platforms(
         let line = line
             .times(1.0 / line.norm())
             .map(|x| (x * 1e9).round() * 1e-9);
+        let line = line.times(1.0 / line.norm());
         let home = mechanism.home().platforms[platform].orientation;
-        let spin = Spin::about(&line.times(1.0 / line.norm()), platform, &home);
+        let [x, y, z] = line.0;
+        let half_turned = home.then_left(&Quaternion([0.0, x, y, z]));
+        let [spin, other] = [home, half_turned].map(|home| Spin::about(&line, platform, &home));
+        // half a turn from where it vanishes the condition hardly changes with the spin
+        let changes = |spin: &Spin| {
+            let (_, slope) = spin.row(&at.platforms[platform].orientation);
+            omega.dot(&Vector3(slope)).abs() / omega.norm()
+        };
+        let spin = match changes(&spin) < SLOW && changes(&other) > changes(&spin) {
+            true => other,
+            false => spin,
+        };
         (omega.norm() >= LEAST).then_some(Still::Platform(spin))
     });
     spins.collect()
 }
+
+/// The condition of a spin that changes more slowly, of 1 at most, is taken for another one.
+const SLOW: f64 = 0.3;
 
 /// A coordinate that changes less in a motion of unit norm cannot stand for that motion.
 const LEAST: f64 = 0.1;

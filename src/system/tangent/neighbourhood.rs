@@ -6,7 +6,7 @@ mod lasting;
 use super::STILL;
 use super::twists::FrameTwists;
 use crate::description::Role;
-use crate::linear::{Decomposition, complement, orthonormal, rank_of};
+use crate::linear::{Decomposition, Svd, complement, independent, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::equations::solve;
@@ -109,6 +109,35 @@ impl<'a> Neighbourhood<'a> {
         }
         let jacobian = self.system.dense_jacobian(&self.work);
         rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
+    }
+
+    /// Whether the equations of an independent part of the mechanism that do not vanish everywhere are independent at a
+    /// configuration: then its motions there are finite.
+    pub fn is_regular(&mut self, at: &Configuration<f64>, own: &[bool]) -> bool {
+        let left = self.system.linearise(at, &mut self.work).largest;
+        let jacobian = self.system.dense_jacobian(&self.work);
+        let (all, columns) = (self.system.rows(), own.len());
+        let entry = |row: usize, column: usize| jacobian[column * all + row];
+        let closures = (self.system.closure_rows()).zip(self.mechanism.rows_that_vary());
+        let varying = closures.flat_map(|(rows, kept)| {
+            let rows = rows.zip(kept).filter(|(_, kept)| **kept);
+            rows.map(|(row, _)| row)
+        });
+        let varying: Vec<usize> = varying.chain(self.system.hold_rows()).collect();
+        // a row without slope belongs to no part
+        let is_flat = |row: &usize| (0..columns).all(|k| entry(*row, k) == 0.0);
+        if varying.iter().any(is_flat) {
+            return false;
+        }
+        let own: Vec<usize> = (0..columns).filter(|&k| own[k]).collect();
+        let touches = |row: &usize| own.iter().any(|&k| entry(*row, k) != 0.0);
+        let rows: Vec<usize> = varying.into_iter().filter(touches).collect();
+        let entries: Vec<f64> = (own.iter())
+            .flat_map(|&k| rows.iter().map(move |&row| (row, k)))
+            .map(|(row, k)| entry(row, k))
+            .collect();
+        let svd = Svd::of(rows.len(), own.len(), &entries);
+        independent(rows.len(), &svd.values, left)
     }
 
     /// The wrenches of every closure's rows at a configuration.

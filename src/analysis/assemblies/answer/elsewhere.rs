@@ -12,7 +12,7 @@ use crate::analysis::assemblies::track::{Local, ParameterHomotopy};
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::{Homotopy, Newton};
-use crate::system::{Cone, Neighbourhood};
+use crate::system::{Cone, Neighbourhood, independent_parts};
 
 /// Starts from which what no path leads to is sought at every question, and where there is a reason
 /// to expect it.
@@ -85,9 +85,16 @@ impl Question<'_> {
             return None;
         }
         let rng = &mut Pcg64Mcg::seed_from_u64(1);
-        let cone = Cone::of(&mut near, &tangent);
-        let set = cone.set(&mut near, &tangent, STEP, rng)?;
-        Some(set.motions.len())
+        let parts = independent_parts(self.mechanism, near.system().unknowns());
+        let dimensions = parts.iter().map(|own| {
+            let part = tangent.clone().within(own);
+            if part.motions.is_empty() || near.is_regular(&part.at, own) {
+                return Some(part.motions.len());
+            }
+            let cone = Cone::of(&mut near, &part);
+            Some(cone.set(&mut near, &part, STEP, rng)?.motions.len())
+        });
+        dimensions.sum()
     }
 
     /// Adds solved points: by themselves, or as samples of a set.
@@ -116,12 +123,20 @@ impl Question<'_> {
                 continue;
             }
             let mut local = Local::new(homotopy, true);
-            let order_of = local.order(&x);
+            let regular = local.regular(&x);
+            let order_of = regular.map_or_else(|| local.order(&x), |_| 1);
             let spanned = local.dimension(&x);
-            let (x, dimension) = match order_of {
-                1 => (x, 0),
-                _ => {
+            let (x, dimension) = match (regular, order_of) {
+                (Some(dimension), _) => (x, dimension),
+                (None, 1) => (x, 0),
+                (None, _) => {
                     let refined = local.refined(&x);
+                    // beside solutions that nearly meet it leads to where they would
+                    let most = homotopy.residual(END, &x).max(ROUNDING * (1.0 + size(&x)));
+                    let refined = match homotopy.residual(END, &refined) <= most {
+                        true => refined,
+                        false => x.clone(),
+                    };
                     match self.touching(&refined, spanned) {
                         Some(dimension) => (refined, dimension),
                         None if spanned == 0 => (refined, 0),

@@ -14,7 +14,7 @@ impl Family {
         let rows = vec![C::from_f64(0.0); here.system.rows()];
         Some(ParameterHomotopy {
             family: self,
-            stops_where_open: false,
+            factors: vec![1.0; rows.len()],
             rates: rows.clone(),
             residual: rows,
             here,
@@ -28,15 +28,14 @@ impl Family {
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterHomotopy<'f> {
     pub family: &'f Family,
-    /// Whether corrections fail where the closures stay open. Beyond a fold nothing closes, but where
-    /// the Jacobian is singular the least-squares step takes no notice of the gap that is left.
-    pub stops_where_open: bool,
     /// Where the equations were last evaluated.
     pub here: MemberEquations,
     /// A little ahead of it, for ∂h/∂s.
     ahead: Option<Box<MemberEquations>>,
     rates: Vec<C>,
     residual: Vec<C>,
+    /// By what the equations last factorised were multiplied.
+    factors: Vec<f64>,
     course: Segment,
 }
 
@@ -47,11 +46,25 @@ impl ParameterHomotopy<'_> {
     }
 
     /// Evaluates and factorises at a point; returns the largest residual.
+    ///
+    /// Complex rotations and positions have no bound, and rows grow with them: they are made no longer than 1.
     pub fn linearise(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
         let largest = self.here.linearise();
-        self.here.system.factorise(0.0, &mut self.here.work);
+        let here = &mut self.here;
+        (self.residual).copy_from_slice(here.system.residual_of(&here.work));
+        here.system.shorten_rows(&mut here.work, &mut self.factors);
+        // a solution far out may be simple although its pivots differ by the square of its size
+        here.system.factorise_isolated(&mut here.work);
         largest
+    }
+
+    /// The step −J⁺r for a residual r and the factors last made.
+    fn step_for(&mut self, residual: &mut [C]) -> f64 {
+        for (row, factor) in residual.iter_mut().zip(&self.factors) {
+            *row *= *factor;
+        }
+        self.here.system.step_for(residual, &mut self.here.work)
     }
 
     /// Quotient of the smallest and the largest pivot of the Jacobian at a point, or the smallest where none reaches 1: all
@@ -98,6 +111,11 @@ impl ParameterHomotopy<'_> {
     /// Number of dimensionless steps that move a point.
     pub fn unknowns(&self) -> usize {
         self.here.system.unknowns().len()
+    }
+
+    /// Number of equations that do not vanish everywhere.
+    pub fn varying_rows(&self) -> usize {
+        self.family.varying_equations + self.here.system.hold_rows().len()
     }
 
     /// Residual and dense Jacobian at a point, column-major.
@@ -147,7 +165,7 @@ impl ParameterHomotopy<'_> {
     pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
         let (residual, jacobian) = self.evaluated(s, x);
         let rows = residual.len();
-        let error: Vec<C> = (0..rows)
+        let mut error: Vec<C> = (0..rows)
             .map(|r| {
                 let slopes = jacobian
                     .chunks_exact(rows)
@@ -165,7 +183,7 @@ impl ParameterHomotopy<'_> {
         if self.here.system.undetermined(&self.here.work) > 0 {
             return None;
         }
-        let longest = self.here.system.step_for(&error, &mut self.here.work);
+        let longest = self.step_for(&mut error);
         let step = self.here.system.step_of(&self.here.work).to_vec();
         longest.is_finite().then(|| self.moved(s, x, &step))
     }
@@ -183,12 +201,11 @@ impl ParameterHomotopy<'_> {
         self.here.system.nullity(tolerance, &self.here.work)
     }
 
-    /// dx/ds = −J⁺ ∂h/∂s by the factors last made and the residual last evaluated. A forward difference
+    /// dx/ds = −J⁺ ∂h/∂s by the factors last made and the residual last noted. A forward difference
     /// over 1e-7 is good enough for a prediction.
     fn velocity_from_residual(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
         const APART: f64 = 1e-7;
-        let here = &mut self.here;
-        (self.residual).copy_from_slice(here.system.residual_of(&here.work));
+        let here = &self.here;
         let ahead = self.ahead.get_or_insert_with(|| Box::new(here.clone()));
         ahead.go(self.family, &self.course, s + APART);
         self.family.coordinates.unflatten(x, &mut ahead.at);
@@ -197,8 +214,11 @@ impl ParameterHomotopy<'_> {
         for ((rate, after), before) in self.rates.iter_mut().zip(after).zip(&self.residual) {
             *rate = (after - before) / APART;
         }
-        let longest = here.system.step_for(&self.rates, &mut here.work);
-        if !longest.is_finite() || !ahead.sound {
+        let sound = ahead.sound;
+        let mut rates = std::mem::take(&mut self.rates);
+        let longest = self.step_for(&mut rates);
+        self.rates = rates;
+        if !longest.is_finite() || !sound {
             return false;
         }
         let step = self.here.system.step_of(&self.here.work);
@@ -232,20 +252,25 @@ impl Homotopy for ParameterHomotopy<'_> {
 
     fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
         self.load(s, x);
-        self.here.residual();
-        self.here.sound && self.velocity_from_residual(s, x, out)
+        let here = &mut self.here;
+        here.residual();
+        (self.residual).copy_from_slice(here.system.residual_of(&here.work));
+        here.sound && self.velocity_from_residual(s, x, out)
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
-        /// A gap is that much larger than a step that leaves it open; slopes are near 1.
+        /// A gap is that much larger than a step that leaves it open; slopes are 1 at most.
         const UNSEEN: f64 = 1e3;
         /// What rounding leaves of a gap.
         const ROUNDING: f64 = 1e-10;
         let gap = self.linearise(s, x);
+        let reach = 1.0 + size(x);
         // an angle so far out that its sine has no number gives no pivots, and steps of zero
         if !gap.is_finite() {
             return f64::NAN;
         }
+        let shortened = self.residual.iter().zip(&self.factors);
+        let gap = shortened.fold(0.0f64, |most, (row, factor)| most.max(row.norm() * factor));
         let longest = self.here.system.step(&mut self.here.work);
         if !longest.is_finite() || !self.here.sound {
             return f64::NAN;
@@ -282,7 +307,8 @@ impl Homotopy for ParameterHomotopy<'_> {
             largest = largest.max(moved / size);
         }
         let step = largest.sqrt();
-        match self.stops_where_open && gap > ROUNDING && gap > UNSEEN * step {
+        // where the Jacobian is singular the least-squares step takes no notice of the gap that is left
+        match gap > ROUNDING * reach && gap > UNSEEN * step * reach {
             true => f64::NAN,
             false => step,
         }

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
-use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd};
+use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, independent};
 use crate::number::Number;
 use crate::solve::deflating_step;
 
@@ -76,8 +76,20 @@ impl<'a, 'f> Local<'a, 'f> {
         Local { homotopy, real }
     }
 
+    /// The dimension of the set of solutions through one where the equations are independent: as many as there are
+    /// more unknowns than equations (implicit functions). `None` where they are not.
+    pub fn regular(&mut self, x: &[C]) -> Option<usize> {
+        let linear = self.linear(x);
+        let rows = self.homotopy.varying_rows() * self.parts();
+        let regular = independent(rows, &linear.values, linear.residual.amax());
+        regular.then(|| (self.columns() - rows) / self.parts())
+    }
+
     /// The dimension of the set of solutions through a solution: 0 if it is isolated.
     pub fn dimension(&mut self, x: &[C]) -> usize {
+        if let Some(dimension) = self.regular(x) {
+            return dimension;
+        }
         let linear = self.linear(x);
         if self.freedom(&linear, SUSPECT) == 0 {
             return 0;
@@ -234,7 +246,12 @@ impl<'a, 'f> Local<'a, 'f> {
 
     /// Number of real unknowns.
     fn columns(&self) -> usize {
-        self.homotopy.unknowns() * if self.real { 1 } else { 2 }
+        self.homotopy.unknowns() * self.parts()
+    }
+
+    /// Real numbers of an unknown or an equation.
+    fn parts(&self) -> usize {
+        if self.real { 1 } else { 2 }
     }
 
     fn gap(&self, x: &[C], y: &[C]) -> f64 {

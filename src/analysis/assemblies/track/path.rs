@@ -39,6 +39,8 @@ impl End {
 const ROUNDING: f64 = 1e-15;
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
+/// How far to the side of the real way what is far out on it is passed.
+const ASIDE: f64 = 0.4;
 /// Segments longer than this, in rad or characteristic lengths, are tracked in parts.
 const LONG: f64 = 10.0;
 
@@ -82,6 +84,7 @@ pub(crate) fn follow(
     if bend != 0.0 {
         corners.extend([C::new(0.3, bend), C::new(0.8, bend)]);
     }
+    let corners_passed = corners.len();
     for corner in corners {
         if arrival == Arrival::There {
             arrival = leg(homotopy, &mut x, &mut stages, from_here, corner);
@@ -106,7 +109,21 @@ pub(crate) fn follow(
         // not regular: Cauchy endgame
         let mut x = corner;
         let short = C::from_f64(1.0 - NEAR_END);
-        match leg(homotopy, &mut x, &mut stages, from_here, short) {
+        let mut reached = leg(homotopy, &mut x, &mut stages, from_here, short);
+        // far out on its way is not far out at its end: past what is in the way, on either side
+        let may_return = matches!(reached, Arrival::Diverged(_)) && corners_passed == 0;
+        for side in [ASIDE, -ASIDE] {
+            if may_return && reached != Arrival::There {
+                x = from.to_vec();
+                let way = [start, C::new(0.3, side), C::new(0.8, side), short];
+                let mut arrivals = (way.windows(2))
+                    .map(|part| leg(homotopy, &mut x, &mut stages, part[0], part[1]));
+                if arrivals.all(|arrival| arrival == Arrival::There) {
+                    reached = Arrival::There;
+                }
+            }
+        }
+        match reached {
             Arrival::There => go_round(homotopy, tracker, far, &x, &mut stages),
             Arrival::Diverged(_) => End::Infinite,
             Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => End::Infinite,
