@@ -292,6 +292,7 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
+            lost_in_loops: generic.lost_in_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,
             ..AssembliesReport::default()
