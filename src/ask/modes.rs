@@ -193,22 +193,7 @@ impl Question {
     ) -> Result<AssembliesReport, AskError> {
         let (start, held) = (question.start(), question.held());
         let solver = self.solver(question, watch)?;
-        let report = solver.at_targets(&start, &held, wanted, watch);
-        if report.missed() == 0 || watch.is_stopped() {
-            return Ok(report);
-        }
-        // paths from another generic member arrive from other sides, and most are not lost twice
-        let other = Question {
-            seed: self.seed.wrapping_add(1),
-            store: None,
-            ..self.clone()
-        };
-        let solver = other.solver(question, watch)?;
-        let again = solver.at_targets(&start, &held, wanted, watch);
-        Ok(match again.missed() < report.missed() {
-            true => again,
-            false => report,
-        })
+        Ok(solver.at_targets(&start, &held, wanted, watch))
     }
 
     /// The solver for what is held, from the store if that has it.

@@ -256,7 +256,11 @@ fn searched(report: &AssembliesReport) -> String {
                 .into();
         }
     }
-    let mut quiet = format!("{} without a lost path", count(report.quiet_loops, "loop"));
+    let loops = count(report.quiet_loops, "loop");
+    let mut quiet = match report.lost_in_loops {
+        0 => format!("{loops} without a lost path"),
+        n => format!("{loops}, each with {} at most,", count(n, "lost path")),
+    };
     if report.quiet_seeds > 0 {
         quiet += &format!(" and {}", count(report.quiet_seeds, "seed"));
     }
@@ -280,6 +284,9 @@ fn searched(report: &AssembliesReport) -> String {
         parts.push(format!(
             "the trace test holds: no loop of {moved} leads from these to others"
         ));
+    }
+    if report.lost_in_loops > 0 {
+        parts.push("solutions whose paths every loop lost may be missing".into());
     }
     if report.exhausted {
         parts.push("the search ended at its limits and there may be more".into());

@@ -177,7 +177,7 @@ fn where_nearly_every_seed_gives_a_new_solution_the_family_has_a_dimension() {
 
 #[test]
 fn an_interrupted_search_lists_the_assembly_that_is_drawn() {
-    // of an H4, whose complex solutions are found by the thousand: one of its real ones is the home position
+    // of an H4 with hundreds of complex solutions: one of its real ones is the home position
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/axes/h4.ron");
     let calls = AtomicUsize::new(0);
     let few = |_: Progress| match calls.fetch_add(1, Ordering::Relaxed) < 5 {

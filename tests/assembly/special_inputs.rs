@@ -727,9 +727,16 @@ fn solutions_that_pass_far_out_are_followed_to_where_they_end() {
         assert_eq!(of, (40, 28, 12, 16), "seed {seed}");
         assert_eq!(level.conjugates, 0, "seed {seed}");
         // at angles that are not equal fewer are as far out
-        let arms = [("theta1", "10 deg"), ("theta2", "-5 deg"), ("theta3", "20 deg")];
+        let arms = [
+            ("theta1", "10 deg"),
+            ("theta2", "-5 deg"),
+            ("theta3", "20 deg"),
+        ];
         let askew = answer(&asked(&delta, &[], &arms), seed);
         assert_eq!(askew.complex + askew.at_infinity, 40, "seed {seed}");
-        assert!(askew.at_infinity < 12 && askew.conjugates == 0, "seed {seed}");
+        assert!(
+            askew.at_infinity < 12 && askew.conjugates == 0,
+            "seed {seed}"
+        );
     }
 }

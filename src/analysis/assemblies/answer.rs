@@ -298,6 +298,7 @@ impl Question<'_> {
                 true => Traced::Parameters,
                 false => Traced::Inputs,
             }),
+            lost_in_loops: generic.lost_in_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,
             ..AssembliesReport::default()

@@ -227,8 +227,11 @@ pub struct AssembliesReport {
     pub quiet_seeds: usize,
     /// Monodromy loops at the generic member.
     pub loops: usize,
-    /// Loops since the last discovery in which no path was lost.
+    /// Loops since the last discovery in which no path was lost, or of hundreds few.
     pub quiet_loops: usize,
+    /// The most paths lost in one of them. Anything but 0 means that a solution may be missing that each of them lost.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub lost_in_loops: usize,
     /// Whether the search ended at its limits and not because nothing more was found.
     pub exhausted: bool,
     /// The random seed.
@@ -318,7 +321,7 @@ pub struct ComplexAssembly {
     pub condition: Option<f64>,
 }
 
-fn is_zero(count: &usize) -> bool {
+pub(super) fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
@@ -331,14 +334,10 @@ impl AssembliesReport {
             _ => {}
         }
         // with a freedom left, multiple solutions are where the sets of solutions cross
-        let multiple = self.fit == Fit::Finite && self.multiple > 0;
+        let incomplete = self.multiple > 0 || self.lost_in_loops > 0 || self.exhausted;
+        let doubted = self.fit == Fit::Finite && incomplete;
+        let missed = self.lost + self.unexpected + self.conjugates > 0;
         let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
-        self.interrupted || !listed || multiple || self.missed() > 0
-    }
-
-    /// How many solutions are known to be missing, or ends of paths undecided; one more if the search ended at its limits.
-    pub(crate) fn missed(&self) -> usize {
-        let exhausted = self.exhausted && self.fit == Fit::Finite;
-        self.lost + self.unexpected + self.conjugates + usize::from(exhausted)
+        self.interrupted || !listed || doubted || missed
     }
 }

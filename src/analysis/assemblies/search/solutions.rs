@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count};
+use crate::analysis::assemblies::report::is_zero;
 
 /// All solutions of a generic member, kept to be tracked to any inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,11 +29,14 @@ pub struct GenericSolutions {
     pub loops: usize,
     /// Seeds since the last discovery.
     pub quiet_seeds: usize,
-    /// Loops since the last discovery in which no path was lost.
+    /// Loops since the last discovery in which no path was lost, or of hundreds few.
     pub quiet_loops: usize,
     /// Whether the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub traced: bool,
+    /// The most paths lost in one of them.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub lost_in_loops: usize,
     /// Whether every seed led to another solution: they are not finite in number, and none is kept.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub endless: bool,
