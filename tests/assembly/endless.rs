@@ -10,6 +10,7 @@ use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::Report;
+use linkwork::output::assemblies::completeness;
 use linkwork::solve::{Progress, Watch};
 
 /// A five-bar whose cranks are geared with a ratio; a point of it is held instead of the crank.
@@ -195,4 +196,31 @@ fn an_interrupted_search_lists_the_assembly_that_is_drawn() {
     for (a, b) in found.platforms.iter().zip(&home.platforms) {
         assert!((a.position - b.position).norm() < 1e-9);
     }
+}
+
+#[test]
+#[ignore = "a minute on two cores without debug assertions"]
+fn a_search_whose_every_loop_loses_a_few_of_hundreds_of_paths_ends_and_says_so() {
+    let load = |name: &str| {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let question = Question::new(Mechanism::load(format!("{folder}/{name}.ron")).unwrap());
+        question
+            .assemblies(Wanted::default(), &Watch::none())
+            .unwrap()
+    };
+    let report = load("axes/h4");
+    assert_eq!((report.fit.clone(), report.exhausted), (Fit::Finite, false));
+    assert!(
+        report.generic > 800 && report.loops < 60,
+        "{}",
+        report.loops
+    );
+    assert_eq!(report.real, 62);
+    assert!(report.lost_in_loops > 0 && report.may_lack_some());
+    let said = completeness(&report);
+    assert!(said.contains("each with") && said.contains("lost paths at most"));
+    // of few paths none may be lost
+    let report = load("stewart_gough_6sps");
+    assert!(report.lost_in_loops == 0 && !report.may_lack_some());
+    assert!(completeness(&report).contains("without a lost path"));
 }

@@ -451,16 +451,17 @@ impl Search<'_> {
         let Some(mut still) = self.family.homotopy(&self.base, &self.base) else {
             return;
         };
-        let (all, lost) = (points.len(), points.iter().filter(|x| x.is_none()).count());
-        let mut whole = lost == 0 || all >= DOUBTFUL && lost <= all / FEW;
+        let all = points.len();
+        let mut lost = points.iter().filter(|x| x.is_none()).count();
         let mut new = false;
         for x in points.into_iter().flatten() {
             match stands_alone(&mut still, C::from_f64(0.0), &x) {
                 true => new |= learn(&mut self.found.legwise, coordinates, &x),
                 // other dimensions may have solutions that meet, or go away, at the mechanism's own
-                false => whole &= resize,
+                false => lost += usize::from(!resize),
             }
         }
+        let whole = lost == 0 || all >= DOUBTFUL && lost <= all / FEW;
         match (new, whole) {
             (true, _) => self.found.quiet_loops = 0,
             (false, true) => {
