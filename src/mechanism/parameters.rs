@@ -60,8 +60,9 @@ impl Mechanism {
     ///
     /// # Errors
     /// If something has no value there, lower and upper limits are reversed, or an axis of joint coordinates has no direction.
-    pub fn with_values(&self, given: &[(usize, f64)]) -> Result<Mechanism, Problem> {
-        let no_value = |error: EvaluationError| ProblemKind::NoValue(error.kind).at(error.span);
+    pub fn with_values(&self, given: &[(usize, f64)]) -> Result<Mechanism, Box<Problem>> {
+        let no_value =
+            |error: EvaluationError| Box::new(ProblemKind::NoValue(error.kind).at(error.span));
         let mut changed = self.clone();
         for &(parameter, value) in given {
             let definition = &mut changed.parameters[parameter].definition;
@@ -72,7 +73,7 @@ impl Mechanism {
                 false => Some(EvaluationErrorKind::NotFinite),
             };
             if let Some(kind) = kind {
-                return Err(ProblemKind::NoValue(kind).at(span));
+                return Err(Box::new(ProblemKind::NoValue(kind).at(span)));
             }
             *definition = Formula::number(value);
             definition.span = span;
@@ -93,7 +94,7 @@ impl Mechanism {
                         low: l,
                         high: h,
                     };
-                    return Err(kind.at(low.span.start..high.span.end));
+                    return Err(Box::new(kind.at(low.span.start..high.span.end)));
                 }
                 joint.limits = Some((l, h));
             }
@@ -102,13 +103,13 @@ impl Mechanism {
             platform.home = product(home, &values).map_err(no_value)?;
         }
         if let Some(fault) = changed.fault_of_axes() {
-            return Err(fault);
+            return Err(Box::new(fault));
         }
         for closure in self.closures.iter() {
             if let Some(length) = closure.length.as_ref().filter(|of| of.is_constant())
                 && let Some(fault) = fault_of_length(&closure.name, of(&length.constant)?)
             {
-                return Err(fault.at(length.constant.span.clone()));
+                return Err(Box::new(fault.at(length.constant.span.clone())));
             }
         }
         let dimensions = changed.dimensions_over(&values).map_err(no_value)?;

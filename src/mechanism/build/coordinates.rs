@@ -60,7 +60,7 @@ fn fault(
     joint: &str,
     kind: AxisKind,
     place: &AxisPlace,
-    vector: &mut dyn FnMut(&[Entry; 3], Measure) -> Option<Vector3<f64>>,
+    mut vector: impl FnMut(&[Entry; 3], Measure) -> Option<Vector3<f64>>,
 ) -> Option<Problem> {
     let span = |entries: &[Entry; 3]| entries[0].span.start..entries[2].span.end;
     let (ends, span) = match place {
