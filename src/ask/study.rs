@@ -253,7 +253,8 @@ impl Study {
         }
     }
 
-    /// What the columns are, and whether links spin about their own lines. Dimensions decide neither.
+    /// What the columns are, and whether links spin about their own lines. Both, and whether what is held fits the
+    /// freedoms, are decided once, with the dimensions of the file: they change at special dimensions only.
     fn named(&self) -> Result<(Vec<Variable>, bool), AskError> {
         let mechanism = self.question.mechanism();
         let mut columns = vec![Variable::plain("row")];

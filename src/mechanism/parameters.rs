@@ -54,12 +54,16 @@ impl Mechanism {
         Ok(values.into_iter().map(|v| v.unwrap_or(T::zero())).collect())
     }
 
-    /// The same mechanism with other values of some parameters, by their indices, in m or rad: what depends on them, homes
-    /// and limits too, has the value of its definition there. Nothing is read or resolved again; the warnings are those of
-    /// the file.
+    /// The same mechanism with other values of some parameters, by their indices, in m or rad or without unit: what depends
+    /// on them, homes and limits too, has the value of its definition there. Nothing is read or resolved again; the
+    /// warnings are those of the file.
     ///
     /// # Errors
-    /// If something has no value there, lower and upper limits are reversed, or an axis of joint coordinates has no direction.
+    /// If something has no value there, limits are reversed, a rod has no length, or an axis of joint coordinates has no
+    /// direction.
+    ///
+    /// # Panics
+    /// If there is no parameter of an index.
     pub fn with_values(&self, given: &[(usize, f64)]) -> Result<Mechanism, Box<Problem>> {
         let no_value =
             |error: EvaluationError| Box::new(ProblemKind::NoValue(error.kind).at(error.span));

@@ -19,8 +19,7 @@ fn shipped(name: &str) -> Mechanism {
 
 /// Structures for which no bound is known; their counts are those of the cranks, hands and linkages they are made of: a
 /// four-bar closes in two ways (Freudenstein 1955), whatever bodies it is written with, a five-bar with two cranks held
-/// too, and a plate on three cranks that
-/// are equal and parallel in one (`mechanisms/three_parallel_cranks.ron`).
+/// too, and a plate on three equal, parallel cranks in one (`mechanisms/three_parallel_cranks.ron`).
 #[test]
 fn loops_end_where_the_trace_test_holds() {
     for (name, count) in [

@@ -109,14 +109,14 @@ pub enum Fit {
     AlwaysMultiple,
 }
 
-/// What leads from the generic solutions to no others, by the trace test of Leykin, Rodriguez and Sottile 2018: in double
-/// precision, and for those solutions only that are connected with these at all.
+/// Through which complex values no loop leads from the generic solutions to others, by the trace test of Leykin, Rodriguez
+/// and Sottile 2018 in double precision. Solutions that no such loop reaches may exist beside them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Traced {
-    /// No loop of the inputs through complex values.
+    /// Those of the inputs.
     Inputs,
-    /// No loop of the parameters through complex values; there are no inputs.
+    /// Those of the parameters, where there are no inputs.
     Parameters,
 }
 
@@ -215,8 +215,8 @@ pub struct AssembliesReport {
     pub bound: Option<usize>,
     /// Which structure that is, and where the bound is shown.
     pub bound_source: Option<String>,
-    /// What the trace test holds for, if it does. It is asked where the solutions reach no known bound and it costs no
-    /// more than the loops that it saves.
+    /// Whether the trace test holds, and for what. It is run where no known bound is reached, and given up where it would
+    /// take more paths than the loops that it saves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub traced: Option<Traced>,
     /// How the question fits the mechanism.
@@ -227,9 +227,9 @@ pub struct AssembliesReport {
     pub quiet_seeds: usize,
     /// Monodromy loops at the generic member.
     pub loops: usize,
-    /// Loops since the last discovery in which no path was lost, or of hundreds few.
+    /// Loops since the last discovery in which no path was lost, or of 200 and more at most a quarter.
     pub quiet_loops: usize,
-    /// The most paths lost in one of them. Anything but 0 means that a solution may be missing that each of them lost.
+    /// The most paths lost in one of them. If it is not 0, a solution whose path each of them lost may be missing.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub lost_in_loops: usize,
     /// Whether the search ended at its limits and not because nothing more was found.

@@ -9,7 +9,7 @@
 //! If a component is known in part, a random element of its monodromy group keeps the known solutions
 //! among themselves with probability ½ at most (those that do are a proper subgroup). A loop that lost
 //! a path does not count, unless there are hundreds: some of so many pass where double precision fails. Where the trace
-//! test shows that no loop can find more, the search does not wait for that.
+//! test holds, fewer loops are enough.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -128,11 +128,11 @@ const HOPELESS: usize = 600;
 /// loops that are studied have.
 const DOUBTFUL: usize = 200;
 
-/// So many loops to one through other dimensions.
+/// One of so many loops goes through other dimensions.
 const RESIZED: usize = 6;
 
-/// Of so many paths one may be lost in a loop that counts.
-const FEW: usize = 4;
+/// Of hundreds of paths one in so many may be lost in a loop that counts.
+const LOST_ONE_IN: usize = 4;
 
 impl Search<'_> {
     /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
@@ -307,12 +307,12 @@ impl Search<'_> {
         new
     }
 
-    /// Asks the trace test where loops begin to bring nothing new.
+    /// Runs the trace test where loops begin to bring nothing new.
     fn trace(&mut self) {
-        const ASKED: usize = 3;
+        const QUIET: usize = 3;
         const MOST: usize = 300;
         let count = self.found.count();
-        if self.found.quiet_loops == ASKED
+        if self.found.quiet_loops == QUIET
             && self.traced != Some(count)
             && self.bound != Some(count)
             && count <= MOST
@@ -461,7 +461,7 @@ impl Search<'_> {
                 false => lost += usize::from(!resize),
             }
         }
-        let whole = lost == 0 || all >= DOUBTFUL && lost <= all / FEW;
+        let whole = lost == 0 || all >= DOUBTFUL && lost <= all / LOST_ONE_IN;
         match (new, whole) {
             (true, _) => self.found.quiet_loops = 0,
             (false, true) => {

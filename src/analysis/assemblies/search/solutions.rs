@@ -29,7 +29,7 @@ pub struct GenericSolutions {
     pub loops: usize,
     /// Seeds since the last discovery.
     pub quiet_seeds: usize,
-    /// Loops since the last discovery in which no path was lost, or of hundreds few.
+    /// Loops since the last discovery in which no path was lost, or of 200 and more at most a quarter.
     pub quiet_loops: usize,
     /// Whether the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

@@ -84,7 +84,7 @@ pub(crate) fn follow(
     if bend != 0.0 {
         corners.extend([C::new(0.3, bend), C::new(0.8, bend)]);
     }
-    let corners_passed = corners.len();
+    let straight = corners.is_empty();
     for corner in corners {
         if arrival == Arrival::There {
             arrival = leg(homotopy, &mut x, &mut stages, from_here, corner);
@@ -111,7 +111,7 @@ pub(crate) fn follow(
         let short = C::from_f64(1.0 - NEAR_END);
         let mut reached = leg(homotopy, &mut x, &mut stages, from_here, short);
         // far out on its way is not far out at its end: past what is in the way, on either side
-        let may_return = matches!(reached, Arrival::Diverged(_)) && corners_passed == 0;
+        let may_return = matches!(reached, Arrival::Diverged(_)) && straight;
         for side in [ASIDE, -ASIDE] {
             if may_return && reached != Arrival::There {
                 x = from.to_vec();
