@@ -205,9 +205,10 @@ impl Question {
         self.measured()
     }
 
-    /// Adds an output of singularities: a joint, a coordinate of a platform, or a frame with its orientation.
+    /// Adds an output of singularities: a joint, a coordinate of a platform or of a point, or a frame with its orientation.
     pub fn output(mut self, name: impl Into<String>) -> Self {
-        self.outputs.push(name.into());
+        let name = self.placed(name.into());
+        self.outputs.push(name);
         self
     }
 
