@@ -60,7 +60,9 @@ pub enum TableErrorKind {
         time: f64,
     },
     /// A motion has at least two rows, and a column that moves.
-    #[error("nothing moves: a motion needs at least two rows of values, and a column beside the time")]
+    #[error(
+        "nothing moves: a motion needs at least two rows of values, and a column beside the time"
+    )]
     Still,
 }
 

@@ -295,7 +295,9 @@ pub fn table(path: &std::path::Path, error: &TableError) -> Complaint {
             "give every row a value in every column, or leave the row out".into()
         }
         TableErrorKind::Extra(_) => "leave it out, or name its column in the first line".into(),
-        TableErrorKind::Time(_) => "times are numbers in s".into(),
+        TableErrorKind::Number(_) => {
+            "write a number, such as 0.5 or 1e-3, in the unit of the column".into()
+        }
         TableErrorKind::Value(error) => {
             let said = question::complaint(error);
             said.help

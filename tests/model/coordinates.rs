@@ -575,7 +575,7 @@ fn bad_coordinates_are_refused_at_their_place_with_the_remedy() {
                  \"b\": Revolute(point: (0, 0, 0), direction: (0, 0, 1), value: \"3*a\", between: (\"b\", \"c\")),",
                 "",
             ),
-            "f:2:1: the value of a joint is given by itself: `a` -> `b` -> `a` (leave out the `value` of one of them: it is then the variable)",
+            "f:2:1: the value of a joint depends on itself: `a` -> `b` -> `a` (leave out the `value` of one of them: it is then the variable)",
         ),
         (
             file(
@@ -602,7 +602,7 @@ fn bad_coordinates_are_refused_at_their_place_with_the_remedy() {
                 "\"a\": Universal(point: (0, 0, 0), directions: ((0, 0, 1), (0, 1, 1)), between: (\"ground\", \"b\")),",
                 "",
             ),
-            "f:2:48: the axes of the universal joint `a` are not perpendicular: they stand at 0.785398 rad (turn one of them, or write two revolute joints with a body between them)",
+            "f:2:48: the axes of the universal joint `a` are not perpendicular: the angle between them is 45.0000° (turn one of them, or write two revolute joints with a body between them)",
         ),
         (
             file(&two.replace("(0, 0, 0), d", "(0, 0, \"2 deg\"), d"), ""),

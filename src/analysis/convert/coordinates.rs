@@ -478,7 +478,10 @@ impl Drawing<'_> {
             let mut ends = closure.value.frames.iter().enumerate();
             let name = &closure.name.value;
             ends.any(|(side, end)| {
-                let on_platform = end.value.split_once('.').is_some_and(|(_, end)| end == name);
+                let on_platform = end
+                    .value
+                    .split_once('.')
+                    .is_some_and(|(_, end)| end == name);
                 end.value == frame && (on_platform || *frame == format!("{name}_{}", side + 1))
             })
         })
@@ -523,7 +526,8 @@ impl Drawing<'_> {
                         bodies.push(Named::new(body, place));
                     }
                 }
-                _ if !asked && (matches!(frame, Frame::Link { .. }) || self.ends_closure(&old)) => {}
+                _ if !asked && (matches!(frame, Frame::Link { .. }) || self.ends_closure(&old)) => {
+                }
                 Frame::Link { .. } if moves && !named => {
                     bodies.push(Named::new(body.clone(), AxisPlace::Frame(steps.clone())));
                     renamed.push((old, body));
