@@ -1,4 +1,4 @@
-//! Questions about a mechanism, posed once for every asker: a program, a page, the command line.
+//! Questions about a mechanism, posed once for every client: a program, a page, the command line.
 //!
 //! A [`Question`] owns all that it needs: the mechanism, what is held and what is free, where to start, which
 //! coordinates move over which ranges. It is built without checks, sent anywhere and asked as often as wanted; each

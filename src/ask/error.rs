@@ -122,7 +122,7 @@ pub enum AskError {
         error: Box<QuantityError>,
     },
     /// A quantity cannot be known on the motion.
-    #[error("`{quantity}` is not known: {error}")]
+    #[error("`{quantity}` has no value: {error}")]
     Unmeasured {
         /// Which list it stands in.
         item: Item,

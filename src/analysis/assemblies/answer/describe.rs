@@ -1,4 +1,4 @@
-//! What is said of each assembly: its number, condition, side and certificate.
+//! What the report gives for each assembly: its number, condition, sign of det J and certificate.
 
 use nalgebra::{ComplexField, DMatrix};
 
