@@ -1,4 +1,4 @@
-//! Questions about a mechanism, posed once for every asker: a program, a page, the command line.
+//! Questions about a mechanism, posed once for every client: a program, a page, the command line.
 //!
 //! A [`Question`] owns all that it needs: the mechanism, what is held and what is free, where to start, which
 //! coordinates move over which ranges. It is built without checks, sent anywhere and asked as often as wanted; each
@@ -205,9 +205,10 @@ impl Question {
         self.measured()
     }
 
-    /// Adds an output of singularities: a joint, a coordinate of a platform, or a frame with its orientation.
+    /// Adds an output of singularities: a joint, a coordinate of a platform or of a point, or a frame with its orientation.
     pub fn output(mut self, name: impl Into<String>) -> Self {
-        self.outputs.push(name.into());
+        let name = self.placed(name.into());
+        self.outputs.push(name);
         self
     }
 

@@ -15,11 +15,13 @@
 //! | [`formulas`] | closed forms derived and checked |
 //! | [`generate`] | a solver for one question as C or Rust |
 //! | [`drawing`] | pictures of the mechanism |
-//! | [`view`] | a page with the solver in it |
+//! | [`view`] | an interactive page with the solver inside |
 //! | [`frames`] | tables from joint axes and back, conventions and cuts |
 //! | [`exchange`] | URDF and MJCF |
 //! | [`conventions`] | units, frames, angles, names, exit status |
 //! | [`library`] | use from Rust |
+//! | [`studies`] | quantities over many dimensions and inputs, tolerances, on any number of machines |
+//! | [`python`] | use from Python |
 //! | [`performance`] | builds, features, speed |
 
 // The pages are read by rustdoc only: editing them does not recompile the library. On docs.rs their links lead to

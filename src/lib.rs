@@ -39,8 +39,8 @@
 //! | [`ask`] | questions that own their mechanism, and every analysis as a method of them |
 //! | [`scene`] | a configuration as named shapes |
 //! | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
-//! | `page` | the door through which the page of `linkwork view` asks; with the feature `page` |
-//! | `python` | the door through which the Python package asks; with the feature `python` |
+//! | `page` | the interface of the page of `linkwork view`; with the feature `page` |
+//! | `python` | the interface of the Python package; with the feature `python` |
 
 pub mod algebra;
 pub mod analysis;

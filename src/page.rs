@@ -1,7 +1,7 @@
-//! A door for the page of `linkwork view`: requests in, replies out, both JSON.
+//! The interface of the page of `linkwork view`: requests in, replies out, both JSON.
 //!
 //! The page has this library inside, compiled to WebAssembly, and asks it as the command line does. It keeps one
-//! mechanism and where it is; everything else is in [`ask`](crate::ask), [`scene`](crate::scene) and
+//! mechanism and its configuration; everything else is in [`ask`](crate::ask), [`scene`](crate::scene) and
 //! [`output`](crate::output). There are no files, threads or clocks here.
 
 #[cfg(target_arch = "wasm32")]

@@ -1,4 +1,4 @@
-//! The Python module `linkwork._linkwork`: a thin door to [`ask`](crate::ask) and [`output`](crate::output).
+//! The Python module `linkwork._linkwork`: a thin layer over [`ask`](crate::ask) and [`output`](crate::output).
 //!
 //! What a Python user reads stands in `python/linkwork/__init__.py`, which gives these few functions signatures and
 //! documentation.

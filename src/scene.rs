@@ -182,6 +182,8 @@ pub struct Rod {
     pub name: String,
     /// Its ends.
     pub ends: [Triple; 2],
+    /// The bodies it joins, as numbers in the list of bodies.
+    pub bodies: [usize; 2],
     /// Whether a driven joint changes its length.
     pub driven: bool,
 }
@@ -249,6 +251,7 @@ impl Scene {
                 scene.rods.push(Rod {
                     name: closure.name.clone(),
                     ends: poses.map(|pose| pose.position.0),
+                    bodies,
                     driven,
                 });
             } else {

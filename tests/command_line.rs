@@ -827,3 +827,25 @@ fn pictures_are_written_whole_or_refused() {
     let refused = refusal(&["draw", "mechanisms/five_bar.ron", "--trace", "left"]);
     assert!(refused.contains("hold 1 coordinate more"), "{refused}");
 }
+
+#[test]
+fn a_map_marks_the_assembly_that_a_guess_leads_to() {
+    let map = [FOUR_BAR, "--map", "theta1=30deg..100deg", "--grid", "8"];
+    let mode = |guess: &[&str]| {
+        let report = json(&[&["workspace"], &map[..], guess].concat());
+        report["home"]["mode"].as_u64().unwrap()
+    };
+    let home = mode(&[]);
+    assert_eq!(mode(&["--guess", "phi1=130 deg"]), home);
+    assert_ne!(mode(&["--guess", "phi1=-150 deg"]), home);
+}
+
+#[test]
+fn rounding_beside_large_forces_is_printed_as_zero() {
+    let excavator = "mechanisms/axes/excavator.ron";
+    let forces = |force: &str| answer(&["statics", excavator, "--wrench", force]);
+    let bucket = |force: &str| format!("bucket={force},0,0");
+    assert!(!forces(&bucket("10000")).contains("e-1"));
+    // which is not rounding where it is all there is
+    assert!(forces(&bucket("1e-9")).contains("e-"));
+}

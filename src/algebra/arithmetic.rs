@@ -29,7 +29,7 @@ impl<N: Clone + PartialEq> Sum<N> {
                 self.term(factor * x, &one);
             }
             _ => match e.without_sign() {
-                Some(positive) => self.term(-factor, &positive),
+                Some(positive) => self.add(-factor, &positive),
                 None => self.term(factor, e),
             },
         }

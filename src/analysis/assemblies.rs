@@ -36,7 +36,7 @@ use search::question;
 /// How hard to search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssembliesSettings {
-    /// The random seed. It decides the way to the answer, not the answer.
+    /// The random seed of starts and paths. The list of assemblies does not depend on it unless solutions are missed.
     pub seed: u64,
     /// Seeds that must meet only known solutions before the search ends.
     pub quiet_seeds: usize,

@@ -88,7 +88,9 @@ pub enum ConvertError {
     #[error(transparent)]
     Cut(#[from] CutError),
     /// A variable that moves no joint of its own.
-    #[error("the variable `{0}` stands nowhere alone, with the factor 1 or -1")]
+    #[error(
+        "the variable `{0}` never occurs alone with the factor 1 or -1, so that no joint can have it as its own"
+    )]
     NotAlone(String),
     /// What came out is not a mechanism.
     #[error("the converted file is not a mechanism: {}", titles(.0))]

@@ -116,7 +116,7 @@ pub struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// A configuration of which nothing more is said.
+    /// A configuration without quantities.
     fn of(configuration: &'a Configuration<f64>) -> Self {
         Row {
             number: 0,

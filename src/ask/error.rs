@@ -122,7 +122,7 @@ pub enum AskError {
         error: Box<QuantityError>,
     },
     /// A quantity cannot be known on the motion.
-    #[error("`{quantity}` is not known: {error}")]
+    #[error("`{quantity}` has no value: {error}")]
     Unmeasured {
         /// Which list it stands in.
         item: Item,
@@ -132,7 +132,7 @@ pub enum AskError {
         error: Unmeasured,
     },
     /// The time of a motion is none.
-    #[error("a motion takes a time above zero, not {0} s")]
+    #[error("the duration of a motion must be positive, not {0} s")]
     Duration(f64),
     /// A range is given to one coordinate twice.
     #[error("`{name}` has two ranges")]
@@ -191,7 +191,7 @@ pub enum AskError {
     #[error("{}", not_one_freedom(.0))]
     NotOneFreedom(QuestionError),
     /// The freedom is not that of one joint or of one coordinate of a platform.
-    #[error("the freedom that is left is not that of one joint or one coordinate of a platform")]
+    #[error("the remaining freedom is not that of one joint or one coordinate of a platform")]
     NotOneCoordinate,
     /// The mechanism does not assemble with this held, where the work is to begin.
     #[error("the mechanism does not assemble where the motion begins: {}", .0.join(", "))]
@@ -276,7 +276,7 @@ pub enum Unmeasured {
     #[error("it depends on how the inputs move, and the motion has none")]
     NoInput,
     /// The coordinate is not held, so that no force holds it.
-    #[error("`{name}` is not held, so that no force holds it")]
+    #[error("`{name}` is not held, so no force holds it")]
     NotHeld {
         /// The coordinate.
         name: String,

@@ -48,14 +48,14 @@ impl Question {
     /// The configuration for each row of values of the named coordinates, which are held: `values` are row by row, in m
     /// and rad.
     ///
-    /// The way begins at the configuration of the question, in its mode, and goes straight from row to row, so that no
-    /// row is on another branch than the row before it unless a way between them is lost; every 256th row is come to
-    /// from the beginning. Values of one coordinate in no order, most of them far from the one before, are followed from the
-    /// least to the greatest. Eight ways are followed side by side in the lanes of a vector register, on all cores, with
-    /// the same results on any number of them. A row that no way leads to, as beyond a dead point, is not reached.
+    /// The path begins at the configuration of the question, in its mode, and goes straight from row to row, so each row is
+    /// on the branch of the row before it unless the path between them is lost; every 256th row is reached from the
+    /// beginning. Unsorted values of one coordinate, most of them far from the one before, are followed from the least to
+    /// the greatest. Eight paths are followed at a time in the lanes of a vector register, on all cores, with the same
+    /// results on any number of cores. A row to which no path leads, as beyond a dead point, is not reached.
     ///
     /// # Errors
-    /// If the question or a name is wrong, or the mechanism does not assemble where the way begins.
+    /// If the question or a name is wrong, or the mechanism does not assemble where the path begins.
     ///
     /// # Panics
     /// If `values` are not whole rows.
@@ -258,7 +258,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Goes the straight way from a configuration to held values; stays there if the way cannot be followed.
+    /// Follows the straight path from a configuration to held values; stays there if it cannot be followed.
     fn goes(&self, tracker: &mut MotionTracker, at: &mut Configuration<f64>, to: &[f64]) -> bool {
         let begin: Vec<f64> = self.coordinates.iter().map(|c| c.of(at)).collect();
         let longest = (LONGEST / self.distance(&begin, to)).min(1.0);

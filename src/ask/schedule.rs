@@ -43,11 +43,11 @@ pub enum TableErrorKind {
     #[error("`{0}` has no value here")]
     Gap(String),
     /// There are more values than columns.
-    #[error("a value without a column: the header has {0}")]
+    #[error("a value without a column: the first line names only {0}")]
     Extra(usize),
-    /// A time that is no number.
-    #[error("`{0}` is no time in s")]
-    Time(String),
+    /// A text where a number belongs.
+    #[error("`{0}` is not a number")]
+    Number(String),
     /// A value, with its unit, is none of its column.
     #[error("{0}")]
     Value(Box<QuestionError>),
@@ -60,7 +60,9 @@ pub enum TableErrorKind {
         time: f64,
     },
     /// A motion has at least two rows, and a column that moves.
-    #[error("nothing moves: a motion takes two rows of values and a column beside the time")]
+    #[error(
+        "nothing moves: a motion needs at least two rows of values, and a column beside the time"
+    )]
     Still,
 }
 
@@ -85,13 +87,18 @@ impl Question {
         let mut header: Vec<(String, String)> = Vec::new();
         let mut coordinates: Vec<Coordinate> = Vec::new();
         let (mut times, mut values) = (Vec::new(), Vec::<Vec<f64>>::new());
-        let mut last = 1;
+        let (mut line, mut read, mut last) = (1, 0, 1);
         for record in reader.records() {
             let record = record.map_err(|wrong| {
                 let line = wrong.position().map_or(last, |at| at.line() as usize);
                 error(line, 1, TableErrorKind::Csv(wrong.to_string()))
             })?;
-            let line = record.position().map_or(last, |at| at.line() as usize);
+            // the position is that of empty lines before the record, if there are some
+            let begin = record.position().map_or(0, |at| at.byte() as usize);
+            let lines = table[read..begin].matches('\n').count();
+            let empty = table[begin..].lines().take_while(|line| line.is_empty());
+            (line, read) = (line + lines, begin);
+            let line = line + empty.count();
             last = line;
             if header.is_empty() {
                 header = record.iter().map(named).collect();
@@ -121,10 +128,10 @@ impl Question {
                 if text.is_empty() {
                     return Err(error(line, i + 1, TableErrorKind::Gap(name.clone())));
                 }
+                let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+                let time = number
+                    .ok_or_else(|| error(line, i + 1, TableErrorKind::Number(text.into())))?;
                 let Some(values) = i.checked_sub(1).map(|input| &mut values[input]) else {
-                    let time = text.parse::<f64>().ok().filter(|time| time.is_finite());
-                    let time =
-                        time.ok_or_else(|| error(line, 1, TableErrorKind::Time(text.into())))?;
                     if let Some(&before) = times.last()
                         && time <= before
                     {

@@ -19,10 +19,10 @@ use super::{Answer, Refusal, style};
 
 #[derive(Args)]
 pub struct Split {
-    /// Hold a joint, or a coordinate of a platform or point, at a value, e.g. --hold theta1="60 deg" or --hold left+0.5,0.2.x=3
+    /// Hold a joint, a coordinate of a platform or of a point, or a platform, at a value, e.g. --hold theta1="60 deg" or --hold left+0.5,0.2.x=3
     #[arg(long, value_name = "NAME=VALUE")]
     hold: Vec<Assignment>,
-    /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
+    /// Solve for a joint instead of holding it, e.g. --free l1; `actuated` frees all actuated joints
     #[arg(long, value_name = "NAME")]
     free: Vec<String>,
 }

@@ -15,10 +15,10 @@ use super::{Answer, Refusal, style};
 ///
 /// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise, as for
 /// `solve`. The list says how complete it is: how many complex solutions there are, how they were searched for, and
-/// whether a bound is known. Where infinitely many assemblies are connected, their dimension is given and samples stand
-/// for them. Where assemblies share poses of the platforms, or differ in nothing but the angles of ball joints written
-/// as three rows, the list has one row for each pose. Exit code 1 means that there is no real assembly, or that one
-/// that is isolated may be missing; with --prove, also that it is not proved that none is.
+/// whether a bound is known. Where infinitely many assemblies are connected, the dimension of the set and samples of it
+/// are given. Where assemblies share poses of the platforms, or differ only in the angles of ball joints written as three
+/// rows, the list has one row for each pose. Exit code 1: there is no real assembly, or an isolated one may be missing;
+/// with --prove also: it is not proved that none is missing.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork assemblies mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
@@ -29,18 +29,18 @@ pub struct Assemblies {
     source: Source,
     #[command(flatten)]
     split: Split,
-    /// List the complex solutions that are not real too
+    /// Also list the complex solutions that are not real
     #[arg(long)]
     all_complex: bool,
     /// Prove that no other real assembly exists, by excluding boxes of joint values, or say what is left
     #[arg(long)]
     prove: bool,
-    /// Boxes after which the proof is given up
+    /// Number of boxes after which the proof is abandoned
     #[arg(long, value_name = "N", requires = "prove", default_value_t = Pruning::default().most_boxes)]
     boxes: usize,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

@@ -7,16 +7,16 @@ use super::format::{Format, readable};
 use super::source::Source;
 use super::{Answer, Refusal};
 
-/// Describe what a mechanism file says, or everything that is wrong with it.
+/// Print what a mechanism file describes, or list every error in it.
 ///
-/// Prints parameters, joints, the Denavit–Hartenberg tables as a lecture draws them, platforms, closures with the
+/// Prints parameters, joints, the Denavit–Hartenberg tables in textbook form, platforms, closures with the
 /// equations they add, loops and the Kutzbach count. Warnings go to stderr.
 #[derive(Args)]
 #[command(after_help = "Example: linkwork check mechanisms/four_bar.ron --set l2=3.5")]
 pub struct Check {
     #[command(flatten)]
     source: Source,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

@@ -18,14 +18,14 @@ use super::{Answer, Refusal};
 pub struct Compare {
     #[command(flatten)]
     source: Source,
-    /// How many random configurations to try beside home
+    /// Number of random configurations besides home
     #[arg(long, value_name = "COUNT", default_value_t = CompareSettings::default().samples)]
     samples: usize,
     /// Seed of the random configurations
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = CompareSettings::default().seed)]
     seed: u64,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

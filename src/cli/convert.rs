@@ -17,8 +17,8 @@ use super::{Answer, Refusal, lines, style};
 /// Write a mechanism in the other convention, broken at another joint, or by joint coordinates, with the same
 /// configurations.
 ///
-/// Rows are moved as they are written, so names, expressions, limits and closed forms stay; comments do not. What is
-/// called otherwise, or can no longer be said, is noted on stderr.
+/// Rows are rearranged as they are written, so names, expressions, limits and closed forms stay; comments do not.
+/// Renamed frames, and what is lost, are listed on stderr.
 #[derive(Args)]
 #[command(after_help = "Example: linkwork convert mechanisms/four_bar.ron --cut phi2")]
 pub struct Convert {
@@ -30,14 +30,14 @@ pub struct Convert {
     /// Break the mechanism at this joint; a closure of its loop becomes rows with variables of its own
     #[arg(long, value_name = "JOINT")]
     cut: Option<String>,
-    /// Write one of the two cognates of a 4-bar, whose couplers trace the same curve as this point of its coupler: 1 has
-    /// the pivot of the first link, 2 that of the other, e.g. --cognate left+0.5,0.2=1
+    /// Write one of the two cognates of a 4-bar, whose couplers trace the same curve as this point of its coupler: 1 keeps
+    /// the ground pivot of the first link, 2 that of the other, e.g. --cognate left+0.5,0.2=1
     #[arg(long, value_name = "POINT=NUMBER", conflicts_with_all = ["convention", "cut", "to"])]
     cognate: Option<Assignment>,
-    /// Write it by joint coordinates, or as tables
+    /// Write the file by joint coordinates, or as tables
     #[arg(long, value_enum, conflicts_with_all = ["convention", "cut"])]
     to: Option<Form>,
-    /// How to write the answer
+    /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "ron", value_parser = with_file())]
     format: Format,
 }

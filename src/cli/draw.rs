@@ -22,8 +22,8 @@ use super::{Answer, Refusal, lines};
 /// Draw the assembled mechanism as SVG, PNG or GLB.
 ///
 /// A planar mechanism is drawn in its plane as a kinematic diagram: pins, sliders in their guides, ground hatched,
-/// driven joints filled, gears by their pitch circles. A spatial one is seen isometrically, or from where --view says.
-/// Forces given by --wrench or --load are drawn with what joints and closures pass on.
+/// driven joints filled, gears by their pitch circles. A spatial one is seen isometrically, or from --view.
+/// Forces given by --wrench or --load are drawn with the reactions in joints and closures.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork draw mechanisms/four_bar.ron --hold theta1=\"60 deg\" --labels --svg four_bar.svg\n  \
@@ -49,7 +49,7 @@ pub struct Draw {
     /// of a mechanism with one freedom, driven joints moving
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     trace: Vec<String>,
-    /// From where: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
+    /// Viewpoint: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
     #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
     view: Option<View>,
     /// Name joints, rods and platforms
@@ -58,7 +58,7 @@ pub struct Draw {
     /// Draw the frames with x red, y green, z blue
     #[arg(long)]
     frames: bool,
-    /// Draw how far joints may go
+    /// Draw the range of each joint that has limits
     #[arg(long)]
     limits: bool,
     /// Mark the instant centres of a planar mechanism
@@ -71,10 +71,10 @@ pub struct Draw {
     forces: Forces,
     #[command(flatten)]
     search: Search,
-    /// Write the picture to a file, not to stdout
+    /// Write the picture as SVG to a file instead of stdout
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Write it painted, two dots for a pixel
+    /// Write the picture as PNG, at twice the resolution of the SVG
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
     /// Write the mechanism as a solid for Blender, presentations and model viewers

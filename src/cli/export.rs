@@ -15,8 +15,8 @@ use super::{Answer, Refusal, lines};
 /// Write a mechanism as a file for another program.
 ///
 /// The mechanism is assembled first, as `solve` does it, at home unless --hold, --free and --guess say otherwise. MJCF
-/// gets the loops as equality constraints and the assembled configuration as the keyframe `home`; URDF knows no loops
-/// and gets the tree. What a format cannot say, or says another way, is named on stderr.
+/// gets the loops as equality constraints and the assembled configuration as the keyframe `home`; URDF has no loops
+/// and gets the tree. What the format cannot express, or expresses differently, is listed on stderr.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork export mechanisms/four_bar.ron --to mjcf --output four_bar.xml"

@@ -11,17 +11,17 @@ use super::{Answer, Refusal, lines};
 /// How an answer is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// To be read by people
+    /// For reading in a terminal
     Text,
-    /// The mechanism file that was made
+    /// The resulting mechanism file
     Ron,
-    /// To be read by programs: SI units and radians with all digits
+    /// For programs: SI units and radians, all digits
     Json,
-    /// Rows as they come: SI units and radians with all digits
+    /// Rows, written as they are computed: SI units and radians, all digits
     Csv,
-    /// To be read by people, for a page or a report
+    /// For a page or a report
     Markdown,
-    /// To be read by people, as one page for a browser
+    /// One page for a browser
     Html,
 }
 

@@ -13,8 +13,8 @@ use super::{Answer, Refusal, asked, lines};
 
 /// Write out transforms, closure equations and screw Jacobians in closed form.
 ///
-/// Without --of and --in: every link, every chain's tip in ground with its Jacobian, and every closure. Parameters are
-/// letters, except those that --set gives another value: these are written out.
+/// Without --of and --in: every link, every chain's tip in ground with its Jacobian, and every closure. Parameters stay
+/// symbols, except those given by --set, whose values are inserted.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork formulas mechanisms/puma560_modified.ron --of arm.3 --latex"
@@ -22,7 +22,7 @@ use super::{Answer, Refusal, asked, lines};
 pub struct Formulas {
     #[command(flatten)]
     source: Source,
-    /// The frame whose transform is asked for, e.g. --of arm.3
+    /// The frame whose transform is wanted, e.g. --of arm.3
     #[arg(long, value_name = "FRAME")]
     of: Option<String>,
     /// The frame it is seen from, `ground` if not given
@@ -31,7 +31,7 @@ pub struct Formulas {
     /// Write LaTeX, displayed equations for amsmath or KaTeX
     #[arg(long, group = "script", conflicts_with = "format")]
     latex: bool,
-    /// Write for a terminal, which is the default
+    /// Write Unicode for a terminal (the default)
     #[arg(long, group = "script", conflicts_with = "format")]
     unicode: bool,
     /// Write closed forms to be pasted into a mechanism file
@@ -40,7 +40,7 @@ pub struct Formulas {
     /// Write Rust functions
     #[arg(long, group = "script", conflicts_with = "format")]
     rust: bool,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

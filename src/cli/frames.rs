@@ -14,15 +14,15 @@ use super::format::{Format, Tables, with_file};
 use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
-/// Place Denavit–Hartenberg frames on joint axes and read the tables off them.
+/// Derive Denavit–Hartenberg tables from joint axes, or joint axes from tables.
 ///
 /// The file gives the axes at home: `Axes(version: 1, name: "…", joints: { "q1": Revolute(point: (0, 0, 0), direction:
-/// (0, 0, 1), home: 0), "q2": Prismatic(direction: (1, 0, 0)), … }, base: […], tool: […])`. Where joints say which bodies
+/// (0, 0, 1), home: 0), "q2": Prismatic(direction: (1, 0, 0)), … }, base: […], tool: […])`. Where joints name the bodies
 /// they connect, as in `between: ("ground", "crank")`, loops are cut, at the joints of `cut: ["q3"]` or else where
 /// that gives the simplest tables.
 ///
-/// For a mechanism file it is the other way round: the joint axes that its tables describe, where it is assembled; with
-/// --steps or --convention the tables that follow from these axes.
+/// For a mechanism file the answer is the joint axes of its tables, where it is assembled; with --steps or --convention
+/// also the tables that follow from these axes.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron"
@@ -36,7 +36,7 @@ pub struct Frames {
     /// Report the 14 steps of the Denavit–Hartenberg algorithm one by one
     #[arg(long)]
     steps: bool,
-    /// How to write the answer
+    /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_file())]
     format: Format,
 }

@@ -14,10 +14,9 @@ use super::{Answer, Refusal};
 
 /// Write a solver for one question as source code, C or Rust, without dependencies.
 ///
-/// The inputs of the solver are the coordinates that are held: the actuated joints, unless --hold and --free say
-/// otherwise; their values only say where the order of elimination is chosen. What it finds is the state: every other
-/// joint, and the position and the unit quaternion of every platform. It follows the assembly near the start, or the one
-/// of --mode. Lengths are in m, angles in rad.
+/// The inputs of the solver are the held coordinates: the actuated joints, unless --hold and --free say otherwise; at
+/// their values the order of elimination is chosen. The solver returns the state: every other joint, and the position and
+/// unit quaternion of every platform. It follows the assembly near the start, or the one of --mode. Lengths are in m, angles in rad.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork generate mechanisms/four_bar.ron --lang c --output four_bar.h --with-test\n  \
@@ -28,7 +27,7 @@ pub struct Generate {
     /// The language
     #[arg(long, value_enum)]
     lang: Lang,
-    /// The numbers
+    /// The floating-point numbers
     #[arg(long, value_enum, default_value = "double")]
     precision: Numbers,
     /// Add the pose of a frame and its twists for unit rates of the inputs, e.g. --frame top.S1
@@ -37,13 +36,13 @@ pub struct Generate {
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write a program beside it that runs the solver through so many configurations found by linkwork
+    /// Also write a program that checks the solver at this many configurations computed by linkwork
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "100",
         requires = "output", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     with_test: Option<u32>,
     #[command(flatten)]
     asked: Asked,
-    /// Solve in the assembly of this number, as `assemblies` lists them
+    /// Solve in this mode, numbered as `assemblies` lists it
     #[arg(long, value_name = "NUMBER")]
     mode: Option<usize>,
 }

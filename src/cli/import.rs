@@ -15,9 +15,9 @@ use super::{Answer, Refusal, style};
 
 /// Read a URDF or MJCF file as a mechanism.
 ///
-/// Trees become chains with tables, branches chains on links of others, mimic joints and equality constraints of joints
-/// shared variables, constraints `connect` and `weld` and the loop elements that programs add to URDF closures. What is
-/// left out or decided is said on stderr.
+/// Trees become chains with tables, and branches chains on links of others; mimic joints and equality constraints of joints
+/// become shared variables; `connect` and `weld` constraints, and the loop elements that programs add to URDF, become
+/// closures. What is left out, and what was decided, is listed on stderr.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork import robot.urdf --loops loops.ron --frame tool0 > robot.ron"
@@ -25,13 +25,13 @@ use super::{Answer, Refusal, style};
 pub struct Import {
     /// The URDF or MJCF file
     file: PathBuf,
-    /// A mechanism file that closes loops: closures, and chains `on:` links, by the names of links and sites
+    /// A mechanism file with the closures of the loops, and chains `on:` links, by the names of links and sites
     #[arg(long, value_name = "FILE")]
     loops: Option<PathBuf>,
     /// Keep the frame of a link or site under its name; `all` keeps all
     #[arg(long, value_name = "NAME")]
     frame: Vec<String>,
-    /// Let included files be read from this folder too; otherwise only from the folder of the model
+    /// Folder from which included files may be read too, besides that of the model
     #[arg(long, value_name = "DIR")]
     include_from: Vec<PathBuf>,
     /// The convention of the tables

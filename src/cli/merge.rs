@@ -7,20 +7,20 @@ use linkwork::output::study::{mapped, merge, spread};
 
 use super::{Answer, Refusal};
 
-/// Put the shards of a study together.
+/// Join the shards of a study.
 ///
-/// Files may be given in any order, and shards that were worked out twice count once. What is written is what `study`
-/// writes without --shard, to the byte; with --regions there is a column more.
+/// Files may be given in any order; a shard given twice counts once. The output is that of `study` without --shard, byte
+/// for byte; --regions adds a column.
 #[derive(Args)]
 #[command(after_help = "Example: linkwork merge part-*.csv > study.csv")]
 pub struct Merge {
-    /// What `linkwork study --shard` wrote
+    /// Files written by `linkwork study --shard`
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Write mean, standard deviation and extremes of each column instead of the rows
     #[arg(long)]
     spread: bool,
-    /// For a study on this --grid: number the regions of nodes beside each other where the mechanism assembles
+    /// For a study on this --grid: number the regions of adjacent nodes where the mechanism assembles
     #[arg(
         long,
         value_name = "NUMBER",

@@ -10,11 +10,11 @@ use super::search::seed;
 use super::source::Source;
 use super::{Answer, Refusal};
 
-/// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
+/// Find the mobility of the assembled mechanism, the joints that move, and redundant constraints.
 ///
-/// The mechanism is closed first, at the values that --hold, --free and --guess ask for: they choose the configuration
-/// and nothing else. Then everything is free to move, held or not, but what --lock names, which stands still where it
-/// is. A freedom counts if a finite step along it closes, not only an infinitesimal one.
+/// The mechanism is closed first; --hold, --free and --guess choose the configuration and nothing else. Then every joint is
+/// free to move, held or not, except those of --lock, which stand still. A freedom counts if a finite step along it closes,
+/// not only an infinitesimal one.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork mobility mechanisms/bennett.ron\n  \
@@ -32,7 +32,7 @@ pub struct Mobility {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

@@ -16,7 +16,7 @@ pub struct Search {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = AssembliesSettings::default().seed)]
     pub seed: u64,
-    /// Keep the generic solutions in a file; if it has those of this question, nothing is searched
+    /// Keep the generic solutions in a file; if it already has those of this question, the search is skipped
     #[arg(long, value_name = "FILE")]
     store: Option<PathBuf>,
 }

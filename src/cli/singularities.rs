@@ -17,11 +17,11 @@ use super::{Answer, Refusal};
 
 /// Find singularities: at a configuration, along inputs, or as curves in two inputs.
 ///
-/// The inputs are the joints that are held, and the outputs the platforms; without platforms the joints on the ground
-/// that are not driven, or else the points where chains are joined. Where coordinates of platforms are held or moved
-/// these are the outputs, the actuated joints are free, and are the inputs. Every singularity is located to rounding
-/// and classified by type (Gosselin and Angeles 1, 2, 3; Zlatanov, Fenton and Benhabib), by the freedoms lost and gained,
-/// and by what moves.
+/// The inputs are the held joints, and the outputs the platforms; without platforms, the joints on the ground that are not
+/// driven, or else the points where chains are joined. If coordinates of platforms are held or moved, these are the
+/// outputs, and the actuated joints are free and are the inputs. Every singularity is located to rounding accuracy and
+/// classified by type (Gosselin and Angeles 1, 2, 3; Zlatanov, Fenton and Benhabib), by the freedoms lost and gained, and
+/// by what moves.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork singularities mechanisms/parallelogram.ron --hold theta1=0\n  \
@@ -35,10 +35,11 @@ pub struct Singularities {
     /// Move a joint or coordinate, e.g. --input theta1=0deg..360deg; several move together
     #[arg(long, value_name = "NAME=FROM..TO")]
     input: Vec<Assignment>,
-    /// A range of the two coordinates in which loci are sought; give it twice, e.g. --locus l1=0.4..1 --locus l2=0.4..1
+    /// Range of one of the two coordinates in which loci are searched for; give it twice, e.g. --locus l1=0.4..1 --locus l2=0.4..1
     #[arg(long, value_name = "NAME=FROM..TO", conflicts_with_all = ["input", "mode", "follow"])]
     locus: Vec<Assignment>,
-    /// An output: a joint, a platform coordinate, a frame with its orientation, or a point beside one, left+0.5,0.2
+    /// An output: a joint, a coordinate of a platform or point (left+0.5,0.2.x), a frame with its orientation, or a point
+    /// beside its origin (left+0.5,0.2)
     #[arg(long, value_name = "NAME")]
     output: Vec<String>,
     /// An output: the origin of a frame alone, or a point beside it
@@ -48,15 +49,15 @@ pub struct Singularities {
     #[arg(long, value_name = "NUMBER")]
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
-    /// Go round folds and straight through crossings of branches
+    /// Continue around folds and straight through crossings of branches
     #[arg(long, requires = "input")]
     follow: bool,
-    /// Random starts from which loci are sought; up to ten times as many while more curves are likely
+    /// Number of random starts of the search for loci; up to ten times as many while more curves are likely
     #[arg(long, value_name = "NUMBER", default_value_t = SingularitiesSettings::default().starts)]
     starts: usize,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
+    /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
     /// Draw the loci to a file

@@ -12,11 +12,11 @@ use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.
 ///
-/// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise. What is held is
-/// a joint, a coordinate of a platform (top.x, top.y, top.z, top.roll, top.pitch, top.yaw) or a whole platform. Values
-/// are expressions as in the file, or `home`; a platform takes a list of displacements. Where less is held than the
-/// mechanism has freedoms, the rest changes as little from the start as closing allows, in rad and characteristic
-/// lengths, and the answer says how many freedoms nothing holds.
+/// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise. A joint, a
+/// coordinate of a platform (top.x, top.y, top.z, top.roll, top.pitch, top.yaw) or of a point, or a whole platform can
+/// be held. Values are expressions as in the file, or `home`; a platform takes a list of displacements. If fewer
+/// coordinates are held than the mechanism has freedoms, the rest changes as little from the start as closure allows,
+/// in rad and characteristic lengths, and the answer gives the number of freedoms left open.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork solve mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
@@ -27,14 +27,14 @@ pub struct Solve {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Assemble this mode: numbered as `assemblies` lists it at the home values of what is held, then followed to the
-    /// values held
+    /// Assemble this mode, numbered as `assemblies` lists it at the home values of the held coordinates, and follow it to
+    /// their given values
     #[arg(long, value_name = "NUMBER", conflicts_with = "guess")]
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

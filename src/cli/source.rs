@@ -18,10 +18,10 @@ use super::{Answer, Refusal, style};
 pub struct Source {
     /// The mechanism file: tables, or joint coordinates.
     file: PathBuf,
-    /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
+    /// Give a parameter another value: a number or an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
-    /// The largest file that is read, in bytes: a guard against mistaken files
+    /// Largest file to read, in bytes: a guard against mistaken files
     #[arg(long, value_name = "BYTES", default_value_t = MAX_BYTES)]
     max_bytes: u64,
 }

@@ -8,11 +8,11 @@ use super::format::{Format, readable};
 use super::source::Source;
 use super::{Answer, Refusal};
 
-/// Find the actuator forces that balance a load, and what every joint has to carry.
+/// Find the actuator forces that balance a load, and the reactions in all joints and closures.
 ///
-/// The mechanism is closed first, at the values the options ask for. Bodies have no weight and joints no friction. What
-/// is held carries the load; where a mechanism is overconstrained, forces that equilibrium leaves open are those of least
-/// norm, and said to be.
+/// The mechanism is closed first, at the values the options ask for. Bodies have no weight and joints no friction. Held
+/// coordinates carry the load. In an overconstrained mechanism, forces that equilibrium does not determine are the
+/// minimum-norm choice and are marked.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork statics mechanisms/three_rps.ron --wrench top=0,0,-100\n  \
@@ -24,7 +24,7 @@ pub struct Statics {
     asked: Asked,
     #[command(flatten)]
     forces: Forces,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

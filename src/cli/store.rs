@@ -38,7 +38,7 @@ impl Store {
         };
         let (place, exists) = match fs::metadata(path) {
             Ok(data) if data.is_dir() => return Err(refused(&"it is a folder")),
-            Ok(data) if !data.is_file() => return Err(refused(&"it is no ordinary file")),
+            Ok(data) if !data.is_file() => return Err(refused(&"it is not a regular file")),
             Ok(data) if data.len() > MAX_BYTES => {
                 return Err(refused(&format!(
                     "it has {} MiB, and no store has more than {}",

@@ -15,10 +15,10 @@ use super::words::Ranged;
 use super::written::save;
 use super::{Answer, Refusal, lines};
 
-/// Work out quantities at many points of parameters and coordinates.
+/// Compute quantities over many values of parameters and coordinates.
 ///
-/// Rows are written as CSV: what is varied, whether the mechanism assembles there, and the quantities, in m and rad. A
-/// study can be cut into shards for any number of machines; `linkwork merge` puts them together to the same bytes.
+/// Rows are written as CSV: the varied values, whether the mechanism assembles there, and the quantities, in SI units and
+/// radians. A study can be divided into shards for any number of machines; `linkwork merge` joins them to the same bytes.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork study mechanisms/four_bar.ron --vary l2=3..5 --vary theta1=0deg..360deg --grid 20,36 --quantity transmission\n  \
@@ -28,24 +28,24 @@ use super::{Answer, Refusal, lines};
 pub struct Study {
     #[command(flatten)]
     source: Source,
-    /// Vary a parameter or a coordinate, which then is held, e.g. --vary l2=3..5 or --vary theta1=0deg..360deg
+    /// Vary a parameter, or a coordinate, which is then held, e.g. --vary l2=3..5 or --vary theta1=0deg..360deg
     #[arg(
         long,
         value_name = "NAME=FROM..TO",
         required_unless_present = "deviate"
     )]
     vary: Vec<Assignment>,
-    /// Let a parameter or a held coordinate deviate normally from its value, by this standard deviation, as a tolerance
-    /// does, e.g. --deviate l2=0.001
+    /// Let a parameter or a held coordinate be normally distributed about its value, with this standard deviation, as for
+    /// a tolerance, e.g. --deviate l2=0.001
     #[arg(long, value_name = "NAME=DEVIATION", conflicts_with = "grid")]
     deviate: Vec<Assignment>,
-    /// So many points of Sobol's sequence, spread evenly over the ranges
+    /// Number of points of Sobol's sequence, spread evenly over the ranges
     #[arg(long, value_name = "NUMBER", required_unless_present = "grid")]
     samples: Option<usize>,
-    /// With --samples: points of a Latin hypercube instead, at random by --seed
+    /// With --samples: a Latin hypercube instead, drawn with --seed
     #[arg(long, requires = "samples")]
     latin: bool,
-    /// Every combination of so many equally spaced values of each
+    /// Every combination of this many equally spaced values of each, e.g. --grid 20,36
     #[arg(
         long,
         value_name = "NUMBER",
@@ -53,8 +53,8 @@ pub struct Study {
         conflicts_with = "samples"
     )]
     grid: Vec<usize>,
-    /// What is worked out: as --report of `sweep`, and `assemblies`, the number of real ones, e.g. --quantity
-    /// transmission,reach=hypot(left.x, left.y)
+    /// Quantities to compute, as for --report of `sweep`; also `assemblies`, the number of real assemblies, e.g.
+    /// --quantity transmission,reach=hypot(left.x, left.y)
     #[arg(long, value_name = "QUANTITIES", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
@@ -66,13 +66,13 @@ pub struct Study {
     forces: Forces,
     #[command(flatten)]
     search: Search,
-    /// Work out only this part of so many, e.g. --shard 3/200
+    /// Compute only this shard, e.g. --shard 3/200
     #[arg(long, value_name = "PART/OF", value_parser = shard, default_value = "1/1")]
     shard: (usize, usize),
     /// Write mean, standard deviation and extremes of each column instead of the rows
     #[arg(long, conflicts_with = "shard")]
     spread: bool,
-    /// Write to a file, whole or not at all
+    /// Write to a file, which appears only when it is complete
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

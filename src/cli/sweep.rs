@@ -23,12 +23,12 @@ use super::words::{self, Ranged};
 use super::written::{Lines, save, unwritten};
 use super::{Answer, Refusal, lines};
 
-/// Move the inputs and see what happens, without ever switching branch silently.
+/// Move the inputs through their ranges: positions, rates, forces and other quantities; never switches branch silently.
 ///
 /// The motion begins assembled near home or near the values of --guess, or in the mode that `assemblies` lists under
-/// that number where the inputs begin. It ends at the end of the ranges, at a limit, at a dead point of the inputs, or where branches
-/// cross. With --follow it goes round dead points and straight through crossings; --follow without --input follows the
-/// whole curve of a mechanism with one freedom, and --circuits lists all of them.
+/// that number where the inputs begin. It ends at the end of the ranges, at a limit, at a dead point of the inputs, or
+/// where branches cross. With --follow it continues around dead points and straight through crossings; --follow without
+/// --input follows the whole curve of a mechanism with one freedom, and --circuits lists all of them.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --steps 36\n  \
@@ -53,20 +53,20 @@ pub struct Sweep {
     motion: Option<PathBuf>,
     #[command(flatten)]
     asked: Asked,
-    /// Number of equal steps into which the ranges of the inputs are divided
+    /// Number of steps, equal in time
     #[arg(long, value_name = "NUMBER", default_value_t = SweepSettings::default().steps)]
     steps: usize,
     /// Begin in this mode, numbered as `assemblies` lists it where the inputs begin
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["all_modes", "guess"])]
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
-    /// Move every mode there is where the inputs begin
+    /// Sweep every mode that exists where the inputs begin
     #[arg(long, conflicts_with = "guess")]
     all_modes: bool,
-    /// Go round dead points and straight through crossings; without --input the whole curve
+    /// Continue around dead points and straight through crossings; without --input follow the whole curve
     #[arg(long)]
     follow: bool,
-    /// Show by interval arithmetic that all rows lie on one branch; exit code 1 where that fails
+    /// Prove by interval arithmetic that all rows lie on one branch; exit code 1 if that fails
     #[arg(long, requires = "input", conflicts_with_all = ["follow", "circuits", "motion"])]
     certify: bool,
     /// List all circuits and branches of a mechanism with one freedom; a coordinate of a platform is the input where no
@@ -86,7 +86,7 @@ pub struct Sweep {
         allow_hyphen_values = true
     )]
     report: Vec<String>,
-    /// Say how far the paths of --of are from the straight lines they come nearest to
+    /// Report how far each path of --of deviates from the straight line nearest to it
     #[arg(long, requires = "of", conflicts_with = "circuits")]
     straight: bool,
     /// Find where a quantity stays longest within a tolerance of one value, e.g. --dwell left.yaw="0.5 deg"
@@ -95,7 +95,7 @@ pub struct Sweep {
     /// The law by which the inputs go through their ranges; rows are equal parts of the time
     #[arg(long, value_name = "LAW", default_value = "constant", value_parser = law())]
     law: Law,
-    /// The time that takes, in s
+    /// Duration of the motion, in s
     #[arg(long, value_name = "SECONDS", default_value_t = Pace::default().duration)]
     #[arg(allow_negative_numbers = true)]
     duration: f64,
@@ -103,23 +103,23 @@ pub struct Sweep {
     forces: Forces,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
+    /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
     /// Draw the mechanism in several places with the traced paths, then the quantities or else the joints over the input,
     /// to a file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The same picture painted, two dots for a pixel
+    /// Write the same picture as PNG, at twice the resolution of the SVG
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
     /// Draw the mechanism moving, as an animated GIF of 4 s, there and back if the motion does not close
     #[arg(long, value_name = "FILE")]
     animate: Option<PathBuf>,
-    /// The same as a solid with an animation for Blender, presentations and model viewers
+    /// Write the mechanism moving as a GLB solid for Blender, presentations and model viewers
     #[arg(long, value_name = "FILE")]
     glb: Option<PathBuf>,
-    /// From where: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
+    /// Viewpoint: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
     #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
     view: Option<View>,
 }

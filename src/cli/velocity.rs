@@ -8,10 +8,10 @@ use super::format::{Format, readable};
 use super::source::{Assignment, Source, once};
 use super::{Answer, Refusal};
 
-/// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
+/// Find rates, accelerations and the input–output Jacobian for given rates of the inputs.
 ///
-/// The mechanism is closed first, at the values the options ask for. What is held is driven: rates in m/s or rad/s,
-/// accelerations in m/s² or rad/s²; what is given none stands still.
+/// The mechanism is closed first, at the values the options ask for. Held coordinates are driven: rates in m/s or rad/s,
+/// accelerations in m/s² or rad/s²; those without a rate stand still.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork velocity mechanisms/three_rps.ron --rate l1=0.1\n  \
@@ -22,16 +22,16 @@ pub struct Velocity {
     #[command(flatten)]
     asked: Asked,
     /// Rate of a held joint or coordinate, e.g. --rate l1=0.1; where the orientation of a platform is held, its angular
-    /// velocity about axes of ground, e.g. --rate top.wx=0.1
+    /// velocity about ground axes, e.g. --rate top.wx=0.1
     #[arg(long, value_name = "NAME=RATE")]
     rate: Vec<Assignment>,
     /// Acceleration of a held joint or coordinate, e.g. --acceleration l1=0.02
     #[arg(long, value_name = "NAME=ACCELERATION")]
     acceleration: Vec<Assignment>,
-    /// Follow a frame's origin too, or a point beside it in its axes, e.g. --point left+0.5,0.2
+    /// Also report the velocity of a frame's origin, or of a point beside it in its axes, e.g. --point left+0.5,0.2
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     point: Vec<String>,
-    /// How to write the answer; where there is none, stderr says why as text
+    /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
 }

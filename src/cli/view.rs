@@ -13,8 +13,8 @@ use super::{Answer, Refusal};
 
 /// Write a page in which the mechanism can be moved, with the solver inside.
 ///
-/// The page is one file. It opens in any browser, offline, and loads nothing: the mechanism follows what is held as in
-/// the other commands, on its branch, and stops at dead points. Without a file the page is a gallery of mechanisms.
+/// The page is one file. It opens in any browser, offline, and loads nothing: the mechanism follows the held
+/// coordinates on its branch, as in the other commands, and stops at dead points. Without a file the page is a gallery of mechanisms.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork view mechanisms/four_bar.ron\n  \
@@ -23,13 +23,13 @@ use super::{Answer, Refusal};
 pub struct View {
     /// The mechanism file: tables, or joint coordinates; without one the page is a gallery
     file: Option<PathBuf>,
-    /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
+    /// Give a parameter another value: a number or an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
-    /// Where to write the page; beside the mechanism file if it is not given, or to linkwork.html without one
+    /// File to write the page to [default: beside the mechanism file, or linkwork.html without one]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Serve the page to this machine alone, and show the file anew whenever it is saved, until Ctrl-C
+    /// Serve the page to this machine only, and reload the file whenever it is saved, until Ctrl-C
     #[arg(long, conflicts_with = "output")]
     watch: bool,
 }

@@ -88,8 +88,8 @@ pub fn complaint(
                 _ => "move an input, e.g. --input NAME=0deg..360deg, or report positions and angles only",
             }),
             Unmeasured::NotHeld { held, .. } => said.label("not held").help(match held.is_empty() {
-                true => "forces are those of inputs and of what is held".into(),
-                false => format!("forces that can be reported are those that hold {}", listed(held)),
+                true => "only inputs and held coordinates have a force".into(),
+                false => format!("report the force that holds one of {}", listed(held)),
             }),
             Unmeasured::NoLoad => said
                 .label("no load")
@@ -99,7 +99,7 @@ pub fn complaint(
                  determinant of a square one",
             ),
         },
-        AskError::Duration(_) => said.help("give the time in s, e.g. --duration 2"),
+        AskError::Duration(_) => said.help("give a time in s, e.g. --duration 2"),
         AskError::EmptyRange(_, name) => said.label("empty").at(Part::WholeValue).help(
             match ranged {
                 Ranged::Input => {
@@ -128,7 +128,7 @@ pub fn complaint(
         }
         AskError::AlsoHeld { .. } => said.label("also held").help(ONE_OF_THEM),
         AskError::MoreThanATurn(name) => {
-            said.help(format!("a turn is all there is, e.g. {name}=-180deg..180deg"))
+            said.help(format!("one turn covers all values, e.g. {name}=-180deg..180deg"))
         }
         AskError::NothingMoves(driven) => {
             let name = driven.as_deref().unwrap_or("NAME");
@@ -295,7 +295,9 @@ pub fn table(path: &std::path::Path, error: &TableError) -> Complaint {
             "give every row a value in every column, or leave the row out".into()
         }
         TableErrorKind::Extra(_) => "leave it out, or name its column in the first line".into(),
-        TableErrorKind::Time(_) => "times are numbers in s".into(),
+        TableErrorKind::Number(_) => {
+            "write a number, such as 0.5 or 1e-3, in the unit of the column".into()
+        }
         TableErrorKind::Value(error) => {
             let said = question::complaint(error);
             said.help

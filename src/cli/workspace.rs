@@ -7,7 +7,7 @@ use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Mode;
 use linkwork::output::{Report, workspace as output};
 
-use super::asked::Split;
+use super::asked::Asked;
 use super::format::{Format, beside_rows, with_rows};
 use super::search::Search;
 use super::source::{Assignment, Source};
@@ -17,11 +17,11 @@ use super::{Answer, Refusal, lines, style};
 
 /// Map where the mechanism reaches, in which modes, and what bounds it.
 ///
-/// One, two or three coordinates are mapped on a grid, the others held: coordinates of platforms, which frees the
-/// actuated joints, or joints. What regular motion in the box connects is a mode: a working mode where platforms are
-/// mapped, an assembly mode where the actuated joints are. Modes end at singularities and at limits of joints; regions
-/// of one mode without singularities inside are its aspects. The mode and aspect of the home assembly, or of the one
-/// that --guess leads to, are marked. Every node tells its condition number.
+/// One, two or three coordinates are mapped on a grid and the others held: coordinates of platforms or points, which frees
+/// the actuated joints, or joints. A mode is a set of configurations that regular motion within the box connects: working
+/// modes if platforms are mapped, assembly modes if the actuated joints are. Modes end at singularities and at joint
+/// limits; the regions of one mode without singularities inside are its aspects. The mode and aspect of the home
+/// assembly, or of the one that --guess leads to, are marked. Every node has its condition number.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork workspace mechanisms/five_bar_hand.ron --map hand.x=-0.6..0.8 --map hand.y=-0.1..0.7 --svg map.svg\n  \
@@ -30,26 +30,26 @@ use super::{Answer, Refusal, lines, style};
 pub struct Workspace {
     #[command(flatten)]
     source: Source,
-    /// A coordinate that is mapped, e.g. --map hand.x=-1..1; one to three
+    /// Range of a mapped coordinate, e.g. --map hand.x=-1..1; one to three of them
     #[arg(long, value_name = "NAME=FROM..TO")]
     map: Vec<Assignment>,
     #[command(flatten)]
-    split: Split,
-    /// Nodes along each mapped coordinate, or along all of them [default: 200, 60 or 24 each]
+    asked: Asked,
+    /// Nodes along each mapped coordinate, or one number for all [default: 200, 60 or 24 each]
     #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
     grid: Vec<usize>,
-    /// Nodes, spread over the box, that are searched for modes; some starts are then made at all nodes
+    /// Nodes, spread over the box, that are searched for modes with all --starts; the others get fewer
     #[arg(long = "search", value_name = "NUMBER", default_value_t = WorkspaceSettings::default().searched)]
     searched: usize,
-    /// Random starts at each node that is searched for modes
+    /// Random starts at each of these nodes
     #[arg(long, value_name = "NUMBER", default_value_t = WorkspaceSettings::default().starts)]
     starts: usize,
-    /// Also begin with all that `assemblies` finds in the middle of the box
+    /// Also start from all assemblies in the middle of the box
     #[arg(long)]
     assemblies: bool,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
+    /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
     /// Write the points of boundary curves as rows, instead of the nodes
@@ -62,7 +62,7 @@ pub struct Workspace {
 
 impl Workspace {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.split.pose(&self.source)?;
+        let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
         posed.ranges(Ranged::Map, &self.map)?;
         if self.boundary && (self.map.len() == 1 || self.format != Format::Csv) {

@@ -125,6 +125,15 @@ pub(crate) fn carried(steps: &[Displacement], vector: [Entry; 3], is_point: bool
     })
 }
 
+/// √3/2 and √2/2 as they are written, so that what a multiple of 30° or 45° turns stays exact.
+fn root(value: f64) -> Option<Entry> {
+    let squares = [3.0_f64, 2.0].into_iter();
+    let mut known = squares.filter(|square| (value.abs() - square.sqrt() / 2.0).abs() < 1e-15);
+    let sign = if value < 0.0 { "-" } else { "" };
+    let written = Expression::parse(&format!("{sign}sqrt({})/2", known.next()?));
+    written.ok().map(Entry::from)
+}
+
 fn turned(axis: Axis, angle: &Entry, vector: [Entry; 3]) -> [Entry; 3] {
     let [cos, sin] = [Function::Cos, Function::Sin].map(|function| {
         let value = angle.expression.fixed_value().map(|angle| match function {
@@ -132,7 +141,7 @@ fn turned(axis: Axis, angle: &Entry, vector: [Entry; 3]) -> [Entry; 3] {
             _ => angle.sin(),
         });
         match value {
-            Some(value) => Entry::length(value),
+            Some(value) => root(value).unwrap_or_else(|| Entry::length(value)),
             None => Node::Call(function, vec![angle.expression.clone()])
                 .at(0..0)
                 .into(),

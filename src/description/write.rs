@@ -156,11 +156,12 @@ impl Serialize for AxisDescription {
             AxisKind::Distance => "length",
             _ => "value",
         };
-        let nothing = |place: &Placed| matches!(place, Placed::Frame(steps) if steps.is_empty());
+        // a fixed joint may be anywhere
+        let anywhere = self.kind == AxisKind::Fixed && self.place == AxisPlace::Frame(Vec::new());
         let name = self.kind.word();
         let mut fields = serializer.serialize_struct_variant("Axis", 0, name, 12)?;
         for (name, value) in self.place.fields() {
-            if !nothing(&value) {
+            if !anywhere {
                 fields.serialize_field(name, &value)?;
             }
         }

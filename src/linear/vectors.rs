@@ -78,7 +78,7 @@ pub fn remove(vector: &mut [f64], basis: &[Vec<f64>]) {
     }
 }
 
-/// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958), of each of which `turned` is told.
+/// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958); `turned` is called for each rotation.
 pub(super) fn orthogonalise(
     length: usize,
     vectors: &mut [f64],

@@ -1,5 +1,5 @@
-//! Every dimension of a mechanism as numbers: the one door from the real-valued mechanism to
-//! complex, dual and other number types.
+//! Every dimension of a mechanism as numbers: the one place where the real-valued mechanism is
+//! lifted to complex, dual and other number types.
 
 use super::{ClosureKind, Frame};
 use crate::geometry::Pose;

@@ -1,4 +1,4 @@
-//! Equations that say nothing.
+//! Closure equations that vanish identically.
 
 use super::Mechanism;
 use super::closure::{Closure, EVERY_ROW, Kept, needs};

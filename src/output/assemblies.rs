@@ -344,7 +344,7 @@ fn accounting(report: &AssembliesReport) -> Vec<String> {
     );
     if report.half_a_turn_away > 0 {
         solutions += &format!(
-            "; {} with roll or yaw half a turn from what is held",
+            "; {} with roll or yaw half a turn from the held value",
             report.half_a_turn_away
         );
     }

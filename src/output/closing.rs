@@ -18,8 +18,8 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
 }
 
 /// What is least at a closest approach of a mechanism with rods.
-pub(super) const SQUARED_LENGTHS: &str = "a rod of length L whose ends are d apart counts by (d² − L²)/2, not by d − L: \
-     closest is where the sum of the squares of all closure rows is least";
+pub(super) const SQUARED_LENGTHS: &str = "a rod of length L whose ends are d apart counts as (d² − L²)/2, not as d − L: \
+     closest means the least sum of squares of all closure equations";
 
 /// How far the pose given was off.
 pub(super) fn given(pose: &GivenPose) -> Option<String> {
@@ -31,7 +31,7 @@ pub(super) fn given(pose: &GivenPose) -> Option<String> {
     };
     pose.given_gap.as_ref().map(|given| {
         format!(
-            "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{moved}.",
+            "The given pose was not assembled: closure `{}` was open by {}; it was assembled first{moved}.",
             given.closure,
             gap(given.distance, given.angle)
         )
@@ -49,7 +49,7 @@ pub fn is_about_the_file(pose: &GivenPose, length: f64) -> bool {
 pub(super) fn after_moving(pose: &GivenPose, answer: String) -> String {
     match pose.moved.as_ref().filter(|moved| !moved.is_small()) {
         Some(moved) => format!(
-            "The pose given is not assembled, and the nearest assembly is not beside it: {}. {answer}",
+            "The given pose is not assembled, and the nearest assembly is not close to it: {}. {answer}",
             way(moved)
         ),
         None => answer,
@@ -61,7 +61,7 @@ pub(super) fn notes(pose: &GivenPose) -> impl Iterator<Item = String> {
     let beside = pose.moved.as_ref().filter(|moved| moved.is_small());
     let beside = beside.map(|moved| {
         let way = way(moved);
-        format!("assembled beside the pose given: {way}, the most")
+        format!("assembled near the given pose: {way}, more than any other coordinate")
     });
     given(pose).into_iter().chain(beside)
 }

@@ -1,4 +1,4 @@
-//! What an analysis has to say, before it is known where it will be read.
+//! The contents of an answer, independent of the format in which it is written.
 //!
 //! A report becomes a [`Document`]: plain data made of an answer, notes, sections, tables and lists. Each output format
 //! is one file that renders a document and knows no report; each analysis has one file that makes its document and knows

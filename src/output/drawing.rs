@@ -234,9 +234,10 @@ impl<'s> Stage<'s> {
         for rod in &self.scene.rods {
             let colour = if rod.driven { DRIVEN } else { INK };
             pieces.extend(self.line(&rod.ends, Layer::Body, Style::line(colour, 3.0)));
-            let balls = rod.ends.iter();
-            let balls = balls.flat_map(|end| symbols::ball(self, &Vector3(*end), 0.7, INK));
-            pieces.extend(balls);
+            for (end, body) in rod.ends.iter().zip(rod.bodies) {
+                let on_ground = self.scene.bodies[body].ground;
+                pieces.extend(symbols::rod_end(self, &Vector3(*end), on_ground));
+            }
         }
         for joint in &self.scene.joints {
             pieces.extend(symbols::joint(self, joint));

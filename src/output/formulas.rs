@@ -23,7 +23,7 @@ fn notes(report: &FormulasReport) -> Vec<String> {
     let letters = report.letters.iter();
     for screw in letters.filter(|letter| letter.meaning == Meaning::Screw) {
         notes.push(format!(
-            "{} turns and slides at once: it stands as an angle in sines and cosines, and times its pitch in lengths.",
+            "{} turns and slides at once: it occurs as an angle in sines and cosines, and times its pitch in lengths.",
             screw.name
         ));
     }

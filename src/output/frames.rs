@@ -275,7 +275,7 @@ pub fn no_axes(error: &AxesError) -> Complaint {
              `linkwork formulas` for the transforms as they are",
         ),
         AxesError::Closure { .. } => complaint
-            .help("write the length as a constant plus a variable that stands nowhere else"),
+            .help("write the length as a constant plus a variable that occurs nowhere else"),
         AxesError::TooFew => complaint,
     }
 }

@@ -41,7 +41,7 @@ impl Report for MobilityReport {
             .section(joints(self))
             .section(
                 Section::new(
-                    "Redundant constraints, in the first frame of each closure, moments about its point",
+                    "Redundant constraints, in axes of the first frame of each closure, moments about its origin",
                 )
                 .list(redundant),
             )
@@ -50,7 +50,7 @@ impl Report for MobilityReport {
             .sections(shown.map(|(i, of)| branch(i, of)))
             .section(more_branches(self))
             .method(format!(
-                "condition number {} with lengths over {}{elimination}",
+                "condition number {} with lengths divided by {}{elimination}",
                 size(self.condition),
                 metres(self.length)
             ))

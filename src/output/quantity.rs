@@ -13,8 +13,7 @@ pub(super) fn signed(count: i64) -> String {
 pub fn number(value: f64) -> String {
     let size = value.abs();
     if value.is_nan() || (size != 0.0 && !(1e-4..1e7).contains(&size)) {
-        // what is left of a zero after rounding is a zero
-        return match size < 1e-12 {
+        return match size < ROUNDING {
             true => "0".into(),
             false => format!("{value:.4e}"),
         };
@@ -32,9 +31,13 @@ pub(super) fn short(value: f64) -> String {
     number((value * 1e4).round() / 1e4)
 }
 
+/// Below this a number in SI units is what rounding left of a zero.
+const ROUNDING: f64 = 1e-12;
+
 /// A number as it is shown: that of an angle in degrees.
 pub(super) fn shown(value: f64, unit: SiUnit) -> f64 {
     match unit.is_angle() {
+        true if value.abs() < ROUNDING => 0.0,
         true => value.to_degrees(),
         false => value,
     }
@@ -149,6 +152,8 @@ mod tests {
         assert_eq!(number(0.000_012_5), "1.2500e-5");
         assert_eq!(number(120.0), "120");
         assert_eq!(degrees(std::f64::consts::FRAC_PI_2), "90°");
+        assert_eq!(degrees(3e-14), "0°");
+        assert_eq!(degrees(3e-12), "1.7189e-10°");
         assert_eq!(
             [1.23e-16, 0.0, 31.66, 2.5e7].map(size),
             ["1.2e-16", "0", "31.7", "2.5e7"]

@@ -99,7 +99,7 @@ fn distances(distances: &Distances, length: f64) -> Section {
             Some(value) => format!("{value:.4e}"),
         });
     let title = format!(
-        "Distance to singularity: smallest singular values, lengths over {}",
+        "Distance to singularity: smallest singular values, lengths divided by {}",
         metres(length)
     );
     Section::new(title).table(table)

@@ -43,11 +43,11 @@ fn sentence(report: &AssemblyReport) -> String {
         Outcome::Converged => match &report.left {
             None => "Assembled.".into(),
             Some(left) if report.restarts > 0 => format!(
-                "Assembled from a random start, with {} left undecided.",
+                "Assembled from a random start, with {} left undetermined.",
                 count(left.freedoms, "freedom")
             ),
             Some(left) => format!(
-                "Assembled as near to the start as it closes; {} that nothing holds {} left there.",
+                "Assembled as near to the start as possible; {} that nothing holds {} left open.",
                 count(left.freedoms, "freedom"),
                 form(left.freedoms, "was", "were")
             ),
@@ -104,10 +104,10 @@ fn left(report: &AssemblyReport) -> Vec<String> {
         held => format!("only {} held", clause(held, "is", "are")),
     };
     let rest = listed(&left.hold);
-    let mut notes = vec![format!("{held}; {rest} would decide the rest")];
+    let mut notes = vec![format!("{held}; {rest} would determine the rest")];
     if left.singular > 0 {
         notes.push(format!(
-            "a singular configuration: to first order {} more can move",
+            "the configuration is singular: to first order {} more can move",
             count(left.singular, "freedom")
         ));
     }
@@ -130,7 +130,7 @@ fn others(report: &AssemblyReport) -> Option<String> {
     let decided = report.is_assembled() && report.left.is_none();
     let may_differ = decided && solved && !report.gaps.is_empty();
     let another = match report.restarts {
-        0 => "other assemblies with the same inputs were not looked for",
+        0 => "other assemblies with the same inputs were not searched for",
         _ => {
             "reached from a random start: another seed may lead to another assembly with the \
              same inputs"

@@ -11,24 +11,25 @@ use crate::description::{count, listed};
 impl Report for StaticsReport {
     fn document(&self) -> Document {
         let length = self.normalising_length;
+        let rounding = rounding(self);
         let answer = closing::after_moving(&self.pose, sentence(self));
         Document::new(&self.mechanism, answer)
             .note(format!(
-                "without weight and friction; condition number {}, forces times {} compared with moments",
+                "without weight and friction; condition number {}, forces multiplied by {} for comparison with moments",
                 size(self.condition),
                 metres(length)
             ))
             .notes(closing::notes(&self.pose))
             .table("Loads", loads(self))
-            .table("Loads on joints", forces(&self.joint_loads))
-            .table("Held, with the force that holds it", forces(&self.actuators))
+            .table("Loads on joints", forces(&self.joint_loads, [0.0; 2]))
+            .table("Held coordinates, with the force that holds each", forces(&self.actuators, rounding))
             .table(
-                "Closures, axes of ground, moments about the point given, that of the second frame",
-                reactions(&self.closures, length),
+                "Closures: components in ground axes, moments about the given point, the origin of the second frame",
+                reactions(&self.closures, length, rounding),
             )
             .table(
-                "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
-                reactions(&self.joints, length),
+                "Joints: components in ground axes, moments about the given point, the origin of the frame after the joint",
+                reactions(&self.joints, length, rounding),
             )
     }
 
@@ -47,7 +48,7 @@ fn sentence(report: &StaticsReport) -> String {
         0 => balance(report),
         gained => {
             let (freedoms, balance) = (count(gained, "freedom"), balance(report));
-            format!("Singular: {freedoms} gained that no held coordinate resists. {balance}")
+            format!("Singular: {freedoms} gained, which no held coordinate resists. {balance}")
         }
     }
 }
@@ -66,23 +67,44 @@ fn balance(report: &StaticsReport) -> String {
     match report.self_stresses {
         0 => "In equilibrium; all forces are determined.".into(),
         stresses => format!(
-            "In equilibrium, but not uniquely: {} without load can be added; values marked * are \
+            "In equilibrium, but not uniquely: {} can be added; values marked * are \
              the minimum-norm choice.",
-            count(stresses, "state of stress")
+            count(stresses, "state of self-stress")
         ),
     }
 }
 
-/// With columns of a force and a moment; a `*` stands behind components that are not unique.
+/// The force (N) and the moment (N·m) that are rounding beside the largest of a report.
+fn rounding(report: &StaticsReport) -> [f64; 2] {
+    let length = report.normalising_length;
+    let reactions = report.closures.iter().chain(&report.joints);
+    let forces = reactions.flat_map(|of| of.force.into_iter().chain(of.moment.map(|m| m / length)));
+    let held = report.actuators.iter().map(|held| match held.unit {
+        SiUnit::NEWTON => held.force,
+        _ => held.force / length,
+    });
+    let largest = forces
+        .chain(held)
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    [1e-13 * largest, 1e-13 * largest * length]
+}
+
+fn without_rounding(value: f64, rounding: f64) -> f64 {
+    if value.abs() < rounding { 0.0 } else { value }
+}
+
+/// With columns of a force and a moment; a `*` follows components that are not unique.
 fn components<T: Copy>(
     table: TableOf<T>,
+    rounding: [f64; 2],
     of: impl Fn(T) -> ([f64; 3], [f64; 3], [bool; 6]),
 ) -> TableOf<T> {
     let names = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
     (0..).zip(names).fold(table, |table, (i, name)| {
         let component = |row| {
             let (force, moment, unique) = of(row);
-            Cell::from(if i < 3 { force[i] } else { moment[i - 3] }).starred(!unique[i])
+            let value = if i < 3 { force[i] } else { moment[i - 3] };
+            Cell::from(without_rounding(value, rounding[i / 3])).starred(!unique[i])
         };
         table
             .numbers(name, component)
@@ -92,19 +114,23 @@ fn components<T: Copy>(
 
 fn loads(report: &StaticsReport) -> TableOf<&AppliedWrench> {
     let table = Table::of(&report.loads).words("on", |load| &load.frame);
-    components(table, |load| (load.force, load.moment, [true; 6]))
+    components(table, [0.0; 2], |load| (load.force, load.moment, [true; 6]))
 }
 
-fn forces(forces: &[Force]) -> TableOf<&Force> {
+fn forces(forces: &[Force], rounding: [f64; 2]) -> TableOf<&Force> {
+    let clean = move |force: &Force| {
+        let is_moment = force.unit != SiUnit::NEWTON;
+        without_rounding(force.force, rounding[usize::from(is_moment)])
+    };
     let table = Table::of(forces)
         .words("name", |force| &force.name)
-        .numbers("force", |force| {
-            Cell::quantity(force.force, force.unit).starred(!force.unique)
+        .numbers("force", move |force| {
+            Cell::quantity(clean(force), force.unit).starred(!force.unique)
         });
     // a slide is a cylinder, a coordinate of a platform is none
     let slides = |force: &Force| force.unit == SiUnit::NEWTON && !force.name.contains('.');
     match forces.iter().any(slides) {
-        true => table.words("", move |force| match force.force {
+        true => table.words("", move |force| match clean(force) {
             _ if !slides(force) => "",
             sense if sense > 0.0 => "pushes",
             sense if sense < 0.0 => "pulls",
@@ -114,8 +140,7 @@ fn forces(forces: &[Force]) -> TableOf<&Force> {
     }
 }
 
-fn reactions(reactions: &[Reaction], length: f64) -> TableOf<&Reaction> {
-    let clean = |x: f64| if x.abs() < 1e-9 * length { 0.0 } else { x };
+fn reactions(reactions: &[Reaction], length: f64, rounding: [f64; 2]) -> TableOf<&Reaction> {
     let table = Table::of(reactions)
         .words("", |of| match of.variables.is_empty() {
             true => of.name.clone(),
@@ -124,8 +149,8 @@ fn reactions(reactions: &[Reaction], length: f64) -> TableOf<&Reaction> {
         .words("from", |of| &of.from)
         .words("on", |of| &of.on)
         .words("at", |of| {
-            Cell::vector(of.point.map(clean)).with(Digits::Six)
+            Cell::vector(of.point.map(|x| without_rounding(x, 1e-9 * length))).with(Digits::Six)
         })
         .in_unit(SiUnit::METRE);
-    components(table, |of| (of.force, of.moment, of.unique))
+    components(table, rounding, |of| (of.force, of.moment, of.unique))
 }

@@ -65,7 +65,7 @@ pub fn spread(rows: &str) -> std::io::Result<String> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MergeError {
     /// A file that is no shard.
-    #[error("{0} is no shard of a study: its first line does not begin with `row of`")]
+    #[error("{0} is not a shard of a study: its first line does not begin with `row of`")]
     NoShard(String),
     /// A file of another study.
     #[error("{0} has other columns than {1}: they are of two studies")]
@@ -77,7 +77,7 @@ pub enum MergeError {
     #[error("row {0} is not the same in {files}: they are of two studies", files = .1.join(" and "))]
     Differ(usize, [String; 2]),
     /// So many rows are no grid of these nodes along each coordinate.
-    #[error("{0} rows are no grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
+    #[error("{0} rows are not a grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
     Grid(usize, Vec<usize>),
     /// Missing rows.
     #[error("rows {first} to {last} of {of} are missing: work out their shard")]

@@ -46,6 +46,7 @@ fn table(table: &Table) -> String {
     let header: Vec<String> = table.columns.iter().map(|column| column.header()).collect();
     match table.ruled {
         true => drawn.load_style(UTF8_FULL_CONDENSED).set_header(header),
+        false if header.iter().all(String::is_empty) => drawn.load_style(NOTHING),
         false => drawn.load_style(NOTHING).add_row(header),
     };
     for row in &table.rows {

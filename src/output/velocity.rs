@@ -122,7 +122,7 @@ fn doubt(report: &VelocityReport) -> String {
         return String::new();
     };
     let near = format!(
-        "a singular configuration: the smallest singular value is {} (with lengths over {}), and \
+        "a singular configuration: the smallest singular value is {} (with lengths divided by {}), and \
          rounding leaves the configuration uncertain by {}",
         size(smallest),
         metres(report.normalising_length),
@@ -215,7 +215,7 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
             entries: jacobian.entries.clone(),
         })
         .text(format!(
-            "{without}rank {}, condition number {condition}, manipulability {}, with lengths over {}",
+            "{without}rank {}, condition number {condition}, manipulability {}, with lengths divided by {}",
             jacobian.rank,
             number(jacobian.manipulability),
             metres(length)

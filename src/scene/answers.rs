@@ -23,7 +23,7 @@ impl Scene {
                 None => at,
             };
             let apart = |other: Triple| (Vector3(at) - Vector3(other)).norm();
-            // where there is a joint nobody doubts it
+            // a centre on a joint is obvious and not marked
             let mut joints = self.joints.iter();
             let joint = joints.any(|joint| apart(joint.at) < 1e-6 * size);
             if !joint && apart(middle) <= 1.5 * size {

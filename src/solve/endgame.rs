@@ -1,4 +1,4 @@
-//! Where a solution goes when its way ends at a singularity or at infinity.
+//! Where a path ends at a singularity or at infinity.
 //!
 //! Near s = 1 a solution is a series in (1 − s)^{1/w}. Going w times round s = 1 on a circle closes it; the mean over
 //! the circle is the value at the centre (Morgan, Sommese and Wampler 1991, the Cauchy endgame). Negative powers, or

@@ -1,4 +1,4 @@
-//! The joint variables that tell assemblies apart, for interval arithmetic over all of them.
+//! The joint variables that distinguish assemblies, for interval arithmetic over all of them.
 
 use serde::{Deserialize, Serialize};
 

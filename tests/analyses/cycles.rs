@@ -173,8 +173,14 @@ fn a_table_that_is_wrong_is_refused_at_its_place() {
     ));
     assert!(matches!(
         refused("time,theta1\nnow,1\n").2,
-        TableErrorKind::Time(_)
+        TableErrorKind::Number(_)
     ));
+    // empty lines count where the place is named, and are no rows
+    let (line, column, kind) = refused("time (s),theta1 (deg)\n\n0,10\r\n\r\n\n1, abc\n");
+    assert_eq!(
+        (line, column, kind),
+        (6, 4, TableErrorKind::Number("abc".into()))
+    );
     assert_eq!(refused("time,theta1\n0,1\n").2, TableErrorKind::Still);
     assert_eq!(refused("").2, TableErrorKind::Still);
 }

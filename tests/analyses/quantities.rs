@@ -270,6 +270,29 @@ fn the_camber_of_a_planar_suspension_is_that_of_two_circles() {
     );
 }
 
+/// From points of the wheel's axis as the file asks, and from the orientation of the upright.
+#[test]
+fn camber_and_toe_over_wheel_travel_are_those_of_the_orientation() {
+    let question = Question::new(load("axes/double_wishbone"))
+        .free("lower")
+        .input("wheel.z", 0.175, 0.255);
+    let motion = moved(&question, 20, Pace::default());
+    let angles = ["roll", "pitch", "yaw"].map(|angle| column(&motion, &format!("upright.{angle}")));
+    let [camber, toe, travel] = ["camber", "toe in", "wheel.z"].map(|of| column(&motion, of));
+    assert_eq!(camber.len(), 21);
+    for row in 0..camber.len() {
+        let [(sr, cr), (sp, cp), (sy, cy)] = angles.each_ref().map(|angle| angle[row].sin_cos());
+        // the second column of Rz(yaw) Ry(pitch) Rx(roll)
+        let axis = [cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr];
+        assert!((camber[row] + axis[2].asin()).abs() < 1e-10, "{row}");
+        assert!((toe[row] - (-axis[0]).atan2(axis[1])).abs() < 1e-10, "{row}");
+    }
+    let [first, last] = [travel[0], travel[20]];
+    assert!((first - 0.175).abs() < 1e-12 && (last - 0.255).abs() < 1e-12);
+    // the upright is not a vertical plate: both change
+    assert!(camber[20] - camber[0] < -0.01 && (toe[20] - toe[0]).abs() > 1e-3);
+}
+
 #[test]
 fn figures_are_those_of_velocity_and_of_singularities() {
     let question = Question::new(load("three_rps"))

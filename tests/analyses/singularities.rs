@@ -1315,3 +1315,39 @@ fn a_closed_locus_is_known_where_it_begins_and_ends() {
         }
     }
 }
+
+/// A coupler point of the 4-bar moves along y alone where its x is extreme: from Freudenstein's closure on a dense grid of
+/// the crank, refined by parabolas.
+#[test]
+fn a_coordinate_of_a_point_is_an_output() {
+    let x = |theta: f64| {
+        // from the crank pin to the pivot of the rocker, and from that line to the coupler by the law of cosines
+        let (x, y) = (5.0 - theta.cos(), -theta.sin());
+        let d = x.hypot(y);
+        let coupler = y.atan2(x) + ((d * d + 9.0 - 16.0) / (6.0 * d)).acos();
+        theta.cos() + 1.2 * coupler.cos() - 0.8 * coupler.sin()
+    };
+    let step = 1e-3;
+    let turns: Vec<f64> = (0..6283)
+        .map(|i| f64::from(i) * step)
+        .filter_map(|theta| {
+            let [a, b, c] = [-step, 0.0, step].map(|d| x(theta + d));
+            ((b - a) * (c - b) <= 0.0).then(|| theta + 0.5 * step * (a - c) / (a - 2.0 * b + c))
+        })
+        .collect();
+    let output = "left.2+1.2,0.8.x";
+    let file = "mechanisms/four_bar.ron";
+    let json = told(&[file, "--input", "theta1=0deg..359.9deg", "--output", output]);
+    assert_eq!(list(&json["outputs"]), [output]);
+    let crossings = json["crossings"].as_array().unwrap();
+    let found: Vec<f64> = (crossings.iter())
+        .map(|crossing| crossing["moved"][0].as_f64().unwrap())
+        .collect();
+    assert_eq!(found.len(), turns.len(), "{found:?} {turns:?}");
+    for (found, turn) in found.iter().zip(&turns) {
+        assert!((found - turn).abs() < 1e-5, "{found} {turn}");
+    }
+    // a point has no such coordinate
+    let (code, _, stderr) = run(&[file, "--output", "left.2+1.2,0.8.w"]);
+    assert_eq!(code, 2, "{stderr}");
+}

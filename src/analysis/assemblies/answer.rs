@@ -318,7 +318,7 @@ impl Question<'_> {
                 End::Singular(x) => (x, true),
                 End::Either(_) | End::Infinite | End::Lost => continue,
             };
-            // solutions by themselves were told apart; an end where they meet that could not be
+            // simple solutions are distinct already; an end where solutions meet and that could not be
             // refined has half the digits
             let near = |y: &[C]| self.coordinates.within(1e-5 * (1.0 + size(x)), x, y);
             match (groups.iter_mut()).find(|g| singular && g.singular && near(&g.x)) {

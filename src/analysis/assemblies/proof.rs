@@ -1,9 +1,9 @@
-//! Whether the assemblies listed are all real ones: interval branch and prune over the joint variables that tell them
-//! apart.
+//! Whether the listed assemblies are all the real ones: interval branch and prune over the joint variables that
+//! distinguish them.
 //!
-//! Round each listed assembly a box is made that holds one at most; everything outside of these boxes is excluded
-//! piece by piece, or what is left is said. Angles go all the way round, so that limits exclude nothing; slides go as
-//! far as their limits or, without any, as the lengths of the mechanism allow.
+//! Around each listed assembly a box is made that contains at most one; everything outside of these boxes is excluded
+//! piece by piece, and what is left is reported. Angles cover the full turn, whatever their limits; slides their range or,
+//! without limits, as far as the lengths of the mechanism allow.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -85,7 +85,7 @@ pub fn prove(
             .collect(),
     };
     proof.left = joined(pruned.left).iter().map(part).collect();
-    // an assembly round which no box was found may be one that a box was found round on the way
+    // an assembly without a box of its own may lie in one that the search found
     let mut missing = pruned.found;
     let mut met = pruned.met.iter();
     for ((mode, x), region) in modes.iter().zip(&found) {

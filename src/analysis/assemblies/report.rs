@@ -1,4 +1,4 @@
-//! What is said about the assemblies of a mechanism.
+//! The report on the assemblies of a mechanism.
 
 use serde::{Deserialize, Serialize};
 
@@ -127,8 +127,8 @@ pub struct Continuum {
     pub dimension: usize,
     /// Paths that end on it.
     pub paths: usize,
-    /// Numbers of the assemblies that are samples of it. Sets of the same dimension are not told
-    /// apart. None if only complex points of it were met.
+    /// Numbers of the assemblies that are samples of it. Sets of the same dimension are not
+    /// distinguished. None if only complex points of it were met.
     pub samples: Vec<usize>,
 }
 

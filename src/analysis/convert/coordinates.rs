@@ -1,12 +1,16 @@
 //! Tables → joint coordinates, as they are written.
 //!
 //! The drawing shows the chains with all variables at zero, the two sides of each closure where the chains then have
-//! them: nothing has to be assembled, so parameters and expressions stay. Where parameters turn an axis, the
-//! displacements of the tables themselves are its place.
+//! them: nothing has to be assembled, so parameters and expressions stay. Where an axis is turned by other than right
+//! angles, the displacements of the tables themselves are its place, so that nothing is rounded.
+//!
+//! The last link of a chain is called by the name of the chain, whose tip is its frame. Frames that only mark the end of
+//! a closure, under the names that [`AxesDescription::tables`] gives them, are not written as points.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
-use super::references::rename;
+use super::references::{frame_in, rename};
 use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{carried, doing_something, joined, zero};
@@ -103,13 +107,22 @@ fn axis_of(before: &[Displacement], row: &Row, convention: Convention, fixed: [E
     }
 }
 
-/// Whether a parameter turns something.
-fn turned_by_parameters(steps: &[Displacement]) -> bool {
-    let turned = |step: &Displacement| match step {
-        Displacement::Rotate(_, angle) => angle.expression.names().next().is_some(),
+/// Whether something is turned by other than right angles.
+fn is_oblique(steps: &[Displacement]) -> bool {
+    let oblique = |step: &Displacement| match step {
+        Displacement::Rotate(_, angle) => match angle.expression.fixed_value() {
+            Some(angle) => angle.sin().abs().min(angle.cos().abs()) > 1e-12,
+            None => true,
+        },
         _ => false,
     };
-    steps.iter().any(turned)
+    steps.iter().any(oblique)
+}
+
+/// The rotations among displacements.
+fn rotations(steps: &[Displacement]) -> impl Iterator<Item = &Displacement> {
+    let is_rotation = |step: &&Displacement| matches!(step, Displacement::Rotate(..));
+    steps.iter().filter(is_rotation)
 }
 
 fn point_of(steps: &[Displacement]) -> [Entry; 3] {
@@ -124,10 +137,9 @@ fn axis_along(steps: &[Displacement], axis: Axis, sense: f64) -> [Entry; 3] {
 
 /// A frame by its origin where nothing is turned.
 fn place_at(steps: &[Displacement]) -> AxisPlace {
-    let turns = |step: &Displacement| matches!(step, Displacement::Rotate(..));
-    match steps.iter().any(turns) {
-        true => AxisPlace::Frame(steps.to_vec()),
-        false => AxisPlace::Centre(point_of(steps)),
+    match rotations(steps).next() {
+        Some(_) => AxisPlace::Frame(steps.to_vec()),
+        None => AxisPlace::Centre(point_of(steps)),
     }
 }
 
@@ -194,6 +206,9 @@ impl Drawing<'_> {
             let name = match body {
                 Body::Ground => GROUND.to_owned(),
                 Body::Platform(platform) => self.mechanism.platforms()[platform].name.clone(),
+                Body::Link { chain, .. } if self.carries_tip(body) => {
+                    self.mechanism.chains()[chain].name.clone()
+                }
                 Body::Link { chain, row } => {
                     let wanted = format!("{}_{row}", self.mechanism.chains()[chain].name);
                     let taken = |name: &str| {
@@ -205,6 +220,14 @@ impl Drawing<'_> {
             };
             self.bodies.insert(body, name);
         }
+    }
+
+    /// Whether a body is the last link of its chain, which then has the frame and the name of the tip.
+    fn carries_tip(&self, body: Body) -> bool {
+        let Body::Link { chain, .. } = body else {
+            return false;
+        };
+        self.mechanism.body(Frame::Tip { chain }) == body
     }
 
     fn body(&self, frame: Frame) -> String {
@@ -313,15 +336,17 @@ impl Drawing<'_> {
         let own = match &sum.terms[..] {
             [(name, factor)] if !self.own.contains(name) => {
                 let sense = factor.as_number().filter(|factor| factor.abs() == 1.0);
-                // a frame has its own sense
-                let sense = sense.filter(|sense| *sense > 0.0 || !turned_by_parameters(at));
                 sense.map(|sense| (name.clone(), sense))
             }
             _ => None,
         };
         let sense = own.as_ref().map_or(1.0, |(_, sense)| *sense);
-        let place = match turned_by_parameters(at) {
-            true => AxisPlace::Frame(at.to_vec()),
+        let place = match is_oblique(at) {
+            true => {
+                let turned = Displacement::Rotate(Axis::X, Entry::angle(PI));
+                let over = (sense < 0.0).then_some(turned);
+                AxisPlace::Frame(joined(at.iter().cloned().chain(over)))
+            }
             false => AxisPlace::Along(Some(point_of(at)), axis_along(at, Axis::Z, sense)),
         };
         let mut joint = AxisDescription::new(kind, place);
@@ -374,9 +399,10 @@ impl Drawing<'_> {
             let mut kinds = AxisKind::ALL.into_iter();
             let kind = (kinds.find(|kind| kind.closure() == Some(named.value.kind)))
                 .expect("every closure restores some joint");
-            let turned = at.iter().any(|steps| turned_by_parameters(steps));
+            let oblique = at.iter().any(|steps| is_oblique(steps));
+            let parallel = rotations(&at[0]).eq(rotations(&at[1]));
             let [place, second] = [0, 1].map(|side| {
-                use AxisKind::{Cylindrical, Planar, Revolute, Spherical, Universal};
+                use AxisKind::{Cylindrical, Planar, Prismatic, Revolute, Spherical, Universal};
                 let steps = &at[side];
                 let along = |axis: Axis| axis_along(steps, axis, 1.0);
                 match kind {
@@ -386,7 +412,11 @@ impl Drawing<'_> {
                         let axes = [[Axis::Z, Axis::X], [Axis::X, Axis::Z]][side];
                         AxisPlace::Cross(point_of(steps), axes.map(along))
                     }
-                    Revolute | Cylindrical | Planar if !turned => {
+                    Revolute | Cylindrical | Planar if !oblique => {
+                        AxisPlace::Along(Some(point_of(steps)), along(Axis::Z))
+                    }
+                    // its bodies do not turn against one another
+                    Prismatic if !oblique && parallel => {
                         AxisPlace::Along(Some(point_of(steps)), along(Axis::Z))
                     }
                     _ => AxisPlace::Frame(steps.clone()),
@@ -432,6 +462,44 @@ impl Drawing<'_> {
         self.axes.joints.push(Named::new(name, rod));
     }
 
+    /// Whether a closed form or a quantity names a frame.
+    fn is_asked(&self, frame: &str) -> bool {
+        let forms = self.description.closed_forms.iter();
+        let mut frames = forms.flat_map(|form| form.value.of.iter().chain(&form.value.relative_to));
+        let outputs = self.description.outputs.iter();
+        let mut names = outputs.flat_map(|output| output.value.expression.names());
+        frames.any(|name| name.value == frame)
+            || names.any(|(name, _)| name[frame_in(name)] == *frame)
+    }
+
+    /// Whether a frame has the name that the end of a closure gets in tables.
+    fn ends_closure(&self, frame: &str) -> bool {
+        self.description.closures.iter().any(|closure| {
+            let mut ends = closure.value.frames.iter().enumerate();
+            let name = &closure.name.value;
+            ends.any(|(side, end)| {
+                let on_platform = end
+                    .value
+                    .split_once('.')
+                    .is_some_and(|(_, end)| end == name);
+                end.value == frame && (on_platform || *frame == format!("{name}_{}", side + 1))
+            })
+        })
+    }
+
+    /// Whether the frame of a body stands where it does if nothing is said: at the joint that carries it.
+    fn is_at_joint(&self, body: &str, place: &AxisPlace) -> bool {
+        let carries = |joint: &&Named<AxisDescription>| {
+            let between = joint.value.between.as_ref();
+            between.is_some_and(|between| between[1].value == body)
+        };
+        let carrier = self.axes.joints.iter().find(carries);
+        carrier.is_some_and(|joint| match (&joint.value.place, place) {
+            (AxisPlace::Along(Some(point), _), AxisPlace::Centre(origin)) => point == origin,
+            (joint, place) => joint == place,
+        })
+    }
+
     /// Adds the frames of bodies and the points; returns the new names of frames.
     fn frames(&mut self) -> Vec<(String, String)> {
         let connected = |body: &String| {
@@ -446,15 +514,21 @@ impl Drawing<'_> {
                 continue;
             }
             let steps = &self.places[&frame];
-            let moves = self.mechanism.body_frame(self.mechanism.body(frame)) == frame;
-            let asked = self.description.closed_forms.iter().any(|form| {
-                let mut frames = form.value.of.iter().chain(&form.value.relative_to);
-                frames.any(|name| name.value == old)
-            });
+            let carrier = self.mechanism.body(frame);
+            let named = self.carries_tip(carrier);
+            let moves = self.mechanism.body_frame(carrier) == frame;
+            let asked = self.is_asked(&old);
             match frame {
                 Frame::Platform { .. } => bodies.push(Named::new(body, place_at(steps))),
-                Frame::Link { .. } if !asked => {}
-                Frame::Link { .. } if moves => {
+                Frame::Tip { .. } if named && body == old => {
+                    let place = place_at(steps);
+                    if !self.is_at_joint(&body, &place) {
+                        bodies.push(Named::new(body, place));
+                    }
+                }
+                _ if !asked && (matches!(frame, Frame::Link { .. }) || self.ends_closure(&old)) => {
+                }
+                Frame::Link { .. } if moves && !named => {
                     bodies.push(Named::new(body.clone(), AxisPlace::Frame(steps.clone())));
                     renamed.push((old, body));
                 }

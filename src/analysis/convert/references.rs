@@ -118,7 +118,7 @@ pub(super) fn rename(
 }
 
 /// Where the name of a quantity, such as `velocity:[left+1].x`, names a frame, if it does.
-fn frame_in(name: &str) -> Range<usize> {
+pub(super) fn frame_in(name: &str) -> Range<usize> {
     let start = name.find(':').map_or(0, |colon| colon + 1);
     if let Some(inside) = name[start..].strip_prefix('[') {
         let end = inside.find(['+', ']']).unwrap_or(inside.len());

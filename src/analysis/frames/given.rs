@@ -1,4 +1,4 @@
-//! The way back: the joint axes that the tables of a mechanism describe.
+//! The inverse: the joint axes that the tables of a mechanism describe.
 
 use crate::description::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry,

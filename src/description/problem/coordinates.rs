@@ -50,10 +50,10 @@ pub enum AxesProblem {
         suggestion: Option<String>,
     },
     /// Values of joints given by one another; the first follows the last.
-    #[error("the value of a joint is given by itself: {}", cycle(joints))]
+    #[error("the value of a joint depends on itself: {}", cycle(joints))]
     FollowsItself { joints: Vec<String> },
     #[error(
-        "the constant in the value of `{joint}` has no effect: how it is drawn follows from the joints it follows"
+        "the constant in the value of `{joint}` has no effect: its value in the drawing follows from the joints it follows"
     )]
     ConstantLost { joint: String },
     #[error("the joint `{joint}` follows others by its {by} and has no `{field}` of its own")]
@@ -63,11 +63,11 @@ pub enum AxesProblem {
         field: &'static str,
     },
     #[error(
-        "the axes of the universal joint `{joint}` are not perpendicular: they stand at {angle:.6} rad"
+        "the axes of the universal joint `{joint}` are not perpendicular: the angle between them is {:.4}°", .angle.to_degrees()
     )]
     NotPerpendicular { joint: String, angle: f64 },
     #[error(
-        "`frames` makes tables of revolute, prismatic and spherical joints only, and `{joint}` is none"
+        "`frames` makes tables of revolute, prismatic and spherical joints only, and `{joint}` is none of these"
     )]
     NotPlaced { joint: String },
     #[error("the screw `{joint}` cannot be cut")]

@@ -97,7 +97,8 @@ pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
         },
         MeasureErrorKind::Mixed => "give both the same unit, or none".into(),
         MeasureErrorKind::Units(..) => {
-            "only what has the same unit can be added or compared: divide one by something".into()
+            "only quantities of the same unit can be added or compared: divide one by something"
+                .into()
         }
         MeasureErrorKind::Argument(function, _) if function.takes_angle() => {
             "divide by a length, or give it an angle".into()

@@ -87,7 +87,7 @@ pub(super) fn notes(proof: &Proof) -> Vec<String> {
         let boxes = count(proof.waiting, "box");
         notes.push(match proof.crowded {
             true => format!(
-                "the search ended with {boxes} not looked at: round singular solutions there is no end of small boxes"
+                "the search ended with {boxes} not looked at: around singular solutions small boxes never end"
             ),
             false => format!("the search ended with {boxes} not looked at; --boxes allows more"),
         });
@@ -106,7 +106,7 @@ pub(super) fn sections(proof: &Proof) -> Vec<Section> {
     };
     vec![
         Section::new("Assemblies that are not listed").list(proof.missing.iter().map(part)),
-        Section::new("Neither excluded nor told apart").list(proof.left.iter().map(part)),
+        Section::new("Neither excluded nor separated").list(proof.left.iter().map(part)),
     ]
 }
 

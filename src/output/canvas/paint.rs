@@ -1,4 +1,4 @@
-//! Pictures as dots: shapes filled and stroked, letters from the outlines of a font that comes with the program, so that
+//! Pictures as bitmaps: shapes filled and stroked, letters from the outlines of a font that comes with the program, so that
 //! a picture is the same on every machine.
 
 use std::io;

@@ -41,8 +41,19 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
     pieces
 }
 
+/// The ball at the end of a rod, with what it stands on.
+pub(super) fn rod_end(stage: &Stage, at: &Point, on_ground: bool) -> Vec<Piece> {
+    let under = match stage.flat {
+        _ if !on_ground => Vec::new(),
+        true => support(stage, at),
+        false => plate(stage, at, &Vector3::unit(2)),
+    };
+    let ball = ball(stage, at, 0.7, INK);
+    under.into_iter().chain(ball).collect()
+}
+
 /// A round joint.
-pub(super) fn ball(stage: &Stage, at: &Point, size: f64, fill: Colour) -> Vec<Piece> {
+fn ball(stage: &Stage, at: &Point, size: f64, fill: Colour) -> Vec<Piece> {
     let Camera { right, up, .. } = stage.camera;
     let outline = ring(at, &right, &up, size * stage.metres());
     vec![Piece {

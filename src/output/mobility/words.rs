@@ -88,7 +88,7 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             None => format!("{the_mechanism} has {}.", freedoms(*mobility)),
             Some(distance) => format!(
                 "{the_mechanism} has {}; the configuration is regular, but only about {} (in rad, and \
-                 lengths over {}) away from a singular one.",
+                 lengths divided by {}) away from a singular one.",
                 freedoms(*mobility),
                 coarse(distance),
                 metres(report.length)

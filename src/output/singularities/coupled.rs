@@ -10,7 +10,7 @@ pub fn note(coupled: &[Coupled]) -> Option<String> {
     let freedoms = count(first.freedoms, "freedom");
     let taken = match coupled {
         [one] => format!(
-            "the output {} is a full pose, of which only {freedoms} can be chosen",
+            "the output {} is a full pose with only {freedoms}",
             one.output
         ),
         all => format!(
@@ -35,7 +35,7 @@ pub fn note(coupled: &[Coupled]) -> Option<String> {
     };
     let coordinates = if_any(&first.coordinates, |some| format!(", or some of {some}"));
     Some(format!(
-        "{taken}: {hidden}. For these take the point `{}` as the output{coordinates}.",
+        "{taken}: {hidden}. To have these reported, take the point `{}` as the output{coordinates}.",
         first.output
     ))
 }

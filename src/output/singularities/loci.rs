@@ -108,7 +108,7 @@ fn cusps(report: &LocusReport) -> Option<Section> {
     let any = |kind: Kind| cusps.iter().any(|(_, locus, _)| locus.kind == kind);
     let meaning = [
         any(Kind::Direct).then(|| {
-            "direct: three assemblies meet there, and round it one turns into another without a singularity".to_owned()
+            "direct: three assemblies meet there, and on a path around it one turns into another without a singularity".to_owned()
         }),
         any(Kind::Inverse).then(|| "inverse: three configurations for the same outputs meet there".to_owned()),
     ];

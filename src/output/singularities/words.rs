@@ -23,7 +23,7 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     let mut sentences = Vec::new();
     match singularity.gosselin_angeles {
         None if singularity.zlatanov.is_empty() => {
-            sentences.push("Regular: nothing is gained, nothing is lost.".to_owned());
+            sentences.push("Regular: no freedom is gained or lost.".to_owned());
         }
         None => sentences.push("Singular.".into()),
         Some(kind) => sentences.push(format!(
@@ -94,8 +94,8 @@ pub(super) fn zlatanov(kind: Zlatanov) -> String {
     let meaning = match kind {
         Zlatanov::RedundantInput => "redundant input: inputs move while the outputs stand still",
         Zlatanov::RedundantOutput => "redundant output: outputs move while the inputs stand still",
-        Zlatanov::ImpossibleInput => "impossible input: some rates of the inputs cannot be",
-        Zlatanov::ImpossibleOutput => "impossible output: some rates of the outputs cannot be",
+        Zlatanov::ImpossibleInput => "impossible input: some rates of the inputs are impossible",
+        Zlatanov::ImpossibleOutput => "impossible output: some rates of the outputs are impossible",
         Zlatanov::IncreasedMobility => "increased instantaneous mobility: a constraint singularity",
         Zlatanov::PassiveMotion => {
             "redundant passive motion: passive joints move while inputs and outputs stand still"
@@ -144,10 +144,10 @@ pub(super) fn ending(report: &AlongReport) -> String {
         AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
         AlongEnd::Fold => format!(
             "{way}: it locks at {here}, where this branch ends; {found}. Following \
-             the curve leads round the fold, back on the other branch."
+             the curve leads around the fold, back on the other branch."
         ),
         AlongEnd::Branches => format!(
-            "{way}: branches cross at {here}; {found}. Following the curve leads straight on."
+            "{way}: branches cross at {here}; {found}. Following the curve continues straight through."
         ),
         AlongEnd::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
         AlongEnd::OutsideLimits => format!(
@@ -256,7 +256,7 @@ fn missing(report: &LocusReport) -> String {
                 "a locus reached by fewer than 1 in {n} starts may be missing (95 % confidence)"
             )
         }
-        _ => "so few starts do not show whether loci are missing".into(),
+        _ => "with so few starts it is not known whether loci are missing".into(),
     }
 }
 

@@ -12,7 +12,7 @@ use crate::output::quantity;
 use crate::scene::{Scene, Triple, least_and_greatest};
 use crate::system::{Coordinate, Driven};
 
-/// Collects what is to be drawn; of a long motion only as many points as can be told apart.
+/// Collects what is to be drawn; of a long motion only as many points as can be distinguished.
 #[derive(Clone, Debug)]
 pub struct Picture {
     title: String,

@@ -72,7 +72,7 @@ pub fn sentence(report: &SweepReport) -> String {
             };
             format!(
                 "{} {verb} at {place}: a dead point, where this branch ends{moving}. Following \
-                 the curve leads round it, back on the other branch.",
+                 the curve leads around it, back on the other branch.",
                 listed(locked)
             )
         }
@@ -85,7 +85,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ),
         (SweepEnd::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
             "Branches cross at {place}: there are {} there and {}. The sweep does not choose \
-             between branches; following the curve leads straight on.",
+             between branches; following the curve continues straight through.",
             count(*freedoms, "infinitesimal freedom"),
             match branches.len() {
                 0 => "no branch was found".into(),
@@ -141,7 +141,7 @@ pub fn certified(report: &SweepReport) -> Vec<String> {
         let ranges = inputs.map(|(of, (from, to))| {
             let [one, other] = [from, to].map(|x| quantity(*x, of.unit));
             match one == other {
-                true => format!("round {} = {one}", of.name),
+                true => format!("around {} = {one}", of.name),
                 false => range(&of.name, *from, *to, of.unit),
             }
         });
@@ -219,7 +219,7 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
     let missing = motion.extremes.iter().filter_map(|of| {
         let why = match of.missing? {
             Missing::PlanarLoop => "no loop of it moves in a plane",
-            Missing::Rates => "what is held and driven does not determine the rates",
+            Missing::Rates => "the held and driven coordinates do not determine the rates",
             Missing::Expression => "its expression has none at any row",
         };
         Some(format!("{} has no value: {why}", of.name))

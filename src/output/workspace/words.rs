@@ -19,7 +19,8 @@ pub(super) fn question(report: &WorkspaceReport) -> String {
 
 pub(super) fn home(report: &WorkspaceReport) -> String {
     let Some(home) = &report.home else {
-        return "Home does not assemble with what is held: no mode is marked.".into();
+        return "The home configuration does not assemble with the held values: no mode is marked."
+            .into();
     };
     let axes = report.axes.iter().zip(&home.at);
     let values = axes.map(|(a, x)| at(&a.name, *x, a.unit));

@@ -94,7 +94,7 @@ export class Load {
       const { unbalanced } = forces;
       find("load-said").textContent = unbalanced.length
         ? `Nothing balances the load: ${unbalanced.join(", ")} would move.`
-        : "What is held balances it with:";
+        : "The held coordinates balance it with:";
     } else if (!this.waiting) find("load-said").textContent = "";
   }
 }

@@ -160,7 +160,7 @@ async function begin() {
     (name) => model.holdToo(name),
     () => {
       model.again();
-      say("As much is held as decides where the mechanism is: choose what to hold instead.");
+      say("All held coordinates are needed to determine the configuration: choose another one to hold in its place.");
     },
   );
   const picture = new Picture(model);
@@ -202,7 +202,7 @@ async function begin() {
   const share = button("Copy link", async () => {
     location.hash = await link.written(model.file, model.place());
     await navigator.clipboard?.writeText(location.href).catch(() => undefined);
-    say("The address of this page holds the mechanism and where it is.");
+    say("The address of this page now contains the mechanism and its configuration.");
   }, { id: "share" });
   find("export").append(" ", share);
 

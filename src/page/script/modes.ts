@@ -77,7 +77,7 @@ export class ModeList {
       find("mode-list").children[i]?.querySelector("button")?.setAttribute("aria-pressed", String(here));
     });
     const said = find("modes-said");
-    said.textContent = same ? this.found.report.sentence : "Listed for other values of what is held.";
+    said.textContent = same ? this.found.report.sentence : "Listed for other held values.";
     if (!same) this.ghosts([]);
     else this.showGhosts();
   }

@@ -1,4 +1,4 @@
-//! The way from home to what a question holds, in small steps.
+//! The path from home to the values that a question holds, in small steps.
 
 use std::borrow::Cow;
 

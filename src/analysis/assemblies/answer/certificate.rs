@@ -1,4 +1,4 @@
-//! Interval certificates: a box round an assembly in which exactly one solution exists.
+//! Interval certificates: a box around an assembly in which exactly one solution exists.
 //!
 //! Krawczyk 1969, with the test of Moore 1977: for f in a chart round the assembly y = 0, a matrix
 //! C ≈ f′(0)⁻¹ and a box Y, if K(Y) = −C f(0) + (1 − C f′(Y)) Y lies inside Y, then Y holds one zero

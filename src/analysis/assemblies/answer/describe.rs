@@ -1,4 +1,4 @@
-//! What is said of each assembly: its number, condition, side and certificate.
+//! What the report gives for each assembly: its number, condition, sign of det J and certificate.
 
 use nalgebra::{ComplexField, DMatrix};
 
@@ -63,9 +63,9 @@ impl Question<'_> {
                 .fold(f64::INFINITY, f64::min);
             let certificate = match (&mut certifier, f.multiplicity) {
                 _ if stopped => Err("interrupted"),
-                (_, 0) => Err("one of infinitely many: others are arbitrarily near"),
+                (_, 0) => Err("one of infinitely many: others are arbitrarily close"),
                 (_, 2..) => Err(
-                    "singular: solutions meet here, or are too near for double precision to tell apart",
+                    "singular: solutions meet here, or are too close for double precision to separate",
                 ),
                 (Some(certifier), _) => {
                     let largest = (0.49 * gap).min(0.01);

@@ -1,4 +1,4 @@
-//! Simple and multiple solutions told apart in double precision.
+//! Distinguishing simple and multiple solutions in double precision.
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
@@ -14,7 +14,7 @@ const ALIKE: f64 = 4.0 * NOISE;
 const NEAR: f64 = 1e-4;
 
 /// Whether a solution is simple: one Newton step returns to it from where an error of rounding in the
-/// closures moves it. To a multiple solution it goes half the way at most; in a positive-dimensional
+/// closures moves it. Towards a multiple solution it goes at most half the distance; in a positive-dimensional
 /// set it stays.
 pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) -> bool {
     const TRIES: usize = 3;

@@ -20,10 +20,10 @@ pub enum CutError {
     #[error("the joint `{0}` is helical, and there is no helical closure")]
     Helical(String),
     /// The variable stands in no row.
-    #[error("the variable `{0}` stands in no row of a table")]
+    #[error("the variable `{0}` occurs in no row of a table")]
     NoRow(String),
     /// The variable stands in several rows or entries.
-    #[error("the variable `{0}` stands in several places, and a cut would open only one of them")]
+    #[error("the variable `{0}` occurs in several places, and a cut would open only one of them")]
     SeveralRows(String),
     /// Other variables stand in its row.
     #[error("the row of `{0}` has other variables too, which the cut would free")]
