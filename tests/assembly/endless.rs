@@ -179,7 +179,7 @@ fn where_nearly_every_seed_gives_a_new_solution_the_family_has_a_dimension() {
 #[test]
 fn an_interrupted_search_lists_the_assembly_that_is_drawn() {
     // of an H4 with hundreds of complex solutions: one of its real ones is the home position
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/axes/h4.ron");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/h4_eight_rods.ron");
     let calls = AtomicUsize::new(0);
     let few = |_: Progress| match calls.fetch_add(1, Ordering::Relaxed) < 5 {
         true => ControlFlow::Continue(()),
@@ -202,13 +202,13 @@ fn an_interrupted_search_lists_the_assembly_that_is_drawn() {
 #[ignore = "a minute on two cores without debug assertions"]
 fn a_search_whose_every_loop_loses_a_few_of_hundreds_of_paths_ends_and_says_so() {
     let load = |name: &str| {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let folder = env!("CARGO_MANIFEST_DIR");
         let question = Question::new(Mechanism::load(format!("{folder}/{name}.ron")).unwrap());
         question
             .assemblies(Wanted::default(), &Watch::none())
             .unwrap()
     };
-    let report = load("axes/h4");
+    let report = load("tests/data/h4_eight_rods");
     assert_eq!((report.fit.clone(), report.exhausted), (Fit::Finite, false));
     assert!(
         report.generic > 800 && report.loops < 60,
@@ -220,7 +220,7 @@ fn a_search_whose_every_loop_loses_a_few_of_hundreds_of_paths_ends_and_says_so()
     let said = completeness(&report);
     assert!(said.contains("each with") && said.contains("lost paths at most"));
     // of few paths none may be lost
-    let report = load("stewart_gough_6sps");
+    let report = load("mechanisms/stewart_gough_6sps");
     assert!(report.lost_in_loops == 0 && !report.may_lack_some());
     assert!(completeness(&report).contains("without a lost path"));
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::{Path, PathBuf};
 
 use linkwork::algebra::SiUnit;
+use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::compare::{CompareSettings, Verdict, compare};
 use linkwork::analysis::overview::{JointUse, overview};
 use linkwork::analysis::sweep::SweepSettings;
@@ -374,9 +375,19 @@ fn arm_angle(shaft: [f64; 2], out: [f64; 2], end: [f64; 3]) -> f64 {
     if one.abs() < other.abs() { one } else { other }
 }
 
+/// An H4 whose pairs of rods are written rod by rod, with nothing that keeps its plates from turning but these.
+fn h4_of_eight_rods() -> Mechanism {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/h4_eight_rods.ron");
+    Mechanism::load(file).unwrap()
+}
+
 #[test]
 fn an_h4_turns_its_bar_as_its_plates_pass() {
-    let robot = axes("h4");
+    turns_its_bar(&axes("h4"));
+    turns_its_bar(&h4_of_eight_rods());
+}
+
+fn turns_its_bar(robot: &Mechanism) {
     let (h, d, shaft) = (0.06, 0.05, 0.15);
     let down = (0.48_f64.powi(2) - 0.36_f64.powi(2)).sqrt();
     for (p, yaw) in [
@@ -410,8 +421,8 @@ fn an_h4_turns_its_bar_as_its_plates_pass() {
                 arm_angle([-h, -shaft], [0.0, -1.0], [b[0], b[1] - d, b[2]]),
             ),
         ];
-        let found = solved(&robot, &held);
-        near(at(&robot, "tool", &found), p);
+        let found = solved(robot, &held);
+        near(at(robot, "tool", &found), p);
         let turned = |name: &str| robot.pose(name, &found).unwrap().rotation.0;
         let along = turned("tool")[0];
         assert!((along.0[1].atan2(along.0[0]) - yaw).abs() < 1e-9);
@@ -427,8 +438,68 @@ fn an_h4_turns_its_bar_as_its_plates_pass() {
         .mobility(&Watch::none())
         .unwrap();
     assert_eq!(moves.report().unwrap().mobility, 4);
-    // what has the tool carries the plates
-    assert_eq!(robot.platforms()[0].name, "bar");
+}
+
+/// How far the middle of an H4's bar at a yaw is from the elbows, which are all as far, beyond the length of a rod.
+fn beyond_the_rods(theta: [f64; 4], yaw: f64) -> (f64, Vector3<f64>) {
+    let (arm, rod, h, d, shaft) = (0.26, 0.48_f64, 0.06, 0.05, 0.15);
+    // elbows less where the rods end on the bar's plates: spheres of one radius about them meet in its middle
+    let spheres = [
+        (1.0, [shaft + h, 0.0], [1.0, 0.0]),
+        (-1.0, [-shaft - h, 0.0], [-1.0, 0.0]),
+        (1.0, [h, -shaft], [0.0, -1.0]),
+        (-1.0, [-h, -shaft], [0.0, -1.0]),
+    ];
+    let centres: Vec<_> = (spheres.iter().zip(theta))
+        .map(|((side, at, out), theta)| {
+            let (reach, drop) = (arm * theta.cos() - d, -arm * theta.sin());
+            nalgebra::Vector3::new(
+                at[0] + out[0] * reach - side * h * yaw.cos(),
+                at[1] + out[1] * reach - side * h * yaw.sin(),
+                drop,
+            )
+        })
+        .collect();
+    let apart = [1, 2, 3].map(|k| centres[k] - centres[0]);
+    let rows = nalgebra::Matrix3::from_rows(&apart.map(|a| a.transpose()));
+    let half = nalgebra::Vector3::from_iterator(apart.iter().map(|a| 0.5 * a.norm_squared()));
+    let from_first = rows.try_inverse().unwrap() * half;
+    let middle = centres[0] + from_first;
+    (
+        from_first.norm() - rod,
+        Vector3([middle.x, middle.y, middle.z]),
+    )
+}
+
+#[test]
+fn an_h4_has_the_assemblies_of_four_spheres_that_meet() {
+    const STEPS: usize = 7200;
+    let robot = axes("h4");
+    for theta in [
+        [0.2, -0.1, 0.3, 0.15],
+        [-0.3, 0.5, 0.1, -0.2],
+        [0.8, 0.9, 0.2, 0.9],
+    ] {
+        let names = ["theta1", "theta2", "theta3", "theta4"];
+        let asked = (names.into_iter().zip(theta))
+            .fold(Question::new(robot.clone()), |question, (name, angle)| {
+                question.hold(name, angle)
+            });
+        let report = asked.assemblies(Wanted::default(), &Watch::none()).unwrap();
+        // the known degree of its direct kinematics (Company and Pierrot 1999)
+        assert_eq!((report.complex + report.at_infinity, report.lost), (8, 0));
+        let yaw = |k: usize| TAU * (k as f64 + 0.37) / STEPS as f64 - PI;
+        let beyond = |k: usize| beyond_the_rods(theta, yaw(k)).0;
+        // at a pole it has one sign on both sides
+        let changes = (0..STEPS).filter(|&k| beyond(k) * beyond(k + 1) < 0.0);
+        assert_eq!(changes.count(), report.real, "{theta:?}");
+        for assembly in &report.assemblies {
+            let value = |name| assembly.joints.get(name).copied().unwrap();
+            let (beyond, middle) = beyond_the_rods(theta, value("yaw"));
+            assert!(beyond.abs() < 1e-9, "{theta:?}: {beyond:e}");
+            near(middle, ["x", "y", "z"].map(value));
+        }
+    }
 }
 
 #[test]

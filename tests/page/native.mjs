@@ -57,16 +57,12 @@ async function differences(module, file) {
   const loaded = ask({ do: "load", text: readFileSync(join(root, file), "utf8") });
   if (loaded.error || loaded.problems) return [`cannot be loaded: ${JSON.stringify(loaded).slice(0, 200)}`];
   return ["solve", "assemblies", "mobility"].flatMap((what) => {
-    if (what === "assemblies" && LONG.has(file)) return [];
     const there = native(what, file);
     const here = ask({ do: "ask", what, as_filed: true });
     const found = there === null ? (here.error ? null : "the page answers, the program does not") : difference(here.report ?? null, there, "");
     return found ? [`${what}: ${found}`] : [];
   });
 }
-
-/** Assemblies that take minutes: the page has one thread. */
-const LONG = new Set(["mechanisms/axes/h4.ron"]);
 
 if (isMainThread) {
   const asked = process.argv.slice(2).length ? process.argv.slice(2) : files;
