@@ -144,10 +144,14 @@ impl<T: Number> Closure<T> {
         let gap = b.position - a.position;
         match self.kind {
             _ if self.only_points => {
-                let gaps = gap.0.into_iter().zip(self.kept);
-                let gaps = gaps.filter_map(|(gap, kept)| kept.then_some(gap));
-                for (out, gap) in out.iter_mut().zip(gaps) {
-                    *out = gap.scale(self.inverse_length);
+                let scaled = gap.scaled(self.inverse_length).0;
+                if let [x, y, z] = out {
+                    [*x, *y, *z] = scaled;
+                } else {
+                    let kept = (0..3).filter(|i| self.kept[*i]);
+                    out.iter_mut()
+                        .zip(kept)
+                        .for_each(|(out, i)| *out = scaled[i]);
                 }
             }
             ClosureKind::Distance => {
