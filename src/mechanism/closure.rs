@@ -155,7 +155,7 @@ impl<T: Number> Closure<T> {
                 }
             }
             ClosureKind::Distance => {
-                for out in out {
+                if let [out] = out {
                     *out = distance(&gap, self.length(&at.joints), self.inverse_length);
                 }
             }

@@ -43,17 +43,18 @@ struct Step<T> {
 enum Shape {
     /// The parent is ground, and the displacement is the pose.
     Grounded,
+    /// No translation and no rotation.
     Nothing,
-    /// Along x.
+    /// A translation along x, or none, and any rotation.
     Along,
-    Translation,
     General,
 }
 
-/// A column of a fixed rotation: a coordinate axis, perhaps reversed, as after a twist of ±90°, or any direction.
+/// A column of a fixed rotation. After twists of 90° it is a coordinate axis or the reverse of one: then products are
+/// left out, and 0 is added instead, which leaves no −0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Column {
-    Axis { number: usize, reversed: bool },
+    Axis(usize, bool),
     Any,
 }
 
@@ -305,24 +306,18 @@ impl<T: Number> Step<T> {
         let fixed = &self.fixed;
         match self.shape {
             Shape::Grounded => {}
-            Shape::Nothing => *pose = *parent,
-            Shape::Along | Shape::Translation | Shape::General => {
-                pose.position = match self.shape {
-                    Shape::Along => {
-                        parent.rotation.0[0].times(fixed.position.0[0]) + parent.position
-                    }
-                    _ => *parent * fixed.position,
-                };
-                if self.need == Need::Pose {
-                    for i in 0..2 {
-                        let column = &fixed.rotation.0[i];
-                        pose.rotation.0[i] = self.columns[i].carried_by(&parent.rotation, column);
-                    }
-                }
-                if self.need > Need::Position {
-                    let column = &fixed.rotation.0[2];
-                    pose.rotation.0[2] = self.columns[2].carried_by(&parent.rotation, column);
-                }
+            Shape::Nothing => {
+                pose.position = parent.position;
+                self.carry(&parent.rotation, &mut pose.rotation);
+            }
+            Shape::Along => {
+                let shift = parent.rotation.0[0].times(fixed.position.0[0]);
+                pose.position = shift + parent.position;
+                self.carry(&parent.rotation, &mut pose.rotation);
+            }
+            Shape::General => {
+                pose.position = *parent * fixed.position;
+                self.carry(&parent.rotation, &mut pose.rotation);
             }
         }
         let grounded = self.shape == Shape::Grounded;
@@ -346,6 +341,23 @@ impl<T: Number> Step<T> {
         }
     }
 
+    /// The columns that are needed.
+    #[inline(always)]
+    fn carry(&self, parent: &Rotation<T>, rotation: &mut Rotation<T>) {
+        let needed = match self.need {
+            Need::Position => return,
+            Need::Axis => 2..3,
+            Need::Pose => 0..3,
+        };
+        for i in needed {
+            rotation.0[i] = match self.columns[i] {
+                Column::Axis(number, false) => parent.0[number] + Vector3::zero(),
+                Column::Axis(number, true) => Vector3::zero() - parent.0[number],
+                Column::Any => *parent * self.fixed.rotation.0[i],
+            };
+        }
+    }
+
     /// x = (c, s, 0), y = (−s, c, 0) and z = (0, 0, 1), of which the constants are there from the beginning.
     #[inline(always)]
     fn place_level(&self, parent: &Pose<T>, pose: &mut Pose<T>, joints: &[T]) {
@@ -363,9 +375,9 @@ impl<T: Number> Step<T> {
                 _ => Vector3([(c * a - s * b) + o, (s * a + c * b) + p, d + q]),
             };
             pose.position = from;
-            x = match self.shape {
-                Shape::General => turned((c, s), x),
-                _ => (c, s),
+            x = match self.columns[0] {
+                Column::Axis(0, false) => (c, s),
+                _ => turned((c, s), x),
             };
         }
         if !self.slide.0.is_empty() {
@@ -374,11 +386,8 @@ impl<T: Number> Step<T> {
         if self.need == Need::Pose {
             if !self.turn.0.is_empty() {
                 let (sin, cos) = self.turn.at(joints).sin_cos();
-                x = match self.columns[0] {
-                    Column::Axis {
-                        number: 0,
-                        reversed: false,
-                    } if self.shape == Shape::Grounded => (cos, sin),
+                x = match (self.shape, self.columns[0]) {
+                    (Shape::Grounded, Column::Axis(0, false)) => (cos, sin),
                     _ => turned(x, (cos, sin)),
                 };
             }
@@ -440,14 +449,13 @@ impl<T: Number> Placement<T> {
 
 impl Shape {
     fn of<T: Number>(pose: &Pose<T>) -> Self {
-        if pose.rotation != Rotation::identity() {
-            Shape::General
-        } else if pose.position == Vector3::zero() {
+        let shifted = pose.position != Vector3::zero();
+        if !shifted && pose.rotation == Rotation::identity() {
             Shape::Nothing
         } else if pose.position.0[1..] == [T::zero(); 2] {
             Shape::Along
         } else {
-            Shape::Translation
+            Shape::General
         }
     }
 }
@@ -458,27 +466,11 @@ impl Column {
             for reversed in [false, true] {
                 let axis = Vector3::unit(number);
                 if *column == (if reversed { -axis } else { axis }) {
-                    return Column::Axis { number, reversed };
+                    return Column::Axis(number, reversed);
                 }
             }
         }
         Column::Any
-    }
-
-    /// The column seen from ground; sums with 0 leave no −0.
-    #[inline(always)]
-    fn carried_by<T: Number>(self, parent: &Rotation<T>, column: &Vector3<T>) -> Vector3<T> {
-        match self {
-            Column::Any => *parent * *column,
-            Column::Axis {
-                number,
-                reversed: false,
-            } => parent.0[number] + Vector3::zero(),
-            Column::Axis {
-                number,
-                reversed: true,
-            } => Vector3::zero() - parent.0[number],
-        }
     }
 }
 

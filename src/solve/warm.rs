@@ -162,16 +162,16 @@ impl Warm {
         let mut longest_step = LONGEST_STEP;
         let steps = equations.step_mut(work);
         if order > 0 {
-            let mut longest = 0.0f64;
+            let mut longest = <E::Number as Field>::Size::zero();
             let past = trail.differences.iter().zip(&trail.rest);
             let moves = trail.moved.iter_mut().zip(steps);
             for ((moved, step), (differences, &rest)) in moves.zip(past) {
                 let terms = differences[..order].iter();
                 *step = terms.fold(rest, |sum, &d| sum + d);
                 *moved = *step;
-                longest = longest.max(step.norm_squared().greatest());
+                longest = longest.larger(step.norm_squared());
             }
-            longest_step = longest_step.min(longest.sqrt());
+            longest_step = longest_step.min(longest.greatest().sqrt());
         } else {
             trail.moved.fill(E::Number::zero());
             steps.fill(E::Number::zero());
