@@ -344,17 +344,17 @@ impl<T: Number> Step<T> {
     /// The columns that are needed.
     #[inline(always)]
     fn carry(&self, parent: &Rotation<T>, rotation: &mut Rotation<T>) {
-        let needed = match self.need {
-            Need::Position => return,
-            Need::Axis => 2..3,
-            Need::Pose => 0..3,
+        let column = |i: usize| match self.columns[i] {
+            Column::Axis(number, false) => parent.0[number] + Vector3::zero(),
+            Column::Axis(number, true) => Vector3::zero() - parent.0[number],
+            Column::Any => *parent * self.fixed.rotation.0[i],
         };
-        for i in needed {
-            rotation.0[i] = match self.columns[i] {
-                Column::Axis(number, false) => parent.0[number] + Vector3::zero(),
-                Column::Axis(number, true) => Vector3::zero() - parent.0[number],
-                Column::Any => *parent * self.fixed.rotation.0[i],
-            };
+        if self.need == Need::Pose {
+            rotation.0[0] = column(0);
+            rotation.0[1] = column(1);
+        }
+        if self.need > Need::Position {
+            rotation.0[2] = column(2);
         }
     }
 
