@@ -22,7 +22,16 @@ pub struct Bordered<T: Factorable> {
     border_rhs: Vec<T>,
     border_x: Vec<T>,
     sparse: Option<T::Sparse>,
+    /// −J⁺ for groups of unknowns, a column for each row; written out when the factors have served as often as that costs.
+    inverse: Vec<[T; GROUP]>,
+    /// Zeros, of which one becomes 1 for a while.
+    unit: Vec<T>,
+    /// How often the factors have served.
+    served: usize,
 }
+
+/// Unknowns that are computed together: products of a matrix and a vector are then made of sums in registers.
+const GROUP: usize = 2;
 
 /// Elimination is used if all pivots are this large: without column exchange they do not tell the rank.
 const TRUSTED_PIVOT: f64 = 1e-3;
@@ -78,6 +87,12 @@ impl<T: Factorable> Bordered<T> {
             border_rhs: vec![T::zero(); most],
             border_x: vec![T::zero(); width],
             shared,
+            inverse: match sparse {
+                Some(_) => Vec::new(),
+                None => vec![[T::zero(); GROUP]; rows * unknowns.div_ceil(GROUP)],
+            },
+            unit: vec![T::zero(); rows],
+            served: 0,
             sparse,
         }
     }
@@ -140,6 +155,7 @@ impl<T: Factorable> Bordered<T> {
         if let Some(sparse) = &mut self.sparse {
             return sparse.factorise(&self.blocks, extra, damping);
         }
+        self.served = 0;
         let damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
         let mut border_rows = self.extra_rows;
@@ -199,6 +215,40 @@ impl<T: Factorable> Bordered<T> {
         if let Some(sparse) = &self.sparse {
             return sparse.step(&self.blocks, r, x);
         }
+        self.served += 1;
+        if self.served <= self.rows {
+            return self.substitute(r, x);
+        }
+        if self.served == self.rows + 1 {
+            self.invert(x);
+        }
+        let columns = self.inverse.chunks_exact(self.rows.max(1));
+        for (x, columns) in x.chunks_mut(GROUP).zip(columns) {
+            let mut sums = [T::zero(); GROUP];
+            for (column, &r) in columns.iter().zip(r) {
+                for (sum, &entry) in sums.iter_mut().zip(column) {
+                    *sum = *sum + entry * r;
+                }
+            }
+            x.copy_from_slice(&sums[..x.len()]);
+        }
+    }
+
+    /// Writes −J⁺ out, column by column; `x` is storage.
+    fn invert(&mut self, x: &mut [T]) {
+        let mut unit = std::mem::take(&mut self.unit);
+        for row in 0..self.rows {
+            unit[row] = T::one();
+            self.substitute(&unit, x);
+            unit[row] = T::zero();
+            for (group, x) in x.chunks(GROUP).enumerate() {
+                self.inverse[group * self.rows + row][..x.len()].copy_from_slice(x);
+            }
+        }
+        self.unit = unit;
+    }
+
+    fn substitute(&mut self, r: &[T], x: &mut [T]) {
         let mut row = 0;
         let mut border_row = 0;
         for (Filled { block, .. }, factor) in self.blocks.iter().zip(&mut self.factors) {

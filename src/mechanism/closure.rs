@@ -26,7 +26,7 @@ use crate::description::AxisCondition;
 use crate::geometry::Pose;
 use crate::number::Number;
 pub(crate) use rows::{EVERY_ROW, Kept, MOST_ROWS, Rows, Side};
-use rows::{disorientation, misalignment};
+use rows::{disorientation, distance, misalignment};
 
 /// A closure ready for evaluation.
 #[derive(Clone, Debug)]
@@ -34,6 +34,7 @@ pub struct Closure<T> {
     /// The joint that it restores.
     pub kind: ClosureKind,
     kept: Kept,
+    only_points: bool,
     slots: [Slot; 2],
     /// The joints that move side A and side B.
     pub(crate) movers: [Vec<Mover<T>>; 2],
@@ -48,15 +49,18 @@ pub struct Closure<T> {
 
 /// How much of the poses of its two frames the rows of a closure use.
 pub(crate) fn needs(kind: ClosureKind, kept: &Kept) -> [Need; 2] {
-    let conditions = kind.conditions();
-    let only_points = conditions.origins && !kept[3..kind.equations()].contains(&true);
-    match conditions.axes {
-        _ if only_points => [Need::Position; 2],
+    match kind.conditions().axes {
+        _ if only_points(kind, kept) => [Need::Position; 2],
         AxisCondition::Free => [Need::Position; 2],
         AxisCondition::Perpendicular => [Need::Axis; 2],
         AxisCondition::Aligned => [Need::Pose, Need::Axis],
         AxisCondition::Oriented => [Need::Pose; 2],
     }
+}
+
+/// Whether all rows of a closure that are evaluated are components of its gap.
+fn only_points(kind: ClosureKind, kept: &Kept) -> bool {
+    kind.conditions().origins && !kept[3..kind.equations()].contains(&true)
 }
 
 impl<T: Number> Closure<T> {
@@ -75,6 +79,7 @@ impl<T: Number> Closure<T> {
         Closure {
             kind: closure.kind,
             kept,
+            only_points: only_points(closure.kind, &kept),
             slots,
             movers: sides.map(|(movers, _)| movers),
             platforms,
@@ -138,15 +143,21 @@ impl<T: Number> Closure<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
         match self.kind {
-            ClosureKind::Spherical if out.len() == 3 => {
-                for (out, gap) in out.iter_mut().zip(gap.0) {
-                    *out = gap.scale(self.inverse_length);
+            _ if self.only_points => {
+                let scaled = gap.scaled(self.inverse_length).0;
+                if let [x, y, z] = out {
+                    [*x, *y, *z] = scaled;
+                } else {
+                    let kept = (0..3).filter(|i| self.kept[*i]);
+                    out.iter_mut()
+                        .zip(kept)
+                        .for_each(|(out, i)| *out = scaled[i]);
                 }
             }
             ClosureKind::Distance => {
-                let mut rows = self.no_rows(a, b);
-                rows.distance(&gap, self.length(&at.joints));
-                out.copy_from_slice(&rows.residual[..out.len()]);
+                if let [out] = out {
+                    *out = distance(&gap, self.length(&at.joints), self.inverse_length);
+                }
             }
             _ => {
                 // extracted as a whole, so that unused wrenches are not computed

@@ -66,6 +66,12 @@ pub(super) fn disorientation<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 3], T)
     ([s(x), s(y), s(z)], T::one() + trace)
 }
 
+/// (g·g − s²)/2L².
+#[inline(always)]
+pub(super) fn distance<T: Number>(gap: &Vector3<T>, length: T, inverse_length: f64) -> T {
+    (gap.dot(gap) - length * length).scale(0.5 * (inverse_length * inverse_length))
+}
+
 const CYCLIC: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 
 impl<T: Number> Rows<T> {
@@ -188,7 +194,7 @@ impl<T: Number> Rows<T> {
             return;
         }
         let factor = self.inverse_length * self.inverse_length;
-        self.residual[0] = (gap.dot(gap) - length * length).scale(0.5 * factor);
+        self.residual[0] = distance(gap, length, self.inverse_length);
         self.forces[0] = gap.times(T::from_f64(factor));
         self.force_count = 1;
     }
