@@ -117,7 +117,7 @@ pub struct Row<'a> {
 
 impl<'a> Row<'a> {
     /// A configuration of which nothing more is said.
-    fn of(configuration: &'a Configuration<f64>) -> Self {
+    pub(crate) fn of(configuration: &'a Configuration<f64>) -> Self {
         Row {
             number: 0,
             step: None,

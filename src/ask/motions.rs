@@ -173,16 +173,10 @@ impl Motions<'_> {
         let mut all: Vec<Seen> = Vec::new();
         let steps = self.settings.steps as f64;
         let latest = Cell::new(0);
-        let mut measured = |row: &Row| {
+        let mut take = |row: &Row, time: f64, found: &[Option<f64>], noise: &[f64]| {
             let at = row.configuration;
-            latest.set(row.step.unwrap_or(latest.get()));
-            let time = row
-                .step
-                .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
-            meter.read_placed(at, row.placement, time);
-            let found = meter.values();
             if !row.between {
-                extremes.take(at, time, found, meter.noise());
+                extremes.take(at, time, found, noise);
             }
             if wanted && !row.between {
                 all.push(Seen {
@@ -199,7 +193,16 @@ impl Motions<'_> {
                 ..*row
             });
         };
+        let mut measured = |row: &Row| {
+            let at = row.configuration;
+            latest.set(row.step.unwrap_or(latest.get()));
+            let time = row
+                .step
+                .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
+            meter.read_row(row, time, &mut take);
+        };
         let report = self.moved(start, &settings, &mut measured, watch);
+        meter.read_waiting(&mut take);
         let passage = Passage {
             mechanism: self.mechanism,
             held: &self.held,

@@ -57,7 +57,7 @@ pub(crate) enum Need {
 }
 
 /// The poses of all slots at one configuration: ground from frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Placement<T>(pub(crate) Vec<Pose<T>>);
 
 /// A joint on the path from ground or a platform to a frame.

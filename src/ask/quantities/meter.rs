@@ -1,24 +1,28 @@
 //! Quantities at the configurations of a motion, from the engines of the analyses.
 
 mod found;
+mod moving;
+mod waiting;
 
 use std::f64::consts::{PI, TAU};
 
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::singularities::Classifier;
-use crate::analysis::sweep::{Pace, Schedule};
+use crate::analysis::sweep::{Pace, Row, Schedule};
 use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
 };
+use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{
     Configuration, Figure, Frame, Kinematics, Measured, Order, Placement, Point, Quantity,
 };
-use crate::number::Dual;
+use crate::number::{Dual, LANES, Lanes, Number, Packed};
 use crate::system::{
-    self, Coordinate, Driven, FrameTwists, Held, Load, Loaded, Lock, Motion, Neighbourhood, System,
-    Unknown,
+    self, Coordinate, Driven, FrameTwists, Held, Load, Loaded, Lock, Neighbourhood, System, Unknown,
 };
 use found::Here;
+use moving::{Moved, Moving, Plan};
+use waiting::Waiting;
 
 /// What a meter is for.
 #[derive(Clone, Debug)]
@@ -34,27 +38,31 @@ pub(in super::super) struct Metered<'q> {
 }
 
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
-/// once; rates, forces and Jacobian come from one factorisation of the closures.
+/// once; rates, forces and Jacobian come from one factorisation of the closures, of eight rows of a motion side by side.
 pub(in super::super) struct Meter<'q> {
     of: &'q Metered<'q>,
     /// For each held coordinate the number of its input and how far that goes, if it is one.
     ways: Vec<Option<(usize, f64)>>,
     turns: Vec<bool>,
-    /// The points, how they move, and how that changes.
+    /// The points and how they move.
     twists: FrameTwists<f64>,
-    motions: Option<FrameTwists<Dual<f64>>>,
-    /// Its frames beside those of the closures, and where these are, if no rates are wanted.
-    frames: Vec<Frame>,
+    /// Its frames with those of the closures, and where these are.
     kinematics: Kinematics<f64>,
     placement: Placement<f64>,
     /// Frames of links that spin about a line of their own: rates beside it are not determined.
     loose: Vec<Frame>,
-    motion: Option<Motion>,
+    plan: Plan,
+    /// The rates, if some are wanted.
+    moving: Option<Moving<f64>>,
+    /// Those of rows side by side, once there are so many.
+    side_by_side: Option<Box<Side>>,
+    /// Rows that wait for others.
+    waiting: Vec<Waiting>,
+    waits: usize,
+    moved: Moved,
+    coordinates: Vec<Coordinate>,
     loaded: Option<Loaded>,
-    /// What everything does for a unit rate of each held coordinate for which that is wanted, and what holds these against
-    /// the load.
-    wanted: Vec<bool>,
-    responses: Vec<Vec<f64>>,
+    /// What holds each held coordinate against the load.
     forces: Vec<f64>,
     outputs: Option<(Outputs<'q>, Spinning<'q>)>,
     jacobian: Normalised,
@@ -77,6 +85,16 @@ pub(in super::super) struct Meter<'q> {
     /// How far each quantity may be off.
     noise: Vec<f64>,
 }
+
+/// The engine of rates over lanes, a configuration in each, and rates and accelerations of what is held there.
+struct Side {
+    moving: Moving<Lanes>,
+    at: Configuration<Lanes>,
+    driven: [Vec<Lanes>; 2],
+}
+
+/// What takes rows with the part of the time that is gone, their values, and how far these may be off.
+pub(in super::super) type Take<'t> = dyn FnMut(&Row, f64, &[Option<f64>], &[f64]) + 't;
 
 /// The lines about which links spin: none, or those of each configuration.
 enum Spinning<'q> {
@@ -161,8 +179,6 @@ impl<'q> Meter<'q> {
         let programs: Vec<Expression<usize>> = programs.collect();
         let coordinates = question.driven_coordinates();
         let moves = wants.order > Order::Value || wants.responses();
-        let still = question.clone().with_spins_still();
-        let hold = |held| still.with_still(held);
         let mut held = Neighbourhood::holding(mechanism, &question.held());
         let rest = held.tangent(start.clone());
         let spins = Spins::of(&held, &rest);
@@ -179,23 +195,9 @@ impl<'q> Meter<'q> {
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
-        let motion = moves.then(|| Motion::placing(mechanism, &coordinates, &frames, hold));
         let (dimensions, nothing) = (mechanism.dimensions(), Held::nothing(mechanism));
         let placing = System::placing(mechanism, dimensions, &nothing, &frames);
-        let placing = placing.kinematics().clone();
-        let kinematics = motion.as_ref().map_or(&placing, Motion::kinematics);
-        let loaded = (motion.as_ref().filter(|_| wants.forces))
-            .map(|motion| Loaded::new(mechanism, motion.unknowns(), &of.load, kinematics));
-        let transmission = wants.transmission.then(|| {
-            let mut near = Neighbourhood::new(mechanism);
-            TransmissionAngles::new(&mut near, start, &coordinates, kinematics)
-        });
-        let unknowns: &[Unknown] = motion.as_ref().map_or(&[], Motion::unknowns);
-        let twists = FrameTwists::sharing(kinematics, dimensions, unknowns, &points);
-        let changing = motion
-            .as_ref()
-            .filter(|_| wants.order == Order::Acceleration);
-        let motions = changing.map(|motion| FrameTwists::moving(mechanism, motion, &points));
+        let kinematics = placing.kinematics().clone();
         let numbered = names.iter().map(|name| match name {
             Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
                 let number = points.iter().position(|known| known == point);
@@ -213,9 +215,24 @@ impl<'q> Meter<'q> {
                 _ => false,
             })
         };
-        let wanted = coordinates
-            .iter()
-            .map(|of_it| wants.jacobian || held_by(of_it));
+        let wanted = coordinates.iter();
+        let wanted = wanted.map(|of_it| wants.jacobian || held_by(of_it));
+        let plan = Plan {
+            wanted: wanted.collect(),
+            angles: Plan::angles_of(&names),
+            accelerations: wants.order == Order::Acceleration,
+            points,
+            frames,
+        };
+        let moving = moves.then(|| Moving::<f64>::new(of, &plan));
+        let unknowns: &[Unknown] = moving.as_ref().map_or(&[], |of| of.motion.unknowns());
+        let loaded = (moves && wants.forces)
+            .then(|| Loaded::new(mechanism, unknowns, &of.load, &kinematics));
+        let transmission = wants.transmission.then(|| {
+            let mut near = Neighbourhood::new(mechanism);
+            TransmissionAngles::new(&mut near, start, &coordinates, &kinematics)
+        });
+        let twists = FrameTwists::sharing(&kinematics, dimensions, unknowns, &plan.points);
         let way = |of_it: &Coordinate| {
             let mut inputs = of.inputs.iter();
             let place = inputs.position(|input| input.coordinate == *of_it)?;
@@ -224,24 +241,20 @@ impl<'q> Meter<'q> {
         Meter {
             ways: coordinates.iter().map(way).collect(),
             turns: of.quantities.iter().map(turns).collect(),
-            responses: vec![Vec::new(); coordinates.len()],
             forces: Vec::new(),
-            outputs: (motion.as_ref().filter(|_| wants.jacobian)).map(|motion| {
-                let outputs = Outputs::new(mechanism, motion, outputs);
+            outputs: (moving.as_ref().filter(|_| wants.jacobian)).map(|moving| {
+                let outputs = Outputs::new(mechanism, &moving.motion, outputs);
                 match spins.is_empty() {
                     true => (outputs, Spinning::Nothing(spins)),
                     false => (outputs, Spinning::Something(Box::new(held))),
                 }
             }),
             jacobian: Normalised::default(),
-            wanted: wanted.collect(),
             angles: Vec::new(),
             figures: Vec::new(),
             twists,
-            motions,
-            frames,
-            placement: placing.placement(),
-            kinematics: placing,
+            placement: kinematics.placement(),
+            kinematics,
             loose,
             loaded,
             transmission,
@@ -257,8 +270,14 @@ impl<'q> Meter<'q> {
                 let classifier = Classifier::new(mechanism, &inputs, &outputs, start);
                 (classifier, distances.collect())
             }),
-            motion,
             driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
+            coordinates,
+            moving,
+            plan,
+            side_by_side: None,
+            waiting: Vec::new(),
+            waits: 0,
+            moved: Moved::default(),
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
             known: vec![[0.0; 2]; names.len()],
@@ -272,58 +291,103 @@ impl<'q> Meter<'q> {
 
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
-        self.read_placed(at, None, time)
+        let mut placement = std::mem::take(&mut self.placement);
+        self.kinematics.place(at, &mut placement);
+        self.read_placed(at, &placement, time);
+        self.placement = placement;
+        &self.values
     }
 
-    /// The same where the [frames](Self::frames) may have been placed already.
-    pub fn read_placed(
-        &mut self,
-        at: &Configuration<f64>,
-        placement: Option<&Placement<f64>>,
-        time: f64,
-    ) -> &[Option<f64>] {
-        let [_, rate, change] = self.of.pace.at(time);
-        let [rates, changes] = &mut self.driven;
-        for (i, way) in self.ways.iter().enumerate() {
-            (rates[i], changes[i]) = match (way, &self.of.schedule) {
-                (None, _) => (0.0, 0.0),
-                (Some((_, way)), None) => (way * rate, way * change),
-                (Some((input, _)), Some(schedule)) => {
-                    let [_, rate, change] = schedule.at(*input, time);
-                    (rate, change)
-                }
-            };
+    /// The same where the [frames](Self::frames) are placed.
+    fn read_placed(&mut self, at: &Configuration<f64>, placement: &Placement<f64>, time: f64) {
+        if let Some(moving) = &mut self.moving {
+            driven(self.of, &self.ways, |_| time, &mut self.driven);
+            moving.at(&self.plan, at, Some(placement), &self.driven);
+            moving.take(0, &mut self.moved);
         }
-        let (mut moves, responses) = (false, &mut self.responses);
-        match &mut self.motion {
-            None if placement.is_some() => {}
-            None => self.kinematics.place(at, &mut self.placement),
-            Some(motion) => {
-                motion.placed_at(at, placement);
-                moves = motion.is_determined();
-                for (i, response) in responses.iter_mut().enumerate() {
-                    if self.wanted[i] {
-                        response.clear();
-                        response.extend_from_slice(motion.response(i));
-                    }
-                }
-                let known = self.wanted.iter().zip(&*rates);
-                match known.clone().all(|(known, rate)| *known || *rate == 0.0) {
-                    true => motion.set_rates(responses, rates),
-                    false => _ = motion.rates(rates),
-                }
-                if self.wants.order == Order::Acceleration {
-                    motion.accelerations(changes);
-                }
+        self.evaluate(at, placement);
+    }
+
+    /// Reads a row of a motion where a part of the time is gone, or lets it wait for others; rows go to `take` in their
+    /// order, with their times.
+    pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
+        let (at, few) = (row.configuration, self.plan_is_small());
+        if !few {
+            match row.placement {
+                Some(placement) => self.read_placed(at, placement, time),
+                None => _ = self.read(at, time),
             }
+            return take(row, time, &self.values, &self.noise);
         }
-        let motion = self.motion.as_ref();
-        let known = placement.unwrap_or(&self.placement);
-        let placement = motion.map_or(known, Motion::placement);
+        if self.waits == self.waiting.len() {
+            self.waiting.push(Waiting::new(at, &self.kinematics));
+        }
+        self.waiting[self.waits].put(row, time, &self.kinematics);
+        self.waits += 1;
+        if self.waits == LANES {
+            self.read_waiting(take);
+        }
+    }
+
+    /// Whether rates are wanted of a mechanism for which they are worked out side by side.
+    fn plan_is_small(&self) -> bool {
+        let moving = self.moving.as_ref();
+        moving.is_some_and(|moving| moving.motion.unknowns().len() <= DENSE_LIMIT)
+    }
+
+    /// Reads the rows that wait.
+    pub fn read_waiting(&mut self, take: &mut Take) {
+        let rows = std::mem::take(&mut self.waiting);
+        let waits = std::mem::take(&mut self.waits);
+        let together = waits == LANES && self.move_side_by_side(&rows);
+        for (place, row) in rows[..waits].iter().enumerate() {
+            match &self.side_by_side {
+                Some(side) if together => {
+                    side.moving.take(place, &mut self.moved);
+                    self.evaluate(&row.at, &row.placement);
+                }
+                _ => self.read_placed(&row.at, &row.placement, row.time),
+            }
+            take(&row.row(), row.time, &self.values, &self.noise);
+        }
+        self.waiting = rows;
+    }
+
+    /// Works out the rates of eight rows, if they are determined at each.
+    fn move_side_by_side(&mut self, rows: &[Waiting]) -> bool {
+        let side = self.side_by_side.get_or_insert_with(|| {
+            Box::new(Side {
+                moving: Moving::new(self.of, &self.plan),
+                at: rows[0].at.map(Lanes::from_f64),
+                driven: [(); 2].map(|()| vec![Lanes::zero(); self.coordinates.len()]),
+            })
+        });
+        for (lane, row) in rows.iter().enumerate() {
+            side.at.set_lane(lane, &row.at);
+        }
+        driven(
+            self.of,
+            &self.ways,
+            |lane| rows[lane].time,
+            &mut side.driven,
+        );
+        (side.moving).at(&self.plan, &side.at, None, &side.driven);
+        side.moving.is_sure()
+    }
+
+    /// Values at a configuration whose motion is known.
+    fn evaluate(&mut self, at: &Configuration<f64>, placement: &Placement<f64>) {
+        let Moved {
+            moves,
+            orders,
+            responses,
+            ..
+        } = &self.moved;
+        let moves = *moves;
         self.forces.clear();
         if let Some(loaded) = self.loaded.as_mut().filter(|_| moves) {
             // τ δh + g δx = 0: what holds a coordinate does the work of the load
-            let forces = responses.iter().zip(&self.wanted);
+            let forces = responses.iter().zip(&self.plan.wanted);
             self.forces
                 .extend(forces.map(|(rates, wanted)| match wanted {
                     true => -loaded.power(rates, placement),
@@ -365,7 +429,7 @@ impl<'q> Meter<'q> {
             at,
             placement,
             moves,
-            rates: motion.map_or([0.0; 2], Motion::largest),
+            largest: [0, 1].map(|k| orders[k].iter().fold(0.0, |most: f64, x| most.max(x.abs()))),
         };
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
@@ -385,17 +449,11 @@ impl<'q> Meter<'q> {
             self.noise[i] = noise;
             self.before[i] = value.or(self.before[i]);
         }
-        &self.values
     }
 
     /// The frames that it places with those of the closures.
     pub fn frames(&self) -> &[Frame] {
-        &self.frames
-    }
-
-    /// The values last read.
-    pub fn values(&self) -> &[Option<f64>] {
-        &self.values
+        &self.plan.frames
     }
 
     /// How far each value last read may be off.
@@ -406,6 +464,24 @@ impl<'q> Meter<'q> {
     /// Angles are given near to these values from here on.
     pub fn settle(&mut self, values: &[Option<f64>]) {
         self.before.copy_from_slice(values);
+    }
+}
+
+/// Rates and accelerations of the held coordinates where a part of the time is gone, in each place.
+fn driven<T: Packed>(
+    of: &Metered,
+    ways: &[Option<(usize, f64)>],
+    time: impl Fn(usize) -> f64,
+    driven: &mut [Vec<T>; 2],
+) {
+    for (i, way) in ways.iter().enumerate() {
+        let Some((input, way)) = *way else { continue };
+        for (order, driven) in driven.iter_mut().enumerate() {
+            driven[i] = T::of_parts(|place| match &of.schedule {
+                None => way * of.pace.at(time(place))[1 + order],
+                Some(schedule) => schedule.at(input, time(place))[1 + order],
+            });
+        }
     }
 }
 

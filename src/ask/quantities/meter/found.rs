@@ -12,7 +12,7 @@ pub(super) struct Here<'a> {
     /// Whether rates are determined.
     pub moves: bool,
     /// The largest rate and acceleration, in rad and characteristic lengths.
-    pub rates: [f64; 2],
+    pub largest: [f64; 2],
 }
 
 impl Here<'_> {
@@ -32,7 +32,7 @@ impl Meter<'_> {
     /// How far the value of a name may be off: configurations are closed to 1e-12.
     fn off(&self, here: &Here, of: &Measured, i: usize, value: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
-        let [rate, change] = here.rates;
+        let [rate, change] = here.largest;
         let most = |order: Order| match order {
             Order::Value => 1.0,
             Order::Velocity => rate,
@@ -71,9 +71,9 @@ impl Meter<'_> {
             Measured::Parameter(parameter) => Some(mechanism.parameters()[parameter].value),
             Measured::Joint(joint, Order::Value) => Some(here.at.joints[joint]),
             Measured::Joint(joint, order) => {
-                let known = self.motion.as_ref().filter(|_| here.moves)?.known();
-                let rates = known[usize::from(order == Order::Acceleration)];
-                Some(rates[joint] * mechanism.dimensions().joint_scales[joint])
+                let rates = &self.moved.orders[usize::from(order == Order::Acceleration)];
+                let rate = *rates.get(joint).filter(|_| here.moves)?;
+                Some(rate * mechanism.dimensions().joint_scales[joint])
             }
             Measured::Place(point, coordinate, order) => {
                 let loose = order > Order::Value
@@ -124,16 +124,10 @@ impl Meter<'_> {
         match order {
             Order::Value => Some(c.of(frame)),
             Order::Velocity => {
-                let rates = self.motion.as_ref()?.known()[0];
-                let turn = self.twists.twist(i, here.placement, rates).omega;
-                Some(c.turned(frame, &turn))
+                let turn = (self.twists).twist(i, here.placement, &self.moved.orders[0]);
+                Some(c.turned(frame, &turn.omega))
             }
-            Order::Acceleration => {
-                let motions = self.motions.as_ref()?;
-                let (rates, placement) = self.motion.as_ref()?.changes();
-                let turn = motions.twist(i, placement, rates).omega;
-                Some(c.turned(motions.frame(i, placement), &turn).slope)
-            }
+            Order::Acceleration => self.moved.turns.get(self.plan.angle(i, c)?).copied(),
         }
     }
 
@@ -142,20 +136,15 @@ impl Meter<'_> {
         match order {
             Order::Value => Some(self.twists.origin(i, here.placement)),
             Order::Velocity => {
-                let rates = self.motion.as_ref()?.known()[0];
-                Some(self.twists.twist(i, here.placement, rates).velocity)
+                let twist = (self.twists).twist(i, here.placement, &self.moved.orders[0]);
+                Some(twist.velocity)
             }
-            Order::Acceleration => {
-                let (rates, placement) = self.motion.as_ref()?.changes();
-                let twist = self.motions.as_ref()?.twist(i, placement, rates);
-                Some(Vector3(twist.velocity.0.map(|part| part.slope)))
-            }
+            Order::Acceleration => self.moved.shifts.get(i).copied(),
         }
     }
 
     fn force(&self, of: Coordinate) -> Option<f64> {
-        let coordinates = self.motion.as_ref()?.coordinates();
-        let place = coordinates.iter().position(|known| *known == of)?;
+        let place = self.coordinates.iter().position(|known| *known == of)?;
         let force = self.forces.get(place).copied();
         force.filter(|force| !force.is_nan())
     }
