@@ -159,14 +159,10 @@ impl Motions<'_> {
     ) -> (SweepReport, Located) {
         let wanted = self.settings.straightness || !self.dwells.is_empty();
         if self.metered.quantities.is_empty() && !wanted {
-            let moved = self.moved(start, &self.settings, sink, watch);
+            let moved = self.moved(start, sink, watch);
             return (moved, Located::default());
         }
         let mut meter = Meter::new(&self.metered, start);
-        let settings = SweepSettings {
-            frames: meter.frames().to_vec(),
-            ..self.settings.clone()
-        };
         let mut extremes = Extremes::new(self.metered.quantities.len());
         let timed = !self.metered.inputs.is_empty() && !self.metered.quantities.is_empty();
         let mut values = Vec::new();
@@ -201,7 +197,7 @@ impl Motions<'_> {
                 .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
             meter.read_row(row, time, &mut take);
         };
-        let report = self.moved(start, &settings, &mut measured, watch);
+        let report = self.moved(start, &mut measured, watch);
         meter.read_waiting(&mut take);
         let passage = Passage {
             mechanism: self.mechanism,
@@ -250,14 +246,9 @@ impl Motions<'_> {
         (report, located)
     }
 
-    fn moved(
-        &self,
-        start: &Configuration<f64>,
-        settings: &SweepSettings,
-        sink: &mut Sink,
-        watch: &Watch,
-    ) -> SweepReport {
+    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
         let (mechanism, held, inputs) = (self.mechanism, &self.held, self.inputs());
+        let settings = &self.settings;
         match inputs.is_empty() {
             true => follow(mechanism, held, start, settings, sink, watch),
             false => sweep(mechanism, held, inputs, start, settings, sink, watch),

@@ -57,7 +57,7 @@ pub(crate) enum Need {
 }
 
 /// The poses of all slots at one configuration: ground from frame.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Placement<T>(pub(crate) Vec<Pose<T>>);
 
 /// A joint on the path from ground or a platform to a frame.

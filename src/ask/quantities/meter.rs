@@ -1,7 +1,7 @@
 //! Quantities at the configurations of a motion, from the engines of the analyses.
 
 mod found;
-mod moving;
+mod probe;
 mod waiting;
 
 use std::f64::consts::{PI, TAU};
@@ -9,19 +9,13 @@ use std::f64::consts::{PI, TAU};
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::singularities::Classifier;
 use crate::analysis::sweep::{Pace, Row, Schedule};
-use crate::analysis::velocity::{
-    Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
-};
+use crate::analysis::velocity::{Outputs, Spins, TransmissionAngles, condition, outputs};
 use crate::linear::DENSE_LIMIT;
-use crate::mechanism::{
-    Configuration, Figure, Frame, Kinematics, Measured, Order, Placement, Point, Quantity,
-};
+use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
 use crate::number::{Dual, LANES, Lanes, Number, Packed};
-use crate::system::{
-    self, Coordinate, Driven, FrameTwists, Held, Load, Loaded, Lock, Neighbourhood, System, Unknown,
-};
+use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
 use found::Here;
-use moving::{Moved, Moving, Plan};
+use probe::{Found, Plan, Probe};
 use waiting::Waiting;
 
 /// What a meter is for.
@@ -44,30 +38,18 @@ pub(in super::super) struct Meter<'q> {
     /// For each held coordinate the number of its input and how far that goes, if it is one.
     ways: Vec<Option<(usize, f64)>>,
     turns: Vec<bool>,
-    /// The points and how they move.
-    twists: FrameTwists<f64>,
-    /// Its frames with those of the closures, and where these are.
-    kinematics: Kinematics<f64>,
-    placement: Placement<f64>,
     /// Frames of links that spin about a line of their own: rates beside it are not determined.
     loose: Vec<Frame>,
+    coordinates: Vec<Coordinate>,
     plan: Plan,
-    /// The rates, if some are wanted.
-    moving: Option<Moving<f64>>,
-    /// Those of rows side by side, once there are so many.
-    side_by_side: Option<Box<Side>>,
-    /// Rows that wait for others.
+    probe: Probe<'q, f64>,
+    /// That of rows side by side, once there are so many.
+    side_by_side: Option<Box<Side<'q>>>,
+    /// Rows that wait for others, and how many do.
     waiting: Vec<Waiting>,
     waits: usize,
-    moved: Moved,
-    coordinates: Vec<Coordinate>,
-    loaded: Option<Loaded>,
-    /// What holds each held coordinate against the load.
-    forces: Vec<f64>,
-    outputs: Option<(Outputs<'q>, Spinning<'q>)>,
-    jacobian: Normalised,
-    transmission: Option<TransmissionAngles>,
-    angles: Vec<Option<f64>>,
+    found: Found,
+    spinning: Spinning<'q>,
     /// With the distances that are asked for.
     distances: Option<(Classifier<'q>, Vec<Figure>)>,
     wants: Wants,
@@ -86,9 +68,9 @@ pub(in super::super) struct Meter<'q> {
     noise: Vec<f64>,
 }
 
-/// The engine of rates over lanes, a configuration in each, and rates and accelerations of what is held there.
-struct Side {
-    moving: Moving<Lanes>,
+/// A configuration in each lane, and rates and accelerations of what is held there.
+struct Side<'q> {
+    probe: Probe<'q, Lanes>,
     at: Configuration<Lanes>,
     driven: [Vec<Lanes>; 2],
 }
@@ -109,6 +91,7 @@ struct Wants {
     forces: bool,
     transmission: bool,
     jacobian: bool,
+    determinant: bool,
     singular_values: bool,
     distances: bool,
 }
@@ -120,6 +103,7 @@ impl Wants {
             forces: false,
             transmission: false,
             jacobian: false,
+            determinant: false,
             singular_values: false,
             distances: false,
         };
@@ -132,7 +116,9 @@ impl Wants {
                 Measured::Curvature(_) => wants.order = Order::Acceleration,
                 Measured::Force(_) | Measured::PlatformForce(..) => wants.forces = true,
                 Measured::Transmission(_) => wants.transmission = true,
-                Measured::Figure(Figure::Determinant) => wants.jacobian = true,
+                Measured::Figure(Figure::Determinant) => {
+                    (wants.jacobian, wants.determinant) = (true, true);
+                }
                 Measured::Figure(Figure::Condition | Figure::Manipulability) => {
                     (wants.jacobian, wants.singular_values) = (true, true);
                 }
@@ -140,11 +126,6 @@ impl Wants {
             }
         }
         wants
-    }
-
-    /// Whether what everything does for a unit rate of each input is needed.
-    fn responses(self) -> bool {
-        self.forces || self.jacobian
     }
 }
 
@@ -178,7 +159,6 @@ impl<'q> Meter<'q> {
         });
         let programs: Vec<Expression<usize>> = programs.collect();
         let coordinates = question.driven_coordinates();
-        let moves = wants.order > Order::Value || wants.responses();
         let mut held = Neighbourhood::holding(mechanism, &question.held());
         let rest = held.tangent(start.clone());
         let spins = Spins::of(&held, &rest);
@@ -195,9 +175,6 @@ impl<'q> Meter<'q> {
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
-        let (dimensions, nothing) = (mechanism.dimensions(), Held::nothing(mechanism));
-        let placing = System::placing(mechanism, dimensions, &nothing, &frames);
-        let kinematics = placing.kinematics().clone();
         let numbered = names.iter().map(|name| match name {
             Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
                 let number = points.iter().position(|known| known == point);
@@ -217,22 +194,25 @@ impl<'q> Meter<'q> {
         };
         let wanted = coordinates.iter();
         let wanted = wanted.map(|of_it| wants.jacobian || held_by(of_it));
-        let plan = Plan {
-            wanted: wanted.collect(),
-            angles: Plan::angles_of(&names),
-            accelerations: wants.order == Order::Acceleration,
+        let angles = names.iter().filter_map(|(name, point)| match name {
+            Measured::Place(_, c, order) if c.is_angle() => Some((*point, *c, *order)),
+            _ => None,
+        });
+        let mut plan = Plan {
+            order: wants.order,
+            angles: angles.collect(),
+            responses: wanted.collect(),
+            forces: wants.forces,
+            outputs: wants.jacobian.then_some(outputs),
+            transmission: None,
             points,
             frames,
         };
-        let moving = moves.then(|| Moving::<f64>::new(of, &plan));
-        let unknowns: &[Unknown] = moving.as_ref().map_or(&[], |of| of.motion.unknowns());
-        let loaded = (moves && wants.forces)
-            .then(|| Loaded::new(mechanism, unknowns, &of.load, &kinematics));
-        let transmission = wants.transmission.then(|| {
+        let probe = Probe::new(of, &plan);
+        plan.transmission = wants.transmission.then(|| {
             let mut near = Neighbourhood::new(mechanism);
-            TransmissionAngles::new(&mut near, start, &coordinates, &kinematics)
+            TransmissionAngles::new(&mut near, start, &coordinates, probe.kinematics())
         });
-        let twists = FrameTwists::sharing(&kinematics, dimensions, unknowns, &plan.points);
         let way = |of_it: &Coordinate| {
             let mut inputs = of.inputs.iter();
             let place = inputs.position(|input| input.coordinate == *of_it)?;
@@ -241,23 +221,12 @@ impl<'q> Meter<'q> {
         Meter {
             ways: coordinates.iter().map(way).collect(),
             turns: of.quantities.iter().map(turns).collect(),
-            forces: Vec::new(),
-            outputs: (moving.as_ref().filter(|_| wants.jacobian)).map(|moving| {
-                let outputs = Outputs::new(mechanism, &moving.motion, outputs);
-                match spins.is_empty() {
-                    true => (outputs, Spinning::Nothing(spins)),
-                    false => (outputs, Spinning::Something(Box::new(held))),
-                }
-            }),
-            jacobian: Normalised::default(),
-            angles: Vec::new(),
+            spinning: match spins.is_empty() || !wants.jacobian {
+                true => Spinning::Nothing(spins),
+                false => Spinning::Something(Box::new(held)),
+            },
             figures: Vec::new(),
-            twists,
-            placement: kinematics.placement(),
-            kinematics,
             loose,
-            loaded,
-            transmission,
             distances: wants.distances.then(|| {
                 let inputs = system::inputs_of(question);
                 let distances = Figure::ALL.into_iter().filter(|figure| {
@@ -272,12 +241,12 @@ impl<'q> Meter<'q> {
             }),
             driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
             coordinates,
-            moving,
             plan,
+            probe,
             side_by_side: None,
             waiting: Vec::new(),
             waits: 0,
-            moved: Moved::default(),
+            found: Found::default(),
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
             known: vec![[0.0; 2]; names.len()],
@@ -291,73 +260,66 @@ impl<'q> Meter<'q> {
 
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
-        let mut placement = std::mem::take(&mut self.placement);
-        self.kinematics.place(at, &mut placement);
-        self.read_placed(at, &placement, time);
-        self.placement = placement;
+        driven(self.of, &self.ways, |_| time, &mut self.driven);
+        let found = match &mut self.spinning {
+            Spinning::Nothing(spins) => self.probe.at(&self.plan, at, &self.driven, spins),
+            Spinning::Something(held) => {
+                let rest = held.tangent(at.clone());
+                let spins = Spins::of(held, &rest);
+                self.probe.at(&self.plan, at, &self.driven, &spins)
+            }
+        };
+        found.take(0, &mut self.found);
+        self.evaluate(at);
         &self.values
     }
 
-    /// The same where the [frames](Self::frames) are placed.
-    fn read_placed(&mut self, at: &Configuration<f64>, placement: &Placement<f64>, time: f64) {
-        if let Some(moving) = &mut self.moving {
-            driven(self.of, &self.ways, |_| time, &mut self.driven);
-            moving.at(&self.plan, at, Some(placement), &self.driven);
-            moving.take(0, &mut self.moved);
-        }
-        self.evaluate(at, placement);
-    }
-
     /// Reads a row of a motion where a part of the time is gone, or lets it wait for others; rows go to `take` in their
-    /// order, with their times.
+    /// order.
     pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
-        let (at, few) = (row.configuration, self.plan_is_small());
-        if !few {
-            match row.placement {
-                Some(placement) => self.read_placed(at, placement, time),
-                None => _ = self.read(at, time),
-            }
+        let (at, unknowns) = (row.configuration, self.probe.unknowns());
+        if unknowns > DENSE_LIMIT || matches!(self.spinning, Spinning::Something(_)) {
+            self.read(at, time);
             return take(row, time, &self.values, &self.noise);
         }
         if self.waits == self.waiting.len() {
-            self.waiting.push(Waiting::new(at, &self.kinematics));
+            self.waiting.push(Waiting::new(at));
         }
-        self.waiting[self.waits].put(row, time, &self.kinematics);
+        self.waiting[self.waits].put(row, time);
         self.waits += 1;
         if self.waits == LANES {
             self.read_waiting(take);
         }
     }
 
-    /// Whether rates are wanted of a mechanism for which they are worked out side by side.
-    fn plan_is_small(&self) -> bool {
-        let moving = self.moving.as_ref();
-        moving.is_some_and(|moving| moving.motion.unknowns().len() <= DENSE_LIMIT)
-    }
-
     /// Reads the rows that wait.
     pub fn read_waiting(&mut self, take: &mut Take) {
         let rows = std::mem::take(&mut self.waiting);
         let waits = std::mem::take(&mut self.waits);
-        let together = waits == LANES && self.move_side_by_side(&rows);
+        let side = (waits == LANES).then(|| self.side_by_side(&rows)).flatten();
         for (place, row) in rows[..waits].iter().enumerate() {
-            match &self.side_by_side {
-                Some(side) if together => {
-                    side.moving.take(place, &mut self.moved);
-                    self.evaluate(&row.at, &row.placement);
+            let together = side.as_ref().and_then(|side| side.probe.sure());
+            match together {
+                Some(found) => {
+                    found.take(place, &mut self.found);
+                    self.evaluate(&row.at);
                 }
-                _ => self.read_placed(&row.at, &row.placement, row.time),
+                None => _ = self.read(&row.at, row.time),
             }
             take(&row.row(), row.time, &self.values, &self.noise);
         }
+        self.side_by_side = side;
         self.waiting = rows;
     }
 
-    /// Works out the rates of eight rows, if they are determined at each.
-    fn move_side_by_side(&mut self, rows: &[Waiting]) -> bool {
-        let side = self.side_by_side.get_or_insert_with(|| {
+    /// What is planned, worked out for eight rows.
+    fn side_by_side(&mut self, rows: &[Waiting]) -> Option<Box<Side<'q>>> {
+        let Spinning::Nothing(spins) = &self.spinning else {
+            return None;
+        };
+        let mut side = self.side_by_side.take().unwrap_or_else(|| {
             Box::new(Side {
-                moving: Moving::new(self.of, &self.plan),
+                probe: Probe::new(self.of, &self.plan),
                 at: rows[0].at.map(Lanes::from_f64),
                 driven: [(); 2].map(|()| vec![Lanes::zero(); self.coordinates.len()]),
             })
@@ -365,49 +327,25 @@ impl<'q> Meter<'q> {
         for (lane, row) in rows.iter().enumerate() {
             side.at.set_lane(lane, &row.at);
         }
-        driven(
-            self.of,
-            &self.ways,
-            |lane| rows[lane].time,
-            &mut side.driven,
-        );
-        (side.moving).at(&self.plan, &side.at, None, &side.driven);
-        side.moving.is_sure()
+        let time = |lane: usize| rows[lane].time;
+        driven(self.of, &self.ways, time, &mut side.driven);
+        side.probe.at(&self.plan, &side.at, &side.driven, spins);
+        Some(side)
     }
 
-    /// Values at a configuration whose motion is known.
-    fn evaluate(&mut self, at: &Configuration<f64>, placement: &Placement<f64>) {
-        let Moved {
+    /// Values at a configuration from what was found there.
+    fn evaluate(&mut self, at: &Configuration<f64>) {
+        let Found {
             moves,
-            orders,
-            responses,
+            rates,
+            jacobian,
             ..
-        } = &self.moved;
-        let moves = *moves;
-        self.forces.clear();
-        if let Some(loaded) = self.loaded.as_mut().filter(|_| moves) {
-            // τ δh + g δx = 0: what holds a coordinate does the work of the load
-            let forces = responses.iter().zip(&self.plan.wanted);
-            self.forces
-                .extend(forces.map(|(rates, wanted)| match wanted {
-                    true => -loaded.power(rates, placement),
-                    false => f64::NAN,
-                }));
-        }
+        } = &self.found;
         self.figures.clear();
-        if let Some((outputs, spinning)) = self.outputs.as_mut().filter(|_| moves) {
-            let jacobian = &mut self.jacobian;
-            match spinning {
-                Spinning::Nothing(spins) => {
-                    outputs.normalised_into(jacobian, at, placement, responses, spins);
-                }
-                Spinning::Something(held) => {
-                    let rest = held.tangent(at.clone());
-                    let spins = Spins::of(held, &rest);
-                    outputs.normalised_into(jacobian, at, placement, responses, &spins);
-                }
+        if *moves && self.wants.jacobian {
+            if self.wants.determinant {
+                (self.figures).push((Figure::Determinant, jacobian.determinant()));
             }
-            (self.figures).push((Figure::Determinant, jacobian.determinant()));
             if self.wants.singular_values {
                 let values = jacobian.singular_values();
                 let product = values.iter().product();
@@ -421,15 +359,11 @@ impl<'q> Meter<'q> {
                 .map(|figure| (*figure, classifier.distance(*figure, at)));
             self.figures.extend(figures);
         }
-        self.angles.clear();
-        if let Some(transmission) = &self.transmission {
-            self.angles.extend(transmission.angles(placement));
-        }
+        let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let here = Here {
             at,
-            placement,
-            moves,
-            largest: [0, 1].map(|k| orders[k].iter().fold(0.0, |most: f64, x| most.max(x.abs()))),
+            moves: *moves,
+            largest: [largest(&rates[0]), largest(&rates[1])],
         };
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
@@ -449,11 +383,6 @@ impl<'q> Meter<'q> {
             self.noise[i] = noise;
             self.before[i] = value.or(self.before[i]);
         }
-    }
-
-    /// The frames that it places with those of the closures.
-    pub fn frames(&self) -> &[Frame] {
-        &self.plan.frames
     }
 
     /// How far each value last read may be off.

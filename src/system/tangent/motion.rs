@@ -187,20 +187,12 @@ impl<T: Factorable> Motion<T> {
 
     /// Factorises at an assembled configuration, for [`Motion::rates`] and [`Motion::accelerations`] that follow.
     pub fn at(&mut self, at: &Configuration<T>) {
-        self.placed_at(at, None);
-    }
-
-    /// The same where frames may have been placed already, by equations of the same closures and frames.
-    pub fn placed_at(&mut self, at: &Configuration<T>, placement: Option<&Placement<T>>) {
         self.here.clone_from(at);
         for (platform, pose) in at.platforms.iter().enumerate() {
             self.system
                 .set_orientation(platform, pose.orientation.rotation());
         }
-        match placement {
-            Some(placement) => self.system.linearise_at(at, placement, &mut self.work),
-            None => self.system.linearise(at, &mut self.work),
-        };
+        self.system.linearise(at, &mut self.work);
         self.system.factorise(0.0, &mut self.work);
         self.changing.placed = false;
     }

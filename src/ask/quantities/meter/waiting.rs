@@ -1,12 +1,11 @@
 //! Rows that wait until their quantities are read.
 
 use crate::analysis::sweep::{MetKind, Row};
-use crate::mechanism::{Configuration, Kinematics, Placement};
+use crate::mechanism::Configuration;
 
-/// A row with its frames placed, in storage that is used again.
+/// A row in storage that is used again.
 pub(super) struct Waiting {
     pub at: Configuration<f64>,
-    pub placement: Placement<f64>,
     pub time: f64,
     number: usize,
     step: Option<usize>,
@@ -17,10 +16,9 @@ pub(super) struct Waiting {
 
 impl Waiting {
     /// Storage for rows of a mechanism.
-    pub fn new(at: &Configuration<f64>, kinematics: &Kinematics<f64>) -> Self {
+    pub fn new(at: &Configuration<f64>) -> Self {
         Waiting {
             at: at.clone(),
-            placement: kinematics.placement(),
             time: 0.0,
             number: 0,
             step: None,
@@ -31,12 +29,8 @@ impl Waiting {
     }
 
     /// Keeps a row.
-    pub fn put(&mut self, row: &Row, time: f64, kinematics: &Kinematics<f64>) {
+    pub fn put(&mut self, row: &Row, time: f64) {
         self.at.clone_from(row.configuration);
-        match row.placement {
-            Some(placement) => self.placement.0.copy_from_slice(&placement.0),
-            None => kinematics.place(row.configuration, &mut self.placement),
-        }
         self.time = time;
         (self.number, self.step, self.between) = (row.number, row.step, row.between);
         self.points.clear();
