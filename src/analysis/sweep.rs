@@ -43,7 +43,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Frame, Mechanism, NamedPoint, Placement};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
@@ -67,8 +67,6 @@ pub struct SweepSettings {
     pub schedule: Option<Schedule>,
     /// Points whose path is wanted.
     pub points: Vec<NamedPoint>,
-    /// Frames that are to be placed with the closures at each row.
-    pub frames: Vec<Frame>,
     /// Whether to say how straight these paths are.
     pub straightness: bool,
     /// Whether interval arithmetic is to show that all rows lie on one branch; only where inputs go through their ranges.
@@ -86,7 +84,6 @@ impl Default for SweepSettings {
             pace: Pace::default(),
             schedule: None,
             points: Vec::new(),
-            frames: Vec::new(),
             straightness: false,
             certify: false,
             between: false,
@@ -103,8 +100,6 @@ pub struct Row<'a> {
     pub step: Option<usize>,
     /// The configuration: no closure row exceeds 1e-12 rad or characteristic lengths.
     pub configuration: &'a Configuration<f64>,
-    /// The frames of the closures and those asked for, where they are placed already.
-    pub(crate) placement: Option<&'a Placement<f64>>,
     /// Where the traced points are, in ground, in m.
     pub points: &'a [[f64; 3]],
     /// The quantities asked for, none where they are not determined.
@@ -117,12 +112,11 @@ pub struct Row<'a> {
 
 impl<'a> Row<'a> {
     /// A configuration without quantities.
-    fn of(configuration: &'a Configuration<f64>) -> Self {
+    pub(crate) fn of(configuration: &'a Configuration<f64>) -> Self {
         Row {
             number: 0,
             step: None,
             configuration,
-            placement: None,
             points: &[],
             quantities: &[],
             special: None,

@@ -159,30 +159,20 @@ impl Motions<'_> {
     ) -> (SweepReport, Located) {
         let wanted = self.settings.straightness || !self.dwells.is_empty();
         if self.metered.quantities.is_empty() && !wanted {
-            let moved = self.moved(start, &self.settings, sink, watch);
+            let moved = self.moved(start, sink, watch);
             return (moved, Located::default());
         }
         let mut meter = Meter::new(&self.metered, start);
-        let settings = SweepSettings {
-            frames: meter.frames().to_vec(),
-            ..self.settings.clone()
-        };
         let mut extremes = Extremes::new(self.metered.quantities.len());
         let timed = !self.metered.inputs.is_empty() && !self.metered.quantities.is_empty();
         let mut values = Vec::new();
         let mut all: Vec<Seen> = Vec::new();
         let steps = self.settings.steps as f64;
         let latest = Cell::new(0);
-        let mut measured = |row: &Row| {
+        let mut take = |row: &Row, time: f64, found: &[Option<f64>], noise: &[f64]| {
             let at = row.configuration;
-            latest.set(row.step.unwrap_or(latest.get()));
-            let time = row
-                .step
-                .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
-            meter.read_placed(at, row.placement, time);
-            let found = meter.values();
             if !row.between {
-                extremes.take(at, time, found, meter.noise());
+                extremes.take(at, time, found, noise);
             }
             if wanted && !row.between {
                 all.push(Seen {
@@ -199,7 +189,16 @@ impl Motions<'_> {
                 ..*row
             });
         };
-        let report = self.moved(start, &settings, &mut measured, watch);
+        let mut measured = |row: &Row| {
+            let at = row.configuration;
+            latest.set(row.step.unwrap_or(latest.get()));
+            let time = row
+                .step
+                .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
+            meter.read_row(row, time, &mut take);
+        };
+        let report = self.moved(start, &mut measured, watch);
+        meter.read_waiting(&mut take);
         let passage = Passage {
             mechanism: self.mechanism,
             held: &self.held,
@@ -247,14 +246,9 @@ impl Motions<'_> {
         (report, located)
     }
 
-    fn moved(
-        &self,
-        start: &Configuration<f64>,
-        settings: &SweepSettings,
-        sink: &mut Sink,
-        watch: &Watch,
-    ) -> SweepReport {
+    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
         let (mechanism, held, inputs) = (self.mechanism, &self.held, self.inputs());
+        let settings = &self.settings;
         match inputs.is_empty() {
             true => follow(mechanism, held, start, settings, sink, watch),
             false => sweep(mechanism, held, inputs, start, settings, sink, watch),

@@ -153,7 +153,8 @@ pub struct KeptRows {
     most: usize,
     every: usize,
     seen: usize,
-    last: Option<Vec<Option<f64>>>,
+    last: Vec<Option<f64>>,
+    last_is_kept: bool,
 }
 
 impl KeptRows {
@@ -164,17 +165,19 @@ impl KeptRows {
             most: most.max(2),
             every: 1,
             seen: 0,
-            last: None,
+            last: Vec::new(),
+            last_is_kept: false,
         }
     }
 
     /// Takes in a row.
     pub fn take(&mut self, columns: &Columns, row: &Row) {
+        self.last.clear();
+        self.last.push(row.step.map(|step| step as f64));
         let values = columns.values(row);
-        let values = values.map(|value| value.is_finite().then_some(value));
-        let step = row.step.map(|step| step as f64);
-        let values: Vec<Option<f64>> = std::iter::once(step).chain(values).collect();
-        if self.seen.is_multiple_of(self.every) && self.rows.len() == self.most {
+        values.for_each(|value| self.last.push(value.is_finite().then_some(value)));
+        self.last_is_kept = self.seen.is_multiple_of(self.every);
+        if self.last_is_kept && self.rows.len() == self.most {
             // every second goes, and from now on twice as many are left out
             let mut keep = false;
             self.rows.retain(|_| {
@@ -182,20 +185,19 @@ impl KeptRows {
                 keep
             });
             self.every *= 2;
+            self.last_is_kept = self.seen.is_multiple_of(self.every);
         }
-        self.last = match self.seen.is_multiple_of(self.every) {
-            true => {
-                self.rows.push(values);
-                None
-            }
-            false => Some(values),
-        };
+        if self.last_is_kept {
+            self.rows.push(self.last.clone());
+        }
         self.seen += 1;
     }
 
     /// The rows with the last one there was.
     pub fn finished(mut self) -> Vec<Vec<Option<f64>>> {
-        self.rows.extend(self.last.take());
+        if self.seen > 0 && !self.last_is_kept {
+            self.rows.push(self.last);
+        }
         self.rows
     }
 }

@@ -35,8 +35,7 @@ impl Rows {
     ) -> Self {
         let inputs = curve.inputs();
         let tracker = holding(held, inputs).map(|held| {
-            let dimensions = mechanism.dimensions();
-            let system = System::placing(mechanism, dimensions, &held, &settings.frames);
+            let system = System::reduced(mechanism, mechanism.dimensions(), &held);
             MotionTracker::new(system, start.at.clone())
         });
         let way =
@@ -108,7 +107,6 @@ impl Rows {
                 if let Some(tracker) = &self.tracker {
                     let row = Row {
                         step,
-                        placement: Some(tracker.placement()),
                         ..Row::of(tracker.configuration())
                     };
                     self.sent.send(row, sink)?;

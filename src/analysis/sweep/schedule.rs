@@ -96,7 +96,6 @@ impl Schedule {
             continuation: settings.continuation.clone(),
             between: settings.between,
             points: settings.points.clone(),
-            frames: settings.frames.clone(),
             ..SweepSettings::default()
         };
         let mut traced = Paths::new(mechanism, &settings.points);

@@ -4,8 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::frames::Spins;
 use crate::algebra::SiUnit;
-use crate::linear::{rank, singular_values};
+use crate::geometry::Vector3;
+use crate::linear::{Factorable, rank, singular_values};
 use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
+use crate::number::Packed;
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
@@ -110,10 +112,10 @@ fn determinant(size: usize, entries: &[f64]) -> f64 {
 }
 
 /// The map from rates of the inputs to those of the outputs, planned once.
-pub(crate) struct Outputs<'m> {
+pub(crate) struct Outputs<'m, T = f64> {
     mechanism: &'m Mechanism,
     outputs: Vec<Lock>,
-    twists: FrameTwists<f64>,
+    twists: FrameTwists<T>,
     /// Scales of the rows, then of the columns.
     scales: [Vec<f64>; 2],
     /// How many rows at the end belong to points followed.
@@ -121,14 +123,13 @@ pub(crate) struct Outputs<'m> {
 }
 
 /// The dimensionless Jacobian without the rows of points followed, unless there are no others.
-#[derive(Default)]
-pub(crate) struct Normalised {
+pub(crate) struct Normalised<T = f64> {
     rows: usize,
     columns: usize,
     /// With units and all rows, column by column.
-    given: Vec<f64>,
+    given: Vec<T>,
     /// Column by column.
-    entries: Vec<f64>,
+    entries: Vec<T>,
 }
 
 impl Normalised {
@@ -142,23 +143,47 @@ impl Normalised {
     }
 }
 
+impl<T> Default for Normalised<T> {
+    fn default() -> Self {
+        Normalised {
+            rows: 0,
+            columns: 0,
+            given: Vec::new(),
+            entries: Vec::new(),
+        }
+    }
+}
+
+impl<T: Packed> Normalised<T> {
+    /// What is in one place of it, without units.
+    pub fn take(&self, place: usize, to: &mut Normalised) {
+        (to.rows, to.columns) = (self.rows, self.columns);
+        to.entries.clear();
+        to.entries
+            .extend(self.entries.iter().map(|x| x.part(place)));
+    }
+}
+
 /// Largest over smallest of singular values; `None` (infinite) if some freedom is lost.
 pub(crate) fn condition(values: &[f64]) -> Option<f64> {
     let smallest = values.last().copied().unwrap_or(1.0);
     (rank(values) == values.len()).then(|| values.first().map_or(1.0, |most| most / smallest))
 }
 
-impl<'m> Outputs<'m> {
+impl Outputs<'_> {
     /// Frames that must be placed.
     pub fn frames(outputs: &[Lock]) -> impl Iterator<Item = Frame> {
         let points = outputs.iter().filter_map(|output| output.point());
         points.map(|point| point.frame)
     }
+}
 
-    pub fn new(mechanism: &'m Mechanism, motion: &Motion, outputs: Vec<Lock>) -> Self {
+impl<'m, T: Factorable> Outputs<'m, T> {
+    pub fn new(mechanism: &'m Mechanism, motion: &Motion<T>, outputs: Vec<Lock>) -> Self {
         let points: Vec<Point> = outputs.iter().filter_map(|output| output.point()).collect();
-        let (dimensions, unknowns) = (mechanism.dimensions(), motion.unknowns());
-        let twists = FrameTwists::sharing(motion.kinematics(), dimensions, unknowns, &points);
+        let dimensions = mechanism.dimensions().map(T::from_f64);
+        let unknowns = motion.unknowns();
+        let twists = FrameTwists::sharing(motion.kinematics(), &dimensions, unknowns, &points);
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
         let rows = outputs
@@ -183,18 +208,18 @@ impl<'m> Outputs<'m> {
     /// Adds the rates of the outputs for rates of all unknowns, in m/s and rad/s.
     fn add(
         &self,
-        column: &mut Vec<f64>,
-        at: &Configuration<f64>,
-        placement: &Placement<f64>,
-        rates: &[f64],
+        column: &mut Vec<T>,
+        at: &Configuration<T>,
+        placement: &Placement<T>,
+        rates: &[T],
         spins: &Spins,
     ) {
         let mechanism = self.mechanism;
-        let length = mechanism.characteristic_length();
+        let length = T::from_f64(mechanism.characteristic_length());
         let mut next = 0..;
         for output in &self.outputs {
-            let twist = output.point().and_then(|_| next.next());
-            let twist = twist.map(|i| self.twists.twist(i, placement, rates));
+            let place = output.point().and_then(|_| next.next());
+            let twist = place.map(|i| self.twists.twist(i, placement, rates));
             match (*output, twist) {
                 (Lock::Frame(of), Some(Twist { omega, velocity })) => {
                     column.extend(without(&omega, spins.lines_of(of)).0);
@@ -202,22 +227,25 @@ impl<'m> Outputs<'m> {
                 }
                 (Lock::Point(point), Some(Twist { omega, velocity })) => {
                     let spin = omega - without(&omega, spins.lines_of(point.frame));
-                    let velocity = velocity - spin.cross(&point.arm(mechanism, at));
-                    column.extend(velocity.0);
+                    let frame = place.map(|i| self.twists.frame(i, placement).rotation);
+                    let arm = frame.map(|frame| frame * Vector3(point.offset.map(T::from_f64)));
+                    let turned = arm.map_or(Vector3::zero(), |arm| spin.cross(&arm));
+                    column.extend((velocity - turned).0);
                 }
                 (Lock::Coordinate(Coordinate::Turn(_, axis)), Some(twist)) => {
                     column.push(twist.omega.0[axis as usize]);
                 }
-                (Lock::Coordinate(of @ Coordinate::Pose(platform, _)), Some(twist)) => {
+                (Lock::Coordinate(of @ Coordinate::Pose(platform, c)), Some(twist)) => {
                     // the slope is that of the dimensionless coordinate
-                    let slope = of.slope(&at.platforms[platform].pose(), length);
+                    let slope = c.slope(&at.platforms[platform].pose());
                     let turn = twist.omega.0.into_iter();
                     let shift = twist.velocity.0.into_iter().map(|v| v / length);
-                    let sum: f64 = turn.chain(shift).zip(slope).map(|(t, s)| t * s).sum();
-                    column.push(sum * of.scale(mechanism));
+                    let products = turn.chain(shift).zip(slope).map(|(t, s)| t * s);
+                    let sum = products.fold(T::zero(), |sum, x| sum + x);
+                    column.push(sum.scale(of.scale(mechanism)));
                 }
                 (Lock::Coordinate(Coordinate::Joint(joint)), _) => {
-                    column.push(rates[joint] * mechanism.dimensions().joint_scales[joint]);
+                    column.push(rates[joint].scale(mechanism.dimensions().joint_scales[joint]));
                 }
                 (_, None) => unreachable!("only joints have no frame"),
             }
@@ -227,10 +255,10 @@ impl<'m> Outputs<'m> {
     /// The dimensionless Jacobian for what unit rates of the inputs give, the columns with their units before it.
     pub fn normalised_into(
         &self,
-        known: &mut Normalised,
-        at: &Configuration<f64>,
-        placement: &Placement<f64>,
-        rates: &[Vec<f64>],
+        known: &mut Normalised<T>,
+        at: &Configuration<T>,
+        placement: &Placement<T>,
+        rates: &[Vec<T>],
         spins: &Spins,
     ) {
         let [rows, inputs] = &self.scales;
@@ -245,10 +273,13 @@ impl<'m> Outputs<'m> {
             let first = known.given.len();
             self.add(&mut known.given, at, placement, rates, spins);
             let entries = known.given[first..].iter().zip(rows).take(known.rows);
-            (known.entries).extend(entries.map(|(entry, row)| entry * input / row));
+            (known.entries)
+                .extend(entries.map(|(entry, row)| entry.scale(*input) / T::from_f64(*row)));
         }
     }
+}
 
+impl Outputs<'_> {
     /// The whole report; `motion` is factorised at the configuration.
     pub(super) fn report(
         &self,

@@ -12,6 +12,7 @@ use crate::linear::{dot, norm};
 use crate::mechanism::{
     Body, ClosureKind, Configuration, Frame, Kinematics, Mechanism, Placement, Point,
 };
+use crate::number::Packed;
 use crate::system::{
     Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, loops,
 };
@@ -133,12 +134,10 @@ impl TransmissionAngles {
         }
     }
 
-    /// The angle of each loop, from 0 to π/2; none where it does not move in a plane. Nothing allocates.
-    pub fn angles(&self, placement: &Placement<f64>) -> impl Iterator<Item = Option<f64>> {
-        self.dyads.iter().map(|dyad| {
-            let pressure = self.pressure(dyad, placement);
-            pressure.map(|angle| FRAC_PI_2 - angle)
-        })
+    /// The angle of each loop, from 0 to π/2; not a number where it does not move in a plane. Nothing allocates.
+    pub fn angles<T: Packed>(&self, placement: &Placement<T>) -> impl Iterator<Item = T> {
+        let right = T::from_f64(FRAC_PI_2);
+        (self.dyads.iter()).map(move |dyad| right - self.pressure(dyad, placement))
     }
 
     /// The closures of the loops, in the order of their angles.
@@ -149,8 +148,8 @@ impl TransmissionAngles {
     /// All of them with their names.
     pub fn table(&self, placement: &Placement<f64>) -> Vec<Transmission> {
         let found = self.dyads.iter().filter_map(|dyad| {
-            let pressure_angle = self.pressure(dyad, placement)?;
-            Some(Transmission {
+            let pressure_angle = self.pressure(dyad, placement);
+            (!pressure_angle.is_nan()).then(|| Transmission {
                 transmission_angle: FRAC_PI_2 - pressure_angle,
                 pressure_angle,
                 ..dyad.names.clone()
@@ -159,16 +158,19 @@ impl TransmissionAngles {
         found.collect()
     }
 
-    fn pressure(&self, dyad: &Dyad, placement: &Placement<f64>) -> Option<f64> {
-        let turned = |slot: usize, v: &Vector3<f64>| placement.pose(slot).rotation * *v;
+    fn pressure<T: Packed>(&self, dyad: &Dyad, placement: &Placement<T>) -> T {
+        let turned =
+            |slot: usize, v: &Vector3<f64>| placement.pose(slot).rotation * v.map(T::from_f64);
         let normals = dyad.normals.iter();
         let mut ground = normals.map(|(slot, normal)| turned(*slot, normal));
-        let normal = ground.next()?;
-        if !ground.all(|other| other.cross(&normal).norm() <= ZERO) {
-            return None;
-        }
+        let Some(normal) = ground.next() else {
+            return T::from_f64(f64::NAN);
+        };
+        let askew = ground.fold(T::zero(), |most, other| {
+            most.larger(other.cross(&normal).norm())
+        });
         let place = |(slot, point): &Spot| point.placed(placement.pose(*slot));
-        let in_plane = |v: Vector3<f64>| v - normal.times(normal.dot(&v));
+        let in_plane = |v: Vector3<T>| v - normal.times(normal.dot(&v));
         let second = place(&dyad.second);
         let force = in_plane(second - place(&dyad.first));
         let motion = match &dyad.post {
@@ -176,12 +178,15 @@ impl TransmissionAngles {
             Post::Slide(slot, along) => turned(*slot, along),
             Post::Along(from, to) => place(to) - place(from),
         };
-        let sizes = force.norm() * motion.norm();
-        if sizes <= ZERO * self.length * motion.norm().max(ZERO) {
-            return None;
-        }
-        let across = force.cross(&motion).norm();
-        Some(across.atan2(force.dot(&motion).abs()))
+        let (size, sizes) = (motion.norm(), force.norm() * motion.norm());
+        let (across, along) = (force.cross(&motion).norm(), force.dot(&motion));
+        T::of_parts(|i| {
+            let least = ZERO * self.length * size.part(i).max(ZERO);
+            match askew.part(i) <= ZERO && sizes.part(i) > least {
+                true => across.part(i).atan2(along.part(i).abs()),
+                false => f64::NAN,
+            }
+        })
     }
 }
 

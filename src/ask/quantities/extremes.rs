@@ -60,7 +60,9 @@ impl Extremes {
     ) {
         match self.rows.len() {
             3 => {
-                self.rows.rotate_left(1);
+                // the oldest gives way
+                self.rows.swap(0, 1);
+                self.rows.swap(1, 2);
                 self.rows[2].at.clone_from(at);
                 self.rows[2].time = time;
                 self.rows[2].values.copy_from_slice(values);

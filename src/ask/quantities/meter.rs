@@ -1,24 +1,22 @@
 //! Quantities at the configurations of a motion, from the engines of the analyses.
 
 mod found;
+mod probe;
+mod waiting;
 
 use std::f64::consts::{PI, TAU};
 
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::singularities::Classifier;
-use crate::analysis::sweep::{Pace, Schedule};
-use crate::analysis::velocity::{
-    Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
-};
-use crate::mechanism::{
-    Configuration, Figure, Frame, Kinematics, Measured, Order, Placement, Point, Quantity,
-};
-use crate::number::Dual;
-use crate::system::{
-    self, Coordinate, Driven, FrameTwists, Held, Load, Loaded, Lock, Motion, Neighbourhood, System,
-    Unknown,
-};
+use crate::analysis::sweep::{Pace, Row, Schedule};
+use crate::analysis::velocity::{Outputs, Spins, TransmissionAngles, condition, outputs};
+use crate::linear::DENSE_LIMIT;
+use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
+use crate::number::{Dual, LANES, Lanes, Number, Packed};
+use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
 use found::Here;
+use probe::{Found, Plan, Probe};
+use waiting::Waiting;
 
 /// What a meter is for.
 #[derive(Clone, Debug)]
@@ -34,32 +32,24 @@ pub(in super::super) struct Metered<'q> {
 }
 
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
-/// once; rates, forces and Jacobian come from one factorisation of the closures.
+/// once; rates, forces and Jacobian come from one factorisation of the closures, of eight rows of a motion side by side.
 pub(in super::super) struct Meter<'q> {
     of: &'q Metered<'q>,
     /// For each held coordinate the number of its input and how far that goes, if it is one.
     ways: Vec<Option<(usize, f64)>>,
     turns: Vec<bool>,
-    /// The points, how they move, and how that changes.
-    twists: FrameTwists<f64>,
-    motions: Option<FrameTwists<Dual<f64>>>,
-    /// Its frames beside those of the closures, and where these are, if no rates are wanted.
-    frames: Vec<Frame>,
-    kinematics: Kinematics<f64>,
-    placement: Placement<f64>,
     /// Frames of links that spin about a line of their own: rates beside it are not determined.
     loose: Vec<Frame>,
-    motion: Option<Motion>,
-    loaded: Option<Loaded>,
-    /// What everything does for a unit rate of each held coordinate for which that is wanted, and what holds these against
-    /// the load.
-    wanted: Vec<bool>,
-    responses: Vec<Vec<f64>>,
-    forces: Vec<f64>,
-    outputs: Option<(Outputs<'q>, Spinning<'q>)>,
-    jacobian: Normalised,
-    transmission: Option<TransmissionAngles>,
-    angles: Vec<Option<f64>>,
+    coordinates: Vec<Coordinate>,
+    plan: Plan,
+    probe: Probe<'q, f64>,
+    /// That of rows side by side, once there are so many.
+    side_by_side: Option<Box<Side<'q>>>,
+    /// Rows that wait for others, and how many do.
+    waiting: Vec<Waiting>,
+    waits: usize,
+    found: Found,
+    spinning: Spinning<'q>,
     /// With the distances that are asked for.
     distances: Option<(Classifier<'q>, Vec<Figure>)>,
     wants: Wants,
@@ -78,6 +68,16 @@ pub(in super::super) struct Meter<'q> {
     noise: Vec<f64>,
 }
 
+/// A configuration in each lane, and rates and accelerations of what is held there.
+struct Side<'q> {
+    probe: Probe<'q, Lanes>,
+    at: Configuration<Lanes>,
+    driven: [Vec<Lanes>; 2],
+}
+
+/// What takes rows with the part of the time that is gone, their values, and how far these may be off.
+pub(in super::super) type Take<'t> = dyn FnMut(&Row, f64, &[Option<f64>], &[f64]) + 't;
+
 /// The lines about which links spin: none, or those of each configuration.
 enum Spinning<'q> {
     Nothing(Spins),
@@ -91,6 +91,7 @@ struct Wants {
     forces: bool,
     transmission: bool,
     jacobian: bool,
+    determinant: bool,
     singular_values: bool,
     distances: bool,
 }
@@ -102,6 +103,7 @@ impl Wants {
             forces: false,
             transmission: false,
             jacobian: false,
+            determinant: false,
             singular_values: false,
             distances: false,
         };
@@ -114,7 +116,9 @@ impl Wants {
                 Measured::Curvature(_) => wants.order = Order::Acceleration,
                 Measured::Force(_) | Measured::PlatformForce(..) => wants.forces = true,
                 Measured::Transmission(_) => wants.transmission = true,
-                Measured::Figure(Figure::Determinant) => wants.jacobian = true,
+                Measured::Figure(Figure::Determinant) => {
+                    (wants.jacobian, wants.determinant) = (true, true);
+                }
                 Measured::Figure(Figure::Condition | Figure::Manipulability) => {
                     (wants.jacobian, wants.singular_values) = (true, true);
                 }
@@ -122,11 +126,6 @@ impl Wants {
             }
         }
         wants
-    }
-
-    /// Whether what everything does for a unit rate of each input is needed.
-    fn responses(self) -> bool {
-        self.forces || self.jacobian
     }
 }
 
@@ -160,9 +159,6 @@ impl<'q> Meter<'q> {
         });
         let programs: Vec<Expression<usize>> = programs.collect();
         let coordinates = question.driven_coordinates();
-        let moves = wants.order > Order::Value || wants.responses();
-        let still = question.clone().with_spins_still();
-        let hold = |held| still.with_still(held);
         let mut held = Neighbourhood::holding(mechanism, &question.held());
         let rest = held.tangent(start.clone());
         let spins = Spins::of(&held, &rest);
@@ -179,23 +175,6 @@ impl<'q> Meter<'q> {
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
-        let motion = moves.then(|| Motion::placing(mechanism, &coordinates, &frames, hold));
-        let (dimensions, nothing) = (mechanism.dimensions(), Held::nothing(mechanism));
-        let placing = System::placing(mechanism, dimensions, &nothing, &frames);
-        let placing = placing.kinematics().clone();
-        let kinematics = motion.as_ref().map_or(&placing, Motion::kinematics);
-        let loaded = (motion.as_ref().filter(|_| wants.forces))
-            .map(|motion| Loaded::new(mechanism, motion.unknowns(), &of.load, kinematics));
-        let transmission = wants.transmission.then(|| {
-            let mut near = Neighbourhood::new(mechanism);
-            TransmissionAngles::new(&mut near, start, &coordinates, kinematics)
-        });
-        let unknowns: &[Unknown] = motion.as_ref().map_or(&[], Motion::unknowns);
-        let twists = FrameTwists::sharing(kinematics, dimensions, unknowns, &points);
-        let changing = motion
-            .as_ref()
-            .filter(|_| wants.order == Order::Acceleration);
-        let motions = changing.map(|motion| FrameTwists::moving(mechanism, motion, &points));
         let numbered = names.iter().map(|name| match name {
             Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
                 let number = points.iter().position(|known| known == point);
@@ -213,9 +192,27 @@ impl<'q> Meter<'q> {
                 _ => false,
             })
         };
-        let wanted = coordinates
-            .iter()
-            .map(|of_it| wants.jacobian || held_by(of_it));
+        let wanted = coordinates.iter();
+        let wanted = wanted.map(|of_it| wants.jacobian || held_by(of_it));
+        let angles = names.iter().filter_map(|(name, point)| match name {
+            Measured::Place(_, c, order) if c.is_angle() => Some((*point, *c, *order)),
+            _ => None,
+        });
+        let mut plan = Plan {
+            order: wants.order,
+            angles: angles.collect(),
+            responses: wanted.collect(),
+            forces: wants.forces,
+            outputs: wants.jacobian.then_some(outputs),
+            transmission: None,
+            points,
+            frames,
+        };
+        let probe = Probe::new(of, &plan);
+        plan.transmission = wants.transmission.then(|| {
+            let mut near = Neighbourhood::new(mechanism);
+            TransmissionAngles::new(&mut near, start, &coordinates, probe.kinematics())
+        });
         let way = |of_it: &Coordinate| {
             let mut inputs = of.inputs.iter();
             let place = inputs.position(|input| input.coordinate == *of_it)?;
@@ -224,27 +221,12 @@ impl<'q> Meter<'q> {
         Meter {
             ways: coordinates.iter().map(way).collect(),
             turns: of.quantities.iter().map(turns).collect(),
-            responses: vec![Vec::new(); coordinates.len()],
-            forces: Vec::new(),
-            outputs: (motion.as_ref().filter(|_| wants.jacobian)).map(|motion| {
-                let outputs = Outputs::new(mechanism, motion, outputs);
-                match spins.is_empty() {
-                    true => (outputs, Spinning::Nothing(spins)),
-                    false => (outputs, Spinning::Something(Box::new(held))),
-                }
-            }),
-            jacobian: Normalised::default(),
-            wanted: wanted.collect(),
-            angles: Vec::new(),
+            spinning: match spins.is_empty() || !wants.jacobian {
+                true => Spinning::Nothing(spins),
+                false => Spinning::Something(Box::new(held)),
+            },
             figures: Vec::new(),
-            twists,
-            motions,
-            frames,
-            placement: placing.placement(),
-            kinematics: placing,
             loose,
-            loaded,
-            transmission,
             distances: wants.distances.then(|| {
                 let inputs = system::inputs_of(question);
                 let distances = Figure::ALL.into_iter().filter(|figure| {
@@ -257,8 +239,14 @@ impl<'q> Meter<'q> {
                 let classifier = Classifier::new(mechanism, &inputs, &outputs, start);
                 (classifier, distances.collect())
             }),
-            motion,
             driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
+            coordinates,
+            plan,
+            probe,
+            side_by_side: None,
+            waiting: Vec::new(),
+            waits: 0,
+            found: Found::default(),
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
             known: vec![[0.0; 2]; names.len()],
@@ -272,78 +260,92 @@ impl<'q> Meter<'q> {
 
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
-        self.read_placed(at, None, time)
+        driven(self.of, &self.ways, |_| time, &mut self.driven);
+        let found = match &mut self.spinning {
+            Spinning::Nothing(spins) => self.probe.at(&self.plan, at, &self.driven, spins),
+            Spinning::Something(held) => {
+                let rest = held.tangent(at.clone());
+                let spins = Spins::of(held, &rest);
+                self.probe.at(&self.plan, at, &self.driven, &spins)
+            }
+        };
+        found.take(0, &mut self.found);
+        self.evaluate(at);
+        &self.values
     }
 
-    /// The same where the [frames](Self::frames) may have been placed already.
-    pub fn read_placed(
-        &mut self,
-        at: &Configuration<f64>,
-        placement: Option<&Placement<f64>>,
-        time: f64,
-    ) -> &[Option<f64>] {
-        let [_, rate, change] = self.of.pace.at(time);
-        let [rates, changes] = &mut self.driven;
-        for (i, way) in self.ways.iter().enumerate() {
-            (rates[i], changes[i]) = match (way, &self.of.schedule) {
-                (None, _) => (0.0, 0.0),
-                (Some((_, way)), None) => (way * rate, way * change),
-                (Some((input, _)), Some(schedule)) => {
-                    let [_, rate, change] = schedule.at(*input, time);
-                    (rate, change)
-                }
-            };
+    /// Reads a row of a motion where a part of the time is gone, or lets it wait for others; rows go to `take` in their
+    /// order.
+    pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
+        let (at, unknowns) = (row.configuration, self.probe.unknowns());
+        if unknowns > DENSE_LIMIT || matches!(self.spinning, Spinning::Something(_)) {
+            self.read(at, time);
+            return take(row, time, &self.values, &self.noise);
         }
-        let (mut moves, responses) = (false, &mut self.responses);
-        match &mut self.motion {
-            None if placement.is_some() => {}
-            None => self.kinematics.place(at, &mut self.placement),
-            Some(motion) => {
-                motion.placed_at(at, placement);
-                moves = motion.is_determined();
-                for (i, response) in responses.iter_mut().enumerate() {
-                    if self.wanted[i] {
-                        response.clear();
-                        response.extend_from_slice(motion.response(i));
-                    }
+        if self.waits == self.waiting.len() {
+            self.waiting.push(Waiting::new(at));
+        }
+        self.waiting[self.waits].put(row, time);
+        self.waits += 1;
+        if self.waits == LANES {
+            self.read_waiting(take);
+        }
+    }
+
+    /// Reads the rows that wait.
+    pub fn read_waiting(&mut self, take: &mut Take) {
+        let rows = std::mem::take(&mut self.waiting);
+        let waits = std::mem::take(&mut self.waits);
+        let side = (waits == LANES).then(|| self.side_by_side(&rows)).flatten();
+        for (place, row) in rows[..waits].iter().enumerate() {
+            let together = side.as_ref().and_then(|side| side.probe.sure());
+            match together {
+                Some(found) => {
+                    found.take(place, &mut self.found);
+                    self.evaluate(&row.at);
                 }
-                let known = self.wanted.iter().zip(&*rates);
-                match known.clone().all(|(known, rate)| *known || *rate == 0.0) {
-                    true => motion.set_rates(responses, rates),
-                    false => _ = motion.rates(rates),
-                }
-                if self.wants.order == Order::Acceleration {
-                    motion.accelerations(changes);
-                }
+                None => _ = self.read(&row.at, row.time),
             }
+            take(&row.row(), row.time, &self.values, &self.noise);
         }
-        let motion = self.motion.as_ref();
-        let known = placement.unwrap_or(&self.placement);
-        let placement = motion.map_or(known, Motion::placement);
-        self.forces.clear();
-        if let Some(loaded) = self.loaded.as_mut().filter(|_| moves) {
-            // τ δh + g δx = 0: what holds a coordinate does the work of the load
-            let forces = responses.iter().zip(&self.wanted);
-            self.forces
-                .extend(forces.map(|(rates, wanted)| match wanted {
-                    true => -loaded.power(rates, placement),
-                    false => f64::NAN,
-                }));
+        self.side_by_side = side;
+        self.waiting = rows;
+    }
+
+    /// What is planned, worked out for eight rows.
+    fn side_by_side(&mut self, rows: &[Waiting]) -> Option<Box<Side<'q>>> {
+        let Spinning::Nothing(spins) = &self.spinning else {
+            return None;
+        };
+        let mut side = self.side_by_side.take().unwrap_or_else(|| {
+            Box::new(Side {
+                probe: Probe::new(self.of, &self.plan),
+                at: rows[0].at.map(Lanes::from_f64),
+                driven: [(); 2].map(|()| vec![Lanes::zero(); self.coordinates.len()]),
+            })
+        });
+        for (lane, row) in rows.iter().enumerate() {
+            side.at.set_lane(lane, &row.at);
         }
+        let time = |lane: usize| rows[lane].time;
+        driven(self.of, &self.ways, time, &mut side.driven);
+        side.probe.at(&self.plan, &side.at, &side.driven, spins);
+        Some(side)
+    }
+
+    /// Values at a configuration from what was found there.
+    fn evaluate(&mut self, at: &Configuration<f64>) {
+        let Found {
+            moves,
+            rates,
+            jacobian,
+            ..
+        } = &self.found;
         self.figures.clear();
-        if let Some((outputs, spinning)) = self.outputs.as_mut().filter(|_| moves) {
-            let jacobian = &mut self.jacobian;
-            match spinning {
-                Spinning::Nothing(spins) => {
-                    outputs.normalised_into(jacobian, at, placement, responses, spins);
-                }
-                Spinning::Something(held) => {
-                    let rest = held.tangent(at.clone());
-                    let spins = Spins::of(held, &rest);
-                    outputs.normalised_into(jacobian, at, placement, responses, &spins);
-                }
+        if *moves && self.wants.jacobian {
+            if self.wants.determinant {
+                (self.figures).push((Figure::Determinant, jacobian.determinant()));
             }
-            (self.figures).push((Figure::Determinant, jacobian.determinant()));
             if self.wants.singular_values {
                 let values = jacobian.singular_values();
                 let product = values.iter().product();
@@ -357,15 +359,11 @@ impl<'q> Meter<'q> {
                 .map(|figure| (*figure, classifier.distance(*figure, at)));
             self.figures.extend(figures);
         }
-        self.angles.clear();
-        if let Some(transmission) = &self.transmission {
-            self.angles.extend(transmission.angles(placement));
-        }
+        let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let here = Here {
             at,
-            placement,
-            moves,
-            rates: motion.map_or([0.0; 2], Motion::largest),
+            moves: *moves,
+            largest: [largest(&rates[0]), largest(&rates[1])],
         };
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
@@ -385,17 +383,6 @@ impl<'q> Meter<'q> {
             self.noise[i] = noise;
             self.before[i] = value.or(self.before[i]);
         }
-        &self.values
-    }
-
-    /// The frames that it places with those of the closures.
-    pub fn frames(&self) -> &[Frame] {
-        &self.frames
-    }
-
-    /// The values last read.
-    pub fn values(&self) -> &[Option<f64>] {
-        &self.values
     }
 
     /// How far each value last read may be off.
@@ -406,6 +393,24 @@ impl<'q> Meter<'q> {
     /// Angles are given near to these values from here on.
     pub fn settle(&mut self, values: &[Option<f64>]) {
         self.before.copy_from_slice(values);
+    }
+}
+
+/// Rates and accelerations of the held coordinates where a part of the time is gone, in each place.
+fn driven<T: Packed>(
+    of: &Metered,
+    ways: &[Option<(usize, f64)>],
+    time: impl Fn(usize) -> f64,
+    driven: &mut [Vec<T>; 2],
+) {
+    for (i, way) in ways.iter().enumerate() {
+        let Some((input, way)) = *way else { continue };
+        for (order, driven) in driven.iter_mut().enumerate() {
+            driven[i] = T::of_parts(|place| match &of.schedule {
+                None => way * of.pace.at(time(place))[1 + order],
+                Some(schedule) => schedule.at(input, time(place))[1 + order],
+            });
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Placement};
+use crate::mechanism::Configuration;
 use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 use crate::system::{Coordinate, System, Work};
 
@@ -47,11 +47,6 @@ impl<T: Factorable> MotionTracker<T> {
     /// The latest solution; after a solve that failed, the one before with the held values asked for.
     pub fn configuration(&self) -> &Configuration<T> {
         &self.configuration
-    }
-
-    /// The frames of the equations at a solution, until something else is asked for.
-    pub fn placement(&self) -> &Placement<T> {
-        self.system.placement(&self.work)
     }
 
     /// Lets `hold` change the held joints and poses, and finds the free ones. Nothing allocates. `solved` is said only

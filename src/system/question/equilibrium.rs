@@ -1,8 +1,10 @@
 //! The equations of equilibrium of an assembled mechanism.
 
 use super::Load;
-use crate::linear::{Decomposition, Elimination, Rows, add, dot};
+use crate::geometry::Vector3;
+use crate::linear::{Decomposition, Elimination, Rows, add};
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, Point};
+use crate::number::Number;
 use crate::solve::Equations;
 use crate::system::{Coordinate, FrameTwists, Neighbourhood, Unknown};
 
@@ -113,8 +115,8 @@ fn generalised(near: &Neighbourhood, at: &Configuration<f64>, load: &Load) -> Ve
 
 /// The power of a load in motions of a mechanism. Built once; nothing allocates afterwards.
 #[derive(Clone, Debug)]
-pub struct Loaded {
-    twists: FrameTwists<f64>,
+pub struct Loaded<T = f64> {
+    twists: FrameTwists<T>,
     /// Force and moment at each of the points.
     wrenches: Vec<([f64; 3], [f64; 3])>,
     /// Unknowns with the loads along them, in N·m.
@@ -126,17 +128,19 @@ impl Loaded {
     pub fn frames(load: &Load) -> impl Iterator<Item = Frame> {
         load.wrenches.iter().map(|(point, ..)| point.frame)
     }
+}
 
+impl<T: Number> Loaded<T> {
     /// For rates of these unknowns.
     pub fn new(
         mechanism: &Mechanism,
         unknowns: &[Unknown],
         load: &Load,
-        kinematics: &Kinematics<f64>,
+        kinematics: &Kinematics<T>,
     ) -> Self {
         let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
-        let dimensions = mechanism.dimensions();
-        let twists = FrameTwists::sharing(kinematics, dimensions, unknowns, &points);
+        let dimensions = mechanism.dimensions().map(T::from_f64);
+        let twists = FrameTwists::sharing(kinematics, &dimensions, unknowns, &points);
         let scales = &mechanism.dimensions().joint_scales;
         let joints = load.joints.iter().filter_map(|&(joint, force)| {
             let column = unknowns.iter().position(|u| *u == Unknown::Joint(joint))?;
@@ -152,13 +156,18 @@ impl Loaded {
     }
 
     /// The power for rates of the unknowns, which are dimensionless per s: in W.
-    pub fn power(&self, rates: &[f64], placement: &Placement<f64>) -> f64 {
+    pub fn power(&self, rates: &[T], placement: &Placement<T>) -> T {
         let wrenches = self.wrenches.iter().enumerate();
+        let along = |v: &Vector3<T>, f: &[f64; 3]| v.dot(&Vector3(f.map(T::from_f64)));
         let wrenches = wrenches.map(|(i, (force, moment))| {
             let twist = self.twists.twist(i, placement, rates);
-            dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0)
+            along(&twist.velocity, force) + along(&twist.omega, moment)
         });
-        let joints = self.joints.iter().map(|&(k, force)| force * rates[k]);
-        wrenches.sum::<f64>() + joints.sum::<f64>()
+        let joints = (self.joints.iter()).map(|&(k, force)| rates[k].scale(force));
+        let [wrenches, joints] = [
+            wrenches.fold(T::zero(), |sum, x| sum + x),
+            joints.fold(T::zero(), |sum, x| sum + x),
+        ];
+        wrenches + joints
     }
 }

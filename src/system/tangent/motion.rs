@@ -4,9 +4,9 @@ mod frames;
 mod held;
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::linear::add;
+use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, PlatformPose};
-use crate::number::Dual;
+use crate::number::{Dual, Number};
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 
@@ -18,61 +18,63 @@ pub use frames::FrameMotion;
 /// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, where H ḣ are the rates of the rows in a motion of h alone, and r̈ = 0 gives
 /// ẍ = −J⁺ γ, where γ is r̈ along the path that has these rates and no acceleration but that of h.
 ///
+/// Over [`Lanes`](crate::number::Lanes) it does so for eight configurations side by side.
+///
 /// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths. At a singular
 /// configuration they are one choice of many ([`Freedoms`](super::Freedoms) of [`Motion::held`]).
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct Motion<T: Factorable = f64> {
     coordinates: Vec<Coordinate>,
     /// Where the rate of each held coordinate enters.
-    entries: Vec<Entry>,
+    entries: Vec<Entry<T>>,
     held: Held<f64>,
-    system: System<f64>,
-    work: Work<f64>,
-    changing: Changing,
+    system: System<T>,
+    work: Work<T>,
+    changing: Changing<T>,
     length: f64,
     scales: Vec<f64>,
     unknowns: Vec<Unknown>,
     /// For each unknown of the system its place among all.
     places: Vec<usize>,
-    here: Configuration<f64>,
+    here: Configuration<T>,
     /// Rates and accelerations of the held coordinates.
-    given: [Vec<f64>; 2],
-    rates: Vec<f64>,
-    accelerations: Vec<f64>,
+    given: [Vec<T>; 2],
+    rates: Vec<T>,
+    accelerations: Vec<T>,
 }
 
 /// Where the rate of a held coordinate enters, with the scale of its rate there.
 #[derive(Clone, Copy, Debug)]
-enum Entry {
+enum Entry<T> {
     /// It is that of one of all unknowns.
-    Unknown(usize, f64),
+    Unknown(usize, T),
     /// A row of the equations holds it, as single coordinates of a platform and its orientation alone.
-    Row(usize, f64),
+    Row(usize, T),
 }
 
 /// The equations along a path.
 #[derive(Clone, Debug)]
-struct Changing {
-    system: System<Dual<f64>>,
-    work: Work<Dual<f64>>,
+struct Changing<T: Factorable> {
+    system: System<Dual<T>>,
+    work: Work<Dual<T>>,
     /// For each row of the real equations that of these, which may be ordered otherwise.
     rows: Vec<usize>,
-    path: Configuration<Dual<f64>>,
-    rates: Vec<Dual<f64>>,
+    path: Configuration<Dual<T>>,
+    rates: Vec<Dual<T>>,
     /// Whether its frames are placed along the path of the rates last computed.
     placed: bool,
 }
 
-impl Changing {
+impl<T: Factorable> Changing<T> {
     fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
         frames: &[Frame],
-        of: (&System<f64>, &[Unknown], &Configuration<f64>),
+        of: (&System<T>, &[Unknown], &Configuration<T>),
     ) -> Self {
         let (real, unknowns, home) = of;
-        let constant = Dual::constant;
-        let dimensions = mechanism.dimensions().map(&mut { constant });
+        let constant = Dual::from_f64;
+        let dimensions = mechanism.dimensions().map(constant);
         let system = System::placing(mechanism, &dimensions, &held.map(constant), frames);
         let mut rows: Vec<usize> = vec![0; real.rows()];
         let mut next = 0;
@@ -84,7 +86,7 @@ impl Changing {
         Changing {
             work: system.work(),
             rates: vec![constant(0.0); unknowns.len()],
-            path: home.map(constant),
+            path: home.map(Dual::constant),
             placed: false,
             system,
             rows,
@@ -92,7 +94,7 @@ impl Changing {
     }
 }
 
-impl Motion {
+impl<T: Factorable> Motion<T> {
     /// For a choice of what is held.
     pub fn new(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Self {
         Motion::placing(mechanism, coordinates, &[], |held| held)
@@ -107,7 +109,10 @@ impl Motion {
     ) -> Self {
         let held = still(held::of(mechanism, coordinates));
         let dimensions = mechanism.dimensions();
-        let system = System::placing(mechanism, dimensions, &held, frames);
+        let system = {
+            let dimensions = dimensions.map(T::from_f64);
+            System::placing(mechanism, &dimensions, &held.map(T::from_f64), frames)
+        };
         let joints = (0..mechanism.joints().len()).map(Unknown::Joint);
         let platforms = (0..mechanism.platforms().len())
             .flat_map(|platform| (0..6).map(move |component| Unknown::Twist(platform, component)));
@@ -119,11 +124,14 @@ impl Motion {
         let scales = dimensions.joint_scales.clone();
         let entry = |&coordinate: &Coordinate| {
             let (platform, number, scale) = match coordinate {
-                Coordinate::Joint(joint) => return Entry::Unknown(joint, scales[joint]),
+                Coordinate::Joint(joint) => {
+                    return Entry::Unknown(joint, T::from_f64(scales[joint]));
+                }
                 Coordinate::Turn(platform, axis) => (platform, axis as usize, 1.0),
                 Coordinate::Pose(platform, c) if c.is_angle() => (platform, 0, 1.0),
                 Coordinate::Pose(platform, c) => (platform, 3 + c as usize, length),
             };
+            let scale = T::from_f64(scale);
             if held.platforms[platform] == HeldPlatform::Pose {
                 return Entry::Unknown(scales.len() + 6 * platform + number, scale);
             }
@@ -133,16 +141,16 @@ impl Motion {
             };
             Entry::Row(row.expect("what is held in part has rows"), scale)
         };
-        let home = mechanism.home();
+        let home = mechanism.home().map(T::from_f64);
         Motion {
             entries: coordinates.iter().map(entry).collect(),
             places: places.collect(),
             coordinates: coordinates.to_vec(),
             work: system.work(),
             changing: Changing::new(mechanism, &held, frames, (&system, &unknowns, &home)),
-            given: [(); 2].map(|()| vec![0.0; coordinates.len()]),
-            rates: vec![0.0; unknowns.len()],
-            accelerations: vec![0.0; unknowns.len()],
+            given: [(); 2].map(|()| vec![T::zero(); coordinates.len()]),
+            rates: vec![T::zero(); unknowns.len()],
+            accelerations: vec![T::zero(); unknowns.len()],
             here: home,
             length,
             scales,
@@ -168,47 +176,39 @@ impl Motion {
     }
 
     /// The order in which its frames are placed.
-    pub fn kinematics(&self) -> &Kinematics<f64> {
+    pub fn kinematics(&self) -> &Kinematics<T> {
         self.system.kinematics()
     }
 
     /// Its frames where it was last factorised.
-    pub fn placement(&self) -> &Placement<f64> {
+    pub fn placement(&self) -> &Placement<T> {
         self.system.placement(&self.work)
     }
 
     /// Factorises at an assembled configuration, for [`Motion::rates`] and [`Motion::accelerations`] that follow.
-    pub fn at(&mut self, at: &Configuration<f64>) {
-        self.placed_at(at, None);
-    }
-
-    /// The same where frames may have been placed already, by equations of the same closures and frames.
-    pub fn placed_at(&mut self, at: &Configuration<f64>, placement: Option<&Placement<f64>>) {
+    pub fn at(&mut self, at: &Configuration<T>) {
         self.here.clone_from(at);
         for (platform, pose) in at.platforms.iter().enumerate() {
             self.system
                 .set_orientation(platform, pose.orientation.rotation());
         }
-        match placement {
-            Some(placement) => self.system.linearise_at(at, placement, &mut self.work),
-            None => self.system.linearise(at, &mut self.work),
-        };
+        self.system.linearise(at, &mut self.work);
         self.system.factorise(0.0, &mut self.work);
         self.changing.placed = false;
     }
 
     /// Rates of all unknowns for rates of the held coordinates, in m and rad per unit of time.
-    pub fn rates(&mut self, given: &[f64]) -> &[f64] {
+    pub fn rates(&mut self, given: &[T]) -> &[T] {
         self.given[0].copy_from_slice(given);
         self.solve_rates()
     }
 
-    fn solve_rates(&mut self) -> &[f64] {
+    fn solve_rates(&mut self) -> &[T] {
         self.changing.placed = false;
-        self.rates.fill(0.0);
-        for (entry, rate) in self.entries.iter().zip(&self.given[0]) {
-            if let Entry::Unknown(place, scale) = entry {
-                self.rates[*place] = rate / scale;
+        self.rates.fill(T::zero());
+        for (entry, &rate) in self.entries.iter().zip(&self.given[0]) {
+            if let Entry::Unknown(place, scale) = *entry {
+                self.rates[place] = rate / scale;
             }
         }
         self.row_rates();
@@ -221,55 +221,43 @@ impl Motion {
     }
 
     /// The rates of all rows for the rates of all unknowns and those given.
-    fn row_rates(&mut self) -> &mut [f64] {
+    fn row_rates(&mut self) -> &mut [T] {
         let rows = (self.system).row_rates(&self.here, &self.rates, &mut self.work);
-        for (entry, rate) in self.entries.iter().zip(&self.given[0]) {
-            if let Entry::Row(row, scale) = entry {
-                rows[*row] -= rate / scale;
+        for (entry, &rate) in self.entries.iter().zip(&self.given[0]) {
+            if let Entry::Row(row, scale) = *entry {
+                rows[row] -= rate / scale;
             }
         }
         rows
     }
 
     /// Rates of all unknowns for unit rates of the held coordinates, one at a time.
-    pub fn responses(&mut self) -> Vec<Vec<f64>> {
+    pub fn responses(&mut self) -> Vec<Vec<T>> {
         let all = 0..self.coordinates.len();
         all.map(|i| self.response(i).to_vec()).collect()
     }
 
     /// The same for one of them.
-    pub fn response(&mut self, i: usize) -> &[f64] {
-        self.given[0].fill(0.0);
-        self.given[0][i] = 1.0;
+    pub fn response(&mut self, i: usize) -> &[T] {
+        self.given[0].fill(T::zero());
+        self.given[0][i] = T::one();
         self.solve_rates()
     }
 
     /// Goes on with a sum of [responses](Self::responses); those of coordinates at rest need not be known.
-    pub fn set_rates(&mut self, responses: &[Vec<f64>], given: &[f64]) {
+    pub fn set_rates(&mut self, responses: &[Vec<T>], given: &[T]) {
         self.given[0].copy_from_slice(given);
         self.changing.placed = false;
-        self.rates.fill(0.0);
-        for (response, &rate) in responses
-            .iter()
-            .zip(given)
-            .filter(|(_, rate)| **rate != 0.0)
-        {
-            add(&mut self.rates, rate, response);
+        self.rates.fill(T::zero());
+        let moving = responses.iter().zip(given);
+        for (response, &rate) in moving.filter(|(_, rate)| **rate != T::zero()) {
+            let both = self.rates.iter_mut().zip(response);
+            both.for_each(|(sum, &x)| *sum += rate * x);
         }
     }
 
-    /// The largest dimensionless rate at which a closure would open: rounding, unless what is held cannot move so.
-    pub fn mismatch(&mut self) -> f64 {
-        largest(self.row_rates())
-    }
-
-    /// The largest acceleration at which one would open: more than rounding where only rates are possible.
-    pub fn mismatch_of_accelerations(&mut self) -> f64 {
-        largest(self.row_changes())
-    }
-
     /// The latest rates and [accelerations](Self::accelerations), with frames placed along the path of these rates.
-    pub fn changes(&self) -> (&[Dual<f64>], &Placement<Dual<f64>>) {
+    pub fn changes(&self) -> (&[Dual<T>], &Placement<Dual<T>>) {
         let Changing {
             system,
             work,
@@ -280,13 +268,8 @@ impl Motion {
     }
 
     /// The rates and accelerations last computed.
-    pub fn known(&self) -> [&[f64]; 2] {
+    pub fn known(&self) -> [&[T]; 2] {
         [&self.rates, &self.accelerations]
-    }
-
-    /// The largest of the latest rates and accelerations, in rad and characteristic lengths per unit of time.
-    pub fn largest(&self) -> [f64; 2] {
-        self.known().map(largest)
     }
 
     /// Whether rates and accelerations are determined where it was last factorised.
@@ -313,8 +296,8 @@ impl Motion {
         }
         *placed = true;
         let joints = self.here.joints.iter().zip(&self.rates).zip(&self.scales);
-        for (path, ((&value, rate), scale)) in path.joints.iter_mut().zip(joints) {
-            let slope = rate * scale;
+        for (path, ((&value, &rate), scale)) in path.joints.iter_mut().zip(joints) {
+            let slope = rate.scale(*scale);
             *path = Dual { value, slope };
         }
         let twists = self.rates[self.scales.len()..].chunks_exact(6);
@@ -330,7 +313,7 @@ impl Motion {
     }
 
     /// The accelerations of all rows for the rates and accelerations of all unknowns and those given.
-    fn row_changes(&mut self) -> &[f64] {
+    fn row_changes(&mut self) -> &[T] {
         self.follow();
         let Changing {
             system,
@@ -345,21 +328,21 @@ impl Motion {
         for (right, &row) in right.iter_mut().zip(&*rows) {
             *right = found[row].slope;
         }
-        for (entry, change) in self.entries.iter().zip(&self.given[1]) {
-            if let Entry::Row(row, scale) = entry {
-                right[*row] -= change / scale;
+        for (entry, &change) in self.entries.iter().zip(&self.given[1]) {
+            if let Entry::Row(row, scale) = *entry {
+                right[row] -= change / scale;
             }
         }
         right
     }
 
     /// Accelerations for the rates last computed and those of held coordinates, in m and rad per unit of time squared.
-    pub fn accelerations(&mut self, given: &[f64]) -> &[f64] {
+    pub fn accelerations(&mut self, given: &[T]) -> &[T] {
         self.given[1].copy_from_slice(given);
-        self.accelerations.fill(0.0);
-        for (entry, change) in self.entries.iter().zip(given) {
-            if let Entry::Unknown(place, scale) = entry {
-                self.accelerations[*place] = change / scale;
+        self.accelerations.fill(T::zero());
+        for (entry, &change) in self.entries.iter().zip(given) {
+            if let Entry::Unknown(place, scale) = *entry {
+                self.accelerations[place] = change / scale;
             }
         }
         self.row_changes();
@@ -373,18 +356,33 @@ impl Motion {
     }
 }
 
+impl Motion {
+    /// The largest dimensionless rate at which a closure would open: rounding, unless what is held cannot move so.
+    pub fn mismatch(&mut self) -> f64 {
+        largest(self.row_rates())
+    }
+
+    /// The largest acceleration at which one would open: more than rounding where only rates are possible.
+    pub fn mismatch_of_accelerations(&mut self) -> f64 {
+        largest(self.row_changes())
+    }
+}
+
 fn largest(all: &[f64]) -> f64 {
     all.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
 /// A pose displaced by a twist (ω; v/L) for an instant.
-fn moved(pose: &PlatformPose<f64>, length: f64, twist: &[f64]) -> PlatformPose<Dual<f64>> {
+fn moved<T: Number>(pose: &PlatformPose<T>, length: f64, twist: &[T]) -> PlatformPose<Dual<T>> {
     let still = PlatformPose {
         orientation: Quaternion(pose.orientation.0.map(Dual::constant)),
         position: Vector3(pose.position.0.map(Dual::constant)),
     };
-    let slope = |slope| Dual { value: 0.0, slope };
+    let slope = |slope| Dual {
+        value: T::zero(),
+        slope,
+    };
     let omega = Vector3([0, 1, 2].map(|k| slope(twist[k])));
-    let shift = Vector3([3, 4, 5].map(|k| slope(twist[k] * length)));
+    let shift = Vector3([3, 4, 5].map(|k| slope(twist[k].scale(length))));
     still.moved_by(&omega, shift)
 }

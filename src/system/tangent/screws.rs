@@ -10,6 +10,7 @@ use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::{Decomposition, axis_aligned, dot, norm, orthonormal, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::number::Number;
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -110,8 +111,9 @@ pub fn spin_lines(omegas: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64
 }
 
 /// An angular velocity without the spins about orthonormal directions.
-pub fn without(omega: &Vector3<f64>, spins: &[Vector3<f64>]) -> Vector3<f64> {
-    let along = spins.iter().map(|line| line.times(line.dot(omega)));
+pub fn without<T: Number>(omega: &Vector3<T>, spins: &[Vector3<f64>]) -> Vector3<T> {
+    let lines = spins.iter().map(|line| line.map(T::from_f64));
+    let along = lines.map(|line| line.times(line.dot(omega)));
     along.fold(*omega, |left, part| left - part)
 }
 

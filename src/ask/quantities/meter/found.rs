@@ -2,17 +2,16 @@
 
 use super::Meter;
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Measured, Order, Placement, Point, PoseCoordinate};
+use crate::mechanism::{Configuration, Measured, Order, Point, PoseCoordinate};
 use crate::system::Coordinate;
 
 /// A configuration and what is known of its motion.
 pub(super) struct Here<'a> {
     pub at: &'a Configuration<f64>,
-    pub placement: &'a Placement<f64>,
     /// Whether rates are determined.
     pub moves: bool,
     /// The largest rate and acceleration, in rad and characteristic lengths.
-    pub rates: [f64; 2],
+    pub largest: [f64; 2],
 }
 
 impl Here<'_> {
@@ -32,7 +31,7 @@ impl Meter<'_> {
     /// How far the value of a name may be off: configurations are closed to 1e-12.
     fn off(&self, here: &Here, of: &Measured, i: usize, value: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
-        let [rate, change] = here.rates;
+        let [rate, change] = here.largest;
         let most = |order: Order| match order {
             Order::Value => 1.0,
             Order::Velocity => rate,
@@ -50,6 +49,7 @@ impl Meter<'_> {
             Measured::Size(_, order) => length * most(order),
             Measured::Transmission(_) => 10.0,
             Measured::Force(_) | Measured::PlatformForce(..) => self
+                .found
                 .forces
                 .iter()
                 .fold(0.0, |most: f64, x| most.max(x.abs())),
@@ -71,16 +71,16 @@ impl Meter<'_> {
             Measured::Parameter(parameter) => Some(mechanism.parameters()[parameter].value),
             Measured::Joint(joint, Order::Value) => Some(here.at.joints[joint]),
             Measured::Joint(joint, order) => {
-                let known = self.motion.as_ref().filter(|_| here.moves)?.known();
-                let rates = known[usize::from(order == Order::Acceleration)];
-                Some(rates[joint] * mechanism.dimensions().joint_scales[joint])
+                let rates = &self.found.rates[usize::from(order == Order::Acceleration)];
+                let rate = *rates.get(joint).filter(|_| here.moves)?;
+                Some(rate * mechanism.dimensions().joint_scales[joint])
             }
             Measured::Place(point, coordinate, order) => {
                 let loose = order > Order::Value
                     && (coordinate.is_angle() || !point.is_origin())
                     && self.loose.contains(&point.frame);
                 let known = here.tells(order) && !loose;
-                known.then(|| self.coordinate(here, i, coordinate, order))?
+                known.then(|| self.coordinate(i, coordinate, order))?
             }
             Measured::Size(point, order) => Some(self.vector(here, point, i, order)?.norm()),
             // κ = |v × a| / |v|³
@@ -97,9 +97,11 @@ impl Meter<'_> {
             Measured::PlatformForce(platform, c) => self.force(Coordinate::Pose(platform, c)),
             Measured::Transmission(closure) => {
                 let name = closure.map(|closure| &*mechanism.closures()[closure].name);
-                let loops = self.transmission.as_ref()?.loops().zip(&self.angles);
+                let loops = self.plan.transmission.as_ref()?.loops();
+                let loops = loops.zip(&self.found.transmission);
                 let of_it = loops.filter(|(closure, _)| name.is_none_or(|name| name == *closure));
-                of_it.filter_map(|(_, angle)| *angle).reduce(f64::min)
+                let angles = of_it.map(|(_, angle)| *angle);
+                angles.filter(|angle| !angle.is_nan()).reduce(f64::min)
             }
             Measured::Figure(figure) => {
                 let mut known = self.figures.iter();
@@ -112,51 +114,32 @@ impl Meter<'_> {
     fn vector(&self, here: &Here, point: Point, i: usize, order: Order) -> Option<Vector3<f64>> {
         let loose = order > Order::Value && !point.is_origin() && self.loose.contains(&point.frame);
         let known = here.tells(order) && !loose;
-        known.then(|| self.moved(here, i, order))?
+        known.then(|| self.moved(i, order))?
     }
 
     /// A coordinate of the point of that number, or of the orientation of its frame.
-    fn coordinate(&self, here: &Here, i: usize, c: PoseCoordinate, order: Order) -> Option<f64> {
+    fn coordinate(&self, i: usize, c: PoseCoordinate, order: Order) -> Option<f64> {
         if !c.is_angle() {
-            return Some(self.moved(here, i, order)?.0[c as usize]);
+            return Some(self.moved(i, order)?.0[c as usize]);
         }
-        let frame = self.twists.frame(i, here.placement);
-        match order {
-            Order::Value => Some(c.of(frame)),
-            Order::Velocity => {
-                let rates = self.motion.as_ref()?.known()[0];
-                let turn = self.twists.twist(i, here.placement, rates).omega;
-                Some(c.turned(frame, &turn))
-            }
-            Order::Acceleration => {
-                let motions = self.motions.as_ref()?;
-                let (rates, placement) = self.motion.as_ref()?.changes();
-                let turn = motions.twist(i, placement, rates).omega;
-                Some(c.turned(motions.frame(i, placement), &turn).slope)
-            }
-        }
+        let mut angles = self.plan.angles.iter();
+        let place = angles.position(|of| *of == (i, c, order))?;
+        self.found.angles.get(place).copied()
     }
 
     /// Where the point of that number is, or how it moves.
-    fn moved(&self, here: &Here, i: usize, order: Order) -> Option<Vector3<f64>> {
-        match order {
-            Order::Value => Some(self.twists.origin(i, here.placement)),
-            Order::Velocity => {
-                let rates = self.motion.as_ref()?.known()[0];
-                Some(self.twists.twist(i, here.placement, rates).velocity)
-            }
-            Order::Acceleration => {
-                let (rates, placement) = self.motion.as_ref()?.changes();
-                let twist = self.motions.as_ref()?.twist(i, placement, rates);
-                Some(Vector3(twist.velocity.0.map(|part| part.slope)))
-            }
-        }
+    fn moved(&self, i: usize, order: Order) -> Option<Vector3<f64>> {
+        self.found.points[order as usize].get(i).copied()
     }
 
     fn force(&self, of: Coordinate) -> Option<f64> {
-        let coordinates = self.motion.as_ref()?.coordinates();
-        let place = coordinates.iter().position(|known| *known == of)?;
-        let force = self.forces.get(place).copied();
+        let place = self.coordinates.iter().position(|known| *known == of)?;
+        let force = self
+            .found
+            .forces
+            .get(place)
+            .copied()
+            .filter(|_| self.found.moves);
         force.filter(|force| !force.is_nan())
     }
 }

@@ -3,8 +3,9 @@
 use super::super::twists::{FrameTwists, Twist};
 use super::Motion;
 use crate::geometry::Vector3;
+use crate::linear::Factorable;
 use crate::mechanism::{Mechanism, Placement, Point};
-use crate::number::Dual;
+use crate::number::{Dual, Number};
 
 /// The motion of a frame in ground, to second order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,18 +18,20 @@ pub struct FrameMotion {
     pub change: Twist<f64>,
 }
 
-impl FrameTwists<Dual<f64>> {
+impl<T: Factorable> FrameTwists<Dual<T>> {
     /// How points, or origins of frames, that a motion places move.
     pub fn moving(
         mechanism: &Mechanism,
-        motion: &Motion,
+        motion: &Motion<T>,
         points: &[impl Copy + Into<Point>],
     ) -> Self {
-        let dimensions = mechanism.dimensions().map(&mut Dual::constant);
+        let dimensions = mechanism.dimensions().map(Dual::from_f64);
         let kinematics = motion.changing.system.kinematics();
         FrameTwists::sharing(kinematics, &dimensions, motion.unknowns(), points)
     }
+}
 
+impl FrameTwists<Dual<f64>> {
     /// The motion at point `i`, as it [changes](Motion::changes). Nothing allocates.
     pub fn motion(
         &self,

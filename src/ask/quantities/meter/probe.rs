@@ -1,0 +1,239 @@
+//! What quantities are made of, at a configuration or at several side by side.
+
+use super::Metered;
+use crate::analysis::velocity::{Normalised, Outputs, Spins, TransmissionAngles};
+use crate::geometry::Vector3;
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, Frame, Kinematics, Order, Placement, Point, PoseCoordinate};
+use crate::number::{Dual, Packed};
+use crate::system::{FrameTwists, Loaded, Lock, Motion, Unknown};
+
+/// What is wanted, and only what some quantity needs.
+pub(super) struct Plan {
+    pub order: Order,
+    pub points: Vec<Point>,
+    /// Angles of frames with the numbers of their points, and whether they or their changes are wanted.
+    pub angles: Vec<(usize, PoseCoordinate, Order)>,
+    /// For each held coordinate whether what everything does for a unit rate of it is wanted.
+    pub responses: Vec<bool>,
+    pub forces: bool,
+    /// The outputs of the Jacobian, if it is wanted.
+    pub outputs: Option<Vec<Lock>>,
+    pub transmission: Option<TransmissionAngles>,
+    /// All frames that these need beside those of the closures.
+    pub frames: Vec<Frame>,
+}
+
+/// Works out what is planned, with one factorisation of the closures.
+pub(super) struct Probe<'q, T: Factorable> {
+    motion: Option<Motion<T>>,
+    /// Its frames, if no rates are wanted.
+    kinematics: Kinematics<T>,
+    placement: Placement<T>,
+    twists: FrameTwists<T>,
+    /// How the points move to second order, if that is wanted.
+    changing: Option<FrameTwists<Dual<T>>>,
+    loaded: Option<Loaded<T>>,
+    outputs: Option<Outputs<'q, T>>,
+    responses: Vec<Vec<T>>,
+    found: Found<T>,
+}
+
+/// What was found.
+pub(super) struct Found<T = f64> {
+    /// Whether rates are determined.
+    pub moves: bool,
+    /// Rates and accelerations of all unknowns.
+    pub rates: [Vec<T>; 2],
+    /// Places, velocities and accelerations of the points.
+    pub points: [Vec<Vector3<T>>; 3],
+    pub angles: Vec<T>,
+    /// What holds each held coordinate against the load.
+    pub forces: Vec<T>,
+    pub jacobian: Normalised<T>,
+    pub transmission: Vec<T>,
+}
+
+impl Plan {
+    /// Whether rates are wanted.
+    pub fn moves(&self) -> bool {
+        self.order > Order::Value || self.forces || self.outputs.is_some()
+    }
+}
+
+impl<'q, T: Factorable + Packed> Probe<'q, T> {
+    pub fn new(of: &Metered<'q>, plan: &Plan) -> Self {
+        let mechanism = of.question.mechanism();
+        let coordinates = of.question.driven_coordinates();
+        let still = of.question.clone().with_spins_still();
+        let motion = plan.moves().then(|| {
+            let hold = |held| still.with_still(held);
+            Motion::placing(mechanism, &coordinates, &plan.frames, hold)
+        });
+        let dimensions = mechanism.dimensions().map(T::from_f64);
+        let kinematics = match &motion {
+            Some(motion) => motion.kinematics().clone(),
+            None => Kinematics::new(&dimensions, plan.frames.iter().copied()),
+        };
+        let unknowns: &[Unknown] = motion.as_ref().map_or(&[], Motion::unknowns);
+        let outputs = motion.as_ref().zip(plan.outputs.as_ref());
+        Probe {
+            twists: FrameTwists::sharing(&kinematics, &dimensions, unknowns, &plan.points),
+            changing: (motion
+                .as_ref()
+                .filter(|_| plan.order == Order::Acceleration))
+            .map(|motion| FrameTwists::moving(mechanism, motion, &plan.points)),
+            loaded: (plan.forces).then(|| Loaded::new(mechanism, unknowns, &of.load, &kinematics)),
+            outputs: outputs.map(|(motion, of)| Outputs::new(mechanism, motion, of.clone())),
+            responses: vec![Vec::new(); coordinates.len()],
+            found: Found::default(),
+            placement: kinematics.placement(),
+            kinematics,
+            motion,
+        }
+    }
+
+    /// The order in which frames are placed.
+    pub fn kinematics(&self) -> &Kinematics<T> {
+        &self.kinematics
+    }
+
+    /// How many unknowns the closures have with nothing held, if rates are wanted.
+    pub fn unknowns(&self) -> usize {
+        self.motion.as_ref().map_or(0, |of| of.unknowns().len())
+    }
+
+    /// Works out what is wanted at a configuration for rates and accelerations of the held coordinates.
+    pub fn at(
+        &mut self,
+        plan: &Plan,
+        at: &Configuration<T>,
+        [rates, changes]: &[Vec<T>; 2],
+        spins: &Spins,
+    ) -> &Found<T> {
+        let found = &mut self.found;
+        match &mut self.motion {
+            None => self.kinematics.place(at, &mut self.placement),
+            Some(motion) => {
+                motion.at(at);
+                found.moves = motion.is_determined();
+                let wanted = self.responses.iter_mut().zip(&plan.responses);
+                for (i, (response, _)) in wanted.enumerate().filter(|(_, (_, wanted))| **wanted) {
+                    response.clear();
+                    response.extend_from_slice(motion.response(i));
+                }
+                let mut known = plan.responses.iter().zip(rates);
+                match known.all(|(known, rate)| *known || *rate == T::zero()) {
+                    true => motion.set_rates(&self.responses, rates),
+                    false => _ = motion.rates(rates),
+                }
+                if self.changing.is_some() {
+                    motion.accelerations(changes);
+                }
+                for (to, from) in found.rates.iter_mut().zip(motion.known()) {
+                    to.clear();
+                    to.extend_from_slice(from);
+                }
+            }
+        }
+        let motion = self.motion.as_ref();
+        let placement = motion.map_or(&self.placement, Motion::placement);
+        let [places, velocities, accelerations] = &mut found.points;
+        let numbers = 0..plan.points.len();
+        places.clear();
+        places.extend(numbers.clone().map(|i| self.twists.origin(i, placement)));
+        let turning = |i: usize| self.twists.twist(i, placement, &found.rates[0]);
+        if plan.order > Order::Value {
+            velocities.clear();
+            velocities.extend(numbers.clone().map(|i| turning(i).velocity));
+        }
+        let changes = motion.map(Motion::changes);
+        let changing = |i: usize| {
+            let (changing, (rates, placement)) = self.changing.as_ref().zip(changes)?;
+            Some((
+                changing.frame(i, placement),
+                changing.twist(i, placement, rates),
+            ))
+        };
+        accelerations.clear();
+        accelerations.extend(numbers.filter_map(|i| {
+            let (_, twist) = changing(i)?;
+            Some(twist.velocity.map(|part| part.slope))
+        }));
+        let angles = plan.angles.iter().map(|&(i, c, order)| {
+            let frame = self.twists.frame(i, placement);
+            match order {
+                Order::Value => c.of(frame),
+                Order::Velocity => c.turned(frame, &turning(i).omega),
+                Order::Acceleration => changing(i).map_or(T::zero(), |(frame, twist)| {
+                    c.turned(frame, &twist.omega).slope
+                }),
+            }
+        });
+        found.angles.clear();
+        found.angles.extend(angles);
+        if let Some(loaded) = &self.loaded {
+            // τ δh + g δx = 0: what holds a coordinate does the work of the load
+            let forces = self.responses.iter().zip(&plan.responses);
+            let forces = forces.map(|(rates, wanted)| match wanted {
+                true => -loaded.power(rates, placement),
+                false => T::from_f64(f64::NAN),
+            });
+            found.forces.clear();
+            found.forces.extend(forces);
+        }
+        if let Some(outputs) = &self.outputs {
+            let jacobian = &mut found.jacobian;
+            outputs.normalised_into(jacobian, at, placement, &self.responses, spins);
+        }
+        found.transmission.clear();
+        if let Some(angles) = &plan.transmission {
+            found.transmission.extend(angles.angles(placement));
+        }
+        &self.found
+    }
+
+    /// What was found, if it is as certain in every place as it would be alone.
+    pub fn sure(&self) -> Option<&Found<T>> {
+        let rates = self.found.rates.iter().flatten();
+        let mut all = rates.chain(self.responses.iter().flatten());
+        let sure = self.motion.is_none() || self.found.moves && all.all(|x| x.is_finite());
+        sure.then_some(&self.found)
+    }
+}
+
+impl<T> Default for Found<T> {
+    fn default() -> Self {
+        Found {
+            moves: false,
+            rates: Default::default(),
+            points: Default::default(),
+            angles: Vec::new(),
+            forces: Vec::new(),
+            jacobian: Normalised::default(),
+            transmission: Vec::new(),
+        }
+    }
+}
+
+impl<T: Packed> Found<T> {
+    /// What was found in one place.
+    pub fn take(&self, place: usize, to: &mut Found) {
+        let part = |from: &[T], to: &mut Vec<f64>| {
+            to.clear();
+            to.extend(from.iter().map(|x| x.part(place)));
+        };
+        to.moves = self.moves;
+        for (from, to) in self.rates.iter().zip(&mut to.rates) {
+            part(from, to);
+        }
+        for (from, to) in self.points.iter().zip(&mut to.points) {
+            to.clear();
+            to.extend(from.iter().map(|v| v.map(|x| x.part(place))));
+        }
+        part(&self.angles, &mut to.angles);
+        part(&self.forces, &mut to.forces);
+        part(&self.transmission, &mut to.transmission);
+        self.jacobian.take(place, &mut to.jacobian);
+    }
+}
