@@ -11,7 +11,7 @@ use crate::description::{count, listed};
 impl Report for StaticsReport {
     fn document(&self) -> Document {
         let length = self.normalising_length;
-        let answer = closing::after_moving(&self.pose, sentence(self));
+        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
         Document::new(&self.mechanism, answer)
             .note(format!(
                 "without weight and friction; condition number {}, forces times {} compared with moments",
