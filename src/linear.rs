@@ -15,6 +15,7 @@ mod bordered;
 mod decomposition;
 mod elimination;
 mod factorable;
+mod joined;
 mod lu;
 mod qr;
 mod rows;
@@ -29,6 +30,7 @@ pub use bordered::Bordered;
 pub use decomposition::{Decomposition, singular_values};
 pub use elimination::Elimination;
 pub use factorable::Factorable;
+pub(crate) use joined::{join, root};
 pub use qr::Qr;
 pub use rows::Rows;
 #[cfg(feature = "sparse")]

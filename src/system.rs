@@ -37,7 +37,7 @@ pub use question::{
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
     Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, Search, Searched, TooLarge,
-    WidestGap, close, random_configuration, sampling_range, too_large,
+    WidestGap, close, moved, random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
     Cone, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting, Lock, Locked, LoopPart,

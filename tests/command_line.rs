@@ -586,6 +586,10 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             "leave out --free theta1",
         ),
         (
+            &["sweep", THREE_RPS, "--circuits", "--free", "l1"],
+            "--hold l1=0.6609 --hold l2=0.5977 without --free l1",
+        ),
+        (
             &["mobility", FOUR_BAR, "--hold", "theta9=1"],
             "did you mean `theta1`?",
         ),

@@ -10,8 +10,8 @@ use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose, turn_near};
 use crate::solve::{Equations, Newton, Report, Stop, Watch};
 use crate::system::{
-    Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count,
-    infinite_if_null,
+    Attempt, Freedoms, Moved, Neighbourhood, Question, QuestionError, Search, approach,
+    check_count, infinite_if_null, moved,
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 
@@ -138,6 +138,9 @@ pub struct AssemblyReport {
     /// is then the one nearest to the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<Left>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than rounded, where it assembles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// Names of what is held.
     pub held: Vec<String>,
     /// Joint values of the assembled configuration, or of the closest approach, rad or m.
@@ -313,6 +316,7 @@ impl Reporter<'_> {
             mobility: self.count.mobility,
             idle: 0,
             left: self.left.clone(),
+            moved: None,
             held: self.question.held_names(),
             frames: frames.collect(),
             platforms: platforms
@@ -354,8 +358,10 @@ impl Reporter<'_> {
     }
 
     fn assembled(&self, attempt: Attempt, freedoms: &Freedoms) -> AssemblyReport {
+        let moved = moved(self.question, &attempt.at);
         if let Some(left) = &self.left {
-            return self.with_freedoms(attempt, freedoms, left);
+            let report = self.with_freedoms(attempt, freedoms, left);
+            return AssemblyReport { moved, ..report };
         }
         let idle = match freedoms.are_local(self.mechanism, &attempt.at) {
             true => freedoms.motions.len(),
@@ -373,6 +379,7 @@ impl Reporter<'_> {
         };
         AssemblyReport {
             idle,
+            moved,
             ..self.report(attempt, outcome, condition)
         }
     }

@@ -11,7 +11,7 @@ use crate::analysis::sweep::{
 };
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Quantity, Variable};
 use crate::solve::Watch;
-use crate::system::{Coordinate, Driven, Held};
+use crate::system::{Coordinate, Driven, Held, Moved};
 
 /// What is sought between the rows of a motion.
 #[derive(Default)]
@@ -32,6 +32,8 @@ pub struct Motions<'q> {
     pub(super) dwells: Vec<(usize, f64)>,
     /// Where each begins, with the number of its mode if one was asked for.
     pub starts: super::Modes,
+    /// What moved most from the values guessed to where the motion begins.
+    pub(super) moved: Option<Moved>,
 }
 
 impl Motions<'_> {
@@ -141,6 +143,7 @@ impl Motions<'_> {
         }
         MotionsReport {
             mechanism: self.mechanism.name().to_owned(),
+            moved: self.moved.clone(),
             motions,
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::motions::Motions;
 use super::quantities::Metered;
 use super::ranges::still;
-use super::{AskError, Question, Role};
+use super::{AskError, Mode, Question, Role};
 use crate::analysis::assemblies::{Assembly, AssemblySolver, Wanted};
 use crate::analysis::sweep::{
     CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, follow,
@@ -13,7 +13,7 @@ use crate::analysis::sweep::{
 use crate::description;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::{Stage, Watch};
-use crate::system::{self, Coordinate, Driven, QuestionError, check_count, sampling_range};
+use crate::system::{self, Coordinate, Driven, QuestionError, check_count, moved, sampling_range};
 
 /// Steps made at most.
 const MOST_STEPS: usize = 1_000_000_000;
@@ -100,6 +100,11 @@ impl Question {
         };
         let mut quantities = self.quantities(&posed, !inputs.is_empty(), &settings.points)?;
         let dwells = self.tolerances(&posed, &mut quantities)?;
+        let starts = self.starts(&question, watch)?;
+        let moved = match (self.mode, &starts[..]) {
+            (Mode::Nearest, [(_, at)]) => moved(&question, at),
+            _ => None,
+        };
         Ok(Motions {
             mechanism,
             held,
@@ -114,7 +119,8 @@ impl Question {
                 question: posed,
             },
             settings,
-            starts: self.starts(&question, watch)?,
+            starts,
+            moved,
         })
     }
 

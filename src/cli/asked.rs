@@ -220,17 +220,28 @@ pub fn said<'o>(
     let said = match error {
         AskError::Question(error) => held_wrong(question, given, error),
         _ => words::complaint(question.mechanism(), ranges, error, option, &|names| {
-            held(&question.clone().free("actuated"), names)
+            let held = held(&question.clone().free("actuated"), names);
+            let freed = freed(given).filter(|freed| names.iter().any(|name| name == freed));
+            let freed: Vec<String> = freed.map(|name| format!("--free {name}")).collect();
+            match freed.is_empty() {
+                true => held,
+                false => format!("{held} without {}", freed.join(" ")),
+            }
         }),
     };
     (said, option)
 }
 
 fn held_wrong(question: &Question, given: &[(Role, Given)], error: &QuestionError) -> Complaint {
-    let freed = given.iter().filter(|(role, _)| *role == Role::Free);
-    let freed: Vec<&str> = freed.map(|(_, given)| given.name).collect();
+    let freed: Vec<&str> = freed(given).collect();
     freed_in_vain(error, &freed)
         .unwrap_or_else(|| complaint_of(error, &|names| held(question, names)))
+}
+
+/// The names that are freed.
+fn freed<'o>(given: &[(Role, Given<'o>)]) -> impl Iterator<Item = &'o str> {
+    let freed = given.iter().filter(|(role, _)| *role == Role::Free);
+    freed.map(|(_, given)| given.name)
 }
 
 fn option<'o>(given: &[(Role, Given<'o>)], item: Item) -> Option<Given<'o>> {

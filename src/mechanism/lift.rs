@@ -1,13 +1,16 @@
 //! From formulas to dimensions over a number type: the only place where this happens.
 
-use super::Mechanism;
+use std::collections::BTreeMap;
+
 use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
 use super::model::{FixedStep, Formula, Joint, JointKind, Row, Symbol};
+use super::{Frame, Mechanism};
 use crate::algebra::{Affine, EvaluationError};
 use crate::description::{Convention, Role};
 use crate::geometry::{Axis, Pose, Vector3};
+use crate::linear::{join, root};
 use crate::number::Number;
 
 pub(super) fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T, EvaluationError> {
@@ -167,21 +170,86 @@ impl Mechanism {
         };
         let chains = dimensions.chains.iter().flat_map(|chain| {
             let rows = chain.rows.iter().flat_map(|row| [&row.before, &row.after]);
-            rows.chain([&chain.base, &chain.tip])
+            let base = (chain.on != Frame::Ground).then_some(&chain.base);
+            rows.chain([&chain.tip]).chain(base)
         });
         let poses = chains.chain(dimensions.platforms.iter().flatten());
+        let on_ground = on_ground(dimensions);
         let closures = dimensions.closures.iter();
         let distances = closures.map(|closure| closure.length.real().abs());
         let held = held.iter().map(|length| length.abs());
         let slides = self.joints.iter().filter(|joint| !joint.kind.is_angle());
         let slides = slides.map(|joint| joint.home.abs()).fold(0.0, f64::max);
-        let largest = (poses.map(size).chain(distances).chain(held)).fold(0.0, f64::max);
+        let all = poses
+            .map(size)
+            .chain(on_ground)
+            .chain(distances)
+            .chain(held);
+        let largest = all.fold(0.0, f64::max);
         match (largest > 0.0, slides > 0.0) {
             (true, _) => largest,
             (false, true) => slides,
             (false, false) => 1.0,
         }
     }
+}
+
+/// How far the bases of chains on the ground are from the origin, or where a part of the mechanism stands aside of it from
+/// the place nearest to the origin in the box round all its bases: where a drawing has its origin, and how far parts are
+/// apart that have nothing to do with one another, is no dimension.
+fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64> {
+    let chains = &dimensions.chains;
+    let platform = |platform: usize| Some(chains.len() + platform);
+    let body = |frame: Frame| match frame {
+        Frame::Ground => None,
+        Frame::Platform { platform: of } | Frame::OnPlatform { platform: of, .. } => platform(of),
+        Frame::Link { chain, .. } | Frame::Tip { chain } => Some(chain),
+    };
+    let mut roots: Vec<usize> = (0..chains.len() + dimensions.platforms.len()).collect();
+    let stands = (0..)
+        .zip(chains)
+        .map(|(i, chain)| [Some(i), body(chain.on)]);
+    let closed = dimensions
+        .closures
+        .iter()
+        .map(|closure| closure.frames.map(body));
+    for pair in stands.chain(closed) {
+        if let [Some(a), Some(b)] = pair {
+            join(&mut roots, a, b);
+        }
+    }
+    let bases = (0..)
+        .zip(chains)
+        .filter(|(_, chain)| chain.on == Frame::Ground);
+    let bases = bases.map(|(i, chain)| (i, chain.base.position.0.map(|x| x.real())));
+    let to_ground = dimensions.closures.iter().filter_map(|closure| {
+        let frames = closure
+            .frames
+            .contains(&Frame::Ground)
+            .then_some(closure.frames)?;
+        frames.into_iter().find_map(body)
+    });
+    let places: Vec<(usize, [f64; 3])> = bases.chain(to_ground.map(|i| (i, [0.0; 3]))).collect();
+    let places = places
+        .into_iter()
+        .map(|(i, place)| (root(&mut roots, i), place));
+    let places: Vec<(usize, [f64; 3])> = places.collect();
+    let mut boxes = BTreeMap::<usize, [[f64; 2]; 3]>::new();
+    for (part, place) in &places {
+        let sides = boxes
+            .entry(*part)
+            .or_insert([[f64::INFINITY, f64::NEG_INFINITY]; 3]);
+        for (side, x) in sides.iter_mut().zip(place) {
+            *side = [side[0].min(*x), side[1].max(*x)];
+        }
+    }
+    places.into_iter().map(move |(part, place)| {
+        let squares = place.iter().zip(boxes[&part]).map(|(x, [low, high])| {
+            let nearest = low.max(high.min(0.0));
+            (x - nearest).powi(2)
+        });
+        squares.sum::<f64>().sqrt()
+    })
 }
 
 /// Gives dimensions their characteristic length, in m.

@@ -77,7 +77,10 @@ fn sentence(report: &AssembliesReport) -> String {
                 return format!("{sets}, at the limit of what is possible; in general {left}.");
             }
             let listed = match report.real - isolated {
-                _ if isolated == 0 => format!("{} listed as samples", are(report.real, "assembly")),
+                _ if isolated == 0 => {
+                    let samples = form(report.real, "a sample", "samples");
+                    format!("{} listed as {samples}", are(report.real, "assembly"))
+                }
                 samples => format!(
                     "{} and {} of the others are listed",
                     count(isolated, "isolated assembly"),
@@ -357,7 +360,7 @@ fn accounting(report: &AssembliesReport) -> Vec<String> {
     if report.paths > 0 {
         let retried = match report.retried {
             0 => String::new(),
-            n => format!(", {n} of them repeated with smaller steps"),
+            n => format!(", with {} by smaller steps", count(n, "repetition")),
         };
         lines.push(format!(
             "{} tracked in {}{retried}",

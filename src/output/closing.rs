@@ -46,8 +46,8 @@ pub fn is_about_the_file(pose: &GivenPose, length: f64) -> bool {
 }
 
 /// The answer, which begins with how far the pose given had to move if that is more than rounding.
-pub(super) fn after_moving(pose: &GivenPose, answer: String) -> String {
-    match pose.moved.as_ref().filter(|moved| !moved.is_small()) {
+pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
+    match moved.filter(|moved| !moved.is_small()) {
         Some(moved) => format!(
             "The given pose is not assembled, and the nearest assembly is not close to it: {}. {answer}",
             way(moved)
@@ -58,12 +58,16 @@ pub(super) fn after_moving(pose: &GivenPose, answer: String) -> String {
 
 /// How far the pose given was off, and how far guesses moved to an assembly beside them.
 pub(super) fn notes(pose: &GivenPose) -> impl Iterator<Item = String> {
-    let beside = pose.moved.as_ref().filter(|moved| moved.is_small());
-    let beside = beside.map(|moved| {
-        let way = way(moved);
-        format!("assembled near the given pose: {way}, more than any other coordinate")
-    });
-    given(pose).into_iter().chain(beside)
+    given(pose).into_iter().chain(beside(pose.moved.as_ref()))
+}
+
+/// How far the given pose moved to an assembly near it.
+pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
+    let moved = moved.filter(|moved| moved.is_small())?;
+    let way = way(moved);
+    Some(format!(
+        "assembled near the given pose: {way}, more than any other coordinate"
+    ))
 }
 
 fn way(moved: &Moved) -> String {

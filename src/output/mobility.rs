@@ -29,7 +29,7 @@ impl Report for MobilityReport {
             &[]
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
-        let answer = closing::after_moving(&self.pose, words::mobility(self));
+        let answer = closing::after_moving(self.pose.moved.as_ref(), words::mobility(self));
         let elimination = words::elimination(self);
         Document::new(&self.mechanism, answer)
             .interrupted(self.interrupted, "branches and other assemblies")

@@ -23,7 +23,7 @@ impl Report for SingularitiesReport {
     fn document(&self) -> Document {
         let singularity = &self.singularity;
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
-        let answer = closing::after_moving(&self.pose, answer);
+        let answer = closing::after_moving(self.pose.moved.as_ref(), answer);
         let at = values(&self.variables, &self.joints);
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
         Document::new(&self.mechanism, answer)

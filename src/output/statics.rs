@@ -12,7 +12,7 @@ impl Report for StaticsReport {
     fn document(&self) -> Document {
         let length = self.normalising_length;
         let rounding = rounding(self);
-        let answer = closing::after_moving(&self.pose, sentence(self));
+        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
         Document::new(&self.mechanism, answer)
             .note(format!(
                 "without weight and friction; condition number {}, forces multiplied by {} for comparison with moments",

@@ -9,6 +9,7 @@ mod words;
 pub use picture::Picture;
 pub use words::{certified, sentence};
 
+use super::closing;
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::quantity;
 use super::report::Report;
@@ -23,8 +24,11 @@ impl Report for MotionsReport {
         let interrupted = self.motions.iter().any(|motion| motion.sweep.interrupted);
         match &self.motions[..] {
             [one] => {
-                let document = Document::new(&self.mechanism, mode(one) + &sentence(&one.sweep));
+                let moved = self.moved.as_ref();
+                let answer = closing::after_moving(moved, mode(one) + &sentence(&one.sweep));
+                let document = Document::new(&self.mechanism, answer);
                 let document = document.interrupted(interrupted, "");
+                let document = document.notes(closing::beside(moved));
                 let document = document.notes(remarks(one).concat()).sections(parts(one));
                 document.method(words::work(&one.sweep))
             }

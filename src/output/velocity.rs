@@ -14,7 +14,7 @@ use crate::description::{count, listed};
 impl Report for VelocityReport {
     fn document(&self) -> Document {
         let jacobian = self.jacobian.as_ref();
-        let answer = closing::after_moving(&self.pose, sentence(self));
+        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
         Document::new(&self.mechanism, answer)
             .notes(closing::notes(&self.pose))
             .table("Joints", joints(self))

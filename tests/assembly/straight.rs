@@ -225,6 +225,65 @@ fn beads_apart_on_their_own_lines_leave_what_the_slack_ones_leave() {
 }
 
 #[test]
+fn how_far_apart_parts_stand_and_how_they_are_drawn_changes_nothing() {
+    // bodies drawn along their line and across it
+    let across = r#"Rz("90 deg")"#;
+    for (metres, line, body) in [
+        (5, r#"Ry("90 deg")"#, across),
+        (5, "Rx(0.3)", "Ry(-1.4)"),
+        (20, "Tx(0)", "Tx(0)"),
+        (20, "Tx(0)", across),
+    ] {
+        let far = format!("T(0, {metres}, 0), Rz(0.4), Ry(0.3)");
+        let far: &'static str = far.leak();
+        let both = |first, second| {
+            let at = |post, line| Bead {
+                line,
+                body,
+                ..Bead::of(post)
+            };
+            beads(&[at(first, far), at(second, line)])
+        };
+        for (first, second) in [(2.0, 1.9), (1.9, 2.0)] {
+            let report = both(first, second);
+            assert!(report.real > 0, "{metres} {first} {second} {body}");
+            for assembly in &report.assemblies {
+                let of = (assembly.multiplicity, assembly.dimension);
+                assert_eq!(of, (0, 3), "{metres} {first} {second} {body}");
+            }
+        }
+        assert_eq!(both(2.0, 2.0).real, 1, "{metres} {body}");
+        assert_eq!(both(1.9, 2.0 + 1e-5).real, 0, "{metres} {body}");
+    }
+    // nor where the drawing has its origin
+    let far = |post| Bead {
+        line: "T(0, 100, 0), Rz(0.4), Ry(0.3)",
+        body: across,
+        ..Bead::of(post)
+    };
+    assert_eq!(beads(&[far(2.0)]).document().answer, ISOLATED);
+    assert_eq!(beads(&[far(2.0 + 1e-5)]).real, 0);
+}
+
+#[test]
+fn one_assembly_of_infinitely_many_is_a_sample() {
+    let mut report = bead(1.9);
+    assert!(report.real > 1);
+    let answer = report.document().answer;
+    assert!(
+        answer.ends_with(" assemblies are listed as samples."),
+        "{answer}"
+    );
+    report.assemblies.truncate(1);
+    report.real = 1;
+    let answer = report.document().answer;
+    assert!(
+        answer.ends_with(" 1 assembly is listed as a sample."),
+        "{answer}"
+    );
+}
+
+#[test]
 fn rods_as_long_as_two_planes_are_apart_leave_a_set_of_two_dimensions() {
     // each end moves in a plane of its own, and the rod stands upright wherever it stands
     let report = report(

@@ -5,12 +5,16 @@ use serde::{Deserialize, Serialize};
 use super::{Dwell, Pace, Row, Straightness, SweepReport};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, NamedPoint, PoseCoordinate, Variable};
+use crate::system::Moved;
 
 /// The motions of one question: one, or one in each mode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionsReport {
     /// The mechanism's name.
     pub mechanism: String,
+    /// What moved most from the values guessed to the assembly where the motion begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// The motions.
     pub motions: Vec<MotionReport>,
 }

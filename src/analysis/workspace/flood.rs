@@ -16,7 +16,7 @@ mod tile;
 pub(super) use edge::{Edge, Met, Until};
 pub(super) use metric::Metric;
 pub(super) use neighbour::Flood;
-pub(super) use reached::{Band, Link, ReachedSet, Signs, join, root, signs, signs_of};
+pub(super) use reached::{Band, Link, ReachedSet, Signs, signs, signs_of};
 pub(super) use seeds::{ModeSeeds, PROBES, probe, search_modes};
 pub(super) use spread::Spread;
 pub(super) use step::Steps;

@@ -58,7 +58,7 @@ pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<Pose<'_>>> {
 pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
     let numbers = |pose: &Pose| {
         let modes: Vec<usize> = pose.modes.iter().map(|a| a.mode).collect();
-        ranges(&modes)
+        ranges(&modes).join(", ")
     };
     let condition = |pose: &Pose| {
         let of = pose.modes.iter();
@@ -93,13 +93,13 @@ pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
 }
 
 /// Numbers in ascending order, those that follow one another as `1 to 4`.
-fn ranges(numbers: &[usize]) -> String {
+fn ranges(numbers: &[usize]) -> Vec<String> {
     let runs = numbers.chunk_by(|a, b| *b == a + 1);
     let runs = runs.flat_map(|run| match run {
         [first, _, .., last] => vec![format!("{first} to {last}")],
         few => few.iter().map(usize::to_string).collect(),
     });
-    runs.collect::<Vec<_>>().join(", ")
+    runs.collect()
 }
 
 pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
@@ -201,18 +201,18 @@ pub(super) fn platforms(report: &AssembliesReport) -> Vec<Section> {
 
 /// Why assemblies are not certified, each reason once.
 pub(super) fn reasons(report: &AssembliesReport) -> Section {
-    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    let mut reasons: Vec<(&str, Vec<usize>)> = Vec::new();
     for a in &report.assemblies {
         let Some(reason) = &a.uncertified_because else {
             continue;
         };
         match reasons.iter_mut().find(|(known, _)| known == reason) {
-            Some((_, modes)) => modes.push(a.mode.to_string()),
-            None => reasons.push((reason, vec![a.mode.to_string()])),
+            Some((_, modes)) => modes.push(a.mode),
+            None => reasons.push((reason, vec![a.mode])),
         }
     }
     let lines = reasons.iter();
-    let lines = lines.map(|(reason, modes)| format!("{}: {reason}", listed(modes)));
+    let lines = lines.map(|(reason, modes)| format!("{}: {reason}", listed(ranges(modes))));
     Section::new("Not certified").list(lines)
 }
 

@@ -10,7 +10,7 @@ use crate::output::quantity::{clause, coarse, form, if_any, metres, signed, trip
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
-    let answer = closing::after_moving(&report.pose, mobility(report));
+    let answer = closing::after_moving(report.pose.moved.as_ref(), mobility(report));
     let mut sentences = vec![answer, counted(report)];
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
@@ -176,9 +176,11 @@ pub(super) fn counted(report: &MobilityReport) -> String {
             "There are no closures: all {unknowns} joint variables{not_locked} are free."
         );
     }
-    let independent = match report.redundant {
-        0 => "all of them independent".into(),
-        redundant => format!("{redundant} of them redundant"),
+    let independent = match (equations, report.redundant) {
+        (1, 0) => " and is independent".into(),
+        (1, _) => " and is redundant".into(),
+        (_, 0) => ", all of them independent".into(),
+        (_, redundant) => format!(", {redundant} of them redundant"),
     };
     let equations_said = match equations {
         _ if report.locking > 0 => format!(
@@ -194,8 +196,8 @@ pub(super) fn counted(report: &MobilityReport) -> String {
         _ => format!("the {equations} closure equations have"),
     };
     format!(
-        "Kutzbach counts {unknowns} − {equations} = {}; {equations_said} rank {rank}, \
-         {independent}.",
+        "Kutzbach counts {unknowns} − {equations} = {}; {equations_said} rank \
+         {rank}{independent}.",
         signed(*kutzbach)
     )
 }

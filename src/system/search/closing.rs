@@ -208,7 +208,7 @@ pub fn close(
         false => None,
     };
     let closed = |configuration: Configuration<f64>, kept| Closed {
-        moved: moved(question, &start, &configuration),
+        moved: moved(question, &configuration),
         given: given.clone(),
         configuration,
         kept,
@@ -291,12 +291,9 @@ fn with_file_loose(
     System::new(question.mechanism().dimensions(), &held).solved(newton, start)
 }
 
-/// How far guesses moved in assembling, or the file's pose if that is more than rounding.
-fn moved(
-    question: &Question,
-    start: &Configuration<f64>,
-    to: &Configuration<f64>,
-) -> Option<Moved> {
+/// What moved most of the guesses in assembling, or of the file's pose if that is more than rounding.
+pub fn moved(question: &Question, to: &Configuration<f64>) -> Option<Moved> {
+    let start = &question.start();
     let guessed = [question.guessed_joints(), question.guessed_platforms()];
     match guessed.concat().contains(&true) {
         true => farthest(question, start, to, Some(guessed)),

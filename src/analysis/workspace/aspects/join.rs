@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, join, root, signs};
+use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, signs};
 use crate::analysis::workspace::problem::Grid;
-use crate::linear::Factorable;
+use crate::linear::{Factorable, join, root};
 use crate::number::Packed;
 use crate::solve::{Pool, Stage, Watch, each};
 use crate::system::Driven;

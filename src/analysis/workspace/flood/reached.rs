@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::configurations::Configurations;
 use super::metric::Metric;
 use crate::analysis::workspace::problem::{Indicators, MOST_DIRECTIONS};
+use crate::linear::{join, root};
 use crate::mechanism::ConfigurationRef;
 use crate::solve::each;
 
@@ -265,20 +266,6 @@ impl Name {
             solution: short(solution),
         }
     }
-}
-
-/// The first of all that are connected with one.
-pub(crate) fn root(roots: &mut [usize], mut of: usize) -> usize {
-    while roots[of] != of {
-        roots[of] = roots[roots[of]];
-        of = roots[of];
-    }
-    of
-}
-
-pub(crate) fn join(roots: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(roots, a), root(roots, b));
-    roots[a.max(b)] = a.min(b);
 }
 
 /// Whether the determinants of direct and inverse singularities are negative, alike in an aspect.

@@ -2,10 +2,10 @@
 
 use super::arrivals::{Arrivals, Moving};
 use super::neighbour::{Flood, Step, one_each};
-use super::reached::{Link, Name, NodeSolution, NodeSolutions, join, root};
+use super::reached::{Link, Name, NodeSolution, NodeSolutions};
 use super::step::Steps;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MOST_DIRECTIONS};
-use crate::linear::Factorable;
+use crate::linear::{Factorable, join, root};
 use crate::number::Packed;
 
 /// How the grid is parted.
