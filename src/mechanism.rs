@@ -44,7 +44,7 @@ pub use model::{
     Parameter, Platform, Row, Symbol,
 };
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::description::{Coordinates, Problem};
 
@@ -72,8 +72,8 @@ pub struct Mechanism {
     dimensions: Dimensions<f64>,
     /// For each joint whether a full turn leaves every frame where it is.
     repeating: Vec<bool>,
-    /// For each closure the rows that do not vanish in every configuration.
-    rows_that_vary: Vec<Kept>,
+    /// For each closure the rows that do not vanish in every configuration, once asked for.
+    rows_that_vary: OnceLock<Vec<Kept>>,
     coordinates: Option<Arc<Coordinates>>,
     warnings: Arc<Vec<Problem>>,
 }

@@ -11,7 +11,7 @@ pub(super) use closures::fault_of_length;
 
 use std::collections::HashSet;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::lift::product;
 use super::model::{Chain, FixedStep, Formula, Homes, Joint, JointHome, JointKind, Platform, Row};
@@ -166,7 +166,7 @@ impl Mechanism {
             }),
             dimensions: super::Dimensions::empty(),
             repeating: Vec::new(),
-            rows_that_vary: Vec::new(),
+            rows_that_vary: OnceLock::new(),
             coordinates: description.coordinates.clone().map(Arc::from),
             warnings: Arc::default(),
         };

@@ -1,5 +1,7 @@
 //! Closure equations that vanish identically.
 
+use std::sync::OnceLock;
+
 use super::Mechanism;
 use super::closure::{Closure, EVERY_ROW, Kept, needs};
 use super::configuration::{Configuration, PlatformPose};
@@ -47,18 +49,18 @@ fn rows_that_vary(dimensions: &Dimensions<f64>) -> Vec<Kept> {
 
 impl Mechanism {
     pub(super) fn set_dimensions(&mut self, dimensions: Dimensions<f64>) {
-        self.rows_that_vary = rows_that_vary(&dimensions);
+        self.rows_that_vary = OnceLock::new();
         self.dimensions = dimensions;
         self.infer_repeating();
     }
 
     /// For each closure the rows that do not vanish whatever joints and platforms do.
     pub(crate) fn rows_that_vary(&self) -> &[Kept] {
-        &self.rows_that_vary
+        (self.rows_that_vary).get_or_init(|| rows_that_vary(&self.dimensions))
     }
 
     pub(crate) fn equations_that_vary(&self) -> usize {
-        let rows = self.rows_that_vary.iter().zip(self.closures.iter());
+        let rows = self.rows_that_vary().iter().zip(self.closures.iter());
         let rows = rows.flat_map(|(kept, closure)| &kept[..closure.kind.equations()]);
         rows.filter(|varies| **varies).count()
     }
