@@ -1,0 +1,509 @@
+//! Which unknown follows from which equations.
+
+use std::collections::BTreeSet;
+
+use super::single::{Circular, Content, Unknown, beside, content, cross, dot, polynomial};
+use super::{ClosedSolution, Rule, Step, free_stem, platform_is_held};
+use crate::algebra::{Budget, ByUnknowns, Expression, Trigonometric, Wave, arrange};
+use crate::mechanism::{Configuration, Formal, JointKind, Letters, Mechanism};
+use crate::system::Question;
+
+/// Beyond so many unknowns in the equations of one closure none of them is eliminated.
+const MOST_UNKNOWNS: usize = 5;
+
+/// Equations of a closure, several of which may be the components of one vector.
+struct Group {
+    closure: usize,
+    rows: Vec<Trigonometric>,
+}
+
+/// A rule found, for an unknown and what stands beside it.
+struct Found {
+    closure: usize,
+    unknown: Unknown,
+    beside: Wave,
+    rule: Rule<Trigonometric>,
+}
+
+pub(super) struct Derivation<'a> {
+    mechanism: &'a Mechanism,
+    /// What is looked for, and what cannot be found by these rules: poses of platforms, joints that turn and slide.
+    unknown: BTreeSet<u32>,
+    never: BTreeSet<u32>,
+    /// The value of every symbol at the sample.
+    values: Vec<f64>,
+    /// The stem of the names of angles, and how many there are.
+    stem: &'static str,
+    angles: u32,
+    groups: Vec<Group>,
+    steps: Vec<Step>,
+    /// Joint variables that follow when all of a sum is known, and from which closure.
+    pending: Vec<(u32, Wave, usize)>,
+    platforms_left: Vec<usize>,
+    budget: Budget,
+    /// What is smaller is zero, for the squares of lengths.
+    least: f64,
+}
+
+impl<'a> Derivation<'a> {
+    pub fn new(question: &Question<'a>, at: &Configuration<f64>, budget: Budget) -> Self {
+        let mechanism = question.mechanism();
+        let letters = Letters(mechanism);
+        let held = question.held();
+        let (mut unknown, mut never) = (BTreeSet::new(), BTreeSet::new());
+        for (joint, held) in held.joints.iter().enumerate() {
+            if !held {
+                unknown.insert(letters.joint(joint));
+            }
+            if mechanism.joints()[joint].kind == JointKind::Helical {
+                never.insert(letters.joint(joint));
+            }
+        }
+        let platforms = 0..mechanism.platforms().len();
+        let platforms_left = platforms.filter(|&p| !platform_is_held(question, p));
+        let platforms_left: Vec<usize> = platforms_left.collect();
+        for &platform in &platforms_left {
+            let entries = (0..12).map(|entry| letters.platform(platform, entry));
+            never.extend(entries);
+        }
+        let left: BTreeSet<u32> = never.iter().copied().collect();
+        unknown.extend(left);
+        let length = mechanism.characteristic_length();
+        Derivation {
+            mechanism,
+            unknown,
+            never,
+            values: letters.values_at(at),
+            stem: free_stem(mechanism),
+            angles: 0,
+            groups: Vec::new(),
+            steps: Vec::new(),
+            pending: Vec::new(),
+            platforms_left,
+            budget,
+            least: 1e-10 * length.min(1.0).powi(2),
+        }
+    }
+
+    /// The equations.
+    pub fn read(&mut self, formal: &Formal) {
+        for (closure, own) in self.mechanism.closures().iter().enumerate() {
+            let found = formal.closure(closure);
+            let mut equations = found.conditions.into_iter();
+            let mut put = |values: Vec<crate::algebra::Symbolic>| {
+                let rows = values.iter().filter_map(|value| value.formula());
+                let rows = rows.map(|row| row.without_rounding()).collect();
+                self.groups.push(Group { closure, rows });
+            };
+            let conditions = own.kind.conditions();
+            if conditions.origins {
+                put(equations.by_ref().take(3).collect());
+            }
+            if let Some(alignment) = found.alignment {
+                let axes = equations.len() - conditions.offsets.len();
+                put((equations.by_ref().take(axes).chain([alignment])).collect());
+            }
+            equations.for_each(|equation| put(vec![equation]));
+        }
+    }
+
+    pub fn run(mut self) -> ClosedSolution {
+        loop {
+            self.groups.iter_mut().for_each(Group::tidy);
+            self.settle();
+            let Some(found) = self.next() else {
+                break;
+            };
+            if self.take(found).is_none() {
+                break;
+            }
+        }
+        let letters = Letters(self.mechanism);
+        let known: Vec<bool> = (self.groups.iter().flat_map(|group| &group.rows))
+            .map(|row| row.symbols().is_disjoint(&self.unknown))
+            .collect();
+        let mut known = known.into_iter();
+        let mut closures_left: Vec<(usize, usize)> = Vec::new();
+        for group in &self.groups {
+            let open = (group.rows.iter()).filter(|_| known.next() == Some(false));
+            let open = open.count();
+            match closures_left.last_mut() {
+                _ if open == 0 => {}
+                Some((closure, count)) if *closure == group.closure => *count += open,
+                _ => closures_left.push((group.closure, open)),
+            }
+        }
+        let unknown = self.unknown.iter();
+        let pending = self.pending.iter().map(|(joint, ..)| joint);
+        let joints = unknown
+            .chain(pending)
+            .filter_map(|&symbol| letters.joint_of(symbol));
+        let joints_left: BTreeSet<usize> = joints.collect();
+        ClosedSolution {
+            steps: self.steps,
+            closures_left,
+            joints_left: joints_left.into_iter().collect(),
+            platforms_left: self.platforms_left,
+        }
+    }
+
+    fn name(&self, symbol: u32) -> String {
+        let letters = Letters(self.mechanism);
+        match symbol.checked_sub(letters.local(0)) {
+            Some(angle) => format!("{}{}", self.stem, angle + 1),
+            None => letters.name(symbol),
+        }
+    }
+
+    fn value(&self, of: &Trigonometric) -> f64 {
+        of.value(&|symbol| self.values[symbol as usize])
+    }
+
+    fn expressions<const N: usize>(&self, of: [&Trigonometric; N]) -> [Expression; N] {
+        let arranged = arrange(&of, &|symbol| self.name(symbol));
+        let mut expressions = arranged.expressions.into_iter();
+        std::array::from_fn(|_| expressions.next().expect("one for each formula"))
+    }
+
+    /// Joint variables of which the sum is known.
+    fn settle(&mut self) {
+        loop {
+            let open: BTreeSet<u32> = self.pending.iter().map(|(x, ..)| *x).collect();
+            let ready = self.pending.iter().position(|(_, sum, _)| {
+                let symbols = sum.angle().symbols();
+                symbols.is_disjoint(&self.unknown) && symbols.is_disjoint(&open)
+            });
+            let Some(ready) = ready else { return };
+            let (symbol, sum, closure) = self.pending.remove(ready);
+            let [sum] = self.expressions([&sum.angle()]);
+            self.put(symbol, None, closure, Rule::Sum(sum));
+        }
+    }
+
+    fn put(&mut self, symbol: u32, angle: Option<Expression>, closure: usize, rule: Rule) {
+        self.steps.push(Step {
+            name: self.name(symbol),
+            joint: Letters(self.mechanism).joint_of(symbol),
+            angle,
+            closure,
+            rule,
+        });
+    }
+
+    /// The next unknown: without a choice of sign if possible, by elimination only if none stands alone.
+    fn next(&mut self) -> Option<Found> {
+        let sorted: Vec<(usize, Vec<ByUnknowns>)> = (self.groups.iter())
+            .map(|group| {
+                let rows = group.rows.iter();
+                let rows = rows.filter_map(|row| row.by_unknowns(&self.unknown));
+                (group.closure, rows.collect())
+            })
+            .collect();
+        for alone in [false, true] {
+            for (closure, rows) in &sorted {
+                let mut unknowns = BTreeSet::new();
+                for row in rows {
+                    if let Content::One(unknown) = content(row) {
+                        unknowns.insert(unknown);
+                    }
+                }
+                for unknown in unknowns {
+                    let own = |row: &&ByUnknowns| matches!(content(row), Content::One(of) if of == unknown);
+                    let own: Vec<&ByUnknowns> = rows.iter().filter(own).collect();
+                    let found = self.from_rows(*closure, &own, unknown, alone);
+                    if found.is_some() {
+                        return found;
+                    }
+                }
+            }
+        }
+        let mut best: Option<(usize, Found)> = None;
+        for group in 0..self.groups.len() {
+            let closure = self.groups[group].closure;
+            for equation in self.eliminated(group) {
+                let size = equation.len();
+                let sorted = equation.by_unknowns(&self.unknown);
+                let Some((sorted, unknown)) = sorted.and_then(|sorted| match content(&sorted) {
+                    Content::One(unknown) => Some((sorted, unknown)),
+                    _ => None,
+                }) else {
+                    continue;
+                };
+                if best.as_ref().is_some_and(|(least, _)| *least <= size) {
+                    continue;
+                }
+                let found = self.from_rows(closure, &[&sorted], unknown, true);
+                best = found.map(|found| (size, found)).or(best);
+            }
+        }
+        best.map(|(_, found)| found)
+    }
+
+    /// Equations without one or two of the unknowns of a group.
+    fn eliminated(&mut self, group: usize) -> Vec<Trigonometric> {
+        let rows = self.groups[group].rows.clone();
+        let symbols: BTreeSet<u32> = rows.iter().flat_map(Trigonometric::symbols).collect();
+        let open: Vec<u32> = symbols.intersection(&self.unknown).copied().collect();
+        if rows.len() < 2 || open.len() > MOST_UNKNOWNS {
+            return vec![];
+        }
+        let mut found = Vec::new();
+        for chosen in 1_u32..1 << open.len() {
+            let chosen = open
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| chosen >> i & 1 == 1);
+            let chosen: BTreeSet<u32> = chosen.map(|(_, symbol)| *symbol).collect();
+            let sides = rows.iter().map(|row| row.split_by(&chosen));
+            let (mut with, mut without) = (Vec::new(), Vec::new());
+            for [own, rest] in sides {
+                with.push(own);
+                without.push(rest);
+            }
+            let mut square =
+                |side: &[Trigonometric]| dot(side.iter().map(|x| (x, x)), &mut self.budget);
+            if let (Some(with), Some(without)) = (square(&with), square(&without)) {
+                found.push(with.minus(&without).without_rounding());
+            }
+        }
+        // b_j r_i − b_i r_j, where a slide is linear with known coefficients b
+        let sorted: Option<Vec<ByUnknowns>> = rows
+            .iter()
+            .map(|row| row.by_unknowns(&self.unknown))
+            .collect();
+        let Some(sorted) = sorted else {
+            return found;
+        };
+        for &slide in &open {
+            let factors: Vec<Trigonometric> = (sorted.iter())
+                .map(|row| {
+                    let [_, b, _] = polynomial(row, slide);
+                    b
+                })
+                .collect();
+            for i in 0..rows.len() {
+                for j in 0..i {
+                    let (b, c) = (&factors[i], &factors[j]);
+                    if b.is_empty() || c.is_empty() {
+                        continue;
+                    }
+                    found.extend(cross([c, &rows[i], b, &rows[j]], &mut self.budget));
+                }
+            }
+        }
+        found
+    }
+
+    /// The rule for an unknown that alone stands in some rows; with `alone` one that leaves two solutions.
+    fn from_rows(
+        &mut self,
+        closure: usize,
+        rows: &[&ByUnknowns],
+        unknown: Unknown,
+        alone: bool,
+    ) -> Option<Found> {
+        let (rule, beside) = match &unknown {
+            Unknown::Slide(slide) => {
+                if self.never.contains(slide) {
+                    return None;
+                }
+                (self.slide(rows, *slide, alone)?, Wave::default())
+            }
+            Unknown::Angle(angle) => {
+                let solvable = |(x, k): &(u32, num_rational::Ratio<i64>)| {
+                    !self.never.contains(x) && k.numer().abs() == 1 && *k.denom() == 1
+                };
+                if !angle.iter().all(solvable) {
+                    return None;
+                }
+                let beside = beside(rows.first()?, angle);
+                let circular: Option<Vec<Circular>> = (rows.iter())
+                    .map(|row| Circular::of(row, angle, &beside, &mut self.budget))
+                    .collect();
+                let mut circular = circular?;
+                let rule = match alone {
+                    false => self.direction(&circular)?,
+                    true => {
+                        let large = |row: &Circular| {
+                            self.value(&row.a).hypot(self.value(&row.b)).powi(2) > self.least
+                        };
+                        let place = circular.iter().position(large)?;
+                        circular.swap_remove(place).projection()
+                    }
+                };
+                (rule, beside)
+            }
+        };
+        Some(Found {
+            closure,
+            unknown,
+            beside,
+            rule,
+        })
+    }
+
+    fn slide(
+        &mut self,
+        rows: &[&ByUnknowns],
+        slide: u32,
+        alone: bool,
+    ) -> Option<Rule<Trigonometric>> {
+        let rows = rows.iter().map(|row| polynomial(row, slide));
+        let rows: Vec<[Trigonometric; 3]> = rows.collect();
+        if !alone {
+            let linear = rows.iter().filter(|[_, _, square]| square.is_empty());
+            let linear: Vec<_> = linear.collect();
+            let over = dot(linear.iter().map(|[_, b, _]| (b, b)), &mut self.budget)?;
+            let (of, over) = match linear[..] {
+                [[c, b, _]] => (c.clone(), b.clone()),
+                _ => {
+                    let of = dot(linear.iter().map(|[c, b, _]| (b, c)), &mut self.budget)?;
+                    (of, over)
+                }
+            };
+            let of = of.negated();
+            return (self.value(&over).powi(2) > self.least).then_some(Rule::Linear { of, over });
+        }
+        let [c, b, a] = rows.into_iter().find(|[_, _, square]| !square.is_empty())?;
+        (self.value(&a).abs() > 1e-9).then_some(Rule::Quadratic { a, b, c })
+    }
+
+    /// cos x and sin x from several rows.
+    fn direction(&mut self, rows: &[Circular]) -> Option<Rule<Trigonometric>> {
+        let budget = &mut self.budget;
+        let a = || rows.iter().map(|row| &row.a);
+        let b = || rows.iter().map(|row| &row.b);
+        let c = || rows.iter().map(|row| &row.c);
+        let (aa, bb) = (dot(a().zip(a()), budget)?, dot(b().zip(b()), budget)?);
+        let ab = dot(a().zip(b()), budget)?;
+        if ab.is_empty() && aa.minus(&bb).without_rounding().is_empty() {
+            let cos = dot(a().zip(c()), budget)?.negated();
+            let sin = dot(b().zip(c()), budget)?.negated();
+            return (self.value(&aa) > self.least).then_some(Rule::Direction { sin, cos });
+        }
+        for (i, first) in rows.iter().enumerate() {
+            for second in &rows[..i] {
+                let budget = &mut self.budget;
+                let (r, s) = (first, second);
+                let determinant = cross([&r.a, &s.b, &s.a, &r.b], budget)?;
+                let cos = cross([&r.b, &s.c, &s.b, &r.c], budget)?;
+                let sin = cross([&r.c, &s.a, &s.c, &r.a], budget)?;
+                if self.value(&determinant).abs() <= self.least {
+                    continue;
+                }
+                if determinant.is_positive() {
+                    return Some(Rule::Direction { sin, cos });
+                }
+                if determinant.negated().is_positive() {
+                    let (sin, cos) = (sin.negated(), cos.negated());
+                    return Some(Rule::Direction { sin, cos });
+                }
+                let budget = &mut self.budget;
+                return Some(Rule::Direction {
+                    sin: sin.times(&determinant, budget)?,
+                    cos: cos.times(&determinant, budget)?,
+                });
+            }
+        }
+        None
+    }
+
+    /// Makes an unknown known.
+    fn take(&mut self, found: Found) -> Option<()> {
+        let Found {
+            closure,
+            unknown,
+            beside,
+            rule,
+        } = found;
+        let symbol = match unknown {
+            Unknown::Slide(slide) => {
+                self.unknown.remove(&slide);
+                slide
+            }
+            Unknown::Angle(angle) => match angle.as_slice() {
+                [(only, k)] if beside.0.is_empty() && *k == num_rational::Ratio::from(1) => {
+                    self.unknown.remove(only);
+                    *only
+                }
+                [.., (last, k)] => {
+                    return self.take_sum(closure, &angle, *last, *k.numer(), beside, rule);
+                }
+                [] => return None,
+            },
+        };
+        let rule = self.written(&rule);
+        self.put(symbol, None, closure, rule);
+        Some(())
+    }
+
+    /// Makes a sum of angles known, and takes its last unknown out of all equations: x = ±(ψ − κ − the others).
+    fn take_sum(
+        &mut self,
+        closure: usize,
+        angle: &[(u32, num_rational::Ratio<i64>)],
+        last: u32,
+        sign: i64,
+        beside: Wave,
+        rule: Rule<Trigonometric>,
+    ) -> Option<()> {
+        let mut others = beside;
+        for (x, k) in angle.iter().filter(|(x, _)| *x != last) {
+            others = others.plus(&Wave::of_symbol(*x, *k.numer()))?;
+        }
+        let mut by = others.times(-sign);
+        let whole = others.plus(&Wave::of_symbol(last, sign))?.angle();
+        let zero =
+            matches!(&rule, Rule::Direction { sin, cos } if sin.is_empty() && cos.is_positive());
+        if !zero {
+            let symbol = Letters(self.mechanism).local(self.angles as usize);
+            self.angles += 1;
+            self.values.push(self.value(&whole));
+            by = by.plus(&Wave::of_symbol(symbol, sign))?;
+            let rule = self.written(&rule);
+            let [whole] = self.expressions([&whole]);
+            self.put(symbol, Some(whole), closure, rule);
+        }
+        self.unknown.remove(&last);
+        for group in &mut self.groups {
+            for row in &mut group.rows {
+                *row = row.with_angle(last, &by, &mut self.budget)?;
+            }
+        }
+        self.pending.push((last, by, closure));
+        Some(())
+    }
+
+    fn written(&self, rule: &Rule<Trigonometric>) -> Rule {
+        match rule {
+            Rule::Direction { sin, cos } => {
+                let [sin, cos] = self.expressions([sin, cos]);
+                Rule::Direction { sin, cos }
+            }
+            Rule::Projection { a, b, c } => {
+                let [a, b, c] = self.expressions([a, b, c]);
+                Rule::Projection { a, b, c }
+            }
+            Rule::Quadratic { a, b, c } => {
+                let [a, b, c] = self.expressions([a, b, c]);
+                Rule::Quadratic { a, b, c }
+            }
+            Rule::Linear { of, over } => {
+                let [of, over] = self.expressions([of, over]);
+                Rule::Linear { of, over }
+            }
+            Rule::Sum(sum) => {
+                let [sum] = self.expressions([sum]);
+                Rule::Sum(sum)
+            }
+        }
+    }
+}
+
+impl Group {
+    /// Without rows that have become zero.
+    fn tidy(&mut self) {
+        let rows = self.rows.iter().map(Trigonometric::without_rounding);
+        self.rows = rows.filter(|row| !row.is_empty()).collect();
+    }
+}
