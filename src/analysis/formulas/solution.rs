@@ -6,10 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::report::{FormulasReport, Letter, Meaning, Remaining, SolutionFormula, StepFormula};
 use crate::algebra::{EvaluationError, Expression, Function, Node, Operator};
 use crate::mechanism::{Configuration, JointKind, Mechanism};
-use crate::solve::Equations;
-use crate::system::{
-    ClosedSolution, Question, Rule, Step, System, check_count, random_configuration,
-};
+use crate::system::{ClosedSolution, Question, Rule, Step, check_count, random_configuration};
 
 /// Random inputs at which formulas are put into the closure equations.
 const SAMPLES: usize = 40;
@@ -80,21 +77,12 @@ fn check(
             (_, true) => break,
             _ => random_configuration(mechanism, at, &mut rng),
         };
-        let values = question.held_coordinates().into_iter();
-        let values: Vec<_> = values.map(|c| (c, c.of(&inputs))).collect();
-        let there = question.clone().at_values(values);
-        let branches = form.branches(mechanism, &there.near(&inputs).start());
+        let (real, residual) = form.tried(question, &inputs);
         if sample == 0 {
-            solution.real = branches.len();
+            solution.real = real;
         }
-        let system = System::new(mechanism.dimensions(), &question.held());
-        let mut work = system.work();
-        for (_, found) in &branches {
-            system.residual(found, &mut work);
-            let rows = system.residual_of(&work).iter();
-            solution.residual = rows.fold(solution.residual, |most, row| most.max(row.abs()));
-        }
-        solution.samples += branches.len();
+        solution.samples += real;
+        solution.residual = solution.residual.max(residual);
     }
 }
 

@@ -6,6 +6,8 @@ use super::{ClosedSolution, Rule};
 use crate::algebra::{EvaluationError, Expression};
 use crate::mechanism::{Configuration, Letters, Mechanism};
 use crate::number::Number;
+use crate::solve::Equations;
+use crate::system::{Question, System, check_count};
 
 /// How the two solutions of a step are told apart, and what becomes of its numbers.
 pub trait Branching<T> {
@@ -111,6 +113,39 @@ impl ClosedSolution {
         all.collect()
     }
 }
+
+impl ClosedSolution {
+    /// How many branches are real for the held values of a configuration, and the largest closure residual of them, in
+    /// characteristic lengths and rad.
+    pub fn tried(&self, question: &Question, inputs: &Configuration<f64>) -> (usize, f64) {
+        let mechanism = question.mechanism();
+        let held = question.held_coordinates().into_iter();
+        let values: Vec<_> = held.map(|c| (c, c.of(inputs))).collect();
+        let there = question.clone().near(inputs).at_values(values).start();
+        let branches = self.branches(mechanism, &there);
+        let system = System::new(mechanism.dimensions(), &question.held());
+        let mut work = system.work();
+        let mut largest = 0.0_f64;
+        for (_, found) in &branches {
+            system.residual(found, &mut work);
+            let rows = system.residual_of(&work).iter();
+            largest = rows.fold(largest, |most, row| most.max(row.abs()));
+        }
+        (branches.len(), largest)
+    }
+
+    /// Whether it gives every unknown of a question that is not overdetermined, and holds at a configuration.
+    pub fn solves(&self, question: &Question, at: &Configuration<f64>) -> bool {
+        let determined = self.is_complete() && check_count(question).is_ok();
+        determined && {
+            let (real, residual) = self.tried(question, at);
+            real > 0 && residual < CLOSED
+        }
+    }
+}
+
+/// Residuals below this are those of rounding.
+const CLOSED: f64 = 1e-9;
 
 /// Below this part of its size a radicand is negative.
 const ROUNDING: f64 = 1e-12;
