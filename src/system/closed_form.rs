@@ -14,6 +14,7 @@
 
 mod derivation;
 mod evaluation;
+mod rules;
 mod single;
 
 pub use evaluation::Branching;
@@ -24,7 +25,10 @@ use crate::system::{HeldPlatform, Question};
 use derivation::Derivation;
 
 /// Products of two terms made at most.
-const MOST_PRODUCTS: usize = 2_000_000;
+const MOST_PRODUCTS: usize = 200_000;
+
+/// Residuals below this are those of rounding, in characteristic lengths and rad.
+const CLOSED: f64 = 1e-9;
 
 /// How an unknown follows from what is known before it.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +119,12 @@ impl ClosedSolution {
             let formal = Formal::new(mechanism, &letters.parameters(), letters.joints())?;
             let mut derivation = Derivation::new(question, at, budget);
             derivation.read(&formal);
-            Ok(derivation.run())
+            let unsolved = derivation.left();
+            let solved = derivation.run();
+            let (_, residual) = solved.tried(question, at);
+            // equations that were too long are missing, and signs may depend on one another
+            let holds = !solved.is_complete() || residual < CLOSED;
+            Ok(if holds { solved } else { unsolved })
         })
     }
 
@@ -130,7 +139,6 @@ impl ClosedSolution {
     }
 }
 
-/// Names of platforms' letters, joints and parameters with their values at a configuration.
 fn platform_is_held(question: &Question, platform: usize) -> bool {
     question.held().platforms[platform] == HeldPlatform::Pose
 }

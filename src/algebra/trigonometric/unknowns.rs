@@ -6,7 +6,10 @@ use num_bigint::BigInt;
 use num_rational::{BigRational, Ratio};
 use num_traits::{One, Signed, ToPrimitive};
 
-use super::{Atom, Budget, Key, Trigonometric, Wave};
+use super::{Atom, Budget, Key, Trigonometric, Wave, constants};
+
+/// Bits of the denominator of a decimal number as it is typed.
+const DIGITS: u64 = 60;
 
 /// The unknown part of a term: an angle Σ k x in its wave, and a product of powers.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -147,7 +150,7 @@ impl Trigonometric {
         Some(sum)
     }
 
-    /// Without terms that only rounding has left: 10⁻¹³ of the largest.
+    /// Without what only rounding has left: terms of 10⁻¹³ of the largest, and digits beyond the fifteenth.
     pub fn without_rounding(&self) -> Self {
         let size = |(key, coefficient): (&Key, &BigRational)| {
             coefficient.to_f64().map_or(f64::INFINITY, f64::abs) * (key.root as f64).sqrt()
@@ -156,6 +159,15 @@ impl Trigonometric {
         let mut kept = self.clone();
         let stays = |key: &Key, c: &mut BigRational| size((key, c)) > 1e-13 * largest;
         kept.terms.retain(stays);
+        for coefficient in kept.terms.values_mut() {
+            if coefficient.denom().bits() > DIGITS {
+                let rounded = coefficient.to_f64().map(|value| format!("{value:.14e}"));
+                let rounded = rounded.and_then(|text| text.parse().ok());
+                *coefficient = rounded
+                    .and_then(constants::decimal)
+                    .unwrap_or_else(|| coefficient.clone());
+            }
+        }
         kept
     }
 

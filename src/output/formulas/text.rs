@@ -57,6 +57,10 @@ fn answer(solution: &SolutionFormula) -> String {
         held => format!(" for given {}", listed(held)),
     };
     match (&solution.remaining, &solution.signs[..]) {
+        (Some(left), _) if left.equations == 0 => {
+            let stand = form(left.unknowns.len(), "stands", "stand");
+            format!("{} {stand} in no closure.", listed(&left.unknowns))
+        }
         (Some(left), _) => {
             let equations = count(left.equations, "equation");
             let remain = form(left.equations, "remains", "remain");

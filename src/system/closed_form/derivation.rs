@@ -2,47 +2,44 @@
 
 use std::collections::BTreeSet;
 
-use super::single::{Circular, Content, Unknown, beside, content, cross, dot, polynomial};
+use super::single::{Content, Unknown, content};
 use super::{ClosedSolution, Rule, Step, free_stem, platform_is_held};
 use crate::algebra::{Budget, ByUnknowns, Expression, Trigonometric, Wave, arrange};
 use crate::mechanism::{Configuration, Formal, JointKind, Letters, Mechanism};
 use crate::system::Question;
 
-/// Beyond so many unknowns in the equations of one closure none of them is eliminated.
-const MOST_UNKNOWNS: usize = 5;
-
 /// Equations of a closure, several of which may be the components of one vector.
-struct Group {
+pub(super) struct Group {
     closure: usize,
-    rows: Vec<Trigonometric>,
+    pub(super) rows: Vec<Trigonometric>,
 }
 
 /// A rule found, for an unknown and what stands beside it.
-struct Found {
-    closure: usize,
-    unknown: Unknown,
-    beside: Wave,
-    rule: Rule<Trigonometric>,
+pub(super) struct Found {
+    pub closure: usize,
+    pub unknown: Unknown,
+    pub beside: Wave,
+    pub rule: Rule<Trigonometric>,
 }
 
 pub(super) struct Derivation<'a> {
     mechanism: &'a Mechanism,
     /// What is looked for, and what cannot be found by these rules: poses of platforms, joints that turn and slide.
-    unknown: BTreeSet<u32>,
-    never: BTreeSet<u32>,
+    pub(super) unknown: BTreeSet<u32>,
+    pub(super) never: BTreeSet<u32>,
     /// The value of every symbol at the sample.
     values: Vec<f64>,
     /// The stem of the names of angles, and how many there are.
     stem: &'static str,
     angles: u32,
-    groups: Vec<Group>,
+    pub(super) groups: Vec<Group>,
     steps: Vec<Step>,
     /// Joint variables that follow when all of a sum is known, and from which closure.
     pending: Vec<(u32, Wave, usize)>,
     platforms_left: Vec<usize>,
-    budget: Budget,
+    pub(super) budget: Budget,
     /// What is smaller is zero, for the squares of lengths.
-    least: f64,
+    pub(super) least: f64,
 }
 
 impl<'a> Derivation<'a> {
@@ -118,6 +115,11 @@ impl<'a> Derivation<'a> {
                 break;
             }
         }
+        self.left()
+    }
+
+    /// What is found, and what is left.
+    pub fn left(&self) -> ClosedSolution {
         let letters = Letters(self.mechanism);
         let known: Vec<bool> = (self.groups.iter().flat_map(|group| &group.rows))
             .map(|row| row.symbols().is_disjoint(&self.unknown))
@@ -140,10 +142,10 @@ impl<'a> Derivation<'a> {
             .filter_map(|&symbol| letters.joint_of(symbol));
         let joints_left: BTreeSet<usize> = joints.collect();
         ClosedSolution {
-            steps: self.steps,
+            steps: self.steps.clone(),
             closures_left,
             joints_left: joints_left.into_iter().collect(),
-            platforms_left: self.platforms_left,
+            platforms_left: self.platforms_left.clone(),
         }
     }
 
@@ -155,7 +157,7 @@ impl<'a> Derivation<'a> {
         }
     }
 
-    fn value(&self, of: &Trigonometric) -> f64 {
+    pub(super) fn value(&self, of: &Trigonometric) -> f64 {
         of.value(&|symbol| self.values[symbol as usize])
     }
 
@@ -217,11 +219,11 @@ impl<'a> Derivation<'a> {
                 }
             }
         }
-        let mut best: Option<(usize, Found)> = None;
+        // a joint variable rather than an angle between bodies, and a short formula
+        let mut best: Option<((bool, usize), Found)> = None;
         for group in 0..self.groups.len() {
             let closure = self.groups[group].closure;
             for equation in self.eliminated(group) {
-                let size = equation.len();
                 let sorted = equation.by_unknowns(&self.unknown);
                 let Some((sorted, unknown)) = sorted.and_then(|sorted| match content(&sorted) {
                     Content::One(unknown) => Some((sorted, unknown)),
@@ -229,183 +231,16 @@ impl<'a> Derivation<'a> {
                 }) else {
                     continue;
                 };
-                if best.as_ref().is_some_and(|(least, _)| *least <= size) {
+                let between = matches!(&unknown, Unknown::Angle(angle) if angle.len() > 1);
+                let rank = (between, equation.len());
+                if best.as_ref().is_some_and(|(least, _)| *least <= rank) {
                     continue;
                 }
                 let found = self.from_rows(closure, &[&sorted], unknown, true);
-                best = found.map(|found| (size, found)).or(best);
+                best = found.map(|found| (rank, found)).or(best);
             }
         }
         best.map(|(_, found)| found)
-    }
-
-    /// Equations without one or two of the unknowns of a group.
-    fn eliminated(&mut self, group: usize) -> Vec<Trigonometric> {
-        let rows = self.groups[group].rows.clone();
-        let symbols: BTreeSet<u32> = rows.iter().flat_map(Trigonometric::symbols).collect();
-        let open: Vec<u32> = symbols.intersection(&self.unknown).copied().collect();
-        if rows.len() < 2 || open.len() > MOST_UNKNOWNS {
-            return vec![];
-        }
-        let mut found = Vec::new();
-        for chosen in 1_u32..1 << open.len() {
-            let chosen = open
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| chosen >> i & 1 == 1);
-            let chosen: BTreeSet<u32> = chosen.map(|(_, symbol)| *symbol).collect();
-            let sides = rows.iter().map(|row| row.split_by(&chosen));
-            let (mut with, mut without) = (Vec::new(), Vec::new());
-            for [own, rest] in sides {
-                with.push(own);
-                without.push(rest);
-            }
-            let mut square =
-                |side: &[Trigonometric]| dot(side.iter().map(|x| (x, x)), &mut self.budget);
-            if let (Some(with), Some(without)) = (square(&with), square(&without)) {
-                found.push(with.minus(&without).without_rounding());
-            }
-        }
-        // b_j r_i − b_i r_j, where a slide is linear with known coefficients b
-        let sorted: Option<Vec<ByUnknowns>> = rows
-            .iter()
-            .map(|row| row.by_unknowns(&self.unknown))
-            .collect();
-        let Some(sorted) = sorted else {
-            return found;
-        };
-        for &slide in &open {
-            let factors: Vec<Trigonometric> = (sorted.iter())
-                .map(|row| {
-                    let [_, b, _] = polynomial(row, slide);
-                    b
-                })
-                .collect();
-            for i in 0..rows.len() {
-                for j in 0..i {
-                    let (b, c) = (&factors[i], &factors[j]);
-                    if b.is_empty() || c.is_empty() {
-                        continue;
-                    }
-                    found.extend(cross([c, &rows[i], b, &rows[j]], &mut self.budget));
-                }
-            }
-        }
-        found
-    }
-
-    /// The rule for an unknown that alone stands in some rows; with `alone` one that leaves two solutions.
-    fn from_rows(
-        &mut self,
-        closure: usize,
-        rows: &[&ByUnknowns],
-        unknown: Unknown,
-        alone: bool,
-    ) -> Option<Found> {
-        let (rule, beside) = match &unknown {
-            Unknown::Slide(slide) => {
-                if self.never.contains(slide) {
-                    return None;
-                }
-                (self.slide(rows, *slide, alone)?, Wave::default())
-            }
-            Unknown::Angle(angle) => {
-                let solvable = |(x, k): &(u32, num_rational::Ratio<i64>)| {
-                    !self.never.contains(x) && k.numer().abs() == 1 && *k.denom() == 1
-                };
-                if !angle.iter().all(solvable) {
-                    return None;
-                }
-                let beside = beside(rows.first()?, angle);
-                let circular: Option<Vec<Circular>> = (rows.iter())
-                    .map(|row| Circular::of(row, angle, &beside, &mut self.budget))
-                    .collect();
-                let mut circular = circular?;
-                let rule = match alone {
-                    false => self.direction(&circular)?,
-                    true => {
-                        let large = |row: &Circular| {
-                            self.value(&row.a).hypot(self.value(&row.b)).powi(2) > self.least
-                        };
-                        let place = circular.iter().position(large)?;
-                        circular.swap_remove(place).projection()
-                    }
-                };
-                (rule, beside)
-            }
-        };
-        Some(Found {
-            closure,
-            unknown,
-            beside,
-            rule,
-        })
-    }
-
-    fn slide(
-        &mut self,
-        rows: &[&ByUnknowns],
-        slide: u32,
-        alone: bool,
-    ) -> Option<Rule<Trigonometric>> {
-        let rows = rows.iter().map(|row| polynomial(row, slide));
-        let rows: Vec<[Trigonometric; 3]> = rows.collect();
-        if !alone {
-            let linear = rows.iter().filter(|[_, _, square]| square.is_empty());
-            let linear: Vec<_> = linear.collect();
-            let over = dot(linear.iter().map(|[_, b, _]| (b, b)), &mut self.budget)?;
-            let (of, over) = match linear[..] {
-                [[c, b, _]] => (c.clone(), b.clone()),
-                _ => {
-                    let of = dot(linear.iter().map(|[c, b, _]| (b, c)), &mut self.budget)?;
-                    (of, over)
-                }
-            };
-            let of = of.negated();
-            return (self.value(&over).powi(2) > self.least).then_some(Rule::Linear { of, over });
-        }
-        let [c, b, a] = rows.into_iter().find(|[_, _, square]| !square.is_empty())?;
-        (self.value(&a).abs() > 1e-9).then_some(Rule::Quadratic { a, b, c })
-    }
-
-    /// cos x and sin x from several rows.
-    fn direction(&mut self, rows: &[Circular]) -> Option<Rule<Trigonometric>> {
-        let budget = &mut self.budget;
-        let a = || rows.iter().map(|row| &row.a);
-        let b = || rows.iter().map(|row| &row.b);
-        let c = || rows.iter().map(|row| &row.c);
-        let (aa, bb) = (dot(a().zip(a()), budget)?, dot(b().zip(b()), budget)?);
-        let ab = dot(a().zip(b()), budget)?;
-        if ab.is_empty() && aa.minus(&bb).without_rounding().is_empty() {
-            let cos = dot(a().zip(c()), budget)?.negated();
-            let sin = dot(b().zip(c()), budget)?.negated();
-            return (self.value(&aa) > self.least).then_some(Rule::Direction { sin, cos });
-        }
-        for (i, first) in rows.iter().enumerate() {
-            for second in &rows[..i] {
-                let budget = &mut self.budget;
-                let (r, s) = (first, second);
-                let determinant = cross([&r.a, &s.b, &s.a, &r.b], budget)?;
-                let cos = cross([&r.b, &s.c, &s.b, &r.c], budget)?;
-                let sin = cross([&r.c, &s.a, &s.c, &r.a], budget)?;
-                if self.value(&determinant).abs() <= self.least {
-                    continue;
-                }
-                if determinant.is_positive() {
-                    return Some(Rule::Direction { sin, cos });
-                }
-                if determinant.negated().is_positive() {
-                    let (sin, cos) = (sin.negated(), cos.negated());
-                    return Some(Rule::Direction { sin, cos });
-                }
-                let budget = &mut self.budget;
-                return Some(Rule::Direction {
-                    sin: sin.times(&determinant, budget)?,
-                    cos: cos.times(&determinant, budget)?,
-                });
-            }
-        }
-        None
     }
 
     /// Makes an unknown known.
@@ -455,21 +290,29 @@ impl<'a> Derivation<'a> {
         let whole = others.plus(&Wave::of_symbol(last, sign))?.angle();
         let zero =
             matches!(&rule, Rule::Direction { sin, cos } if sin.is_empty() && cos.is_positive());
+        let symbol = Letters(self.mechanism).local(self.angles as usize);
         if !zero {
-            let symbol = Letters(self.mechanism).local(self.angles as usize);
+            by = by.plus(&Wave::of_symbol(symbol, sign))?;
+        }
+        let mut budget = self.budget;
+        let mut changed = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            let rows = group.rows.iter();
+            let rows = rows.map(|row| row.with_angle(last, &by, &mut budget));
+            changed.push(rows.collect::<Option<Vec<_>>>()?);
+        }
+        self.budget = budget;
+        for (group, rows) in self.groups.iter_mut().zip(changed) {
+            group.rows = rows;
+        }
+        if !zero {
             self.angles += 1;
             self.values.push(self.value(&whole));
-            by = by.plus(&Wave::of_symbol(symbol, sign))?;
             let rule = self.written(&rule);
             let [whole] = self.expressions([&whole]);
             self.put(symbol, Some(whole), closure, rule);
         }
         self.unknown.remove(&last);
-        for group in &mut self.groups {
-            for row in &mut group.rows {
-                *row = row.with_angle(last, &by, &mut self.budget)?;
-            }
-        }
         self.pending.push((last, by, closure));
         Some(())
     }

@@ -137,15 +137,9 @@ impl ClosedSolution {
     /// Whether it gives every unknown of a question that is not overdetermined, and holds at a configuration.
     pub fn solves(&self, question: &Question, at: &Configuration<f64>) -> bool {
         let determined = self.is_complete() && check_count(question).is_ok();
-        determined && {
-            let (real, residual) = self.tried(question, at);
-            real > 0 && residual < CLOSED
-        }
+        determined && self.tried(question, at).0 > 0
     }
 }
-
-/// Residuals below this are those of rounding.
-const CLOSED: f64 = 1e-9;
 
 /// Below this part of its size a radicand is negative.
 const ROUNDING: f64 = 1e-12;
