@@ -263,9 +263,12 @@ impl Recorded {
         with(|list| list.negated(self).unwrap_or(self))
     }
 
-    /// The angle of the vector (x, y).
-    pub fn angle(y: Self, x: Self) -> Self {
-        with(|list| list.put(Operation::Angle(y.0, x.0)))
+    /// The angle of the vector (x, y), within half a turn of another.
+    pub fn angle(y: Self, x: Self, near: Self) -> Self {
+        with(|list| {
+            let angle = list.put(Operation::Angle(y.0, x.0));
+            list.put(Operation::Near(angle.0, near.0))
+        })
     }
 
     /// √x, and 0 where x is negative.

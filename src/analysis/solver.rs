@@ -71,7 +71,11 @@ pub fn solver(
         sample.len() + 6 * mechanism.platforms().len() + state.len(),
         0.0,
     );
-    let solution = ClosedSolution::of(question, at).ok();
+    // a platform to be found is not solved for in closed form
+    let joints = plan.state.iter().all(|of| matches!(of, Variable::Joint(_)));
+    let solution = joints
+        .then(|| ClosedSolution::of(question, at).ok())
+        .flatten();
     let solution = solution.filter(|solution| solution.solves(question, at));
     let (written, operations) = record(sample, || plan.write(solution.as_ref(), frames));
     let written = written?;

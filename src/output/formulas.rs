@@ -27,6 +27,13 @@ fn notes(report: &FormulasReport) -> Vec<String> {
             screw.name
         ));
     }
+    if report
+        .solution
+        .as_ref()
+        .is_some_and(|solution| !solution.steps.is_empty())
+    {
+        notes.push("Factors that are positive for these parameters are cancelled.".into());
+    }
     for left_out in &report.left_out {
         notes.push(format!(
             "Left out, as it is too long to be expanded: {left_out}."

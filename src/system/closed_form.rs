@@ -25,7 +25,7 @@ use crate::system::{HeldPlatform, Question};
 use derivation::Derivation;
 
 /// Products of two terms made at most.
-const MOST_PRODUCTS: usize = 200_000;
+const MOST_PRODUCTS: usize = 50_000;
 
 /// Residuals below this are those of rounding, in characteristic lengths and rad.
 const CLOSED: f64 = 1e-9;
@@ -67,6 +67,43 @@ pub enum Rule<E = Expression> {
     },
     /// An angle that is a sum of known ones.
     Sum(E),
+}
+
+impl<E> Rule<E> {
+    /// With something else for each of its formulas.
+    pub fn map<F>(&self, mut f: impl FnMut(&E) -> F) -> Rule<F> {
+        match self {
+            Rule::Direction { sin, cos } => Rule::Direction {
+                sin: f(sin),
+                cos: f(cos),
+            },
+            Rule::Projection { a, b, c } => Rule::Projection {
+                a: f(a),
+                b: f(b),
+                c: f(c),
+            },
+            Rule::Quadratic { a, b, c } => Rule::Quadratic {
+                a: f(a),
+                b: f(b),
+                c: f(c),
+            },
+            Rule::Linear { of, over } => Rule::Linear {
+                of: f(of),
+                over: f(over),
+            },
+            Rule::Sum(sum) => Rule::Sum(f(sum)),
+        }
+    }
+
+    /// Its formulas.
+    pub fn parts(&self) -> Vec<&E> {
+        match self {
+            Rule::Direction { sin, cos } => vec![sin, cos],
+            Rule::Projection { a, b, c } | Rule::Quadratic { a, b, c } => vec![a, b, c],
+            Rule::Linear { of, over } => vec![of, over],
+            Rule::Sum(sum) => vec![sum],
+        }
+    }
 }
 
 /// One formula.

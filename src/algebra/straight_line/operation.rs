@@ -1,5 +1,7 @@
 //! The operations of straight-line programs.
 
+use std::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Key, Place};
@@ -33,6 +35,8 @@ pub enum Operation {
     RootOrZero(Place),
     /// The angle of the vector (x, y), of y and x.
     Angle(Place, Place),
+    /// The angle x, whole turns on, within half a turn of y.
+    Near(Place, Place),
     /// −1 where x is negative, 1 elsewhere.
     Sign(Place),
 }
@@ -41,14 +45,17 @@ impl Operation {
     /// The places of its operands.
     pub fn operands(self) -> impl Iterator<Item = Place> {
         use Operation::{
-            Add, Angle, Constant, Cos, Divide, Input, Multiply, Negate, Root, RootOrZero, Sign,
-            Sin, Subtract,
+            Add, Angle, Constant, Cos, Divide, Input, Multiply, Near, Negate, Root, RootOrZero,
+            Sign, Sin, Subtract,
         };
         let both = match self {
             Constant(_) | Input(_) => [None, None],
-            Add(x, y) | Subtract(x, y) | Multiply(x, y) | Divide(x, y) | Angle(x, y) => {
-                [Some(x), Some(y)]
-            }
+            Add(x, y)
+            | Subtract(x, y)
+            | Multiply(x, y)
+            | Divide(x, y)
+            | Angle(x, y)
+            | Near(x, y) => [Some(x), Some(y)],
             Negate(x) | Root(x) | Sin(x) | Cos(x) | RootOrZero(x) | Sign(x) => [Some(x), None],
         };
         both.into_iter().flatten()
@@ -81,6 +88,7 @@ impl Operation {
             Operation::Cos(x) => Number::sin_cos(at(x)).1,
             Operation::RootOrZero(x) => at(x).max(0.0).sqrt(),
             Operation::Angle(y, x) => Number::atan2(at(y), at(x)),
+            Operation::Near(x, y) => at(x) + TAU * ((at(y) - at(x)) / TAU).round(),
             Operation::Sign(x) if at(x) < 0.0 => -1.0,
             Operation::Sign(_) => 1.0,
         }

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use num_bigint::BigInt;
 use num_rational::{BigRational, Ratio};
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::{Signed, ToPrimitive};
 
-use super::{Atom, Budget, Key, Trigonometric, Wave, constants};
+use super::{Atom, Budget, Key, Powers, Trigonometric, Wave, constants};
 
 /// Bits of the denominator of a decimal number as it is typed.
 const DIGITS: u64 = 60;
@@ -171,6 +171,41 @@ impl Trigonometric {
         kept
     }
 
+    /// The powers of some symbols that every term of all sums has.
+    pub fn common_factor(sums: &[&Self], of: &impl Fn(u32) -> bool) -> Powers {
+        let mut keys = sums.iter().flat_map(|sum| sum.terms.keys());
+        let Some(first) = keys.next() else {
+            return Powers::new();
+        };
+        let own = |(atom, power): &(Atom, i32)| {
+            *power > 0 && matches!(atom, Atom::Symbol(symbol) if of(*symbol))
+        };
+        let mut common: Powers = first.powers.iter().filter(|x| own(x)).cloned().collect();
+        for key in keys {
+            common.retain_mut(|(atom, power)| {
+                let other = key.powers.iter().find(|(other, _)| other == atom);
+                *power = other.map_or(0, |(_, other)| *other).min(*power);
+                *power > 0
+            });
+        }
+        common
+    }
+
+    /// Without powers that every term has.
+    pub fn over(&self, factor: &Powers) -> Self {
+        let mut quotient = Trigonometric::zero();
+        for (key, coefficient) in &self.terms {
+            let mut key = key.clone();
+            for (atom, power) in &mut key.powers {
+                let own = factor.iter().find(|(other, _)| other == atom);
+                *power -= own.map_or(0, |(_, power)| *power);
+            }
+            key.powers.retain(|(_, power)| *power != 0);
+            quotient.add_term(key, coefficient.clone());
+        }
+        quotient
+    }
+
     /// Whether it is positive whatever its letters are: a positive number, or a sum of such multiples of even powers.
     pub fn is_positive(&self) -> bool {
         let square = |key: &Key| {
@@ -179,10 +214,5 @@ impl Trigonometric {
         };
         let mut terms = self.terms.iter();
         !self.is_empty() && terms.all(|(key, c)| square(key) && c.is_positive())
-    }
-
-    /// Whether it is the number one.
-    pub fn is_one(&self) -> bool {
-        self.as_rational().is_some_and(|value| value.is_one())
     }
 }

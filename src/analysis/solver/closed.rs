@@ -19,9 +19,9 @@ struct Recorder {
 }
 
 impl Recorder {
-    fn divides(&mut self, by: Recorded) {
+    fn divides(&mut self, by: Recorded, part: f64) {
         if by.constant().is_none() {
-            self.divisors.push((by.place(), SMALL * by.real().abs()));
+            self.divisors.push((by.place(), part * by.real().abs()));
         }
     }
 }
@@ -41,17 +41,16 @@ impl Branching<Recorded> for Recorder {
         radicand.root_or_zero()
     }
 
-    /// x = x₀ + atan2(sin(x − x₀), cos(x − x₀)), which is as many turns as x₀ is.
     fn angle(&mut self, near: Recorded, sin: Recorded, cos: Recorded, norm: Recorded) -> Recorded {
-        self.divides(norm);
-        let (s, c) = near.sin_cos();
-        let turned = near + Recorded::angle(sin * c - cos * s, cos * c + sin * s);
-        turned.turned(sin / norm, cos / norm);
+        self.divides(sin * sin + cos * cos, SMALL * SMALL);
+        let turned = Recorded::angle(sin, cos, near);
+        let inverse = Recorded::one() / norm;
+        turned.turned(sin * inverse, cos * inverse);
         turned
     }
 
     fn quotient(&mut self, of: Recorded, over: Recorded) -> Recorded {
-        self.divides(over);
+        self.divides(over, SMALL);
         of / over
     }
 }

@@ -151,6 +151,7 @@ pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String
         Operation::Root(x) => format!("@own@root({})", name(x)),
         Operation::RootOrZero(x) => format!("@own@root_or_zero({})", name(x)),
         Operation::Angle(y, x) => format!("@own@angle({}, {})", name(y), name(x)),
+        Operation::Near(x, y) => format!("@own@nearest({}, {})", name(x), name(y)),
         Operation::Sign(x) => format!("@own@sign({})", name(x)),
         Operation::Constant(_) | Operation::Input(_) | Operation::Sin(_) | Operation::Cos(_) => {
             unreachable!("numbers have names of their own, and sines come with their cosines")

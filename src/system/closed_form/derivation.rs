@@ -317,29 +317,17 @@ impl<'a> Derivation<'a> {
         Some(())
     }
 
+    /// As expressions, without a factor that all formulas share: lengths that are positive in this mechanism.
     fn written(&self, rule: &Rule<Trigonometric>) -> Rule {
-        match rule {
-            Rule::Direction { sin, cos } => {
-                let [sin, cos] = self.expressions([sin, cos]);
-                Rule::Direction { sin, cos }
-            }
-            Rule::Projection { a, b, c } => {
-                let [a, b, c] = self.expressions([a, b, c]);
-                Rule::Projection { a, b, c }
-            }
-            Rule::Quadratic { a, b, c } => {
-                let [a, b, c] = self.expressions([a, b, c]);
-                Rule::Quadratic { a, b, c }
-            }
-            Rule::Linear { of, over } => {
-                let [of, over] = self.expressions([of, over]);
-                Rule::Linear { of, over }
-            }
-            Rule::Sum(sum) => {
-                let [sum] = self.expressions([sum]);
-                Rule::Sum(sum)
-            }
-        }
+        let length = |symbol: u32| {
+            let is_parameter = (symbol as usize) < self.mechanism.parameters().len();
+            is_parameter && self.values[symbol as usize] > 0.0
+        };
+        let factor = Trigonometric::common_factor(&rule.parts(), &length);
+        let rule = rule.map(|part| part.over(&factor));
+        let arranged = arrange(&rule.parts(), &|symbol| self.name(symbol));
+        let mut expressions = arranged.expressions.into_iter();
+        rule.map(|_| expressions.next().expect("one for each formula"))
     }
 }
 

@@ -10,7 +10,7 @@ use super::single::{Circular, Unknown, beside, cross, dot, polynomial};
 use crate::algebra::{ByUnknowns, Trigonometric, Wave};
 
 /// Beyond so many unknowns in the equations of one closure none of them is eliminated.
-const MOST_UNKNOWNS: usize = 5;
+const MOST_UNKNOWNS: usize = 4;
 
 impl Derivation<'_> {
     /// Equations without one or two of the unknowns of a group.
