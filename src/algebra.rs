@@ -27,7 +27,7 @@ pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
 pub use straight_line::{Operation, Place, Recorded, record};
 pub use symbolic::{Symbolic, with_letters};
-pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
+pub use trigonometric::{Atom, Budget, ByUnknowns, Key, Monomial, Powers, Trigonometric, Wave};
 pub(crate) use vocabulary::words;
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 

@@ -6,6 +6,7 @@
 //! [`question`](Question) says what is held, [`search`](Search) assembles, and [`curve`](Curve)
 //! follows one-parameter curves of configurations.
 
+mod closed_form;
 mod curve;
 mod enclosure;
 mod equations;
@@ -16,6 +17,7 @@ mod search;
 mod tangent;
 
 pub use crate::mechanism::{PointError, Value, ValueError};
+pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
     ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
     NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,

@@ -5,67 +5,18 @@
 //! subexpressions are shared), operations on constants are carried out, and sums with 0 and products with 0, 1 and −1
 //! are left out, so that structural zeros are recognised.
 
+mod operation;
+
 use std::cell::RefCell;
 
 use rustc_hash::FxHashMap;
-use serde::{Deserialize, Serialize};
 
 use crate::linear::{DenseOnly, Factorable};
 use crate::number::{Field, Number, functions, operators};
+pub use operation::Operation;
 
 /// A place in a list of operations.
 pub type Place = u32;
-
-/// One operation of a straight-line program; operands stand at lower places.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Operation {
-    /// A constant.
-    Constant(f64),
-    /// The input of that number.
-    Input(u32),
-    /// x + y
-    Add(Place, Place),
-    /// x − y
-    Subtract(Place, Place),
-    /// x y
-    Multiply(Place, Place),
-    /// x/y
-    Divide(Place, Place),
-    /// −x
-    Negate(Place),
-    /// √x
-    Root(Place),
-    /// sin x
-    Sin(Place),
-    /// cos x
-    Cos(Place),
-}
-
-impl Operation {
-    /// The places of its operands.
-    pub fn operands(self) -> impl Iterator<Item = Place> {
-        use Operation::{Add, Constant, Cos, Divide, Input, Multiply, Negate, Root, Sin, Subtract};
-        let both = match self {
-            Constant(_) | Input(_) => [None, None],
-            Add(x, y) | Subtract(x, y) | Multiply(x, y) | Divide(x, y) => [Some(x), Some(y)],
-            Negate(x) | Root(x) | Sin(x) | Cos(x) => [Some(x), None],
-        };
-        both.into_iter().flatten()
-    }
-
-    /// What makes two operations the same: constants by their bits.
-    fn key(self) -> Key {
-        let mut operands = self.operands().map(u64::from);
-        let first = match self {
-            Operation::Constant(x) => x.to_bits(),
-            Operation::Input(i) => u64::from(i),
-            _ => operands.next().unwrap_or(0),
-        };
-        let kind = std::mem::discriminant(&self);
-        (kind, first, operands.next().unwrap_or(0))
-    }
-}
 
 type Key = (std::mem::Discriminant<Operation>, u64, u64);
 
@@ -80,6 +31,8 @@ struct List {
     values: Vec<f64>,
     places: FxHashMap<Key, Place>,
     sample: Vec<f64>,
+    /// Angles whose sine and cosine are known.
+    turns: FxHashMap<Place, [Recorded; 2]>,
 }
 
 thread_local! {
@@ -105,19 +58,8 @@ impl List {
             return Recorded(place);
         }
         let place = self.operations.len() as Place;
-        let at = |x: Place| self.values[x as usize];
-        let value = match operation {
-            Operation::Constant(x) => x,
-            Operation::Input(i) => self.sample.get(i as usize).copied().unwrap_or(f64::NAN),
-            Operation::Add(x, y) => at(x) + at(y),
-            Operation::Subtract(x, y) => at(x) - at(y),
-            Operation::Multiply(x, y) => at(x) * at(y),
-            Operation::Divide(x, y) => at(x) / at(y),
-            Operation::Negate(x) => -at(x),
-            Operation::Root(x) => at(x).sqrt(),
-            Operation::Sin(x) => Number::sin_cos(at(x)).0,
-            Operation::Cos(x) => Number::sin_cos(at(x)).1,
-        };
+        let input = |i: u32| self.sample.get(i as usize).copied().unwrap_or(f64::NAN);
+        let value = operation.value(|x| self.values[x as usize], input);
         self.operations.push(operation);
         self.values.push(value);
         self.places.insert(operation.key(), place);
@@ -276,6 +218,9 @@ impl List {
             let (sin, cos) = Number::sin_cos(angle);
             return (self.literal(sin), self.literal(cos));
         }
+        if let Some(&[sin, cos]) = self.turns.get(&x.0) {
+            return (sin, cos);
+        }
         match self.negated(x) {
             Some(angle) => {
                 let (sin, cos) = self.sin_cos(angle);
@@ -316,6 +261,29 @@ impl Recorded {
     /// x or −x, whichever is written without a sign.
     pub fn unsigned(self) -> Self {
         with(|list| list.negated(self).unwrap_or(self))
+    }
+
+    /// The angle of the vector (x, y), within half a turn of another.
+    pub fn angle(y: Self, x: Self, near: Self) -> Self {
+        with(|list| {
+            let angle = list.put(Operation::Angle(y.0, x.0));
+            list.put(Operation::Near(angle.0, near.0))
+        })
+    }
+
+    /// √x, and 0 where x is negative.
+    pub fn root_or_zero(self) -> Self {
+        with(|list| list.put(Operation::RootOrZero(self.0)))
+    }
+
+    /// −1 where it is negative, 1 elsewhere.
+    pub fn sign(self) -> Self {
+        with(|list| list.put(Operation::Sign(self.0)))
+    }
+
+    /// Makes its sine and cosine known, so that they are not computed from it.
+    pub fn turned(self, sin: Self, cos: Self) {
+        with(|list| list.turns.insert(self.0, [sin, cos]));
     }
 
     /// A function that no closure equation uses: carried out on constants, not a number otherwise.

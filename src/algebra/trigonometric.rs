@@ -17,6 +17,7 @@
 
 mod constants;
 mod term;
+mod unknowns;
 mod value;
 
 use std::collections::BTreeMap;
@@ -29,6 +30,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::Function;
 pub(super) use constants::is_decimal;
 pub use term::{Atom, Key, Powers, Wave};
+pub use unknowns::{ByUnknowns, Monomial};
 
 /// A sum in normal form.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -3,6 +3,7 @@
 //! The one kinematics runs over letters; nothing is derived a second time.
 
 mod report;
+mod solution;
 
 use crate::algebra::{
     Budget, EvaluationError, Expression, Symbolic, Trigonometric, arrange, with_letters,
@@ -11,6 +12,7 @@ use crate::mechanism::{ClosureKind, Formal, Frame, JointKind, Letters, Mechanism
 use crate::number::Number;
 
 pub use report::*;
+pub use solution::solution;
 
 /// Terms of the longest formula that is printed.
 const MOST_TERMS: usize = 400;

@@ -3,12 +3,13 @@
 //!
 //! The one kinematics runs over recorded operations; nothing is derived a second time.
 
+mod closed;
 mod elimination;
 mod iteration;
 mod placing;
 mod report;
 
-pub use report::{Component, Divisor, FrameProgram, Solver};
+pub use report::{ClosedProgram, Component, Divisor, FrameProgram, Radicand, Solver};
 
 use crate::algebra::{Recorded, SiUnit, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
@@ -18,7 +19,7 @@ use crate::mechanism::{
 };
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{Coordinate, Held, HeldPlatform, Question, System, Unknown};
+use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, System, Unknown};
 use elimination::{Pivot, eliminate};
 use iteration::{Iteration, Rows, negated, numbered, places};
 
@@ -70,7 +71,13 @@ pub fn solver(
         sample.len() + 6 * mechanism.platforms().len() + state.len(),
         0.0,
     );
-    let (written, operations) = record(sample, || plan.write(frames));
+    // a platform to be found is not solved for in closed form
+    let joints = plan.state.iter().all(|of| matches!(of, Variable::Joint(_)));
+    let solution = joints
+        .then(|| ClosedSolution::of(question, at).ok())
+        .flatten();
+    let solution = solution.filter(|solution| solution.solves(question, at));
+    let (written, operations) = record(sample, || plan.write(solution.as_ref(), frames));
     let written = written?;
     let components = |variables: &[Variable], values: &[f64]| -> Vec<Component> {
         let all = variables.iter().zip(values);
@@ -239,7 +246,11 @@ impl<'a> Plan<'a> {
     }
 
     /// Writes everything; names, values and operations are filled in afterwards.
-    fn write(&self, frames: &[(String, Frame)]) -> Result<Solver, NoSolver> {
+    fn write(
+        &self,
+        solution: Option<&ClosedSolution>,
+        frames: &[(String, Frame)],
+    ) -> Result<Solver, NoSolver> {
         let (given, kept) = (self.inputs.len(), self.state.len());
         let inputs: Vec<Recorded> = (0..given).map(Recorded::input).collect();
         let state: Vec<Recorded> = (given..given + kept).map(Recorded::input).collect();
@@ -285,6 +296,7 @@ impl<'a> Plan<'a> {
                 .map(|variable| variable.of(&moved).place())
                 .collect(),
             placed: numbered(&iteration.placed),
+            closed: solution.and_then(|solution| self.closed(solution, &at)),
             frames: frames.collect(),
             ..Solver::default()
         })

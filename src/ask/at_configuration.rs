@@ -3,7 +3,7 @@
 use super::{AskError, Question, Role, Wrench};
 use crate::algebra::EvaluationError;
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
-use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
+use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
 use crate::analysis::statics::{StaticsReport, statics};
 use crate::analysis::velocity::{VelocityReport, velocity};
@@ -112,6 +112,20 @@ impl Question {
     /// If an expression of the file has no value in letters.
     pub fn formulas(&self, settings: &FormulasSettings) -> Result<FormulasReport, EvaluationError> {
         formulas(&self.mechanism, settings)
+    }
+
+    /// The unknowns in closed form, as far as they have one: solved in the assembly near the start, or that of the mode
+    /// asked for, which decides what vanishes.
+    ///
+    /// # Errors
+    /// If the question is wrong or nothing assembles.
+    pub fn solution(
+        &self,
+        watch: &Watch,
+    ) -> Result<Result<FormulasReport, EvaluationError>, AskError> {
+        let question = self.resolved()?.with_spins_still();
+        let at = self.start(&question, watch)?;
+        Ok(solution(&question, &at, self.seed))
     }
 
     pub(super) fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {

@@ -1,24 +1,31 @@
 //! `linkwork formulas`
 
 use clap::Args;
-use linkwork::analysis::formulas::{FormulasSettings, formulas};
+use linkwork::algebra::EvaluationError;
+use linkwork::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
+use linkwork::ask::Question;
 use linkwork::description::quoted;
 use linkwork::mechanism::Frame;
 use linkwork::output::complaint::Complaint;
 use linkwork::output::formulas as output;
 
+use super::asked::{self, Asked};
 use super::format::{Format, readable};
-use super::source::Source;
-use super::{Answer, Refusal, asked, lines};
+use super::source::{Loaded, Source};
+use super::{Answer, Refusal, lines};
 
 /// Write out transforms, closure equations and screw Jacobians in closed form.
 ///
 /// Without --of and --in: every link, every chain's tip in ground with its Jacobian, and every closure. Parameters stay
 /// symbols, except those given by --set, whose values are inserted.
+///
+/// With --solve: the unknowns in closed form for given held coordinates, as far as the loops can be solved one after
+/// another: planar linkages of dyads (Assur groups of class II), and legs whose platform is held. Every assembly is one
+/// combination of the signs, each +1 or -1. The formulas are checked by substitution into the closure equations.
 #[derive(Args)]
-#[command(
-    after_help = "Example: linkwork formulas mechanisms/puma560_modified.ron --of arm.3 --latex"
-)]
+#[command(after_help = "Examples:\n  \
+    linkwork formulas mechanisms/puma560_modified.ron --of arm.3 --latex\n  \
+    linkwork formulas mechanisms/four_bar.ron --solve")]
 pub struct Formulas {
     #[command(flatten)]
     source: Source,
@@ -28,6 +35,11 @@ pub struct Formulas {
     /// The frame it is seen from, `ground` if not given
     #[arg(long = "in", value_name = "FRAME")]
     relative_to: Option<String>,
+    /// Solve the closures for the unknowns in closed form
+    #[arg(long, conflicts_with_all = ["of", "ron"])]
+    solve: bool,
+    #[command(flatten)]
+    asked: Asked,
     /// Write LaTeX, displayed equations for amsmath or KaTeX
     #[arg(long, group = "script", conflicts_with = "format")]
     latex: bool,
@@ -47,6 +59,9 @@ pub struct Formulas {
 
 impl Formulas {
     pub fn run(&self) -> Result<Answer, Refusal> {
+        if self.solve {
+            return self.solved();
+        }
         let loaded = self.source.load()?;
         let named = |name: &Option<String>, option| {
             let frame = |name| asked::frame(&loaded.mechanism, name, option);
@@ -62,22 +77,39 @@ impl Formulas {
             numbers: loaded.set.clone(),
             ..FormulasSettings::default()
         };
-        let report = formulas(&loaded.mechanism, &settings).map_err(|error| {
-            let part = loaded.excerpt(&error.span);
-            let title = format!("`{part}` is too long to be multiplied out in letters");
-            Refusal::from(Complaint::new(title).help("give it a name among the parameters"))
-        })?;
-        let mut answer = loaded.answer(self.format, &report)?;
-        match (self.latex, self.ron, self.rust) {
-            (true, ..) => answer.data = output::latex(&report),
-            (_, true, _) => answer.data = output::ron(&report),
-            (_, _, true) => answer.data = output::rust(&report),
-            _ => {}
-        }
+        let report = formulas(&loaded.mechanism, &settings);
+        let report = report.map_err(|error| too_long(&loaded, &error))?;
+        let answer = self.written(&loaded, &report)?;
         let set = (!settings.numbers.is_empty()).then(|| {
             let set = quoted(&settings.numbers);
             format!("{set} set by --set, written out; other parameters are letters")
         });
         Ok(answer.after(lines("note", set)))
     }
+
+    fn solved(&self) -> Result<Answer, Refusal> {
+        let posed = self.asked.pose(&self.source)?;
+        let report = posed.ask(Question::solution)?;
+        let report = report.map_err(|error| too_long(&posed.loaded, &error))?;
+        self.written(&posed.loaded, &report)
+    }
+
+    fn written(&self, loaded: &Loaded, report: &FormulasReport) -> Result<Answer, Refusal> {
+        let mut answer = loaded.answer(self.format, report)?;
+        match (self.latex, self.ron, self.rust) {
+            (true, ..) => answer.data = output::latex(report),
+            (_, true, _) => answer.data = output::ron(report),
+            (_, _, true) => answer.data = output::rust(report),
+            _ => {}
+        }
+        Ok(answer)
+    }
+}
+
+fn too_long(loaded: &Loaded, error: &EvaluationError) -> Refusal {
+    let part = loaded.excerpt(&error.span);
+    let title = format!("`{part}` is too long to be multiplied out in letters");
+    Complaint::new(title)
+        .help("give it a name among the parameters")
+        .into()
 }

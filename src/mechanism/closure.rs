@@ -192,6 +192,16 @@ impl<T: Number> Closure<T> {
         all
     }
 
+    /// What vanishes besides where the axes point the same way: a·b − 1, or the trace − 3.
+    pub(crate) fn alignment(&self, placement: &Placement<T>) -> Option<T> {
+        let [a, b] = self.frames(placement);
+        match self.kind.conditions().axes {
+            AxisCondition::Free | AxisCondition::Perpendicular => None,
+            AxisCondition::Aligned => Some(misalignment(a, b).1 - T::from_f64(2.0)),
+            AxisCondition::Oriented => Some(disorientation(a, b).1 - T::from_f64(4.0)),
+        }
+    }
+
     #[inline(always)]
     fn no_rows(&self, a: &Pose<T>, b: &Pose<T>) -> Rows<T> {
         Rows::new(self.inverse_length, [a.position, b.position], self.kept)

@@ -3,9 +3,10 @@
 use super::closure::{Closure, EVERY_ROW};
 use super::dimensions::Dimensions;
 use super::kinematics::Kinematics;
-use super::{Frame, Mechanism};
+use super::{Configuration, Frame, Mechanism};
 use crate::algebra::{EvaluationError, Symbolic};
 use crate::geometry::{Pose, Rotation, Vector3};
+use crate::number::Number;
 
 /// The meaning of each symbol: parameters, joint variables, platform poses and local names, in this order.
 #[derive(Clone, Copy)]
@@ -69,15 +70,20 @@ impl Letters<'_> {
 
     /// The values of all letters but local names at home, in m and rad.
     pub fn values(&self) -> Vec<f64> {
-        let home = self.0.home();
-        let parameters = self.0.parameters().iter().map(|parameter| parameter.value);
-        let poses = home.platforms.iter().flat_map(|platform| {
+        self.values_at(&self.0.home())
+    }
+
+    /// The same elsewhere, over any number.
+    pub fn values_at<T: Number>(&self, at: &Configuration<T>) -> Vec<T> {
+        let parameters = self.0.parameters().iter();
+        let parameters = parameters.map(|parameter| T::from_f64(parameter.value));
+        let poses = at.platforms.iter().flat_map(|platform| {
             let pose = platform.pose();
             let columns = pose.rotation.0.into_iter().chain([pose.position]);
-            columns.flat_map(|column| column.0).collect::<Vec<f64>>()
+            columns.flat_map(|column| column.0).collect::<Vec<T>>()
         });
         parameters
-            .chain(home.joints.iter().copied())
+            .chain(at.joints.iter().copied())
             .chain(poses)
             .collect()
     }
@@ -217,6 +223,7 @@ impl<'a> Formal<'a> {
             gap: b.position - a.position,
             length: own.length + own.extension.at(&self.joints),
             conditions: closure.conditions(&placement, &self.joints),
+            alignment: closure.alignment(&placement),
         }
     }
 }
@@ -232,6 +239,8 @@ pub(crate) struct ClosureInLetters {
     pub gap: Vector3<Symbolic>,
     pub length: Symbolic,
     pub conditions: Vec<Symbolic>,
+    /// What vanishes besides where the axes point the same way.
+    pub alignment: Option<Symbolic>,
 }
 
 impl Mechanism {

@@ -14,7 +14,7 @@ pub(super) use notation::{Notation, Script};
 
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
-    ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
+    ClosureFormula, FormulasReport, JacobianFormula, Meaning, StepFormula, TransformFormula,
 };
 
 /// Sentences about what a reader might miss; none for most mechanisms.
@@ -26,6 +26,13 @@ fn notes(report: &FormulasReport) -> Vec<String> {
             "{} turns and slides at once: it occurs as an angle in sines and cosines, and times its pitch in lengths.",
             screw.name
         ));
+    }
+    if report
+        .solution
+        .as_ref()
+        .is_some_and(|solution| !solution.steps.is_empty())
+    {
+        notes.push("Factors that are positive for these parameters are cancelled.".into());
     }
     for left_out in &report.left_out {
         notes.push(format!(
@@ -89,6 +96,17 @@ fn parts(closure: &ClosureFormula) -> impl Iterator<Item = &Expression> {
     let distance = closure.distance.iter();
     let distance = distance.flat_map(|(gap, length)| gap.iter().chain([length]));
     closure.equations.iter().chain(distance)
+}
+
+/// The lines `name = value` of a step of a solution: coefficients, the sum that an angle is, its value.
+fn step_lines(notation: &Notation, step: &StepFormula) -> Vec<(String, String)> {
+    let with = step.with.iter();
+    let with = with.map(|(name, value)| (notation.name(name), notation.print(value)));
+    let name = notation.name(&step.name);
+    let angle = step.angle.iter().map(|angle| notation.print(angle));
+    let angle = angle.map(|angle| (name.clone(), angle));
+    let value = (name.clone(), notation.print(&step.value));
+    with.chain(angle).chain([value]).collect()
 }
 
 /// A name as it can stand in a comment: it may hold anything.

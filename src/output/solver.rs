@@ -41,8 +41,14 @@ impl Code {
             ("normalise", writer.normalise()),
             ("frames", writer.frames()),
             ("sine", self.precision.sine(language)),
+            ("closed", writer.closed()),
+            ("arctangent", self.precision.arctangent(language)),
         ];
-        let mut filled = language.template().to_owned();
+        let left_out = match solver.closed {
+            Some(_) => "iteration",
+            None => "closed form",
+        };
+        let mut filled = without(language.template(), left_out);
         for (name, section) in sections {
             filled = filled.replace(&format!("@{name}@\n"), &section);
         }
@@ -72,6 +78,13 @@ impl Code {
             ("@unknowns@", solver.unknowns),
             ("@rows@", solver.residual.len()),
             ("@frame_count@", solver.frames.len()),
+            (
+                "@signs@",
+                solver
+                    .closed
+                    .as_ref()
+                    .map_or(0, |closed| closed.signs.len()),
+            ),
         ];
         let text = counts.into_iter().fold(text, |text, (name, count)| {
             text.replace(name, &count.to_string())
@@ -125,6 +138,21 @@ impl Code {
             .map(|line| format!("{comment} {line}").trim_end().to_owned() + "\n");
         lines.collect()
     }
+}
+
+/// A template without the parts of one kind, which stand between `@only <kind>@` and `@end@`.
+fn without(template: &str, kind: &str) -> String {
+    let mut left_out = false;
+    let mut kept = String::with_capacity(template.len());
+    for line in template.lines() {
+        match line.strip_prefix("@only ") {
+            Some(of) => left_out = of.strip_suffix('@') == Some(kind),
+            None if line == "@end@" => left_out = false,
+            None if left_out => {}
+            None => kept += &format!("{line}\n"),
+        }
+    }
+    kept
 }
 
 /// A name on one line of a comment, which it cannot end.

@@ -150,7 +150,8 @@ impl Wave {
         Wave(parts.collect())
     }
 
-    fn plus(&self, other: &Wave) -> Option<Wave> {
+    /// The wave of the sum of two angles; `None` if a number grows too large.
+    pub fn plus(&self, other: &Wave) -> Option<Wave> {
         let sum = |k: &Ratio<i64>, l: &Ratio<i64>| k.checked_add(l).filter(is_small);
         merged(&self.0, &other.0, sum).map(Wave)
     }

@@ -23,6 +23,9 @@ pub struct FormulasReport {
     pub closures: Vec<ClosureFormula>,
     /// The screw Jacobians of the transforms.
     pub jacobians: Vec<JacobianFormula>,
+    /// The unknowns in closed form, if they were asked for.
+    #[serde(default)]
+    pub solution: Option<SolutionFormula>,
     /// What was left out because it would be too long.
     pub left_out: Vec<String>,
     /// Whether everything was simplified as far as it can be.
@@ -112,4 +115,55 @@ pub struct TwistFormula {
     pub velocity: [Expression; 3],
     /// Rotation rate: rad/s per rad/s or per m/s.
     pub omega: [Expression; 3],
+}
+
+/// The unknowns of a question in closed form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SolutionFormula {
+    /// What is held.
+    pub held: Vec<String>,
+    /// One formula after another; each uses what those before it give.
+    pub steps: Vec<StepFormula>,
+    /// Names of the signs, each +1 or −1: every combination that is real is an assembly.
+    pub signs: Vec<String>,
+    /// What these formulas do not solve; nothing if they solve everything.
+    pub remaining: Option<Remaining>,
+    /// How many combinations of signs are real where the question holds its inputs.
+    pub real: usize,
+    /// Solutions that were put into the closure equations, at these and at random inputs.
+    pub samples: usize,
+    /// The largest closure residual of them, in characteristic lengths and rad.
+    pub residual: f64,
+    /// Whether more is held than the mechanism has freedoms: what is held has to fit, and nothing was tried at random.
+    pub overdetermined: bool,
+}
+
+/// One formula of a solution.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepFormula {
+    /// The joint variable, or a name for an angle that is a sum of some.
+    pub name: String,
+    /// The sum that it is otherwise.
+    pub angle: Option<Expression>,
+    /// The closure from which it follows.
+    pub closure: String,
+    /// Names of coefficients, with what they stand for.
+    pub with: Vec<(String, Expression)>,
+    /// Its value, in rad or m.
+    pub value: Expression,
+    /// The name of its sign, if it has two values.
+    pub sign: Option<String>,
+    /// It is real where this is not negative.
+    pub real_where: Option<Expression>,
+}
+
+/// What is left of the closure equations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Remaining {
+    /// Closures that still contain unknowns.
+    pub closures: Vec<String>,
+    /// How many equations of them do.
+    pub equations: usize,
+    /// Joints and platforms that are not found.
+    pub unknowns: Vec<String>,
 }

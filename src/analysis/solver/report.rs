@@ -35,6 +35,28 @@ pub struct Divisor {
     pub scale: f64,
 }
 
+/// A number whose square root is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Radicand {
+    /// Its place.
+    pub place: Place,
+    /// The place of what it is small beside.
+    pub size: Place,
+}
+
+/// The state in closed form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosedProgram {
+    /// The places of the state.
+    pub state: Vec<Place>,
+    /// The places of the signs by which the nearest solution is chosen, in their order.
+    pub signs: Vec<Place>,
+    /// What must not be negative.
+    pub radicands: Vec<Radicand>,
+    /// What is divided by, and the size below which it is zero.
+    pub divisors: Vec<(Place, f64)>,
+}
+
 /// A solver as a straight-line program. Its inputs are numbered: what is held, then the state, then a step of the
 /// unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -64,6 +86,9 @@ pub struct Solver {
     pub moved: Vec<Place>,
     /// Components of the state that follow from the others, with their places.
     pub placed: Vec<(usize, Place)>,
+    /// The state in closed form, if it has one; then nothing is iterated.
+    #[serde(default)]
+    pub closed: Option<ClosedProgram>,
     /// Frames whose poses and twists are wanted.
     pub frames: Vec<FrameProgram>,
 }

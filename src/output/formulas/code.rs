@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::notation::plain_digit;
 use super::{notes, one_line, parts, rows};
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
-use crate::analysis::formulas::{ClosureFormula, FormulasReport, Letter, Meaning};
+use crate::analysis::formulas::{
+    ClosureFormula, FormulasReport, Letter, Meaning, SolutionFormula, StepFormula,
+};
 
 /// One function for each transform, closure and Jacobian; they need nothing but `f64`.
 pub fn rust(report: &FormulasReport) -> String {
@@ -50,7 +52,11 @@ pub fn rust(report: &FormulasReport) -> String {
             &rows,
         );
     }
-    text
+    text + &report
+        .solution
+        .iter()
+        .map(|of| writer.solution(of))
+        .collect::<String>()
 }
 
 /// Letters and identifiers for them: parameters, joints, platforms, each by name. Identifiers have letters and digits, none
@@ -176,6 +182,73 @@ impl Writer<'_> {
             &format!("Closure {}: {says}.", closure.name),
             &format!("[[f64; 1]; {}]", rows.len()),
             &rows,
+        )
+    }
+
+    /// One function that gives every joint variable, for signs of +1 or −1.
+    fn solution(&mut self, solution: &SolutionFormula) -> String {
+        let steps = &solution.steps;
+        let parts = |step: &'_ StepFormula| {
+            let with = step
+                .with
+                .iter()
+                .map(|(name, value)| (name.clone(), value.clone()));
+            with.chain([(step.name.clone(), step.value.clone())])
+                .collect::<Vec<_>>()
+        };
+        let found: BTreeSet<String> = steps.iter().flat_map(parts).map(|(name, _)| name).collect();
+        let all: Vec<(String, Expression)> = steps.iter().flat_map(parts).collect();
+        let used: BTreeSet<&String> = (all.iter())
+            .flat_map(|(_, value)| value.names())
+            .map(|(name, _)| name)
+            .filter(|name| !found.contains(*name))
+            .collect();
+        let signs = solution.signs.iter();
+        let given = self
+            .arguments
+            .iter()
+            .filter(|(letter, _)| used.contains(&(*letter).to_owned()));
+        let given = given.map(|(_, name)| format!("{name}: f64"));
+        let given: Vec<String> = given
+            .chain(signs.map(|sign| format!("{sign}: f64")))
+            .collect();
+        let (mut angles, mut lines) = (Angles::new(), String::new());
+        for step in steps {
+            for (name, value) in parts(step) {
+                let before = angles.len();
+                let code = spaced(&self.code(&value, &mut angles));
+                let mut new: Vec<_> = angles.iter().filter(|(_, (k, ..))| *k > before).collect();
+                new.sort_by_key(|(_, (k, ..))| *k);
+                for (angle, (k, ..)) in new {
+                    let angle = spaced(angle);
+                    lines += &format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n");
+                }
+                if name == step.name
+                    && let Some(real) = &step.real_where
+                {
+                    let real = spaced(&self.code(real, &mut angles));
+                    lines += &format!("    if {real} < 0.0 {{\n        return None;\n    }}\n");
+                }
+                lines += &format!(
+                    "    let {} = {code};\n",
+                    self.named(&Node::Name(name), &mut angles)
+                );
+            }
+        }
+        let names = steps.iter().filter(|step| step.angle.is_none());
+        let mut named =
+            |step: &StepFormula| self.named(&Node::Name(step.name.clone()), &mut angles);
+        let results: Vec<String> = names.map(&mut named).collect();
+        let name = unique("solution", &mut self.functions);
+        format!(
+            "\n/// {} for given {}; None where they are not real. Signs are 1.0 or -1.0.\n\
+             #[allow(clippy::all, non_snake_case, unused_variables)]\npub fn {name}({}) -> Option<[f64; {}]> {{\n{lines}    \
+             Some([{}])\n}}\n",
+            one_line(&results.join(", ")),
+            one_line(&solution.held.join(", ")),
+            given.join(", "),
+            results.len(),
+            results.join(", "),
         )
     }
 

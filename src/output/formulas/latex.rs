@@ -30,6 +30,14 @@ pub fn latex(report: &FormulasReport) -> String {
             text += &display(equations);
         }
     }
+    for step in report.solution.iter().flat_map(|solution| &solution.steps) {
+        text += &comment(&format!("{}, by closure {}", step.name, step.closure));
+        let lines = super::step_lines(&notation, step).into_iter();
+        let lines = lines.map(|(name, value)| format!("{name} &= {value}"));
+        let real = step.real_where.iter();
+        let real = real.map(|real| format!("0 &\\le {}", notation.print(real)));
+        text += &display(aligned(&lines.chain(real).collect::<Vec<_>>()));
+    }
     for jacobian in &report.jacobians {
         text += &display(jacobian_of(&notation, jacobian));
     }

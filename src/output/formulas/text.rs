@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::{Notation, Script, jacobian_rows, notes, parts, printed_rows, rows};
+use super::{Notation, Script, jacobian_rows, notes, parts, printed_rows, rows, step_lines};
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
-    ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
+    ClosureFormula, FormulasReport, JacobianFormula, Meaning, SolutionFormula, StepFormula,
+    TransformFormula,
 };
-use crate::description::count;
+use crate::description::{count, listed};
 use crate::output::document::{Document, Section};
 use crate::output::quantity::form;
 use crate::output::report::Report;
@@ -27,7 +28,16 @@ impl Report for FormulasReport {
         };
         let closures = self.closures.iter().map(|c| closure(&notation, c));
         let jacobians = self.jacobians.iter().map(|j| jacobian(&notation, j));
-        Document::new(&self.mechanism, "")
+        let solution = self.solution.iter();
+        let (answer, note) = match &self.solution {
+            Some(solution) => (answer(solution), checked(solution)),
+            None => (String::new(), None),
+        };
+        let steps = solution.flat_map(|solution| &solution.steps);
+        let steps = steps.map(|step| self::step(&notation, step));
+        Document::new(&self.mechanism, answer)
+            .notes(note)
+            .section(section("Solution", steps.collect()))
             .section(section("Links", transforms(&self.links)))
             .section(section("Transforms", transforms(&self.transforms)))
             .section(section("Closures", closures.collect()))
@@ -38,6 +48,61 @@ impl Report for FormulasReport {
             .section(Section::new("Notation").list(legend(&notation, self)))
             .section(Section::new("Remarks").list(notes(self)))
     }
+}
+
+/// What is solved, and what is not.
+fn answer(solution: &SolutionFormula) -> String {
+    let given = match &solution.held[..] {
+        [] => String::new(),
+        held => format!(" for given {}", listed(held)),
+    };
+    match (&solution.remaining, &solution.signs[..]) {
+        (Some(left), _) if left.equations == 0 => {
+            let stand = form(left.unknowns.len(), "stands", "stand");
+            format!("{} {stand} in no closure.", listed(&left.unknowns))
+        }
+        (Some(left), _) => {
+            let equations = count(left.equations, "equation");
+            let remain = form(left.equations, "remains", "remain");
+            let unknowns = listed(&left.unknowns);
+            format!("No closed form{given}: {equations} in {unknowns} {remain} coupled.")
+        }
+        (None, []) => format!("Solved in closed form{given}: one assembly."),
+        (None, signs) => {
+            let all = 2_u64.saturating_pow(signs.len() as u32);
+            let signs = count(signs.len(), "sign");
+            let real = match solution.real as u64 {
+                real if real == all => "all of them real here".to_owned(),
+                real => format!("{real} of them real here"),
+            };
+            format!("Solved in closed form{given}: {signs}, so at most {all} assemblies, {real}.")
+        }
+    }
+}
+
+fn checked(solution: &SolutionFormula) -> Option<String> {
+    let solved = count(solution.samples, "solution");
+    let inputs = match solution.overdetermined {
+        true => "; more is held than there are freedoms, so what is held has to fit",
+        false => ", at these and at random inputs",
+    };
+    let residual = solution.residual;
+    let text = format!(
+        "put into the closure equations: {solved}{inputs}; largest residual {residual:.1e} characteristic lengths or rad"
+    );
+    solution.remaining.is_none().then_some(text)
+}
+
+fn step(notation: &Notation, step: &StepFormula) -> String {
+    let lines: Vec<String> = (step_lines(notation, step).into_iter())
+        .map(|(name, value)| format!("  {name} = {value}\n"))
+        .collect();
+    let real = step.real_where.iter();
+    let real = real.map(|real| format!("  real where {} ≥ 0\n", notation.print(real)));
+    let title = notation.name(&step.name);
+    let closure = &step.closure;
+    let real: String = real.collect();
+    format!("{title}, by closure {closure}\n{}{real}", lines.concat())
 }
 
 fn transform(notation: &Notation, transform: &TransformFormula) -> String {
@@ -146,7 +211,12 @@ fn expressions(report: &FormulasReport) -> impl Iterator<Item = &Expression> {
     let closures = report.closures.iter().flat_map(parts);
     let columns = report.jacobians.iter().flat_map(|of| &of.columns);
     let columns = columns.flat_map(|column| column.velocity.iter().chain(&column.omega));
-    transforms.chain(closures).chain(columns)
+    let steps = report.solution.iter().flat_map(|solution| &solution.steps);
+    let steps = steps.flat_map(|step| {
+        let with = step.with.iter().map(|(_, value)| value);
+        with.chain(&step.angle).chain([&step.value])
+    });
+    transforms.chain(closures).chain(columns).chain(steps)
 }
 
 /// What the shorthands stand for.

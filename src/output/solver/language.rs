@@ -81,14 +81,29 @@ impl Language {
 
     /// Gives up, in a function that says whether it came to an end.
     pub(super) fn gives_up_if(self, condition: &str) -> String {
+        self.returns_if("@no@", condition)
+    }
+
+    /// Returns a value.
+    pub(super) fn returns_if(self, value: &str, condition: &str) -> String {
         match self {
-            Language::C => format!("if ({condition}) return @no@;\n"),
-            Language::Rust => format!("if {condition} {{ return @no@; }}\n"),
+            Language::C => format!("if ({condition}) return {value};\n"),
+            Language::Rust => format!("if {condition} {{ return {value}; }}\n"),
+        }
+    }
+
+    /// A sign that is given, or chosen.
+    pub(super) fn sign(self, number: usize, chosen: &str) -> String {
+        match self {
+            Language::C => format!("signs ? signs[{number}] : {chosen}"),
+            Language::Rust => {
+                format!("match signs {{ Some(signs) => signs[{number}], None => {chosen} }}")
+            }
         }
     }
 
     /// The words of the templates and of lines written, each in C and in Rust.
-    fn words(self) -> [(&'static str, &'static str); 10] {
+    fn words(self) -> [(&'static str, &'static str); 12] {
         [
             ("@let@", "const @real@", "let"),
             ("@var@", "@real@", "let mut"),
@@ -98,6 +113,8 @@ impl Language {
             ("@shut@", "}", "]"),
             ("@yes@", "1", "true"),
             ("@no@", "0", "false"),
+            ("@undetermined@", "@NAME@_SINGULAR", "Verdict::Singular"),
+            ("@apart@", "@NAME@_NOT_ASSEMBLED", "Verdict::NotAssembled"),
             ("@fabs@", "fabs@f@", "absolute"),
             ("@sqrt@", "sqrt@f@", "root"),
         ]
@@ -132,11 +149,17 @@ pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String
         Operation::Divide(x, y) => format!("{} / {}", name(x), name(y)),
         Operation::Negate(x) => format!("-{}", name(x)),
         Operation::Root(x) => format!("@own@root({})", name(x)),
+        Operation::RootOrZero(x) => format!("@own@root_or_zero({})", name(x)),
+        Operation::Angle(y, x) => format!("@own@angle({}, {})", name(y), name(x)),
+        Operation::Near(x, y) => format!("@own@nearest({}, {})", name(x), name(y)),
+        Operation::Sign(x) => format!("@own@sign({})", name(x)),
         Operation::Constant(_) | Operation::Input(_) | Operation::Sin(_) | Operation::Cos(_) => {
             unreachable!("numbers have names of their own, and sines come with their cosines")
         }
     }
 }
+
+type Series = &'static [f64];
 
 impl Precision {
     /// A constant.
@@ -197,9 +220,51 @@ impl Precision {
         words.chain([("@real@", real), ("@f@", suffix)])
     }
 
+    /// Σ cₖ zᵏ in pairs, by w = z²: more at once than one after the other.
+    fn series(self, of: Series, language: Language) -> String {
+        let number = |x: f64| self.operand(x, language);
+        let pairs = of.chunks(2).map(|pair| match pair {
+            [x, y] => format!("({} + z * {})", number(*x), number(*y)),
+            rest => number(rest[0]),
+        });
+        let pairs: Vec<String> = pairs.collect();
+        let sum = pairs.into_iter().rev();
+        sum.reduce(|sum, pair| format!("({pair} + w * {sum})"))
+            .unwrap_or_default()
+    }
+
+    /// The angle a of a tangent t, |t| ≤ √2 − 1.
+    pub(super) fn arctangent(self, language: Language) -> String {
+        // (atan t − t)/t³ by powers of t²
+        let series: Series = match self {
+            Precision::Double => &[
+                -3.333_333_333_333_293e-1,
+                1.999_999_999_987_648_3e-1,
+                -1.428_571_427_250_346_6e-1,
+                1.111_111_040_546_235_6e-1,
+                -9.090_887_133_436_507e-2,
+                7.691_876_205_044_83e-2,
+                -6.661_073_137_387_531e-2,
+                5.833_570_133_790_573_5e-2,
+                -4.976_877_994_615_932e-2,
+                3.653_157_274_421_691_6e-2,
+                -1.628_582_011_536_578_2e-2,
+            ],
+            Precision::Single => &[
+                -3.333_294_915_39e-1,
+                1.997_771_064_78e-1,
+                -1.387_768_560_32e-1,
+                8.053_744_495_38e-2,
+            ],
+        };
+        let sum = format!("t + t * z * {}", self.series(series, language));
+        [bound("z", "t * t"), bound("w", "z * z"), bound("a", &sum)]
+            .map(|line| format!("    {line}"))
+            .concat()
+    }
+
     /// Sine s and cosine c of the rest r of an angle x beyond k quarter turns, |r| ≤ π/4.
     pub(super) fn sine(self, language: Language) -> String {
-        type Series = &'static [f64];
         // π/2 in three parts, the first two with zeros in their last bits, so that products with k are exact; then
         // (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ by powers of r²
         let (parts, sine, cosine): ([f64; 3], Series, Series) = match self {
@@ -241,17 +306,7 @@ impl Precision {
             ),
         };
         let number = |x: f64| self.operand(x, language);
-        let series = |of: Series| -> String {
-            // in pairs, by w = z²: more at once than one after the other
-            let pairs = of.chunks(2).map(|pair| match pair {
-                [x, y] => format!("({} + z * {})", number(*x), number(*y)),
-                rest => number(rest[0]),
-            });
-            let pairs: Vec<String> = pairs.collect();
-            let sum = pairs.into_iter().rev();
-            sum.reduce(|sum, pair| format!("({pair} + w * {sum})"))
-                .unwrap_or_default()
-        };
+        let series = |of: Series| self.series(of, language);
         let [p, q, s] = parts.map(number);
         let half = self.literal(0.5, language);
         let one = self.literal(1.0, language);

@@ -1,5 +1,7 @@
 //! The straight-line parts of a solver.
 
+mod closed;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::language::{bound, larger, operation, variable};
@@ -355,6 +357,10 @@ impl Text<'_, '_> {
                 }
                 of => {
                     let value = operation(of, &name);
+                    let value = match writer.sign_of(place) {
+                        Some(number) => writer.code.language.sign(number, &value),
+                        None => value,
+                    };
                     self.line(&bound(&name(place), &value));
                 }
             }

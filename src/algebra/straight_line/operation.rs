@@ -1,0 +1,96 @@
+//! The operations of straight-line programs.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Key, Place};
+use crate::number::Number;
+
+/// One operation of a straight-line program; operands stand at lower places.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Operation {
+    /// A constant.
+    Constant(f64),
+    /// The input of that number.
+    Input(u32),
+    /// x + y
+    Add(Place, Place),
+    /// x − y
+    Subtract(Place, Place),
+    /// x y
+    Multiply(Place, Place),
+    /// x/y
+    Divide(Place, Place),
+    /// −x
+    Negate(Place),
+    /// √x
+    Root(Place),
+    /// sin x
+    Sin(Place),
+    /// cos x
+    Cos(Place),
+    /// √x, and 0 where x is negative.
+    RootOrZero(Place),
+    /// The angle of the vector (x, y), of y and x.
+    Angle(Place, Place),
+    /// The angle x, whole turns on, within half a turn of y.
+    Near(Place, Place),
+    /// −1 where x is negative, 1 elsewhere.
+    Sign(Place),
+}
+
+impl Operation {
+    /// The places of its operands.
+    pub fn operands(self) -> impl Iterator<Item = Place> {
+        use Operation::{
+            Add, Angle, Constant, Cos, Divide, Input, Multiply, Near, Negate, Root, RootOrZero,
+            Sign, Sin, Subtract,
+        };
+        let both = match self {
+            Constant(_) | Input(_) => [None, None],
+            Add(x, y)
+            | Subtract(x, y)
+            | Multiply(x, y)
+            | Divide(x, y)
+            | Angle(x, y)
+            | Near(x, y) => [Some(x), Some(y)],
+            Negate(x) | Root(x) | Sin(x) | Cos(x) | RootOrZero(x) | Sign(x) => [Some(x), None],
+        };
+        both.into_iter().flatten()
+    }
+
+    /// What makes two operations the same: constants by their bits.
+    pub(super) fn key(self) -> Key {
+        let mut operands = self.operands().map(u64::from);
+        let first = match self {
+            Operation::Constant(x) => x.to_bits(),
+            Operation::Input(i) => u64::from(i),
+            _ => operands.next().unwrap_or(0),
+        };
+        let kind = std::mem::discriminant(&self);
+        (kind, first, operands.next().unwrap_or(0))
+    }
+
+    /// Its value, from those of its operands and of the inputs.
+    pub(super) fn value(self, at: impl Fn(Place) -> f64, input: impl Fn(u32) -> f64) -> f64 {
+        match self {
+            Operation::Constant(x) => x,
+            Operation::Input(i) => input(i),
+            Operation::Add(x, y) => at(x) + at(y),
+            Operation::Subtract(x, y) => at(x) - at(y),
+            Operation::Multiply(x, y) => at(x) * at(y),
+            Operation::Divide(x, y) => at(x) / at(y),
+            Operation::Negate(x) => -at(x),
+            Operation::Root(x) => at(x).sqrt(),
+            Operation::Sin(x) => Number::sin_cos(at(x)).0,
+            Operation::Cos(x) => Number::sin_cos(at(x)).1,
+            Operation::RootOrZero(x) => at(x).max(0.0).sqrt(),
+            Operation::Angle(y, x) => Number::atan2(at(y), at(x)),
+            Operation::Near(x, y) => at(x) + TAU * ((at(y) - at(x)) / TAU).round(),
+            Operation::Sign(x) if at(x) < 0.0 => -1.0,
+            Operation::Sign(_) => 1.0,
+        }
+    }
+}

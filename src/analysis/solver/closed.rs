@@ -1,0 +1,80 @@
+//! The state in closed form, where the closures can be solved one after another.
+
+use super::Plan;
+use super::report::{ClosedProgram, Radicand};
+use crate::algebra::{Place, Recorded};
+use crate::mechanism::Configuration;
+use crate::number::Number;
+use crate::system::{Branching, ClosedSolution};
+
+/// A number is zero below this part of its value at the start.
+const SMALL: f64 = 1e-9;
+
+/// Writes down what must hold where formulas are evaluated.
+#[derive(Default)]
+struct Recorder {
+    signs: Vec<Place>,
+    radicands: Vec<Radicand>,
+    divisors: Vec<(Place, f64)>,
+}
+
+impl Recorder {
+    fn divides(&mut self, by: Recorded, part: f64) {
+        if by.constant().is_none() {
+            self.divisors.push((by.place(), part * by.real().abs()));
+        }
+    }
+}
+
+impl Branching<Recorded> for Recorder {
+    fn sign(&mut self, slope: Recorded) -> Recorded {
+        let sign = slope.sign();
+        self.signs.push(sign.place());
+        sign
+    }
+
+    fn root(&mut self, radicand: Recorded, size: Recorded) -> Recorded {
+        self.radicands.push(Radicand {
+            place: radicand.place(),
+            size: size.place(),
+        });
+        radicand.root_or_zero()
+    }
+
+    fn angle(&mut self, near: Recorded, sin: Recorded, cos: Recorded, norm: Recorded) -> Recorded {
+        self.divides(sin * sin + cos * cos, SMALL * SMALL);
+        let turned = Recorded::angle(sin, cos, near);
+        let inverse = Recorded::one() / norm;
+        turned.turned(sin * inverse, cos * inverse);
+        turned
+    }
+
+    fn quotient(&mut self, of: Recorded, over: Recorded) -> Recorded {
+        self.divides(over, SMALL);
+        of / over
+    }
+}
+
+impl Plan<'_> {
+    /// The state in closed form, near the given one.
+    pub(super) fn closed(
+        &self,
+        solution: &ClosedSolution,
+        at: &Configuration<Recorded>,
+    ) -> Option<ClosedProgram> {
+        let mut recorder = Recorder::default();
+        let found = solution.solve(self.mechanism, at, &mut recorder).ok()?;
+        let Recorder {
+            signs,
+            radicands,
+            divisors,
+        } = recorder;
+        let state = self.state.iter();
+        Some(ClosedProgram {
+            state: state.map(|variable| variable.of(&found).place()).collect(),
+            signs,
+            radicands,
+            divisors,
+        })
+    }
+}

@@ -1,0 +1,174 @@
+//! The formulas over numbers.
+
+use std::collections::BTreeMap;
+
+use super::{ClosedSolution, Rule};
+use crate::algebra::{EvaluationError, Expression};
+use crate::mechanism::{Configuration, Letters, Mechanism};
+use crate::number::Number;
+use crate::solve::Equations;
+use crate::system::{Question, System, check_count};
+
+/// How the two solutions of a step are told apart, and what becomes of its numbers.
+pub trait Branching<T> {
+    /// The sign of the next step that has two solutions; `slope` is that of its equation at the value nearby, by which the nearer
+    /// one is chosen.
+    fn sign(&mut self, slope: T) -> T;
+
+    /// √radicand, which is real if it is not negative; `size` is what it is small beside.
+    fn root(&mut self, radicand: T, size: T) -> T;
+
+    /// The angle near a value of given sine and cosine, both times `norm`; it is undetermined where `norm` is small beside `size`.
+    fn angle(&mut self, near: T, sin: T, cos: T, norm: T) -> T;
+
+    /// of/over
+    fn quotient(&mut self, of: T, over: T) -> T;
+}
+
+impl ClosedSolution {
+    /// The joint variables for what is held in `at`; those to be found are near those in `at`.
+    ///
+    /// # Errors
+    /// If a formula has no value there.
+    pub fn solve<T: Number>(
+        &self,
+        mechanism: &Mechanism,
+        at: &Configuration<T>,
+        branching: &mut impl Branching<T>,
+    ) -> Result<Configuration<T>, EvaluationError> {
+        let letters = Letters(mechanism);
+        let values = letters.values_at(at).into_iter().enumerate();
+        let named = values.map(|(symbol, value)| (letters.name(symbol as u32), value));
+        // those to be found hold the values nearby until they are
+        let mut named: BTreeMap<String, T> = named.collect();
+        let mut found = at.clone();
+        for step in &self.steps {
+            let value_of = |e: &Expression| e.evaluate(&|name: &String| named[name]);
+            let near = match &step.angle {
+                Some(angle) => value_of(angle)?,
+                None => named[&step.name],
+            };
+            let value = match &step.rule {
+                Rule::Sum(sum) => value_of(sum)?,
+                Rule::Linear { of, over } => branching.quotient(value_of(of)?, value_of(over)?),
+                Rule::Direction { sin, cos } => {
+                    let (sin, cos) = (value_of(sin)?, value_of(cos)?);
+                    branching.angle(near, sin, cos, (sin * sin + cos * cos).sqrt())
+                }
+                Rule::Projection { a, b, c } => {
+                    // cos x = (a c ∓ b √(h² − c²))/h², sin x = (b c ± a √(h² − c²))/h² with h² = a² + b²
+                    let (a, b, c) = (value_of(a)?, value_of(b)?, value_of(c)?);
+                    let square = a * a + b * b;
+                    let root = branching.root(square - c * c, square);
+                    let (sin, cos) = near.sin_cos();
+                    let root = branching.sign(a * sin - b * cos) * root;
+                    branching.angle(near, b * c + a * root, a * c - b * root, square)
+                }
+                Rule::Quadratic { a, b, c } => {
+                    let (a, b, c) = (value_of(a)?, value_of(b)?, value_of(c)?);
+                    let half = b.scale(0.5);
+                    let (square, product) = (half * half, a * c);
+                    let size = (square * square + product * product).sqrt();
+                    let root = branching.root(square - product, size);
+                    let sign = branching.sign(a * near + half);
+                    branching.quotient(sign * root - half, a)
+                }
+            };
+            named.insert(step.name.clone(), value);
+            if let Some(joint) = step.joint {
+                found.joints[joint] = value;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The joint variables with given signs of the steps that have two solutions; `None` if they are not real, or not
+    /// determined.
+    pub fn branch(
+        &self,
+        mechanism: &Mechanism,
+        at: &Configuration<f64>,
+        signs: &[bool],
+    ) -> Option<Configuration<f64>> {
+        let mut signed = Signed {
+            signs: signs.iter(),
+            real: true,
+        };
+        let found = self.solve(mechanism, at, &mut signed).ok()?;
+        signed.real.then_some(found)
+    }
+
+    /// All real solutions, each with its signs.
+    pub fn branches(
+        &self,
+        mechanism: &Mechanism,
+        at: &Configuration<f64>,
+    ) -> Vec<(Vec<bool>, Configuration<f64>)> {
+        let signs = self.signs();
+        let all = (0_u64..1 << signs.min(20)).filter_map(|number| {
+            let signs: Vec<bool> = (0..signs).map(|i| number >> i & 1 == 0).collect();
+            let found = self.branch(mechanism, at, &signs)?;
+            Some((signs, found))
+        });
+        all.collect()
+    }
+}
+
+impl ClosedSolution {
+    /// How many branches are real for the held values of a configuration, and the largest closure residual of them, in
+    /// characteristic lengths and rad.
+    pub fn tried(&self, question: &Question, inputs: &Configuration<f64>) -> (usize, f64) {
+        let mechanism = question.mechanism();
+        let held = question.held_coordinates().into_iter();
+        let values: Vec<_> = held.map(|c| (c, c.of(inputs))).collect();
+        let there = question.clone().near(inputs).at_values(values).start();
+        let branches = self.branches(mechanism, &there);
+        let system = System::new(mechanism.dimensions(), &question.held());
+        let mut work = system.work();
+        let mut largest = 0.0_f64;
+        for (_, found) in &branches {
+            system.residual(found, &mut work);
+            let rows = system.residual_of(&work).iter();
+            largest = rows.fold(largest, |most, row| most.max(row.abs()));
+        }
+        (branches.len(), largest)
+    }
+
+    /// Whether it gives every unknown of a question that is not overdetermined, and holds at a configuration.
+    pub fn solves(&self, question: &Question, at: &Configuration<f64>) -> bool {
+        let determined = self.is_complete() && check_count(question).is_ok();
+        determined && self.tried(question, at).0 > 0
+    }
+}
+
+/// Below this part of its size a radicand is negative.
+const ROUNDING: f64 = 1e-12;
+
+struct Signed<'s> {
+    signs: std::slice::Iter<'s, bool>,
+    real: bool,
+}
+
+impl Branching<f64> for Signed<'_> {
+    fn sign(&mut self, _: f64) -> f64 {
+        match self.signs.next() {
+            Some(false) => -1.0,
+            _ => 1.0,
+        }
+    }
+
+    fn root(&mut self, radicand: f64, size: f64) -> f64 {
+        self.real &= radicand >= -ROUNDING * size;
+        radicand.max(0.0).sqrt()
+    }
+
+    fn angle(&mut self, _: f64, sin: f64, cos: f64, norm: f64) -> f64 {
+        self.real &= norm > 0.0;
+        sin.atan2(cos)
+    }
+
+    fn quotient(&mut self, of: f64, over: f64) -> f64 {
+        self.real &= over != 0.0;
+        of / over
+    }
+}
