@@ -194,9 +194,9 @@ impl Mechanism {
     }
 }
 
-/// How far the bases of chains on the ground are from the origin, or where a part of the mechanism stands aside of it from
-/// the place nearest to the origin in the box round all its bases: where a drawing has its origin, and how far parts are
-/// apart that have nothing to do with one another, is no dimension.
+/// How far the bases of chains on the ground are from the origin; where those of one part of the mechanism all lie to one
+/// side of it, from the nearest place of the box round them. Where a drawing has its origin is no dimension, nor how far
+/// apart parts are that have nothing to do with one another.
 fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64> {
     let chains = &dimensions.chains;
     let platform = |platform: usize| Some(chains.len() + platform);

@@ -129,7 +129,7 @@ fn solve_and_sweep_say_how_far_a_guess_moved_too() {
             assert!((distance - off).abs() < 1e-9, "{off}: {moved:?}");
         }
         for (answer, all) in [
-            (solution.document().answer, said(&solution)),
+            (solution.document().answer, said(&*solution)),
             (motions.document().answer, said(&motions)),
         ] {
             assert_eq!(answer.starts_with(far), first, "{answer}");
