@@ -285,7 +285,10 @@ fn camber_and_toe_over_wheel_travel_are_those_of_the_orientation() {
         // the second column of Rz(yaw) Ry(pitch) Rx(roll)
         let axis = [cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr];
         assert!((camber[row] + axis[2].asin()).abs() < 1e-10, "{row}");
-        assert!((toe[row] - (-axis[0]).atan2(axis[1])).abs() < 1e-10, "{row}");
+        assert!(
+            (toe[row] - (-axis[0]).atan2(axis[1])).abs() < 1e-10,
+            "{row}"
+        );
     }
     let [first, last] = [travel[0], travel[20]];
     assert!((first - 0.175).abs() < 1e-12 && (last - 0.255).abs() < 1e-12);
