@@ -273,7 +273,7 @@ pub enum AskError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unmeasured {
     /// It depends on what is driven, and nothing is.
-    #[error("it depends on how the inputs move, and the motion has none")]
+    #[error("it depends on how the inputs move, and none moves")]
     NoInput,
     /// The coordinate is not held, so that no force holds it.
     #[error("`{name}` is not held, so no force holds it")]

@@ -109,7 +109,7 @@ fn identifier(path: &std::path::Path) -> String {
 fn complaint(none: &NoSolver) -> Complaint {
     match none {
         NoSolver::NothingUnknown => {
-            Complaint::new("there is nothing to solve: what is held determines every frame")
+            Complaint::new("there is nothing to solve: the held coordinates determine every frame")
                 .help("`linkwork formulas --rust` writes the frames as functions")
         }
         NoSolver::NothingHeld => {

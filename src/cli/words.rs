@@ -105,7 +105,7 @@ pub fn complaint(
                 Ranged::Input => {
                     let from = written.split("..").next().unwrap_or_default();
                     let from = quoted(from.trim());
-                    format!("for one configuration ask `linkwork solve`, with --hold {name}={from}")
+                    format!("for one configuration use `linkwork solve` with --hold {name}={from}")
                 }
                 Ranged::Locus | Ranged::Map | Ranged::Vary => {
                     "write the lower end first; for one value hold it with --hold".into()
@@ -163,7 +163,7 @@ pub fn complaint(
             }
             _ => said.help("hold other coordinates"),
         },
-        AskError::NotAssembled { .. } => said.help("`linkwork solve` says how near it comes"),
+        AskError::NotAssembled { .. } => said.help("`linkwork solve` shows the closest approach"),
         AskError::NothingToDrive => said.help(
             "hold the driven joints with --hold; `linkwork mobility` shows whether a mechanism without \
              freedoms is infinitesimally flexible",
@@ -176,7 +176,7 @@ pub fn complaint(
             }
         )),
         AskError::Axes(0) => {
-            let help = "say which coordinates, and from where to where, e.g.";
+            let help = "give the coordinates and their ranges, e.g.";
             said.help(format!("{help} {}", mappable(mechanism)))
         }
         AskError::Axes(_) => said.help("hold the others with --hold"),
@@ -188,7 +188,7 @@ pub fn complaint(
             said.help("give one number for all coordinates or one for each, e.g. --grid 60,40")
         }
         AskError::TooFine { .. } | AskError::TooMany { .. } => said.help(COARSER),
-        AskError::TooLarge { .. } => said.help("ask about a part of it"),
+        AskError::TooLarge { .. } => said.help("analyse a part of it"),
         _ => said,
     }
 }
@@ -205,14 +205,14 @@ pub fn no_range(ranged: Ranged, name: &str) -> Complaint {
 /// A number of steps that is none, or too many.
 pub fn steps(given: usize, most: usize, rows_kept: bool) -> Complaint {
     match given {
-        0 => Complaint::new("a motion in no steps has no rows").help(
-            "give at least one step, e.g. --steps 100; for one configuration ask `linkwork solve`",
+        0 => Complaint::new("a motion needs at least one step").help(
+            "for example --steps 100; for one configuration use `linkwork solve`",
         ),
         _ if rows_kept => Complaint::new(format!(
-            "{given} steps are too many to keep: up to {most} are"
+            "{given} steps are too many to keep in memory: at most {most} are possible"
         ))
         .help("write rows as they come with --format csv"),
-        _ => Complaint::new(format!("{given} steps are too many: up to {most} are made")).help(
+        _ => Complaint::new(format!("{given} steps are too many: at most {most} are possible")).help(
             "dead points and crossings between the rows are located exactly, however long the steps are",
         ),
     }
@@ -286,9 +286,7 @@ pub fn table(path: &std::path::Path, error: &TableError) -> Complaint {
         TableErrorKind::NoTime(_) => "begin with a column `time (s)`".into(),
         TableErrorKind::Unknown { suggestion, .. } => match suggestion {
             Some(meant) => format!("did you mean `{meant}`?"),
-            None => {
-                "name joints or coordinates of platforms, with their units: `theta1 (deg)`".into()
-            }
+            None => "name joints or coordinates, with their units, e.g. `theta1 (deg)`".into(),
         },
         TableErrorKind::Twice(_) => "give each input one column".into(),
         TableErrorKind::Gap(_) => {

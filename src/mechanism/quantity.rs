@@ -208,21 +208,24 @@ impl Measured {
             name: name.into(),
             suggestion: suggestion(mechanism, name),
         };
-        // a name that is nearly another is that, and not a frame that does not exist
-        let wrong = |error| match error {
-            PointError::NoFrame(_) if suggestion(mechanism, name).is_some() => unknown(),
-            error => {
-                let name = name.into();
-                QuantityError::Point { name, error }
-            }
-        };
         let Some((kind, of)) = name.split_once(':') else {
             // a point alone is no number
-            let measured = coordinate(mechanism, name, Order::Value);
-            return measured.map_or_else(|| Err(unknown()), |found| found.map_err(wrong));
+            return match coordinate(mechanism, name, Order::Value) {
+                Some(Ok(measured)) => Ok(measured),
+                Some(Err(error @ PointError::NoFrame(_)))
+                    if suggestion(mechanism, name).is_none() =>
+                {
+                    let name = name.into();
+                    Err(QuantityError::Point { name, error })
+                }
+                _ => Err(unknown()),
+            };
         };
         if let Some(measured) = moving(mechanism, kind, of) {
-            return measured.map_err(wrong);
+            return measured.map_err(|error| QuantityError::Point {
+                name: name.into(),
+                error,
+            });
         }
         let measured = match kind {
             "force" => {

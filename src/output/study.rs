@@ -80,7 +80,7 @@ pub enum MergeError {
     #[error("{0} rows are not a grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
     Grid(usize, Vec<usize>),
     /// Missing rows.
-    #[error("rows {first} to {last} of {of} are missing: work out their shard")]
+    #[error("rows {first} to {last} of {of} are missing: compute their shard")]
     Missing {
         /// The first.
         first: usize,

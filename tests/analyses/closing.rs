@@ -83,7 +83,7 @@ fn a_guess_that_has_to_move_far_is_told_before_the_answer() {
     assert!(!moved.is_small(), "{moved:?}");
     let said = report.document().answer;
     assert!(
-        said.starts_with("The pose given is not assembled"),
+        said.starts_with("The given pose is not assembled"),
         "{said}"
     );
     assert!(

@@ -79,7 +79,7 @@ fn a_file_that_cannot_be_assembled_is_no_success() {
 
 #[test]
 fn the_measure_of_a_closest_approach_is_stated() {
-    let squared = "counts by (d² − L²)/2";
+    let squared = "counts as (d² − L²)/2";
     for command in ["solve", "assemblies"] {
         let (code, out, _) = linkwork(&[
             command,

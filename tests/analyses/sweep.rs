@@ -1291,7 +1291,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &[four_bar, "--input", "theta1=60deg..pi/3"],
-            "ask `linkwork solve`",
+            "use `linkwork solve`",
         ),
         (
             &[four_bar, "--input", "theta1=0..x"],

@@ -711,11 +711,9 @@ fn closed_forms_are_proved_after_conversion() {
             ..CompareSettings::default()
         };
         let report = compare(mechanism, &settings, &Watch::none());
-        // identities of balls on a platform that is drawn tilted have rounded places
-        let forms = report
-            .closed_forms
-            .into_iter()
-            .filter(|form| form.name != "closure");
+        // balls of a platform that is drawn tilted have rounded places
+        let forms = report.closed_forms.into_iter();
+        let forms = forms.filter(|form| form.name != "closure");
         let proofs = forms.flat_map(|form| form.components.into_iter().map(|part| part.proof));
         proofs.collect::<Vec<_>>()
     };

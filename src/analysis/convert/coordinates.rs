@@ -5,7 +5,8 @@
 //! angles, the displacements of the tables themselves are its place, so that nothing is rounded.
 //!
 //! The last link of a chain is called by the name of the chain, whose tip is its frame. Frames that only mark the end of
-//! a closure, under the names that [`AxesDescription::tables`] gives them, are not written as points.
+//! a closure, turned as the drawing and under the names that [`AxesDescription::tables`] gives them, are not written as
+//! points.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
@@ -526,8 +527,8 @@ impl Drawing<'_> {
                         bodies.push(Named::new(body, place));
                     }
                 }
-                _ if !asked && (matches!(frame, Frame::Link { .. }) || self.ends_closure(&old)) => {
-                }
+                Frame::Link { .. } if !asked => {}
+                _ if !asked && rotations(steps).next().is_none() && self.ends_closure(&old) => {}
                 Frame::Link { .. } if moves && !named => {
                     bodies.push(Named::new(body.clone(), AxisPlace::Frame(steps.clone())));
                     renamed.push((old, body));

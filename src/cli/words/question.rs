@@ -95,7 +95,7 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
             suggestion, held, ..
         } => said("not known").help(match (suggestion, held.is_empty()) {
             (Some(meant), _) => format!("did you mean `{meant}`?"),
-            (None, false) => format!("drive what is held: {}", held_at(held)),
+            (None, false) => format!("drive a held coordinate: {}", held_at(held)),
             (None, true) => "hold a joint with --hold, and give the rate of that".into(),
         }),
         DriveError::Whole { platform, held } => said("a platform").help(match held.is_empty() {
@@ -113,11 +113,11 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
             "give either roll, pitch and yaw, or {platform}.wx, {platform}.wy and {platform}.wz"
         )),
         DriveError::Structure => said("")
-            .help("`linkwork mobility` says why, `linkwork statics` what forces it carries"),
+            .help("`linkwork mobility` shows why, `linkwork statics` which forces it carries"),
         DriveError::NotHeld { name, held } => said("not held").help(match held.is_empty() {
             true => format!("hold it: --hold {name}=home"),
             false => format!(
-                "give rates of what is held, e.g. {}; or hold `{name}` in place of one of them, e.g. \
+                "give the rate of a held coordinate, e.g. {}; or hold `{name}` in place of one of them, e.g. \
                  --free {} --hold {name}=home",
                 held_at(held),
                 held[0]

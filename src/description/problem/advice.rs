@@ -62,6 +62,9 @@ impl ProblemKind {
             | UnknownName { suggestion: Some(meant), .. }
             | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
             UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", quoted(known)),
+            MissingField { field: "direction", .. } => {
+                "an axis is given by `point` and `direction`, by `through` two points, or by `frame`".into()
+            }
             UnknownField { structure, .. } => format!("its fields are {}", quoted(structure.fields())),
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()

@@ -67,7 +67,7 @@ pub enum AxesProblem {
     )]
     NotPerpendicular { joint: String, angle: f64 },
     #[error(
-        "`frames` makes tables of revolute, prismatic and spherical joints only, and `{joint}` is none of these"
+        "`frames` places revolute, prismatic and spherical joints that points and directions give in one place, without `value`; `{joint}` is not one of these"
     )]
     NotPlaced { joint: String },
     #[error("the screw `{joint}` cannot be cut")]

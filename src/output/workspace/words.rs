@@ -110,7 +110,7 @@ pub(super) fn explanation(report: &WorkspaceReport) -> Vec<String> {
             .into(),
         false => format!(
             "best and worst: condition number of the Jacobian from {} to {}, at nodes, with lengths \
-             over {}",
+             divided by {}",
             listed(&report.inputs),
             match report.outputs.is_empty() {
                 true => "what moves".into(),
