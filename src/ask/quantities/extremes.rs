@@ -12,16 +12,27 @@ use crate::solve::summit;
 pub(in super::super) struct Extremes {
     rows: Vec<Seen>,
     seen: usize,
-    sides: Vec<[Side; 2]>,
-    /// Of each quantity the range of values that all rows allow.
-    allowed: Vec<[f64; 2]>,
+    quantities: Vec<Watched>,
+}
+
+/// What is remembered of a quantity.
+#[derive(Clone)]
+struct Watched {
+    sides: [Side; 2],
+    /// Its values at the two rows before.
+    before: [Option<f64>; 2],
+    /// The range of values that all rows allow.
+    allowed: [f64; 2],
 }
 
 /// Rows where a quantity is greater than at their neighbours, or less: the best of them.
 #[derive(Clone, Default)]
 struct Side {
-    /// The greatest value at a row at all, where it is, and when.
-    row: Option<(f64, Configuration<f64>, f64)>,
+    /// The greatest value at a row at all.
+    most: Option<f64>,
+    /// Where it is, and when, once another row has followed.
+    place: Option<(Configuration<f64>, f64)>,
+    is_latest: bool,
     peaks: Vec<Peak>,
 }
 
@@ -45,8 +56,14 @@ impl Extremes {
         Extremes {
             rows: Vec::new(),
             seen: 0,
-            sides: vec![<[Side; 2]>::default(); quantities],
-            allowed: vec![[f64::NEG_INFINITY, f64::INFINITY]; quantities],
+            quantities: vec![
+                Watched {
+                    sides: Default::default(),
+                    before: [None; 2],
+                    allowed: [f64::NEG_INFINITY, f64::INFINITY],
+                };
+                quantities
+            ],
         }
     }
 
@@ -74,20 +91,27 @@ impl Extremes {
             }),
         }
         self.seen += 1;
-        for (i, sides) in self.sides.iter_mut().enumerate() {
-            if let Some(value) = values[i] {
-                let [low, high] = &mut self.allowed[i];
-                if low <= high {
-                    let off = 4.0 * noise[i].max(f64::EPSILON * value.abs());
-                    (*low, *high) = (low.max(value - off), high.min(value + off));
-                }
-                for (side, sense) in sides.iter_mut().zip(SENSES) {
-                    side.reach(sense * value, at, time);
-                }
+        let latest = values.iter().zip(noise);
+        for (quantity, (&value, noise)) in self.quantities.iter_mut().zip(latest) {
+            let Watched {
+                sides,
+                before,
+                allowed: [low, high],
+            } = quantity;
+            let [first, middle] = std::mem::replace(before, [before[1], value]);
+            if let Some(value) = value
+                && low <= high
+            {
+                let off = 4.0 * noise.max(f64::EPSILON * value.abs());
+                (*low, *high) = (low.max(value - off), high.min(value + off));
             }
-            let [a, b, c] = &self.rows[..] else { continue };
-            let known = [a, b, c].map(|row| row.values[i]);
-            if let [Some(a), Some(b), Some(c)] = known {
+            for (side, sense) in sides.iter_mut().zip(SENSES) {
+                side.reach(value.map(|value| sense * value), &self.rows);
+            }
+            if self.seen < 3 {
+                continue;
+            }
+            if let (Some(a), Some(b), Some(c)) = (first, middle, value) {
                 // most rows lie between their neighbours
                 if self.seen == 3 || (b - a) * (c - b) <= 0.0 {
                     for (side, sense) in sides.iter_mut().zip(SENSES) {
@@ -97,13 +121,13 @@ impl Extremes {
                         }
                     }
                 }
-            } else if let Some(value) = known[1] {
+            } else if let Some(known) = middle {
                 // it may grow towards a row where it is not known
-                let grows = |row: &Seen| row.values[i].is_none_or(|x| x.abs() < value.abs());
-                let side = &mut sides[usize::from(value > 0.0)];
-                for (beyond, other, gap) in [(a, c, 0.0), (c, a, 1.0)] {
-                    if beyond.values[i].is_none() && grows(other) {
-                        side.peak(value.abs(), Some(gap), &self.rows);
+                let grows = |other: Option<f64>| other.is_none_or(|x| x.abs() < known.abs());
+                let side = &mut sides[usize::from(known > 0.0)];
+                for (beyond, other, gap) in [(first, value, 0.0), (value, first, 1.0)] {
+                    if beyond.is_none() && grows(other) {
+                        side.peak(known.abs(), Some(gap), &self.rows);
                     }
                 }
             }
@@ -118,8 +142,11 @@ impl Extremes {
         meter: &mut Meter,
     ) -> Vec<Extremum> {
         // beside the last row there may be more too, as beside the first
-        for (i, sides) in self.sides.iter_mut().enumerate() {
-            for (side, sense) in sides.iter_mut().zip(SENSES) {
+        for (i, quantity) in self.quantities.iter_mut().enumerate() {
+            for (side, sense) in quantity.sides.iter_mut().zip(SENSES) {
+                if let Some(last) = self.rows.last().filter(|_| side.is_latest) {
+                    side.keep(last);
+                }
                 if let Some([_, b, c]) = heights(&self.rows, i, sense)
                     && c > b
                 {
@@ -130,7 +157,8 @@ impl Extremes {
         /// Rows are closed to so much of the characteristic length, and no value is known better beside the greatest.
         const ROUNDING: f64 = 1e-12;
         let mut all = Vec::new();
-        for (i, (sides, quantity)) in self.sides.into_iter().zip(quantities).enumerate() {
+        for (i, (watched, quantity)) in self.quantities.into_iter().zip(quantities).enumerate() {
+            let Watched { sides, allowed, .. } = watched;
             let none = Extremum {
                 name: quantity.name.clone(),
                 unit: quantity.unit,
@@ -140,7 +168,7 @@ impl Extremes {
                 unbounded: Vec::new(),
                 missing: None,
             };
-            let row = |k: usize| sides[k].row.as_ref().map(|(height, ..)| SENSES[k] * height);
+            let row = |k: usize| sides[k].most.map(|height| SENSES[k] * height);
             let (Some(least), Some(greatest)) = (row(0), row(1)) else {
                 all.push(Extremum {
                     missing: Some(missing(quantity)),
@@ -154,7 +182,7 @@ impl Extremes {
                 false => 0.0,
             };
             // one value is within what rounding leaves open at every row
-            let [low, high] = self.allowed[i];
+            let [low, high] = allowed;
             if self.seen > 1 && low <= high && high.is_finite() {
                 let zero = low <= 0.0 && high >= 0.0;
                 all.push(Extremum {
@@ -166,7 +194,8 @@ impl Extremes {
             let mut poles: Vec<Pole> = Vec::new();
             let [least, greatest] = std::array::from_fn::<_, 2, _>(|k| {
                 let (side, sense) = (&sides[k], SENSES[k]);
-                let mut best = side.row.clone()?;
+                let (at, time) = side.place.clone()?;
+                let mut best = (side.most?, at, time);
                 for peak in &side.peaks {
                     let rows = &peak.rows;
                     let Some(mut between) = passage.between(rows.each_ref()) else {
@@ -284,14 +313,28 @@ fn heights(rows: &[Seen], quantity: usize, sense: f64) -> Option<[f64; 3]> {
 }
 
 impl Side {
-    fn reach(&mut self, height: f64, at: &Configuration<f64>, time: f64) {
-        match &mut self.row {
-            Some((most, place, when)) if height > *most => {
-                (*most, *when) = (height, time);
-                place.clone_from(at);
+    /// Takes in the value at the last of some rows.
+    fn reach(&mut self, height: Option<f64>, rows: &[Seen]) {
+        if let Some(height) = height
+            && self.most.is_none_or(|most| height > most)
+        {
+            (self.most, self.is_latest) = (Some(height), true);
+        } else if let [.., before, _] = rows
+            && self.is_latest
+        {
+            self.keep(before);
+        }
+    }
+
+    /// Remembers the row of the greatest value.
+    fn keep(&mut self, row: &Seen) {
+        self.is_latest = false;
+        match &mut self.place {
+            Some((place, time)) => {
+                place.clone_from(&row.at);
+                *time = row.time;
             }
-            Some(_) => {}
-            none => *none = Some((height, at.clone(), time)),
+            none => *none = Some((row.at.clone(), row.time)),
         }
     }
 

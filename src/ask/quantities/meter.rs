@@ -2,20 +2,24 @@
 
 mod found;
 mod probe;
+mod programs;
 mod waiting;
 
 use std::f64::consts::{PI, TAU};
 
-use crate::algebra::{Expression, Function, Node, SiUnit};
+use crate::algebra::Expression;
 use crate::analysis::singularities::Classifier;
 use crate::analysis::sweep::{Pace, Row, Schedule};
-use crate::analysis::velocity::{Outputs, Spins, TransmissionAngles, condition, outputs};
+use crate::analysis::velocity::{
+    Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
+};
 use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
-use crate::number::{Dual, LANES, Lanes, Number, Packed};
+use crate::number::{LANES, Lanes, Number, Packed};
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
 use found::Here;
 use probe::{Found, Plan, Probe};
+use programs::{evaluated, turns};
 use waiting::Waiting;
 
 /// What a meter is for.
@@ -48,7 +52,7 @@ pub(in super::super) struct Meter<'q> {
     /// Rows that wait for others, and how many do.
     waiting: Vec<Waiting>,
     waits: usize,
-    found: Found,
+    jacobian: Normalised,
     spinning: Spinning<'q>,
     /// With the distances that are asked for.
     distances: Option<(Classifier<'q>, Vec<Figure>)>,
@@ -246,7 +250,7 @@ impl<'q> Meter<'q> {
             side_by_side: None,
             waiting: Vec::new(),
             waits: 0,
-            found: Found::default(),
+            jacobian: Normalised::default(),
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
             known: vec![[0.0; 2]; names.len()],
@@ -261,16 +265,17 @@ impl<'q> Meter<'q> {
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
         driven(self.of, &self.ways, |_| time, &mut self.driven);
-        let found = match &mut self.spinning {
+        match &mut self.spinning {
             Spinning::Nothing(spins) => self.probe.at(&self.plan, at, &self.driven, spins),
             Spinning::Something(held) => {
                 let rest = held.tangent(at.clone());
                 let spins = Spins::of(held, &rest);
                 self.probe.at(&self.plan, at, &self.driven, &spins)
             }
-        };
-        found.take(0, &mut self.found);
-        self.evaluate(at);
+        }
+        let found = std::mem::take(&mut self.probe.found);
+        self.evaluate(at, &found, 0);
+        self.probe.found = found;
         &self.values
     }
 
@@ -297,13 +302,10 @@ impl<'q> Meter<'q> {
         let rows = std::mem::take(&mut self.waiting);
         let waits = std::mem::take(&mut self.waits);
         let side = (waits == LANES).then(|| self.side_by_side(&rows)).flatten();
+        let together = side.as_ref().and_then(|side| side.probe.sure());
         for (place, row) in rows[..waits].iter().enumerate() {
-            let together = side.as_ref().and_then(|side| side.probe.sure());
             match together {
-                Some(found) => {
-                    found.take(place, &mut self.found);
-                    self.evaluate(&row.at);
-                }
+                Some(found) => self.evaluate(&row.at, found, place),
                 None => _ = self.read(&row.at, row.time),
             }
             take(&row.row(), row.time, &self.values, &self.noise);
@@ -333,16 +335,12 @@ impl<'q> Meter<'q> {
         Some(side)
     }
 
-    /// Values at a configuration from what was found there.
-    fn evaluate(&mut self, at: &Configuration<f64>) {
-        let Found {
-            moves,
-            rates,
-            jacobian,
-            ..
-        } = &self.found;
+    /// Values at a configuration from what was found there, in one place.
+    fn evaluate<T: Packed>(&mut self, at: &Configuration<f64>, found: &Found<T>, place: usize) {
         self.figures.clear();
-        if *moves && self.wants.jacobian {
+        if found.moves && self.wants.jacobian {
+            let jacobian = &mut self.jacobian;
+            found.jacobian.take(place, jacobian);
             if self.wants.determinant {
                 (self.figures).push((Figure::Determinant, jacobian.determinant()));
             }
@@ -359,11 +357,15 @@ impl<'q> Meter<'q> {
                 .map(|figure| (*figure, classifier.distance(*figure, at)));
             self.figures.extend(figures);
         }
-        let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let largest = |of: &[T]| {
+            let sizes = of.iter().map(|x| x.part(place).abs());
+            sizes.fold(0.0, f64::max)
+        };
         let here = Here {
             at,
-            moves: *moves,
-            largest: [largest(&rates[0]), largest(&rates[1])],
+            found,
+            place,
+            largest: [largest(&found.rates[0]), largest(&found.rates[1])],
         };
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
@@ -412,46 +414,4 @@ fn driven<T: Packed>(
             });
         }
     }
-}
-
-/// The value of a quantity, if it has one, and how far it may be off, over values of names that may be. A value that
-/// only rounding keeps finite, as that of 1/x where x is nothing but rounding, is none: away from it, it shrinks.
-fn evaluated(program: &Expression<usize>, known: &[[f64; 2]]) -> (Option<f64>, f64) {
-    if let Node::Name(name) = program.node {
-        let [value, noise] = known[name];
-        return (value.is_finite().then_some(value), noise);
-    }
-    // uneven, so that differences of names are off too
-    let off = |name: usize| [1.0, -0.73, 0.87, -0.61][name % 4] * known[name][1];
-    let along = program.evaluate(&|&name| Dual {
-        value: known[name][0],
-        slope: off(name),
-    });
-    if let Ok(Dual { value, slope }) = along
-        && 4.0 * slope.abs() <= value.abs()
-    {
-        return (Some(value), slope.abs());
-    }
-    let Ok(value) = program.evaluate(&|&name| known[name][0]) else {
-        return (None, 0.0);
-    };
-    let beside = [1.0, -1.0].map(|side| {
-        let value = program.evaluate(&|&name| known[name][0] + side * off(name));
-        value.ok()
-    });
-    let shrinks = |of: &Option<f64>| of.is_some_and(|x| 2.0 * x.abs() < value.abs());
-    let off = beside.iter().flatten();
-    let noise = off.fold(0.0, |most: f64, x| most.max((x - value).abs()));
-    ((!beside.iter().all(shrinks)).then_some(value), noise)
-}
-
-/// Whether a quantity is an angle that is known but for whole turns.
-fn turns(quantity: &Quantity) -> bool {
-    fn has_atan2(expression: &Expression<Measured>) -> bool {
-        matches!(expression.node, Node::Call(Function::Atan2, _))
-            || expression.operands().any(has_atan2)
-    }
-    let angle = |of: &Measured| matches!(of, Measured::Place(_, c, Order::Value) if c.is_angle());
-    quantity.unit == SiUnit::RADIAN
-        && (quantity.measured().any(angle) || has_atan2(&quantity.expression))
 }

@@ -36,11 +36,11 @@ pub(super) struct Probe<'q, T: Factorable> {
     loaded: Option<Loaded<T>>,
     outputs: Option<Outputs<'q, T>>,
     responses: Vec<Vec<T>>,
-    found: Found<T>,
+    pub found: Found<T>,
 }
 
 /// What was found.
-pub(super) struct Found<T = f64> {
+pub(super) struct Found<T> {
     /// Whether rates are determined.
     pub moves: bool,
     /// Rates and accelerations of all unknowns.
@@ -110,7 +110,7 @@ impl<'q, T: Factorable + Packed> Probe<'q, T> {
         at: &Configuration<T>,
         [rates, changes]: &[Vec<T>; 2],
         spins: &Spins,
-    ) -> &Found<T> {
+    ) {
         let found = &mut self.found;
         match &mut self.motion {
             None => self.kinematics.place(at, &mut self.placement),
@@ -190,7 +190,6 @@ impl<'q, T: Factorable + Packed> Probe<'q, T> {
         if let Some(angles) = &plan.transmission {
             found.transmission.extend(angles.angles(placement));
         }
-        &self.found
     }
 
     /// What was found, if it is as certain in every place as it would be alone.
@@ -213,27 +212,5 @@ impl<T> Default for Found<T> {
             jacobian: Normalised::default(),
             transmission: Vec::new(),
         }
-    }
-}
-
-impl<T: Packed> Found<T> {
-    /// What was found in one place.
-    pub fn take(&self, place: usize, to: &mut Found) {
-        let part = |from: &[T], to: &mut Vec<f64>| {
-            to.clear();
-            to.extend(from.iter().map(|x| x.part(place)));
-        };
-        to.moves = self.moves;
-        for (from, to) in self.rates.iter().zip(&mut to.rates) {
-            part(from, to);
-        }
-        for (from, to) in self.points.iter().zip(&mut to.points) {
-            to.clear();
-            to.extend(from.iter().map(|v| v.map(|x| x.part(place))));
-        }
-        part(&self.angles, &mut to.angles);
-        part(&self.forces, &mut to.forces);
-        part(&self.transmission, &mut to.transmission);
-        self.jacobian.take(place, &mut to.jacobian);
     }
 }
