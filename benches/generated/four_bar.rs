@@ -35,6 +35,8 @@ pub const STATE: usize = 2;
 pub const UNKNOWNS: usize = 2;
 pub const ROWS: usize = 2;
 pub const FRAMES: usize = 0;
+/// In how many places there are two solutions.
+pub const SIGNS: usize = 1;
 
 /// The largest closure row that is accepted, in characteristic lengths and rad.
 pub const TOLERANCE: f64 = 1e-14;
@@ -102,313 +104,118 @@ fn sine_cosine(x: f64) -> (f64, f64) {
     )
 }
 
-/// Sine and cosine after a further turn, one of several of which the longest is known.
-#[inline(always)]
-fn turn(by: f64, longest: f64, sine: &mut f64, cosine: &mut f64) {
-    let (s, c) = (*sine, *cosine);
-    let (sin_by, versine) = if longest < 0.015625 {
-        let z = by * by;
-        (
-            by - by * z * (1.0 / 6.0 - z * (1.0 / 120.0)),
-            z * (0.5 - z * (1.0 / 24.0 - z * (1.0 / 720.0))),
-        )
-    } else {
-        let (sin_by, cos_by) = sine_cosine(by);
-        (sin_by, 1.0 - cos_by)
-    };
-    *sine = s - (s * versine - c * sin_by);
-    *cosine = c - (c * versine + s * sin_by);
-}
-
-/// The closure rows r, dimensionless, and their Jacobian by a dimensionless step of the unknowns.
-fn linearise(
-    u: &[f64; INPUTS],
-    x: &[f64; STATE],
-    r: &mut [f64; ROWS],
-    j: &mut [[f64; UNKNOWNS]; ROWS],
-) {
-    let u0: f64 = u[0];
-    let x0: f64 = x[0];
-    let x1: f64 = x[1];
-    let (t9, t10) = sine_cosine(u0);
-    let t12: f64 = 2.0 * t10;
-    let t13: f64 = 2.0 * t9;
-    let (t14, t15) = sine_cosine(x0);
-    let t16: f64 = t10 * t15;
-    let t17: f64 = t9 * t15;
-    let t18: f64 = t9 * t14;
-    let t20: f64 = t10 * t14;
-    let t21: f64 = t16 - t18;
-    let t22: f64 = t17 + t20;
-    let t25: f64 = 4.0 * t21;
-    let t26: f64 = 4.0 * t22;
-    let t27: f64 = t12 + t25;
-    let t28: f64 = t13 + t26;
-    let (t29, t30) = sine_cosine(x1);
-    let t32: f64 = 3.5 * t30;
-    let t33: f64 = 3.5 * t29;
-    let t34: f64 = 4.5 + t32;
-    let t35: f64 = t34 - t27;
-    let t36: f64 = t33 - t28;
-    let t38: f64 = 0.2222222222222222 * t35;
-    let t39: f64 = 0.2222222222222222 * t36;
-    let t49: f64 = (-0.8888888888888888) * t22;
-    let t50: f64 = -t49;
-    let t51: f64 = (-0.8888888888888888) * t21;
-    let t55: f64 = 0.7777777777777777 * t29;
-    let t56: f64 = -t55;
-    let t57: f64 = 0.7777777777777777 * t30;
-    r[0] = t38;
-    r[1] = t39;
-    j[0][0] = t50;
-    j[0][1] = t56;
-    j[1][0] = t51;
-    j[1][1] = t57;
-}
-
-/// The state x moved by a step d.
-fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
-    let x0: f64 = x[0];
-    let x1: f64 = x[1];
-    let d0: f64 = d[0];
-    let d1: f64 = d[1];
-    let t101: f64 = x0 + d0;
-    let t102: f64 = x1 + d1;
-    y[0] = t101;
-    y[1] = t102;
-}
-
 /// Unit quaternions again after a small change.
 #[inline(always)]
 fn normalise(x: &mut [f64; STATE]) {
 }
 
-/// Newton's method with the order of elimination chosen beforehand; false, and x as it was, where a
-/// pivot is small or a step does not halve the rows.
+fn root_or_zero(x: f64) -> f64 {
+    if x > 0.0 { root(x) } else { 0.0 }
+}
+
+fn sign(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// The angle of the vector (x, y): its tangent brought below tan 22.5°, then a polynomial (fdlibm, Sun 1993).
+fn angle(y: f64, x: f64) -> f64 {
+    let (across, along) = (absolute(x), absolute(y));
+    let steep = along > across;
+    let (low, high) = if steep { (across, along) } else { (along, across) };
+    let half = low > 0.41421356 * high;
+    let (top, over) = if half { (low - high, low + high) } else { (low, high) };
+    let t = if over > 0.0 { top / over } else { 0.0 };
+    let z: f64 = t * t;
+    let w: f64 = z * z;
+    let a: f64 = t + t * z * (((-0.3333333333333293) + z * 0.19999999999876483) + w * (((-0.14285714272503466) + z * 0.11111110405462356) + w * (((-0.09090887133436507) + z * 0.0769187620504483) + w * (((-0.06661073137387531) + z * 0.058335701337905735) + w * (((-0.04976877994615932) + z * 0.036531572744216916) + w * (-0.016285820115365782))))));
+    let eighth = if half { a + 0.7853981633974483 } else { a };
+    let quarter = if steep { 1.5707963267948966 - eighth } else { eighth };
+    let upper = if x < 0.0 { 3.141592653589793 - quarter } else { quarter };
+    if y < 0.0 { -upper } else { upper }
+}
+
+/// An angle, whole turns on, within half a turn of another.
+fn nearest(angle: f64, other: f64) -> f64 {
+    let turns: f64 = (other - angle) * 0.15915494309189535;
+    // adding 3·2ⁿ rounds to the nearest integer
+    angle + 6.283185307179586 * ((turns + 6755399441055744.0) - 6755399441055744.0)
+}
+
+/// The state in closed form. Solutions differ in signs, each +1 or −1: this is the one of given signs, or of none the
+/// one nearest to x. [`Verdict::Singular`]: two solutions meet, or, with x left as it was, there are infinitely many.
 #[inline]
-fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
-    const LEAST_PIVOT: f64 = 1e-4;
-    const LONGEST_STEP: f64 = 0.5;
-    const LARGE: f64 = 1e30;
-    const HALF: f64 = 0.5;
-    const MOST_STEPS: usize = 12;
+pub fn assembly(
+    u: &[f64; INPUTS],
+    signs: Option<&[f64; SIGNS]>,
+    x: &mut [f64; STATE],
+) -> Verdict {
+    let mut singular = false;
     let u0: f64 = u[0];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
     let (t9, t10) = sine_cosine(u0);
     let t12: f64 = 2.0 * t10;
-    let t13: f64 = 2.0 * t9;
-    let mut x0: f64 = x[0];
-    let mut x1: f64 = x[1];
-    let (mut s0, mut c0) = sine_cosine(x0);
-    let (mut s1, mut c1) = sine_cosine(x1);
-    let mut last: f64 = LARGE;
-    for _ in 0..MOST_STEPS {
-        let t16: f64 = t10 * c0;
-        let t17: f64 = t9 * c0;
-        let t18: f64 = t9 * s0;
-        let t20: f64 = t10 * s0;
-        let t21: f64 = t16 - t18;
-        let t22: f64 = t17 + t20;
-        let t25: f64 = 4.0 * t21;
-        let t26: f64 = 4.0 * t22;
-        let t27: f64 = t12 + t25;
-        let t28: f64 = t13 + t26;
-        let t32: f64 = 3.5 * c1;
-        let t33: f64 = 3.5 * s1;
-        let t34: f64 = 4.5 + t32;
-        let t35: f64 = t34 - t27;
-        let t36: f64 = t33 - t28;
-        let t38: f64 = 0.2222222222222222 * t35;
-        let t39: f64 = 0.2222222222222222 * t36;
-        let mut size: f64 = 0.0;
-        size = larger(size, t38);
-        size = larger(size, t39);
-        if size <= TOLERANCE || size <= ROUNDING && !(size < HALF * last) {
-            x[0] = x0;
-            x[1] = x1;
-            return true;
-        }
-        /* a step that does not halve the rows is not to be trusted */
-        if !(size < HALF * last) { return false; }
-        last = size;
-        let t49: f64 = (-0.8888888888888888) * t22;
-        let t51: f64 = (-0.8888888888888888) * t21;
-        let t55: f64 = 0.7777777777777777 * s1;
-        let t57: f64 = 0.7777777777777777 * c1;
-        let t69: f64 = t49 * t57;
-        let t71: f64 = t51 * t55;
-        let t72: f64 = t71 - t69;
-        let t73: f64 = 1.0 / t72;
-        let t74: f64 = t38 * t57;
-        let t75: f64 = t39 * t55;
-        let t76: f64 = t74 + t75;
-        let t77: f64 = t73 * t76;
-        let t78: f64 = t38 * t51;
-        let t80: f64 = t39 * t49;
-        let t82: f64 = t78 + t80;
-        let t84: f64 = t73 * t82;
-        let t96: f64 = -t77;
-        if !(absolute(t72) > 0.769800358919501 * LEAST_PIVOT) { return false; }
-        let d0: f64 = t96;
-        let d1: f64 = t84;
-        let mut longest: f64 = 0.0;
-        longest = larger(longest, d0);
-        longest = larger(longest, d1);
-        if !(longest <= LONGEST_STEP) { return false; }
-        let t101: f64 = x0 + d0;
-        let t102: f64 = x1 + d1;
-        turn(d0, longest, &mut s0, &mut c0);
-        turn(d1, longest, &mut s1, &mut c1);
-        let y0: f64 = t101;
-        let y1: f64 = t102;
-        x0 = y0;
-        x1 = y1;
-    }
-    false
+    let (t29, t30) = sine_cosine(x1);
+    let t105: f64 = 4.0 * t10;
+    let t106: f64 = 9.0 - t105;
+    let t107: f64 = (-3.5) * t106;
+    let t109: f64 = 14.0 * t9;
+    let t120: f64 = 18.0 * t10;
+    let t121: f64 = 20.5 - t120;
+    let t122: f64 = t107 * t107;
+    let t123: f64 = t109 * t109;
+    let t124: f64 = t122 + t123;
+    let t125: f64 = t121 * t121;
+    let t126: f64 = t124 - t125;
+    let t127: f64 = root_or_zero(t126);
+    let t128: f64 = t29 * t107;
+    let t129: f64 = t30 * t109;
+    let t130: f64 = t128 - t129;
+    let t131: f64 = match signs { Some(signs) => signs[0], None => sign(t130) };
+    let t132: f64 = t127 * t131;
+    let t133: f64 = t109 * t121;
+    let t134: f64 = t107 * t132;
+    let t135: f64 = t133 + t134;
+    let t136: f64 = t107 * t121;
+    let t137: f64 = t109 * t132;
+    let t138: f64 = t136 - t137;
+    let t139: f64 = t135 * t135;
+    let t140: f64 = t138 * t138;
+    let t141: f64 = t139 + t140;
+    let t142: f64 = angle(t135, t138);
+    let t143: f64 = nearest(t142, x1);
+    let t144: f64 = 1.0 / t124;
+    let t145: f64 = t135 * t144;
+    let t146: f64 = t138 * t144;
+    let t147: f64 = u0 + x0;
+    let t149: f64 = (-2.0) * t9;
+    let t150: f64 = 3.5 * t145;
+    let t151: f64 = t149 + t150;
+    let t152: f64 = 4.5 - t12;
+    let t153: f64 = 3.5 * t146;
+    let t154: f64 = t152 + t153;
+    let t155: f64 = t151 * t151;
+    let t156: f64 = t154 * t154;
+    let t157: f64 = t155 + t156;
+    let t159: f64 = angle(t151, t154);
+    let t160: f64 = nearest(t159, t147);
+    let t165: f64 = t160 - u0;
+    if !(t126 >= -ROUNDING * t124) { return Verdict::NotAssembled; }
+    singular |= t126 < 1e-5 * 1e-5 * t124;
+    if !(absolute(t141) > 9.378906250000002e-14) { return Verdict::Singular; }
+    if !(absolute(t157) > 1.6e-17) { return Verdict::Singular; }
+    x[0] = t165;
+    x[1] = t143;
+    if singular { Verdict::Singular } else { Verdict::Solved }
 }
 
-const M: usize = ROWS + UNKNOWNS;
-
-/// The least-squares step for rows r and Jacobian j with rows damping·1 below: Householder reflections
-/// with column pivoting (Businger and Golub 1965). Unknowns that the rows do not determine stay. Returns
-/// the ratio of the smallest pivot to the largest.
-fn least_squares(
-    r: &[f64; ROWS],
-    j: &[[f64; UNKNOWNS]; ROWS],
-    damping: f64,
-    d: &mut [f64; UNKNOWNS],
-) -> f64 {
-    let mut a = [[0.0; UNKNOWNS]; M];
-    let mut b = [0.0; M];
-    let mut order = [0; UNKNOWNS];
-    let (mut first, mut least, mut rank) = (0.0, 0.0, 0);
-    for i in 0..ROWS {
-        a[i] = j[i];
-        b[i] = -r[i];
-    }
-    for k in 0..UNKNOWNS {
-        a[ROWS + k][k] = damping;
-        order[k] = k;
-    }
-    for k in 0..UNKNOWNS {
-        let (mut best, mut column) = (-1.0, k);
-        for c in k..UNKNOWNS {
-            let mut sum = 0.0;
-            for row in &a[k..] {
-                sum += row[c] * row[c];
-            }
-            if sum > best {
-                (best, column) = (sum, c);
-            }
-        }
-        let norm = root(best);
-        if k == 0 {
-            first = norm;
-        }
-        least = norm;
-        if !(norm > 1e-10 * first) {
-            break;
-        }
-        for row in &mut a {
-            row.swap(k, column);
-        }
-        order.swap(k, column);
-        let head = if a[k][k] > 0.0 { -norm } else { norm };
-        // v = column − head e_k stays in the column; v·v = 2 head (head − a_kk)
-        a[k][k] -= head;
-        let scale = -head * a[k][k];
-        for c in k + 1..UNKNOWNS {
-            let mut dot = 0.0;
-            for row in &a[k..] {
-                dot += row[k] * row[c];
-            }
-            for row in &mut a[k..] {
-                row[c] -= dot / scale * row[k];
-            }
-        }
-        let mut dot = 0.0;
-        for (row, b) in a[k..].iter().zip(&b[k..]) {
-            dot += row[k] * b;
-        }
-        for (row, b) in a[k..].iter().zip(&mut b[k..]) {
-            *b -= dot / scale * row[k];
-        }
-        a[k][k] = head;
-        rank += 1;
-    }
-    *d = [0.0; UNKNOWNS];
-    for k in (0..rank).rev() {
-        let mut sum = b[k];
-        for i in k + 1..rank {
-            sum -= a[k][i] * d[order[i]];
-        }
-        d[order[k]] = sum / a[k][k];
-    }
-    if first > 0.0 { least / first } else { 0.0 }
+#[inline]
+fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
+    assembly(u, None, x) == Verdict::Solved
 }
 
-/// Newton's method from a guess that may be far off or singular: Gauss–Newton steps, damped when they
-/// fail (Levenberg 1944, Marquardt 1963).
 fn careful(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
-    const MOST_STEPS: usize = 100;
-    const MOST_TRIALS: usize = 40;
-    let squares_of = |r: &[f64; ROWS]| {
-        let mut squares = 0.0;
-        for row in r {
-            squares += row * row;
-        }
-        squares
-    };
-    let (mut at, mut next) = (*x, *x);
-    let mut d = [0.0; UNKNOWNS];
-    let (mut r, mut j) = ([0.0; ROWS], [[0.0; UNKNOWNS]; ROWS]);
-    let (mut damping, mut slow, mut stuck): (f64, _, _) = (0.0, 0, false);
-    linearise(u, &at, &mut r, &mut j);
-    for _ in 0..MOST_STEPS {
-        let squares = squares_of(&r);
-        let mut largest = 0.0;
-        for &row in &r {
-            largest = larger(largest, row);
-        }
-        if largest <= TOLERANCE || largest <= ROUNDING && stuck {
-            // a double solution is met only to the root of the tolerance
-            let ratio = least_squares(&r, &j, 0.0, &mut d);
-            *x = at;
-            return if ratio < 1e-5 { Verdict::Singular } else { Verdict::Solved };
-        }
-        if stuck {
-            return Verdict::NotAssembled;
-        }
-        let mut lower = squares;
-        for _ in 0..MOST_TRIALS {
-            least_squares(&r, &j, damping, &mut d);
-            let mut longest = 0.0;
-            for &part in &d {
-                longest = larger(longest, part);
-            }
-            if longest > 1.0 {
-                for part in &mut d {
-                    *part /= longest;
-                }
-            }
-            displace(&at, &d, &mut next);
-            let (mut tried, mut slopes) = ([0.0; ROWS], [[0.0; UNKNOWNS]; ROWS]);
-            linearise(u, &next, &mut tried, &mut slopes);
-            lower = squares_of(&tried);
-            if lower < squares {
-                (r, j, at) = (tried, slopes, next);
-                break;
-            }
-            damping = if damping > 0.0 { damping * 3.0 } else { 0.03 };
-        }
-        if !(lower < squares) {
-            stuck = true;
-            continue;
-        }
-        damping = if damping < 1e-4 { 0.0 } else { damping * 0.2 };
-        slow = if 1.0 - lower / squares < 1e-6 { slow + 1 } else { 0 };
-        stuck = slow == 3;
-    }
-    Verdict::StepLimit
+    assembly(u, None, x)
 }
 
 /// Whether all numbers are finite and of a size that sines take.

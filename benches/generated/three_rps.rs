@@ -46,6 +46,8 @@ pub const STATE: usize = 10;
 pub const UNKNOWNS: usize = 9;
 pub const ROWS: usize = 9;
 pub const FRAMES: usize = 0;
+/// In how many places there are two solutions.
+pub const SIGNS: usize = 0;
 
 /// The largest closure row that is accepted, in characteristic lengths and rad.
 pub const TOLERANCE: f64 = 1e-14;

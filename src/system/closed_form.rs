@@ -133,8 +133,8 @@ impl Step {
 pub struct ClosedSolution {
     /// In the order in which they are evaluated.
     pub steps: Vec<Step>,
-    /// Closures that still contain unknowns, with the number of their equations.
-    pub closures_left: Vec<(usize, usize)>,
+    /// Closures that still contain unknowns.
+    pub closures_left: Vec<usize>,
     /// Joints that are still unknown.
     pub joints_left: Vec<usize>,
     /// Platforms whose pose is not held.

@@ -162,8 +162,6 @@ pub struct StepFormula {
 pub struct Remaining {
     /// Closures that still contain unknowns.
     pub closures: Vec<String>,
-    /// How many equations of them do.
-    pub equations: usize,
     /// Joints and platforms that are not found.
     pub unknowns: Vec<String>,
 }

@@ -31,9 +31,8 @@ pub fn solution(
     let name = |joint: &usize| mechanism.joints()[*joint].name.clone();
     let remaining = (!form.is_complete()).then(|| Remaining {
         closures: (form.closures_left.iter())
-            .map(|(closure, _)| mechanism.closures()[*closure].name.clone())
+            .map(|closure| mechanism.closures()[*closure].name.clone())
             .collect(),
-        equations: form.closures_left.iter().map(|(_, count)| count).sum(),
         unknowns: (form.joints_left.iter().map(name))
             .chain((form.platforms_left.iter()).map(|&p| mechanism.platforms()[p].name.clone()))
             .collect(),

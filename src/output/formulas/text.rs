@@ -57,15 +57,17 @@ fn answer(solution: &SolutionFormula) -> String {
         held => format!(" for given {}", listed(held)),
     };
     match (&solution.remaining, &solution.signs[..]) {
-        (Some(left), _) if left.equations == 0 => {
-            let stand = form(left.unknowns.len(), "stands", "stand");
-            format!("{} {stand} in no closure.", listed(&left.unknowns))
-        }
         (Some(left), _) => {
-            let equations = count(left.equations, "equation");
-            let remain = form(left.equations, "remains", "remain");
             let unknowns = listed(&left.unknowns);
-            format!("No closed form{given}: {equations} in {unknowns} {remain} coupled.")
+            match left.closures.is_empty() {
+                true => format!("No closed form{given}: no closure contains {unknowns}."),
+                false => {
+                    let [of, couple] = [["closure", "couples"], ["closures", "couple"]]
+                        [usize::from(left.closures.len() > 1)];
+                    let closures = listed(&left.closures);
+                    format!("No closed form{given}: {of} {closures} {couple} {unknowns}.")
+                }
+            }
         }
         (None, []) => format!("Solved in closed form{given}: one assembly."),
         (None, signs) => {

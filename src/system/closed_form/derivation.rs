@@ -121,20 +121,12 @@ impl<'a> Derivation<'a> {
     /// What is found, and what is left.
     pub fn left(&self) -> ClosedSolution {
         let letters = Letters(self.mechanism);
-        let known: Vec<bool> = (self.groups.iter().flat_map(|group| &group.rows))
-            .map(|row| row.symbols().is_disjoint(&self.unknown))
-            .collect();
-        let mut known = known.into_iter();
-        let mut closures_left: Vec<(usize, usize)> = Vec::new();
-        for group in &self.groups {
-            let open = (group.rows.iter()).filter(|_| known.next() == Some(false));
-            let open = open.count();
-            match closures_left.last_mut() {
-                _ if open == 0 => {}
-                Some((closure, count)) if *closure == group.closure => *count += open,
-                _ => closures_left.push((group.closure, open)),
-            }
-        }
+        let open = self.groups.iter().filter(|group| {
+            let mut rows = group.rows.iter();
+            rows.any(|row| !row.symbols().is_disjoint(&self.unknown))
+        });
+        let mut closures_left: Vec<usize> = open.map(|group| group.closure).collect();
+        closures_left.dedup();
         let unknown = self.unknown.iter();
         let pending = self.pending.iter().map(|(joint, ..)| joint);
         let joints = unknown
