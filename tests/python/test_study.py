@@ -298,7 +298,7 @@ def test_a_cluster_of_dask_works_out_the_same_also_when_a_worker_dies(four_bar):
 
 def children(named):
     """Processes below this one whose command has this name in it."""
-    found = subprocess.run(["ps", "-e", "-o", "pid=,ppid=,args="], capture_output=True, text=True, check=True).stdout
+    found = subprocess.run(["ps", "-eww", "-o", "pid=,ppid=,args="], capture_output=True, text=True, check=True).stdout
     listed = [line.split(None, 2) for line in found.splitlines()]
     below = {os.getpid()}
     for _ in range(8):
@@ -360,7 +360,8 @@ def test_processes_go_on_where_a_worker_died(four_bar, tmp_path):
         same(whole, linkwork.study(four_bar, VARY, QUESTION, executor=pool, **options))
 
 
-def test_mpi_works_out_the_same(four_bar, tmp_path):
+def test_mpi_works_out_the_same_and_goes_on_where_a_worker_died(four_bar, tmp_path):
+    """MPI ends with a worker: what is kept is not worked out again."""
     pytest.importorskip("mpi4py")
     if shutil.which("mpiexec") is None:
         pytest.skip("mpi4py needs an MPI, such as openmpi-bin")
@@ -371,13 +372,34 @@ def test_mpi_works_out_the_same(four_bar, tmp_path):
         "with MPICommExecutor() as executor:\n"
         "    if executor is not None:\n"
         "        m = linkwork.load(sys.argv[1])\n"
-        f"        linkwork.study_into(sys.argv[2], m, {VARY!r}, {QUESTION!r}, samples=300, executor=executor)\n"
+        f"        asked = m, {VARY!r}, {QUESTION!r}\n"
+        "        linkwork.study_into(sys.argv[2], *asked, samples=3000, executor=executor, keep=sys.argv[3])\n"
     )
     # what Open MPI asks for in a container with few cores; others do not look at it
     allowed = dict.fromkeys(("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe"), "1")
     environment = {**os.environ, **{f"OMPI_{name}": value for name, value in allowed.items()}}
-    command = ["mpiexec", "-n", "3", sys.executable, "-m", "mpi4py", script]
-    command += [SHIPPED / "four_bar.ron", tmp_path / "mpi.csv"]
-    subprocess.run(command, check=True, timeout=300, env=environment)
-    linkwork.study_into(tmp_path / "serial.csv", four_bar, VARY, QUESTION, samples=300)
-    assert (tmp_path / "mpi.csv").read_bytes() == (tmp_path / "serial.csv").read_bytes()
+    linkwork.study_into(tmp_path / "serial.csv", four_bar, VARY, QUESTION, samples=3000)
+
+    def begun(file, keep):
+        command = ["mpiexec", "-n", "3", sys.executable, "-m", "mpi4py", script, SHIPPED / "four_bar.ron", file, keep]
+        return subprocess.Popen(list(map(str, command)), env=environment)
+
+    def finished():
+        return {file: file.stat().st_mtime_ns for file in keep.glob("*.npz")}
+
+    whole = tmp_path / "whole.csv"
+    assert begun(whole, tmp_path / "all").wait(timeout=300) == 0
+    assert whole.read_bytes() == (tmp_path / "serial.csv").read_bytes()
+    whole, keep = tmp_path / "again.csv", tmp_path / "some"
+    running = begun(whole, keep)
+    while not finished():
+        assert running.poll() is None
+        time.sleep(0.005)
+    ranks = [process for process in children(str(script)) if process != running.pid]
+    os.kill(ranks[-1], signal.SIGKILL)
+    assert running.wait(timeout=60) != 0 and not whole.exists()
+    before = finished()
+    assert 1 <= len(before) < 64
+    assert begun(whole, keep).wait(timeout=300) == 0
+    assert whole.read_bytes() == (tmp_path / "serial.csv").read_bytes()
+    assert before.items() <= finished().items()

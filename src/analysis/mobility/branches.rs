@@ -5,9 +5,10 @@ mod walk;
 use rand_pcg::Pcg64Mcg;
 
 use super::Character;
-use crate::linear::orthonormal;
+use crate::linear::{dot, orthonormal};
+use crate::number::sorting::sort_by_key;
 use crate::solve::{Stage, Watch};
-use crate::system::{Cone, Neighbourhood, Tangent, combination, independent_parts};
+use crate::system::{Cone, FiniteStep, Neighbourhood, Tangent, combination, independent_parts};
 use walk::{Directions, MOVED_ON_A_BRANCH, Seen, Walk, contains, same};
 
 /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
@@ -149,12 +150,26 @@ impl Search<'_, '_> {
         };
         for _ in 0..directions {
             let direction = combination(&tangent.motions, &mut self.rng);
-            let step = (self.near).free_step(tangent, &direction, STEP)?;
+            let step = match self.near.free_step(tangent, &direction, STEP) {
+                Err(None) if tangent.motions.len() == 1 => {
+                    self.settled(tangent, &direction).ok_or(None)?
+                }
+                step => step?,
+            };
             gap = gap.max(step.gap);
             let way = self.near.system().difference(&tangent.at, &step.at);
             see(&mut moved, &way, MOVED);
         }
         Ok((moved, gap))
+    }
+
+    /// A finite step along the only motion, by steps each with its own Jacobian: where the Jacobian is ill-conditioned, as
+    /// in long rows of loops, a fixed one does not lead back at any length.
+    fn settled(&mut self, tangent: &Tangent, direction: &[f64]) -> Option<FiniteStep> {
+        const ALONG: f64 = 0.95;
+        let (at, way) = self.near.arrive(tangent, direction, STEP)?;
+        let gap = self.near.residual(&at);
+        (dot(&way, direction) > ALONG).then_some(FiniteStep { at, gap })
     }
 
     /// Whether random directions of motion are all free, so that every direction is.
@@ -331,7 +346,9 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
         };
         branches.push((seen.regular, branch));
     }
-    branches.sort_by_key(|(_, branch)| std::cmp::Reverse(branch.freedoms));
+    sort_by_key(&mut branches, |(_, branch)| {
+        std::cmp::Reverse(branch.freedoms)
+    });
     // what was seen from a singular point of a larger branch is part of that
     let within = |i: usize| {
         let (regular, branch) = &branches[i];
@@ -376,6 +393,6 @@ fn products(parts: &[Part], tangent: &Tangent) -> Vec<Branch> {
         products = all.take(LISTED).collect();
     }
     products.retain(|branch| branch.freedoms > 0);
-    products.sort_by_key(|branch| std::cmp::Reverse(branch.freedoms));
+    sort_by_key(&mut products, |branch| std::cmp::Reverse(branch.freedoms));
     products
 }
