@@ -68,6 +68,11 @@ pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
     Some(format!("assembled beside the pose given: {way}, the most"))
 }
 
+/// How far the start of a search moved, whether or not it ended beside it.
+pub(super) fn from_start(moved: &Moved) -> String {
+    format!("from the pose given {}, the most", way(moved))
+}
+
 fn way(moved: &Moved) -> String {
     let distance = quantity(moved.distance, moved.unit);
     format!("{} moved by {distance}", moved.name)
