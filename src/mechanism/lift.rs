@@ -205,7 +205,8 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
         Frame::Platform { platform: of } | Frame::OnPlatform { platform: of, .. } => platform(of),
         Frame::Link { chain, .. } | Frame::Tip { chain } => Some(chain),
     };
-    let mut roots: Vec<usize> = (0..chains.len() + dimensions.platforms.len()).collect();
+    let bodies = chains.len() + dimensions.platforms.len();
+    let mut roots: Vec<usize> = (0..bodies + dimensions.joint_scales.len()).collect();
     let stands = (0..)
         .zip(chains)
         .map(|(i, chain)| [Some(i), body(chain.on)]);
@@ -213,7 +214,13 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
         .closures
         .iter()
         .map(|closure| closure.frames.map(body));
-    for pair in stands.chain(closed) {
+    // what a joint variable moves belongs together
+    let moved = (0..).zip(chains).flat_map(|(i, chain)| {
+        let forms = chain.rows.iter().flat_map(|row| [&row.turn, &row.slide]);
+        let joints = forms.flat_map(|form| form.0.iter().map(|(joint, _)| bodies + joint));
+        joints.map(move |joint| [Some(i), Some(joint)])
+    });
+    for pair in stands.chain(closed).chain(moved) {
         if let [Some(a), Some(b)] = pair {
             join(&mut roots, a, b);
         }

@@ -70,6 +70,14 @@ pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
     ))
 }
 
+/// How far the start of a search moved, whether or not it ended beside it.
+pub(super) fn from_start(moved: &Moved) -> String {
+    format!(
+        "from the given pose {}, more than any other coordinate",
+        way(moved)
+    )
+}
+
 fn way(moved: &Moved) -> String {
     let distance = quantity(moved.distance, moved.unit);
     format!("{} moved by {distance}", moved.name)

@@ -13,21 +13,17 @@ impl Report for AssemblyReport {
         let platforms = self.platforms.0.iter();
         let platforms = platforms.map(|(name, platform)| pose(name, platform));
         let gaps = (!self.is_assembled()).then(|| Section::new("Gaps").table(gaps(self)));
-        let moved = self.moved.as_ref();
-        Document::new(
-            &self.mechanism,
-            closing::after_moving(moved, sentence(self)),
-        )
-        .notes(closing::beside(moved))
-        .interrupted(self.interrupted, "other starts")
-        .notes(left(self))
-        .notes(idle(self))
-        .notes(others(self))
-        .table("Joints", joints(self))
-        .sections(platforms)
-        .table("Frames", tips(self))
-        .sections(gaps)
-        .method(found(self))
+        Document::new(&self.mechanism, sentence(self))
+            .notes(self.moved.as_ref().map(closing::from_start))
+            .interrupted(self.interrupted, "other starts")
+            .notes(left(self))
+            .notes(idle(self))
+            .notes(others(self))
+            .table("Joints", joints(self))
+            .sections(platforms)
+            .table("Frames", tips(self))
+            .sections(gaps)
+            .method(found(self))
     }
 
     fn is_yes(&self) -> bool {
