@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use num_rational::Ratio;
+
 use super::single::{Content, Unknown, content};
 use super::{ClosedSolution, Rule, Step, free_stem, platform_is_held};
-use crate::algebra::{Budget, ByUnknowns, Expression, Trigonometric, Wave, arrange};
+use crate::algebra::{Budget, ByUnknowns, Expression, Symbolic, Trigonometric, Wave, arrange};
 use crate::mechanism::{Configuration, Formal, JointKind, Letters, Mechanism};
 use crate::system::Question;
 
@@ -49,9 +51,10 @@ impl<'a> Derivation<'a> {
         let held = question.held();
         let (mut unknown, mut never) = (BTreeSet::new(), BTreeSet::new());
         for (joint, held) in held.joints.iter().enumerate() {
-            if !held {
-                unknown.insert(letters.joint(joint));
+            if *held {
+                continue;
             }
+            unknown.insert(letters.joint(joint));
             if mechanism.joints()[joint].kind == JointKind::Helical {
                 never.insert(letters.joint(joint));
             }
@@ -63,8 +66,7 @@ impl<'a> Derivation<'a> {
             let entries = (0..12).map(|entry| letters.platform(platform, entry));
             never.extend(entries);
         }
-        let left: BTreeSet<u32> = never.iter().copied().collect();
-        unknown.extend(left);
+        unknown.extend(&never);
         let length = mechanism.characteristic_length();
         Derivation {
             mechanism,
@@ -87,7 +89,7 @@ impl<'a> Derivation<'a> {
         for (closure, own) in self.mechanism.closures().iter().enumerate() {
             let found = formal.closure(closure);
             let mut equations = found.conditions.into_iter();
-            let mut put = |values: Vec<crate::algebra::Symbolic>| {
+            let mut put = |values: Vec<Symbolic>| {
                 let rows = values.iter().filter_map(|value| value.formula());
                 let rows = rows.map(|row| row.without_rounding()).collect();
                 self.groups.push(Group { closure, rows });
@@ -204,7 +206,7 @@ impl<'a> Derivation<'a> {
                 for unknown in unknowns {
                     let own = |row: &&ByUnknowns| matches!(content(row), Content::One(of) if of == unknown);
                     let own: Vec<&ByUnknowns> = rows.iter().filter(own).collect();
-                    let found = self.from_rows(*closure, &own, unknown, alone);
+                    let found = self.rule_for(*closure, &own, unknown, alone);
                     if found.is_some() {
                         return found;
                     }
@@ -228,7 +230,7 @@ impl<'a> Derivation<'a> {
                 if best.as_ref().is_some_and(|(least, _)| *least <= rank) {
                     continue;
                 }
-                let found = self.from_rows(closure, &[&sorted], unknown, true);
+                let found = self.rule_for(closure, &[&sorted], unknown, true);
                 best = found.map(|found| (rank, found)).or(best);
             }
         }
@@ -249,7 +251,7 @@ impl<'a> Derivation<'a> {
                 slide
             }
             Unknown::Angle(angle) => match angle.as_slice() {
-                [(only, k)] if beside.0.is_empty() && *k == num_rational::Ratio::from(1) => {
+                [(only, k)] if beside.0.is_empty() && *k == Ratio::from(1) => {
                     self.unknown.remove(only);
                     *only
                 }
@@ -268,7 +270,7 @@ impl<'a> Derivation<'a> {
     fn take_sum(
         &mut self,
         closure: usize,
-        angle: &[(u32, num_rational::Ratio<i64>)],
+        angle: &[(u32, Ratio<i64>)],
         last: u32,
         sign: i64,
         beside: Wave,

@@ -69,7 +69,7 @@ impl Derivation<'_> {
     }
 
     /// The rule for an unknown that alone stands in some rows; with `alone` one that leaves two solutions.
-    pub(super) fn from_rows(
+    pub(super) fn rule_for(
         &mut self,
         closure: usize,
         rows: &[&ByUnknowns],
