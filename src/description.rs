@@ -46,6 +46,8 @@ pub use suggestion::nearest;
 pub(crate) use words::joined;
 pub use words::{count, listed, quoted};
 
+use crate::number::sorting::sort_by_key;
+
 /// The largest file that is read unless another limit is given, in bytes: it guards against devices and mistaken names,
 /// whose contents would fill the memory, and has room for a million joints.
 pub const MAX_BYTES: u64 = 1 << 28;
@@ -95,7 +97,9 @@ impl Draft {
                 kind => lost.extend(may_hide(kind)),
             }
         }
-        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        sort_by_key(&mut problems, |problem| {
+            (problem.span.start, problem.span.end)
+        });
         match description {
             Some(description) => Ok(Draft {
                 description,

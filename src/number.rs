@@ -10,6 +10,7 @@ mod folded;
 mod interval;
 mod lanes;
 mod real;
+pub(crate) mod sorting;
 mod trigonometry;
 
 use std::fmt::Debug;

@@ -15,6 +15,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::trigonometric::{Atom, Key, Powers, Trigonometric, Wave};
 use super::{Expression, Node, Operator};
+use crate::number::sorting::{sort_by, sort_by_key};
 use product::written;
 
 /// Products that are multiplied out at most; beyond, the sum over waves is printed as it is.
@@ -121,7 +122,7 @@ fn factors(wave: &Wave, block: &dyn Fn(&Powers) -> usize) -> Vec<(Wave, i32)> {
         part.0.push((angle.clone(), *k));
     }
     let mut parts: Vec<Wave> = parts.into_values().collect();
-    parts.sort();
+    sort_by(&mut parts, Ord::cmp);
     let signed = parts.into_iter().map(|part| {
         // the sign of the first letter; of π only if there is no other
         let lead = part.0.iter().find(|(angle, _)| *angle != [(Atom::Pi, 1)]);
@@ -261,7 +262,7 @@ fn binary(operator: Operator, x: Expression, y: Expression) -> Expression {
 }
 
 fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
-    products.sort_by_key(Product::rank);
+    sort_by_key(&mut products, Product::rank);
     let mut counts: BTreeMap<Factor, usize> = BTreeMap::new();
     for factor in products.iter().flat_map(Product::factors) {
         *counts.entry(factor).or_default() += 1;
@@ -293,7 +294,7 @@ fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
 
 /// factor·(…)
 fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
-    inside.sort_by_key(Product::rank);
+    sort_by_key(&mut inside, Product::rank);
     // −s₁(c₂ − c₃) rather than s₁(−c₂ + c₃)
     let negative = inside[0].coefficient.is_negative();
     for product in inside.iter_mut().filter(|_| negative) {
@@ -321,8 +322,8 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
             Factor::Circular(circular) => outside.circular.push(circular),
         }
     }
-    outside.powers.sort();
-    outside.circular.sort();
+    sort_by(&mut outside.powers, Ord::cmp);
+    sort_by(&mut outside.circular, Ord::cmp);
     let inside = nested(inside, name);
     let Summand { expression, .. } = written(&outside, Some(inside), name);
     Summand {

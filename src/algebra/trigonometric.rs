@@ -28,6 +28,7 @@ use num_rational::{BigRational, Ratio};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::Function;
+use crate::number::sorting::sort_by;
 pub(super) use constants::is_decimal;
 pub use term::{Atom, Key, Powers, Wave};
 pub use unknowns::{ByUnknowns, Monomial};
@@ -287,7 +288,7 @@ impl Trigonometric {
             }
             angles.push((key.powers.clone(), factor));
         }
-        angles.sort();
+        sort_by(&mut angles, Ord::cmp);
         Some(Wave(angles))
     }
 

@@ -13,6 +13,7 @@ use std::ops::Range;
 
 use super::piece::{Piece, Shape};
 use super::*;
+use crate::number::sorting::sort_by_key;
 use shapes::Fields;
 
 /// The description as far as it could be read, the problems, and the names affected by them. Joint coordinates become
@@ -50,7 +51,9 @@ impl AxesDescription {
         if let Some(description) = &description {
             super::checks::check_axes(description, &mut problems);
         }
-        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        sort_by_key(&mut problems, |problem| {
+            (problem.span.start, problem.span.end)
+        });
         match description {
             Some(description) if problems.is_empty() => Ok(description),
             _ => Err(problems),

@@ -2,6 +2,7 @@ use nalgebra::DMatrix;
 
 use super::rank;
 use super::vectors::{orthogonalise, rotate};
+use crate::number::sorting::order;
 
 /// A = U·Σ·Vᵀ.
 #[derive(Clone, Debug, Default)]
@@ -73,8 +74,7 @@ impl Svd {
             );
         });
         let sizes: Vec<f64> = u.column_iter().map(|column| column.norm()).collect();
-        let mut order: Vec<usize> = (0..columns).collect();
-        order.sort_by(|&i, &j| sizes[j].total_cmp(&sizes[i]));
+        let order = order(columns, &|i, j| sizes[j].total_cmp(&sizes[i]));
         let unit = |i: usize| 1.0 / sizes[i].max(f64::MIN_POSITIVE);
         let column = |matrix: &DMatrix<f64>, i: usize, factor: f64| -> Vec<f64> {
             matrix.column(i).iter().map(|x| x * factor).collect()

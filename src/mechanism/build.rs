@@ -21,6 +21,7 @@ use crate::algebra::Measure;
 use crate::description::{self, Description, Displacement, Draft, Entry, Named};
 use crate::description::{LoadError, MAX_BYTES, Problem, ProblemKind, Severity, load_text_within};
 use crate::geometry::Pose;
+use crate::number::sorting::sort_by_key;
 
 /// A chain as far as it could be resolved.
 struct ResolvedChain {
@@ -114,7 +115,9 @@ impl Mechanism {
             let whole = draft.problems.is_empty();
             problems.extend(found.into_iter().filter(|problem| whole || new(problem)));
         }
-        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        sort_by_key(&mut problems, |problem| {
+            (problem.span.start, problem.span.end)
+        });
         problems
     }
 
@@ -185,7 +188,7 @@ impl Mechanism {
             }
         }
         let problems = &mut builder.problems;
-        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        sort_by_key(problems, |problem| (problem.span.start, problem.span.end));
         // a coordinate occurs in several entries of the tables
         problems.dedup();
         // what follows from a problem that has a place is no problem of its own

@@ -7,6 +7,7 @@ use super::{Configuration, Frame, Mechanism};
 use crate::algebra::{EvaluationError, Symbolic};
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::number::Number;
+use crate::number::sorting::sort_by_key;
 
 /// The meaning of each symbol: parameters, joint variables, platform poses and local names, in this order.
 #[derive(Clone, Copy)]
@@ -206,7 +207,7 @@ impl<'a> Formal<'a> {
                 }),
             }
         }
-        twists.sort_by_key(|twist| twist.joint);
+        sort_by_key(&mut twists, |twist| twist.joint);
         Some(twists)
     }
 

@@ -14,6 +14,7 @@ pub use camera::View;
 
 use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
 use crate::geometry::Vector3;
+use crate::number::sorting::sort_by;
 use crate::scene::{BodyShape, Scene, Triple};
 use labels::Labels;
 
@@ -255,7 +256,7 @@ impl<'s> Stage<'s> {
                 false => self.line(&path.points, Layer::Path, Style::line(PATH, 1.6)),
             });
         }
-        pieces.sort_by(|a, b| match self.flat {
+        sort_by(&mut pieces, |a, b| match self.flat {
             true => a.layer.cmp(&b.layer),
             false => a.near.total_cmp(&b.near),
         });

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{Scene, Travel, Triple, Wheel};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Configuration, Convention, Frame, LinearForm, Mechanism};
+use crate::number::sorting::sort_by;
 
 /// A row that turns a body about an axis: the body it turns on, the body turned, a point of the axis, the axis, and the
 /// angle.
@@ -48,7 +49,7 @@ impl Scene {
             };
             let factor = form.0[0].1;
             let mut ends = [low, high].map(|end| factor * (end - at.joints[joint]));
-            ends.sort_by(f64::total_cmp);
+            sort_by(&mut ends, f64::total_cmp);
             let row = row + 1;
             let [arm, ..] = pose(Frame::Link { chain, row }).rotation.0;
             self.travels.push(Travel {
@@ -119,7 +120,7 @@ impl Scene {
             }
         }
         // neighbours mesh: a wheel has one radius, that of its nearest mesh
-        meshes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut meshes, |a, b| a.0.total_cmp(&b.0));
         for (_, pair) in meshes {
             let other_size = |wheel: &Wheel| {
                 let same = self.wheels.iter().find(|known| known.body == wheel.body);

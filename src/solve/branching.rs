@@ -4,6 +4,7 @@ use super::continuation::{Continuation, Place, SolutionCurve, back};
 use crate::linear::{
     BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, dot, norm, product,
 };
+use crate::number::sorting::sort_by;
 
 /// A point where the Jacobian of a curve loses rank.
 #[derive(Clone, Debug)]
@@ -296,7 +297,9 @@ fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
             a.iter_mut().for_each(|x| *x = -*x);
         }
     }
-    found.sort_by(|a, b| b.partial_cmp(a).unwrap_or(std::cmp::Ordering::Equal));
+    sort_by(&mut found, |a, b| {
+        b.partial_cmp(a).unwrap_or(std::cmp::Ordering::Equal)
+    });
     found
 }
 

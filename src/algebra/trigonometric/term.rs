@@ -10,6 +10,7 @@ use num_traits::{CheckedAdd, Zero};
 
 use super::super::Function;
 use super::{Trigonometric, constants};
+use crate::number::sorting::sort_by;
 
 /// A letter of the polynomials.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -171,7 +172,7 @@ impl Wave {
         let mut wave = self.without_pi();
         if !k.is_zero() {
             wave.0.push((pi_angle(), k));
-            wave.0.sort();
+            sort_by(&mut wave.0, Ord::cmp);
         }
         wave
     }

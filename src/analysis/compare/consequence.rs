@@ -7,6 +7,7 @@ use num_traits::Zero;
 use rustc_hash::FxHashMap;
 
 use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
+use crate::number::sorting::sort_by_key;
 
 /// Rows of the elimination at most.
 const MOST_ROWS: usize = 2_000;
@@ -263,7 +264,9 @@ fn candidates(formula: &Trigonometric, generators: &[Trigonometric]) -> Vec<Trig
         found.insert(ratio.into_iter().filter(|(_, power)| *power != 0).collect());
     }
     let mut found: Vec<Powers> = found.into_iter().collect();
-    found.sort_by_key(|powers| powers.iter().map(|(_, power)| power.abs()).sum::<i32>());
+    sort_by_key(&mut found, |powers| {
+        powers.iter().map(|(_, power)| power.abs()).sum::<i32>()
+    });
     let product = |powers: Powers| Trigonometric::one_of(Key::of(powers));
     found.into_iter().take(MOST_FACTORS).map(product).collect()
 }

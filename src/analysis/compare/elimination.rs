@@ -17,6 +17,7 @@ use super::consequence::{Span, circular};
 use crate::algebra::{Atom, Budget, Key, Symbolic, Trigonometric, Wave};
 use crate::geometry::Axis;
 use crate::mechanism::{Formal, Frame, Mechanism};
+use crate::number::sorting::{sort_by, sort_by_key};
 
 /// Rows of one elimination at most.
 const MOST_ROWS: usize = 240;
@@ -102,7 +103,7 @@ fn waves(factors: &[(u32, Ratio<i64>)]) -> Vec<Trigonometric> {
     let parts = factors.iter().filter(|(_, k)| !k.is_zero());
     let parts = parts.map(|(symbol, k)| (vec![(Atom::Symbol(*symbol), 1)], *k));
     let mut wave = Wave(parts.collect());
-    wave.0.sort();
+    sort_by(&mut wave.0, Ord::cmp);
     circular(Key::turning(wave))
 }
 
@@ -171,7 +172,7 @@ pub(super) fn eliminated(formula: &Trigonometric, equations: &[Trigonometric]) -
     }
     let others: Vec<u32> = others.into_iter().collect();
     let mut choices: Vec<u32> = (0..1 << others.len()).collect();
-    choices.sort_by_key(|choice| (choice.count_ones(), *choice));
+    sort_by_key(&mut choices, |choice| (choice.count_ones(), *choice));
     let field = roots(equations.iter().chain(sets.iter().flatten()));
     for choice in choices {
         let added = others.iter().enumerate();

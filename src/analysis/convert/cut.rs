@@ -22,6 +22,7 @@ use crate::description::{
     Entry, Named, Role, Row, Spanned, first_free, names_of, nearest, place_of,
 };
 use crate::mechanism::{Frame, JointKind, Mechanism};
+use crate::number::sorting::sort_by;
 use closure_rows::ClosureRows;
 
 pub use error::CutError;
@@ -114,7 +115,7 @@ fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, 
     let stays_alone = |index: usize| {
         let bodies = |frames: [Frame; 2]| {
             let mut bodies = frames.map(|frame| mechanism.body(frame));
-            bodies.sort();
+            sort_by(&mut bodies, Ord::cmp);
             bodies
         };
         let closures = mechanism.closures();

@@ -8,6 +8,7 @@ use super::{CutChoice, CutReport, FramesReport};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Graph, Problem, place_of,
 };
+use crate::number::sorting::sort_by_key;
 
 /// The most ways to cut that are compared.
 const MOST_WAYS: usize = 200;
@@ -32,7 +33,9 @@ pub(super) fn closed(
             (way(axes, &cuts, &balls, &built), built)
         })
         .collect();
-    compared.sort_by_key(|(way, _)| (way.longest, way.entries, way.prismatic));
+    sort_by_key(&mut compared, |(way, _)| {
+        (way.longest, way.entries, way.prismatic)
+    });
     let ways_compared = compared.iter().map(|(way, _)| way.clone()).collect();
     let (best, built) = compared.swap_remove(0);
     let named = |j: &usize| axes.joints[*j].name.value.clone();

@@ -10,6 +10,7 @@ use super::outputs::{Coupled, coupled, outputs_of};
 use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::number::sorting::sort_by;
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
 use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, Walk};
 
@@ -256,7 +257,7 @@ impl Tests<'_> {
             }
         }
         let along = |met: &Met| norm(&curve.difference(&step.from.at, &met.place.at));
-        found.sort_by(|a, b| along(a).total_cmp(&along(b)));
+        sort_by(&mut found, |a, b| along(a).total_cmp(&along(b)));
         found
     }
 

@@ -9,6 +9,7 @@ use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, PoseCoordinate, Variable};
+use crate::number::sorting::sort_by;
 use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{
     Coordinate, Driven, Held, Lock, LocusCurve, LocusEnd, Question, Region, Singular, Traced,
@@ -258,7 +259,9 @@ impl Search<'_> {
             let points = locus.points.iter().copied();
             points.fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
         };
-        loci.sort_by(|a, b| (order(a).partial_cmp(&order(b))).unwrap_or(std::cmp::Ordering::Equal));
+        sort_by(&mut loci, |a, b| {
+            (order(a).partial_cmp(&order(b))).unwrap_or(std::cmp::Ordering::Equal)
+        });
         loci
     }
 
@@ -275,7 +278,9 @@ impl Search<'_> {
         }
         let points = places.iter().map(|place| self.coordinates(place));
         let mut distinct = projection.distinct(points.clone());
-        distinct.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        sort_by(&mut distinct, |a, b| {
+            a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal)
+        });
         let first = |point: &[f64; 2]| points.clone().position(|own| own == *point);
         let cusps = distinct.into_iter().filter_map(|point| {
             let place = &places[first(&point)?];

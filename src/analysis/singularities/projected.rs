@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::classify::Singularity;
 use crate::linear::norm;
+use crate::number::sorting::sort_by;
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
@@ -159,7 +160,9 @@ pub(super) fn groups(
     projections: &[Projection],
 ) -> Vec<Vec<usize>> {
     let mut longest: Vec<usize> = (0..projections.len()).collect();
-    longest.sort_by(|a, b| projections[*b].length.total_cmp(&projections[*a].length));
+    sort_by(&mut longest, |a, b| {
+        projections[*b].length.total_cmp(&projections[*a].length)
+    });
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for number in longest {
         let own = &projections[number];

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Interval;
+use crate::number::sorting::sort_by;
 use crate::solve::{Conditions, Sides, Stage, Watch, holds_one, nearest};
 use crate::system::{Driven, Held, JointSpace, Unfit};
 use moving::{Moving, joint};
@@ -163,7 +164,7 @@ impl<'m> Certifier<'m> {
             }
             parts = halves;
         }
-        open.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut open, |a, b| a.0.total_cmp(&b.0));
         open.iter().for_each(|(_, from, to)| self.note(from, to));
     }
 

@@ -8,6 +8,7 @@ use super::At;
 use crate::geometry::Vector3;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement, Variable};
+use crate::number::sorting::sort_by;
 use crate::solve::Continuation;
 use crate::system::{Curve, Event, FrameTwists, Segment};
 use crossings::double_points;
@@ -165,7 +166,7 @@ impl Trail {
                     &leg.from.tangent,
                 )
             };
-            events.sort_by(|(a, _), (b, _)| along(a).total_cmp(&along(b)));
+            sort_by(&mut events, |(a, _), (b, _)| along(a).total_cmp(&along(b)));
         }
         if self.places.is_empty() && !self.tracers.is_empty() {
             self.places.push(leg.from.clone());

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{Svd, dot};
+use crate::number::sorting::sort_by;
 use crate::solve::summit;
 
 /// The straight line that a path over a motion comes nearest to, and how near.
@@ -69,7 +70,7 @@ impl Straightness {
                 return Some(line);
             }
             known.extend(more);
-            known.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sort_by(&mut known, |a, b| a.0.total_cmp(&b.0));
         }
         let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();
         Straightness::of(point, &places)
@@ -102,7 +103,9 @@ impl Straightness {
         }
         let [u, v] = [0, 1].map(|k| &axes.right[k]);
         let mut flat: Vec<[f64; 2]> = apart.iter().map(|a| [dot(a, u), dot(a, v)]).collect();
-        flat.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        sort_by(&mut flat, |a, b| {
+            a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+        });
         let hull = hull(&flat);
         // across each edge of the hull: the normal, and how far the places reach
         let strips = hull

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::flood::{Edge, Flood, Met, ModeSeeds, ReachedSet, Signs, Steps, Until, signs_of};
 use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
+use crate::number::sorting::sort_by;
 use crate::system::Coordinate;
 
 /// The home assembly, followed to nodes of the grid.
@@ -116,7 +117,7 @@ fn corners(grid: &Grid, at: &[f64]) -> Vec<usize> {
         parts.map(|part| part * part).sum()
     };
     let mut nodes = grid.nodes_within(&sides);
-    nodes.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    sort_by(&mut nodes, |a, b| distance(a).total_cmp(&distance(b)));
     nodes
 }
 

@@ -19,6 +19,7 @@ use super::home::Home;
 use super::problem::{Grid, MapProblem};
 use crate::algebra::SiUnit;
 use crate::mechanism::{PoseCoordinate, Variable, turn_near};
+use crate::number::sorting::sort_by;
 use crate::solve::each;
 use crate::system::Coordinate;
 
@@ -73,7 +74,7 @@ impl<'a> Map<'a> {
             .filter(|(root, _)| within[*root])
             .filter_map(|(root, first)| Some((root, (*first)?)))
             .collect();
-        roots.sort_by(|a, b| order(a.1, b.1).then(a.0.cmp(&b.0)));
+        sort_by(&mut roots, |a, b| order(a.1, b.1).then(a.0.cmp(&b.0)));
         let mut numbers = vec![None; reached_set.len()];
         for (number, (root, _)) in roots.iter().enumerate() {
             numbers[*root] = Some(number);
@@ -314,7 +315,7 @@ impl<'a> Map<'a> {
             };
             (first, report)
         });
-        all.sort_by(|a, b| {
+        sort_by(&mut all, |a, b| {
             let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
             order.then_with(|| {
                 let node = |first: usize| self.reached_set.nodes[first];

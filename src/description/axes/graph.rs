@@ -6,6 +6,7 @@ use super::{AxesDescription, AxisDescription, AxisKind};
 use crate::description::{
     AxesProblem, GROUND, Named, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
 };
+use crate::number::sorting::sort_by_key;
 
 /// Bodies and the joints between them.
 pub(crate) struct Graph {
@@ -217,7 +218,7 @@ impl AxesDescription {
         let mut joints: Vec<usize> = (0..self.joints.len())
             .filter(|j| !cuts.contains(j))
             .collect();
-        joints.sort_by_key(|&j| (order(j), depth(j), j));
+        sort_by_key(&mut joints, |&j| (order(j), depth(j), j));
         let mut kept = BTreeSet::new();
         let mut problems = Vec::new();
         for joint in joints {

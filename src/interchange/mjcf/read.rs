@@ -19,6 +19,7 @@ use crate::interchange::page::{Problems, direction, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
+use crate::number::sorting::sort_by_key;
 
 /// Reads the text of an MJCF file without `include`.
 pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>> {
@@ -58,7 +59,7 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
 
 /// The text without some ranges, which may be nested.
 fn without(text: &str, mut removed: Vec<Range<usize>>) -> String {
-    removed.sort_by_key(|range| range.start);
+    sort_by_key(&mut removed, |range| range.start);
     let mut kept = String::new();
     let mut at = 0;
     for range in removed {

@@ -1,6 +1,7 @@
 //! Orthographic projection.
 
 use crate::geometry::Vector3;
+use crate::number::sorting::sort_by;
 use crate::scene::{Triple, least_and_greatest};
 
 /// From where a scene is seen.
@@ -104,7 +105,9 @@ impl Camera {
                 ((x, y), *point)
             })
             .collect();
-        seen.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        sort_by(&mut seen, |(a, _), (b, _)| {
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
         let size = match (seen.first(), seen.last()) {
             (Some((a, _)), Some((b, _))) => (a.0 - b.0).hypot(a.1 - b.1),
             _ => return Vec::new(),

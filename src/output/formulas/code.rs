@@ -8,6 +8,7 @@ use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, Letter, Meaning, SolutionFormula, StepFormula,
 };
+use crate::number::sorting::{sort_by, sort_by_key};
 
 /// One function for each transform, closure and Jacobian; they need nothing but `f64`.
 pub fn rust(report: &FormulasReport) -> String {
@@ -73,7 +74,7 @@ fn arguments(letters: &[Letter]) -> Vec<(&str, String)> {
         (rank(letter.meaning), letter.name.as_str(), argument)
     });
     let mut named: Vec<_> = named.collect();
-    named.sort();
+    sort_by(&mut named, Ord::cmp);
     let named = named.into_iter().map(|(_, letter, name)| (letter, name));
     named.collect()
 }
@@ -151,7 +152,7 @@ impl Writer<'_> {
         });
         let rows: String = rows.collect();
         let mut numbered: Vec<(&String, &(usize, bool, bool))> = angles.iter().collect();
-        numbered.sort_by_key(|(_, (number, ..))| *number);
+        sort_by_key(&mut numbered, |(_, (number, ..))| *number);
         let numbered = numbered.into_iter().map(|(angle, of)| (spaced(angle), of));
         let lets = numbered.map(|(angle, (k, sin, cos))| match (sin, cos) {
             (true, true) => format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n"),

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::geometry::Vector3;
+use crate::number::sorting::sort_by;
 use crate::scene::Triple;
 
 /// Triangles, or a line where there are none.
@@ -130,7 +131,7 @@ pub(super) fn plate(points: &[Vector3<f64>]) -> Solid {
         let off = *p - middle;
         off.0[1].atan2(off.0[0])
     };
-    round.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    sort_by(&mut round, |a, b| angle(a).total_cmp(&angle(b)));
     let corners: Vec<Triple> = round.iter().map(|point| point.0).collect();
     let mut solid = Solid::default();
     solid.face(&corners, [0.0, 0.0, 1.0]);

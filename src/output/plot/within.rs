@@ -1,5 +1,7 @@
 //! Curves without bound, cut where the chart ends.
 
+use crate::number::sorting::sort_by;
+
 /// The parts of a curve whose height is within a range.
 pub(super) fn inside(line: &[(f64, f64)], within: Option<(f64, f64)>) -> Vec<Vec<(f64, f64)>> {
     let Some((low, high)) = within else {
@@ -56,7 +58,7 @@ pub fn broken(points: &[(f64, f64)], poles: &[f64]) -> Vec<(f64, f64)> {
 /// The range of four heights of five, and as much again above and below: what is beyond belongs to a pole.
 pub fn most(mut heights: Vec<f64>) -> Option<(f64, f64)> {
     heights.retain(|y| y.is_finite());
-    heights.sort_by(f64::total_cmp);
+    sort_by(&mut heights, f64::total_cmp);
     let at = |part: f64| heights.get((part * (heights.len().checked_sub(1)?) as f64) as usize);
     let (low, high) = (*at(0.1)?, *at(0.9)?);
     let room = high - low;

@@ -4,6 +4,7 @@ use super::paths;
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion};
 use crate::description::{count, listed};
+use crate::number::sorting::sort_by;
 use crate::output::document::{Cell, Document, Section, Table};
 use crate::output::quantity::{self, metres, number, quantity};
 use crate::output::report::Report;
@@ -122,7 +123,7 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
 fn places(values: impl Iterator<Item = f64>, unit: SiUnit) -> Vec<String> {
     const SAME: f64 = 1e-6;
     let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
+    sort_by(&mut values, f64::total_cmp);
     let same = values.chunk_by(|a, b| b - a < SAME);
     let named = same.map(|same| match same.len() {
         1 => quantity(same[0], unit),

@@ -7,6 +7,7 @@ use super::trace::closed;
 use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::sorting::sort_by;
 use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
 
 type At = Place<Configuration<f64>>;
@@ -280,7 +281,7 @@ impl<'m> Walk<'m> {
             events.push((place, Event::Closed));
         }
         let along = |p: &At| dot(&curve.difference(&from.at, &p.at), &from.tangent);
-        events.sort_by(|(a, _), (b, _)| along(a).total_cmp(&along(b)));
+        sort_by(&mut events, |(a, _), (b, _)| along(a).total_cmp(&along(b)));
         Segment {
             from,
             to,

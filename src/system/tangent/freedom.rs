@@ -5,6 +5,7 @@ use super::shake::shaken;
 use crate::geometry::RollPitchYaw;
 use crate::linear::{INDEPENDENT, Svd, norm, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
+use crate::number::sorting::sort_by;
 use crate::solve::{Equations, Newton};
 use crate::system::{Coordinate, Held, Places, System, Unknown, Work};
 
@@ -116,7 +117,9 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
         .map(|(name, share)| (name.to_owned(), share));
     let mut shares: Vec<(String, f64)> = shares.collect();
     shares.retain(|(_, share)| *share > 1e-6);
-    shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    sort_by(&mut shares, |a, b| {
+        b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0))
+    });
     shares.into_iter().map(|(name, _)| name).collect()
 }
 

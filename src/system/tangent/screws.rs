@@ -11,6 +11,7 @@ use crate::geometry::Vector3;
 use crate::linear::{Decomposition, axis_aligned, dot, norm, orthonormal, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::number::Number;
+use crate::number::sorting::sort_by;
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -193,7 +194,7 @@ fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f6
             }
         })
         .collect();
-    screws.sort_by(|a, b| {
+    sort_by(&mut screws, |a, b| {
         let pitch = |screw: &Screw| screw.pitch.unwrap_or(f64::INFINITY);
         pitch(a).abs().total_cmp(&pitch(b).abs())
     });

@@ -3,6 +3,7 @@
 use super::{At, PathPoint, STILL, Tracer};
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
+use crate::number::sorting::sort_by;
 use crate::solve::Continuation;
 use crate::system::Curve;
 
@@ -50,7 +51,7 @@ pub(super) fn double_points(
             });
         }
     }
-    pieces.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
+    sort_by(&mut pieces, |a, b| a.low[0].total_cmp(&b.low[0]));
     let mut found: Vec<(Vector3<f64>, Vec<Passage>)> = Vec::new();
     for (i, a) in pieces.iter().enumerate() {
         let near = pieces[i + 1..].iter().take_while(|b| b.low[0] <= a.high[0]);
@@ -85,7 +86,7 @@ pub(super) fn double_points(
     let mut reported: Vec<PathPoint> = (found.iter_mut())
         .filter(|(_, passages)| passages.len() > 1)
         .map(|(_, passages)| {
-            passages.sort_by(|(a, i), (b, j)| {
+            sort_by(passages, |(a, i), (b, j)| {
                 let joints = a.at.joints.partial_cmp(&b.at.joints);
                 i.cmp(j).then(joints.unwrap_or(std::cmp::Ordering::Equal))
             });
@@ -93,7 +94,7 @@ pub(super) fn double_points(
             tracer.passed(&passages)
         })
         .collect();
-    reported.sort_by(|a, b| {
+    sort_by(&mut reported, |a, b| {
         let order = a.position.partial_cmp(&b.position);
         order.unwrap_or(std::cmp::Ordering::Equal)
     });

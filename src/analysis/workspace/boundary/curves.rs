@@ -4,6 +4,7 @@ use super::kinds::{BoundaryCurve, Crossing, Kind, Piece, named};
 use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::{dot, norm};
 use crate::mechanism::Configuration;
+use crate::number::sorting::sort_by;
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, Curve, Held, Locked, LocusEnd, Region, Traced, met_at};
 
@@ -123,7 +124,7 @@ impl Tracer<'_> {
         ends: [LocusEnd; 2],
         mut met: Vec<(f64, usize)>,
     ) -> BoundaryCurve {
-        met.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by(&mut met, |a, b| a.0.total_cmp(&b.0));
         let closed = ends[1] == LocusEnd::Closed;
         let mut pieces: Vec<Piece> = Vec::new();
         for (range, points) in parts(&points, &self.cuts(&path, &points), closed) {

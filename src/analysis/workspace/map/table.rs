@@ -5,6 +5,7 @@ use super::{Map, bring};
 use crate::algebra::SiUnit;
 use crate::analysis::workspace::flood::Band;
 use crate::mechanism::{PoseCoordinate, Variable};
+use crate::number::sorting::sort_by_key;
 use crate::solve::each;
 use crate::system::Coordinate;
 
@@ -87,7 +88,7 @@ impl Map<'_> {
         let mut rows: Vec<(usize, usize)> = all.filter_map(|s| Some((s, self.mode[s]?))).collect();
         let node = |s: usize| self.reached_set.nodes[s];
         for of_node in rows.chunk_by_mut(|(a, _), (b, _)| node(*a) == node(*b)) {
-            of_node.sort_by_key(|(s, mode)| (*mode, *s));
+            sort_by_key(of_node, |(s, mode)| (*mode, *s));
         }
         rows
     }
