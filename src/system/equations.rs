@@ -153,25 +153,6 @@ impl<T: Factorable> System<T> {
         &work.placement
     }
 
-    /// Linearises where frames were placed by equations of the same closures and frames.
-    pub fn linearise_at(
-        &self,
-        at: &Configuration<T>,
-        placement: &Placement<T>,
-        work: &mut Work<T>,
-    ) -> Size {
-        work.placement.0.copy_from_slice(&placement.0);
-        self.linearise_placed(at, work)
-    }
-
-    fn linearise_placed(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
-        self.jacobian_columns(at, work);
-        if !self.holds.is_empty() {
-            self.hold_residuals(at, work);
-        }
-        Size::of(&work.residual)
-    }
-
     /// Adapts storage of a system that differs in its dimensions only; its factors stay as they are.
     pub fn refit(&self, work: &mut Work<T>) {
         let [here, there] =
@@ -373,7 +354,11 @@ impl<T: Factorable> Equations for System<T> {
     #[inline]
     fn linearise(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
         self.kinematics.place(at, &mut work.placement);
-        self.linearise_placed(at, work)
+        self.jacobian_columns(at, work);
+        if !self.holds.is_empty() {
+            self.hold_residuals(at, work);
+        }
+        Size::of(&work.residual)
     }
 
     #[inline]
