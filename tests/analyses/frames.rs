@@ -615,7 +615,7 @@ mod files {
             if let Err(problems) = frames(&axes, &FramesSettings::default()) {
                 // rods, gears and frames have no rows among these tables
                 let kinds = problems.iter().map(|problem| problem.kind.title());
-                let only = "`frames` makes tables of revolute, prismatic and spherical joints only";
+                let only = "`frames` places revolute, prismatic and spherical joints ";
                 assert!(
                     kinds.clone().all(|title| title.starts_with(only)),
                     "{path:?}"

@@ -210,9 +210,9 @@ fn pipes_devices_and_dead_links_are_not_opened() {
         .status()
         .unwrap();
     assert!(made.success());
-    refused(&pipe, "no ordinary file", ANOTHER);
+    refused(&pipe, "not a regular file", ANOTHER);
     for device in ["/dev/null", "/dev/full"] {
-        refused(Path::new(device), "no ordinary file", ANOTHER);
+        refused(Path::new(device), "not a regular file", ANOTHER);
     }
     let link = folder.path().join("link");
     std::os::unix::fs::symlink("nowhere", &link).unwrap();

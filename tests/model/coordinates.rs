@@ -80,12 +80,13 @@ fn shipped_mechanisms_are_the_same_when_written_by_coordinates() {
             }
             let there = carried(&mechanism, &at, &made);
             for frame in mechanism.frames() {
-                // the end of a closure keeps its name, which is made of that of the closure
+                // a frame that is no point is the end of a closure, whose name is made of that of the closure
                 let name = mechanism.frame_name(frame);
+                let point = name.replace('.', "_");
                 let same_name = match frame {
                     Frame::Tip { .. } | Frame::Platform { .. } => name,
-                    Frame::OnPlatform { .. } if made.frame(&name).is_some() => name,
-                    Frame::OnPlatform { .. } => name.replace('.', "_"),
+                    Frame::OnPlatform { .. } if made.frame(&point).is_some() => point,
+                    Frame::OnPlatform { .. } => name,
                     _ => continue,
                 };
                 let was = mechanism.transform(Frame::Ground, frame, &at);
