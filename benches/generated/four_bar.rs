@@ -104,9 +104,168 @@ fn sine_cosine(x: f64) -> (f64, f64) {
     )
 }
 
+/// Sine and cosine after a further turn, one of several of which the longest is known.
+#[inline(always)]
+fn turn(by: f64, longest: f64, sine: &mut f64, cosine: &mut f64) {
+    let (s, c) = (*sine, *cosine);
+    let (sin_by, versine) = if longest < 0.015625 {
+        let z = by * by;
+        (
+            by - by * z * (1.0 / 6.0 - z * (1.0 / 120.0)),
+            z * (0.5 - z * (1.0 / 24.0 - z * (1.0 / 720.0))),
+        )
+    } else {
+        let (sin_by, cos_by) = sine_cosine(by);
+        (sin_by, 1.0 - cos_by)
+    };
+    *sine = s - (s * versine - c * sin_by);
+    *cosine = c - (c * versine + s * sin_by);
+}
+
+/// The closure rows r, dimensionless, and their Jacobian by a dimensionless step of the unknowns.
+fn linearise(
+    u: &[f64; INPUTS],
+    x: &[f64; STATE],
+    r: &mut [f64; ROWS],
+    j: &mut [[f64; UNKNOWNS]; ROWS],
+) {
+    let u0: f64 = u[0];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let (t10, t11) = sine_cosine(u0);
+    let t13: f64 = 2.0 * t11;
+    let t14: f64 = 2.0 * t10;
+    let (t15, t16) = sine_cosine(x0);
+    let t17: f64 = t11 * t16;
+    let t18: f64 = t10 * t15;
+    let t19: f64 = t17 - t18;
+    let t20: f64 = t10 * t16;
+    let t21: f64 = t11 * t15;
+    let t22: f64 = t20 + t21;
+    let t24: f64 = 4.0 * t19;
+    let t25: f64 = t13 + t24;
+    let t26: f64 = 4.0 * t22;
+    let t27: f64 = t14 + t26;
+    let (t28, t29) = sine_cosine(x1);
+    let t31: f64 = 3.5 * t29;
+    let t32: f64 = 4.5 + t31;
+    let t33: f64 = 3.5 * t28;
+    let t34: f64 = t32 - t25;
+    let t35: f64 = t33 - t27;
+    let t37: f64 = 0.2222222222222222 * t34;
+    let t38: f64 = 0.2222222222222222 * t35;
+    let t48: f64 = (-0.8888888888888888) * t22;
+    let t49: f64 = -t48;
+    let t50: f64 = (-0.8888888888888888) * t19;
+    let t53: f64 = 0.7777777777777777 * t28;
+    let t54: f64 = -t53;
+    let t55: f64 = 0.7777777777777777 * t29;
+    r[0] = t37;
+    r[1] = t38;
+    j[0][0] = t49;
+    j[0][1] = t54;
+    j[1][0] = t50;
+    j[1][1] = t55;
+}
+
+/// The state x moved by a step d.
+fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let d0: f64 = d[0];
+    let d1: f64 = d[1];
+    let t99: f64 = x0 + d0;
+    let t100: f64 = x1 + d1;
+    y[0] = t99;
+    y[1] = t100;
+}
+
 /// Unit quaternions again after a small change.
 #[inline(always)]
 fn normalise(x: &mut [f64; STATE]) {
+}
+
+/// Newton's method with the order of elimination chosen beforehand; false, and x as it was, where a
+/// pivot is small or a step does not halve the rows.
+#[inline]
+fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
+    const LEAST_PIVOT: f64 = 1e-4;
+    const LONGEST_STEP: f64 = 0.5;
+    const LARGE: f64 = 1e30;
+    const HALF: f64 = 0.5;
+    const MOST_STEPS: usize = 12;
+    let u0: f64 = u[0];
+    let (t10, t11) = sine_cosine(u0);
+    let t13: f64 = 2.0 * t11;
+    let t14: f64 = 2.0 * t10;
+    let mut x0: f64 = x[0];
+    let mut x1: f64 = x[1];
+    let (mut s0, mut c0) = sine_cosine(x0);
+    let (mut s1, mut c1) = sine_cosine(x1);
+    let mut last: f64 = LARGE;
+    for _ in 0..MOST_STEPS {
+        let t17: f64 = t11 * c0;
+        let t18: f64 = t10 * s0;
+        let t19: f64 = t17 - t18;
+        let t20: f64 = t10 * c0;
+        let t21: f64 = t11 * s0;
+        let t22: f64 = t20 + t21;
+        let t24: f64 = 4.0 * t19;
+        let t25: f64 = t13 + t24;
+        let t26: f64 = 4.0 * t22;
+        let t27: f64 = t14 + t26;
+        let t31: f64 = 3.5 * c1;
+        let t32: f64 = 4.5 + t31;
+        let t33: f64 = 3.5 * s1;
+        let t34: f64 = t32 - t25;
+        let t35: f64 = t33 - t27;
+        let t37: f64 = 0.2222222222222222 * t34;
+        let t38: f64 = 0.2222222222222222 * t35;
+        let mut size: f64 = 0.0;
+        size = larger(size, t37);
+        size = larger(size, t38);
+        if size <= TOLERANCE || size <= ROUNDING && !(size < HALF * last) {
+            x[0] = x0;
+            x[1] = x1;
+            return true;
+        }
+        /* a step that does not halve the rows is not to be trusted */
+        if !(size < HALF * last) { return false; }
+        last = size;
+        let t48: f64 = (-0.8888888888888888) * t22;
+        let t50: f64 = (-0.8888888888888888) * t19;
+        let t53: f64 = 0.7777777777777777 * s1;
+        let t55: f64 = 0.7777777777777777 * c1;
+        let t67: f64 = t48 * t55;
+        let t69: f64 = t50 * t53;
+        let t70: f64 = t69 - t67;
+        let t71: f64 = 1.0 / t70;
+        let t72: f64 = t37 * t55;
+        let t73: f64 = t38 * t53;
+        let t74: f64 = t72 + t73;
+        let t75: f64 = t71 * t74;
+        let t76: f64 = t37 * t50;
+        let t78: f64 = t38 * t48;
+        let t80: f64 = t76 + t78;
+        let t82: f64 = t71 * t80;
+        let t94: f64 = -t75;
+        if !(absolute(t70) > 0.769800358919501 * LEAST_PIVOT) { return false; }
+        let d0: f64 = t94;
+        let d1: f64 = t82;
+        let mut longest: f64 = 0.0;
+        longest = larger(longest, d0);
+        longest = larger(longest, d1);
+        if !(longest <= LONGEST_STEP) { return false; }
+        let t99: f64 = x0 + d0;
+        let t100: f64 = x1 + d1;
+        turn(d0, longest, &mut s0, &mut c0);
+        turn(d1, longest, &mut s1, &mut c1);
+        let y0: f64 = t99;
+        let y1: f64 = t100;
+        x0 = y0;
+        x1 = y1;
+    }
+    false
 }
 
 fn root_or_zero(x: f64) -> f64 {
@@ -207,11 +366,6 @@ pub fn assembly(
     x[0] = t163;
     x[1] = t141;
     if singular { Verdict::Singular } else { Verdict::Solved }
-}
-
-#[inline]
-fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
-    assembly(u, None, x) == Verdict::Solved
 }
 
 fn careful(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {

@@ -519,6 +519,10 @@ impl Drawing<'_> {
             let named = self.carries_tip(carrier);
             let moves = self.mechanism.body_frame(carrier) == frame;
             let asked = self.is_asked(&old);
+            // such an end has a name of its own, if it is not the frame of the body itself
+            let own = self.places.get(&self.mechanism.body_frame(carrier));
+            let is_end =
+                rotations(steps).next().is_none() && own != Some(steps) && self.ends_closure(&old);
             match frame {
                 Frame::Platform { .. } => bodies.push(Named::new(body, place_at(steps))),
                 Frame::Tip { .. } if named && body == old => {
@@ -528,7 +532,7 @@ impl Drawing<'_> {
                     }
                 }
                 Frame::Link { .. } if !asked => {}
-                _ if !asked && rotations(steps).next().is_none() && self.ends_closure(&old) => {}
+                _ if !asked && is_end => {}
                 Frame::Link { .. } if moves && !named => {
                     bodies.push(Named::new(body.clone(), AxisPlace::Frame(steps.clone())));
                     renamed.push((old, body));

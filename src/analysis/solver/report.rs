@@ -86,7 +86,7 @@ pub struct Solver {
     pub moved: Vec<Place>,
     /// Components of the state that follow from the others, with their places.
     pub placed: Vec<(usize, Place)>,
-    /// The state in closed form, if it has one; then nothing is iterated.
+    /// The state in closed form, if it has one: for what the iteration does not solve, and without a start.
     #[serde(default)]
     pub closed: Option<ClosedProgram>,
     /// Frames whose poses and twists are wanted.
