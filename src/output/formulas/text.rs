@@ -85,12 +85,12 @@ fn answer(solution: &SolutionFormula) -> String {
 fn checked(solution: &SolutionFormula) -> Option<String> {
     let solved = count(solution.samples, "solution");
     let inputs = match solution.overdetermined {
-        true => "; more is held than there are freedoms, so what is held has to fit",
+        true => "; more is held than there are freedoms, so the held values have to be compatible",
         false => ", at these and at random inputs",
     };
     let residual = solution.residual;
     let text = format!(
-        "put into the closure equations: {solved}{inputs}; largest residual {residual:.1e} characteristic lengths or rad"
+        "checked by substitution into the closure equations: {solved}{inputs}; largest residual {residual:.1e} characteristic lengths or rad"
     );
     solution.remaining.is_none().then_some(text)
 }
