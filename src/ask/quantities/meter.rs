@@ -35,6 +35,9 @@ pub(in super::super) struct Metered<'q> {
     pub outputs: Vec<Lock>,
 }
 
+/// Whether rows are read in lanes: a second copy of the engine of rates, which would be nearly a tenth of the page.
+const SIDE_BY_SIDE: bool = !cfg!(target_family = "wasm");
+
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
 /// once; rates, forces and Jacobian come from one factorisation of the closures, of eight rows of a motion side by side.
 pub(in super::super) struct Meter<'q> {
@@ -283,7 +286,8 @@ impl<'q> Meter<'q> {
     /// order.
     pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
         let (at, unknowns) = (row.configuration, self.probe.unknowns());
-        if unknowns > DENSE_LIMIT || matches!(self.spinning, Spinning::Something(_)) {
+        let alone = unknowns > DENSE_LIMIT || matches!(self.spinning, Spinning::Something(_));
+        if alone || !SIDE_BY_SIDE {
             self.read(at, time);
             return take(row, time, &self.values, &self.noise);
         }
@@ -301,7 +305,8 @@ impl<'q> Meter<'q> {
     pub fn read_waiting(&mut self, take: &mut Take) {
         let rows = std::mem::take(&mut self.waiting);
         let waits = std::mem::take(&mut self.waits);
-        let side = (waits == LANES).then(|| self.side_by_side(&rows)).flatten();
+        let full = SIDE_BY_SIDE && waits == LANES;
+        let side = full.then(|| self.side_by_side(&rows)).flatten();
         let together = side.as_ref().and_then(|side| side.probe.sure());
         for (place, row) in rows[..waits].iter().enumerate() {
             match together {
