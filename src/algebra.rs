@@ -25,7 +25,7 @@ pub use measure::{Measure, MeasureError, MeasureErrorKind};
 pub(crate) use parser::shown;
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
-pub use straight_line::{Operation, Place, Recorded, record};
+pub use straight_line::{BATCH, Batch, Operation, Place, Recorded, Registers, record};
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, ByUnknowns, Key, Monomial, Powers, Trigonometric, Wave};
 pub(crate) use vocabulary::words;

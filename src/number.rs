@@ -11,7 +11,7 @@ mod interval;
 mod lanes;
 mod real;
 pub(crate) mod sorting;
-mod trigonometry;
+pub(crate) mod trigonometry;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};

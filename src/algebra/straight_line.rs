@@ -5,6 +5,7 @@
 //! subexpressions are shared), operations on constants are carried out, and sums with 0 and products with 0, 1 and −1
 //! are left out, so that structural zeros are recognised.
 
+mod batch;
 mod operation;
 
 use std::cell::RefCell;
@@ -13,6 +14,7 @@ use rustc_hash::FxHashMap;
 
 use crate::linear::{DenseOnly, Factorable};
 use crate::number::{Field, Number, functions, operators};
+pub use batch::{BATCH, Batch, Registers};
 pub use operation::Operation;
 
 /// A place in a list of operations.
