@@ -42,7 +42,7 @@ pub use search::{
     WidestGap, close, moved, random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
-    Cone, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting, Lock, Locked, LoopPart,
-    MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist, TwistSpace,
-    combination, loops, moving, spin_lines, without, wrench_screws,
+    Cone, Driving, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting, Lock, Locked,
+    LoopPart, MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist,
+    TwistSpace, combination, loops, moving, spin_lines, without, wrench_screws,
 };

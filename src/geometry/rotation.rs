@@ -47,13 +47,6 @@ impl<T: Number> Rotation<T> {
         Vector3([self.0[0].dot(v), self.0[1].dot(v), self.0[2].dot(v)])
     }
 
-    /// The rotation followed about its own z axis: R·Rz(θ).
-    #[inline(always)]
-    pub fn turned_about_z(&self, (sin, cos): (T, T)) -> Self {
-        let [x, y, z] = self.0;
-        Rotation([x.times(cos) + y.times(sin), y.times(cos) - x.times(sin), z])
-    }
-
     /// Row-major entries r₁₁ … r₃₃.
     #[inline]
     pub fn rows(&self) -> [[T; 3]; 3] {

@@ -1,6 +1,7 @@
 //! The linearised equations at a configuration: twists of frames, freedoms, screws and rates.
 
 mod cone;
+mod driving;
 mod freedom;
 mod locked;
 mod loops;
@@ -11,6 +12,7 @@ mod shake;
 mod twists;
 
 pub use cone::{Cone, FlatSet, combination};
+pub use driving::Driving;
 pub use freedom::{Freedoms, Mobility, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};

@@ -104,30 +104,6 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// A column of the Jacobian last evaluated, over all rows.
-    pub fn column_into(&self, unknown: usize, work: &Work<T>, out: &mut [T]) {
-        out.fill(T::zero());
-        for (row, _, column) in work.jacobian.columns().filter(|of| of.1 == unknown) {
-            out[row..row + column.len()].copy_from_slice(column);
-        }
-        let shared = self.empty.shared();
-        if let Some(place) = shared.iter().position(|u| *u == unknown) {
-            let rows = work.hold_rows.chunks_exact(shared.len());
-            let out = out[self.hold_rows().start..].iter_mut().zip(rows);
-            out.for_each(|(out, entries)| *out = entries[place]);
-        }
-    }
-
-    /// The product J x of the Jacobian last evaluated, over the rows of the closures.
-    pub fn product_into(&self, x: &[T], work: &Work<T>, out: &mut [T]) {
-        out.fill(T::zero());
-        for (row, unknown, column) in work.jacobian.columns() {
-            for (out, &entry) in out[row..].iter_mut().zip(column) {
-                *out += entry * x[unknown];
-            }
-        }
-    }
-
     /// The row of a platform coordinate that is held at a value by itself.
     pub fn coordinate_row(&self, platform: usize, coordinate: PoseCoordinate) -> Option<usize> {
         self.hold_row(|hold| {

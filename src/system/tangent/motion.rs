@@ -8,8 +8,9 @@ use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
+use crate::system::{Coordinate, Held, System, Unknown, Work};
 
+use super::driving::{Driving, Entrance};
 pub use frames::FrameMotion;
 
 /// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held coordinates h. Built once;
@@ -25,8 +26,9 @@ pub use frames::FrameMotion;
 #[derive(Clone, Debug)]
 pub struct Motion<T: Factorable = f64> {
     coordinates: Vec<Coordinate>,
-    /// Where the rate of each held coordinate enters.
-    entries: Vec<Entry<T>>,
+    driving: Driving,
+    /// What makes the rates of the held coordinates dimensionless.
+    units: Vec<T>,
     held: Held<f64>,
     system: System<T>,
     work: Work<T>,
@@ -34,22 +36,11 @@ pub struct Motion<T: Factorable = f64> {
     length: f64,
     scales: Vec<f64>,
     unknowns: Vec<Unknown>,
-    /// For each unknown of the system its place among all.
-    places: Vec<usize>,
     here: Configuration<T>,
-    /// Rates and accelerations of the held coordinates.
+    /// Rates and accelerations of the held coordinates, dimensionless.
     given: [Vec<T>; 2],
     rates: Vec<T>,
     accelerations: Vec<T>,
-}
-
-/// Where the rate of a held coordinate enters, with the scale of its rate there.
-#[derive(Clone, Copy, Debug)]
-enum Entry<T> {
-    /// It is that of one of all unknowns.
-    Unknown(usize, T),
-    /// A row of the equations holds it, as single coordinates of a platform and its orientation alone.
-    Row(usize, T),
 }
 
 /// The equations along a path.
@@ -117,34 +108,13 @@ impl<T: Factorable> Motion<T> {
         let platforms = (0..mechanism.platforms().len())
             .flat_map(|platform| (0..6).map(move |component| Unknown::Twist(platform, component)));
         let unknowns: Vec<Unknown> = joints.chain(platforms).collect();
-        let place = |unknown: &Unknown| unknowns.iter().position(|of| of == unknown);
-        let places = system.unknowns().iter().map(place);
-        let places = places.map(|place| place.expect("they are some of all"));
         let length = dimensions.characteristic_length;
         let scales = dimensions.joint_scales.clone();
-        let entry = |&coordinate: &Coordinate| {
-            let (platform, number, scale) = match coordinate {
-                Coordinate::Joint(joint) => {
-                    return Entry::Unknown(joint, T::from_f64(scales[joint]));
-                }
-                Coordinate::Turn(platform, axis) => (platform, axis as usize, 1.0),
-                Coordinate::Pose(platform, c) if c.is_angle() => (platform, 0, 1.0),
-                Coordinate::Pose(platform, c) => (platform, 3 + c as usize, length),
-            };
-            let scale = T::from_f64(scale);
-            if held.platforms[platform] == HeldPlatform::Pose {
-                return Entry::Unknown(scales.len() + 6 * platform + number, scale);
-            }
-            let row = match coordinate {
-                Coordinate::Pose(_, c) => system.coordinate_row(platform, c),
-                _ => system.orientation_row(platform).map(|first| first + number),
-            };
-            Entry::Row(row.expect("what is held in part has rows"), scale)
-        };
+        let unit = |of: &Coordinate| T::from_f64(of.scale(mechanism));
         let home = mechanism.home().map(T::from_f64);
         Motion {
-            entries: coordinates.iter().map(entry).collect(),
-            places: places.collect(),
+            driving: Driving::new(&system, &held, coordinates),
+            units: coordinates.iter().map(unit).collect(),
             coordinates: coordinates.to_vec(),
             work: system.work(),
             changing: Changing::new(mechanism, &held, frames, (&system, &unknowns, &home)),
@@ -199,36 +169,44 @@ impl<T: Factorable> Motion<T> {
 
     /// Rates of all unknowns for rates of the held coordinates, in m and rad per unit of time.
     pub fn rates(&mut self, given: &[T]) -> &[T] {
-        self.given[0].copy_from_slice(given);
+        self.give(0, given);
         self.solve_rates()
+    }
+
+    fn give(&mut self, order: usize, given: &[T]) {
+        let given = given.iter().zip(&self.units);
+        for (to, (&rate, &unit)) in self.given[order].iter_mut().zip(given) {
+            *to = rate / unit;
+        }
     }
 
     fn solve_rates(&mut self) -> &[T] {
         self.changing.placed = false;
-        self.rates.fill(T::zero());
-        for (entry, &rate) in self.entries.iter().zip(&self.given[0]) {
-            if let Entry::Unknown(place, scale) = *entry {
-                self.rates[place] = rate / scale;
-            }
-        }
-        self.row_rates();
-        self.system.step(&mut self.work);
-        let step = self.system.step_of(&self.work);
-        for (&place, &step) in self.places.iter().zip(step) {
-            self.rates[place] = step;
-        }
-        &self.rates
+        let Motion {
+            driving,
+            system,
+            here,
+            given: [given, _],
+            work,
+            rates,
+            ..
+        } = self;
+        driving.rates(system, here, given, work, rates);
+        rates
     }
 
     /// The rates of all rows for the rates of all unknowns and those given.
     fn row_rates(&mut self) -> &mut [T] {
-        let rows = (self.system).row_rates(&self.here, &self.rates, &mut self.work);
-        for (entry, &rate) in self.entries.iter().zip(&self.given[0]) {
-            if let Entry::Row(row, scale) = *entry {
-                rows[row] -= rate / scale;
-            }
-        }
-        rows
+        let Motion {
+            driving,
+            system,
+            here,
+            given: [given, _],
+            work,
+            rates,
+            ..
+        } = self;
+        driving.row_rates(system, here, given, work, rates)
     }
 
     /// Rates of all unknowns for unit rates of the held coordinates, one at a time.
@@ -240,13 +218,13 @@ impl<T: Factorable> Motion<T> {
     /// The same for one of them.
     pub fn response(&mut self, i: usize) -> &[T] {
         self.given[0].fill(T::zero());
-        self.given[0][i] = T::one();
+        self.given[0][i] = T::one() / self.units[i];
         self.solve_rates()
     }
 
     /// Goes on with a sum of [responses](Self::responses); those of coordinates at rest need not be known.
     pub fn set_rates(&mut self, responses: &[Vec<T>], given: &[T]) {
-        self.given[0].copy_from_slice(given);
+        self.give(0, given);
         self.changing.placed = false;
         self.rates.fill(T::zero());
         let moving = responses.iter().zip(given);
@@ -328,9 +306,9 @@ impl<T: Factorable> Motion<T> {
         for (right, &row) in right.iter_mut().zip(&*rows) {
             *right = found[row].slope;
         }
-        for (entry, &change) in self.entries.iter().zip(&self.given[1]) {
-            if let Entry::Row(row, scale) = *entry {
-                right[row] -= change / scale;
+        for (entrance, change) in self.driving.entering(&self.here, &self.given[1]) {
+            if let Entrance::Row(row) = entrance {
+                right[row] -= change;
             }
         }
         right
@@ -338,19 +316,17 @@ impl<T: Factorable> Motion<T> {
 
     /// Accelerations for the rates last computed and those of held coordinates, in m and rad per unit of time squared.
     pub fn accelerations(&mut self, given: &[T]) -> &[T] {
-        self.given[1].copy_from_slice(given);
+        self.give(1, given);
         self.accelerations.fill(T::zero());
-        for (entry, &change) in self.entries.iter().zip(given) {
-            if let Entry::Unknown(place, scale) = *entry {
-                self.accelerations[place] = change / scale;
+        // no angle is held by itself beside a whole orientation, so that components are changes
+        for (entrance, change) in self.driving.entering(&self.here, &self.given[1]) {
+            if let Entrance::Unknown(place) = entrance {
+                self.accelerations[place] = change;
             }
         }
         self.row_changes();
-        self.system.step(&mut self.work);
-        let step = self.system.step_of(&self.work);
-        for (&place, &step) in self.places.iter().zip(step) {
-            self.accelerations[place] = step;
-        }
+        self.driving
+            .rest(&self.system, &mut self.work, &mut self.accelerations);
         self.follow();
         &self.accelerations
     }

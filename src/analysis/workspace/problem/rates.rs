@@ -2,12 +2,11 @@
 
 use super::condition::{condition, determinant};
 use super::map_problem::MapProblem;
-use crate::geometry::Vector3;
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, PoseCoordinate, Role, orientation_rows};
+use crate::mechanism::{Configuration, Role};
 use crate::number::{LANES, Packed};
 use crate::solve::Equations;
-use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
+use crate::system::{Coordinate, Driving, Held, System, Unknown, Work};
 
 /// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
 /// J N = 0 for the closures linearised with nothing held, and H N = 1 for the rates of what is held.
@@ -17,24 +16,18 @@ use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 /// sign at direct singularities only. With those of outputs it tells the inverse ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Rates<T: Factorable> {
-    /// The closures with nothing held.
+    /// The closures with nothing held, which have all unknowns.
     free: System<T>,
-    work: Work<T>,
-    /// For each row of the closures at a node the same row with nothing held.
-    rows: Vec<usize>,
-    /// For each unknown at a node its place among all.
-    places: Vec<usize>,
+    driving: Driving,
     held: Vec<Row>,
-    ways: Vec<RateSource>,
     inputs: Vec<Row>,
     outputs: Vec<Row>,
     /// Whether outputs are other than what is held.
     tells_inverse: bool,
     /// Unknowns whose rates are what moves out where there are no outputs.
     moved: Vec<usize>,
-    /// Rates of the equations at a node, and of those with nothing held.
-    right: Vec<T>,
-    column: Vec<T>,
+    /// Rates of the held coordinates.
+    given: Vec<T>,
     motions: Vec<T>,
     /// Rates of what is held, of the inputs, of the outputs and of what moves.
     rates: [Vec<T>; 4],
@@ -46,19 +39,6 @@ pub(crate) struct Rates<T: Factorable> {
 struct Row {
     of: Coordinate,
     first: usize,
-}
-
-/// How the rate of a held coordinate enters the equations at a node.
-#[derive(Clone, Copy, Debug)]
-enum RateSource {
-    /// A joint or displacement that is no unknown there: by its column.
-    Unknown(usize),
-    /// An angle of a platform whose pose is no unknown: by the columns of its turning.
-    Turned(usize, PoseCoordinate),
-    /// A coordinate that is one of the equations.
-    Row(usize),
-    /// An angle of an orientation that three of the equations hold.
-    Turning(usize, PoseCoordinate),
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -91,10 +71,6 @@ impl<T: Factorable + Packed> Rates<T> {
             },
         };
         let rows = |of: &[Coordinate]| of.iter().map(row).collect::<Vec<Row>>();
-        let mut matching = vec![0; system.hold_rows().start];
-        for (here, there) in system.closure_rows().zip(free.closure_rows()) {
-            here.zip(there).for_each(|(h, t)| matching[h] = t);
-        }
         let whole = mechanism.platforms().is_empty();
         let unknowns = free.unknowns().iter().enumerate();
         let moved = unknowns.filter(|(_, unknown)| match **unknown {
@@ -103,20 +79,16 @@ impl<T: Factorable + Packed> Rates<T> {
         });
         let unknowns = free.unknowns().len();
         Rates {
-            rows: matching,
-            places: system.unknowns().iter().map(|u| place(*u)).collect(),
+            driving: Driving::new(system, &problem.question.held(), &problem.held),
             held: rows(&problem.held),
-            ways: ways(problem, system, &place),
             inputs: rows(&problem.inputs),
             outputs: rows(&problem.outputs),
             tells_inverse: problem.tells_inverse(),
             moved: moved.map(|(i, _)| i).collect(),
-            right: vec![T::zero(); system.rows()],
-            column: vec![T::zero(); free.rows()],
+            given: vec![T::zero(); problem.held.len()],
             motions: vec![T::zero(); unknowns * problem.held.len()],
             rates: Default::default(),
             spare: Vec::new(),
-            work: free.work(),
             free,
         }
     }
@@ -137,22 +109,22 @@ impl<T: Factorable + Packed> Rates<T> {
         system: &System<T>,
         work: &mut Work<T>,
     ) -> [Indicators; LANES] {
-        self.free.linearise(at, &mut self.work);
         system.factorise(0.0, work);
         let (n, unknowns) = (self.held.len(), self.unknowns());
         // the largest that J N is off
         let mut gap = [0.0f64; LANES];
+        let closures = 0..system.hold_rows().start;
         for i in 0..n {
-            let mut motion = std::mem::take(&mut self.motions);
-            self.move_one(at, system, work, i, &mut motion[i * unknowns..][..unknowns]);
-            let one = &motion[i * unknowns..][..unknowns];
-            self.free.product_into(one, &self.work, &mut self.column);
-            let (off, size) = (largest(&self.column), largest(one));
+            self.given.fill(T::zero());
+            self.given[i] = T::one();
+            let motion = &mut self.motions[i * unknowns..][..unknowns];
+            (self.driving).rates(system, at, &self.given, work, motion);
+            let rows = (self.driving).row_rates(system, at, &self.given, work, motion);
+            let (off, size) = (largest(&rows[closures.clone()]), largest(motion));
             for (gap, (off, size)) in gap.iter_mut().zip(off.iter().zip(size)) {
                 let relative = off / (1.0 + size);
                 *gap = if relative <= *gap { *gap } else { relative };
             }
-            self.motions = motion;
         }
         // unit rates come out again if the held coordinates are independent
         let [mut back, mut input, mut output, mut moved] = std::mem::take(&mut self.rates);
@@ -207,58 +179,6 @@ impl<T: Factorable + Packed> Rates<T> {
         indicators
     }
 
-    /// The motion for a unit rate of held coordinate `i`: the step −J⁺r for the rate r of the residual
-    /// that what is held would make takes the rest along.
-    fn move_one(
-        &mut self,
-        at: &Configuration<T>,
-        system: &System<T>,
-        work: &mut Work<T>,
-        i: usize,
-        motion: &mut [T],
-    ) {
-        motion.fill(T::zero());
-        self.right.fill(T::zero());
-        match self.ways[i] {
-            RateSource::Unknown(unknown) => motion[unknown] = T::one(),
-            RateSource::Turned(first, c) => {
-                let Coordinate::Pose(platform, _) = self.held[i].of else {
-                    return;
-                };
-                let omega = turning(at, platform, c);
-                motion[first..first + 3].copy_from_slice(&omega.0);
-            }
-            RateSource::Row(row) => self.right[row] = -T::one(),
-            RateSource::Turning(row, c) => {
-                let (omega, platform) = match self.held[i].of {
-                    Coordinate::Pose(platform, _) => (turning(at, platform, c), platform),
-                    Coordinate::Turn(platform, axis) => (Vector3::unit(axis as usize), platform),
-                    Coordinate::Joint(_) => return,
-                };
-                let actual = at.platforms[platform].orientation.rotation();
-                let (_, slopes) = orientation_rows(&actual, &actual);
-                for (right, slope) in self.right[row..].iter_mut().zip(slopes) {
-                    *right = -slope.dot(&omega);
-                }
-            }
-        }
-        for (unknown, rate) in motion.iter().enumerate() {
-            // most do not move; where one does not in any place the sum is the same without it
-            if (0..T::WIDTH).all(|place| rate.part(place) == 0.0) {
-                continue;
-            }
-            (self.free).column_into(unknown, &self.work, &mut self.column);
-            for (right, &row) in self.right.iter_mut().zip(&self.rows) {
-                *right += self.column[row] * *rate;
-            }
-        }
-        system.step_for(&self.right, work);
-        let step = system.step_of(work);
-        for (&place, &rate) in self.places.iter().zip(step) {
-            motion[place] = rate;
-        }
-    }
-
     /// The motions for unit rates of all held coordinates, one after another.
     pub fn motions(&self) -> &[T] {
         &self.motions
@@ -302,53 +222,4 @@ fn largest<T: Packed>(of: &[T]) -> [f64; LANES] {
         }
     }
     most
-}
-
-/// How the rate of each held coordinate enters the equations of the question.
-fn ways<T: Factorable>(
-    problem: &MapProblem,
-    system: &System<T>,
-    place: &impl Fn(Unknown) -> usize,
-) -> Vec<RateSource> {
-    let held = problem.question.held();
-    let twist = |platform, component| place(Unknown::Twist(platform, component));
-    let way = |of: &Coordinate| match *of {
-        Coordinate::Joint(joint) => RateSource::Unknown(place(Unknown::Joint(joint))),
-        Coordinate::Pose(platform, c) => {
-            let known = held.platforms[platform] == HeldPlatform::Pose;
-            let row = system.coordinate_row(platform, c);
-            match (known, c.is_angle(), row) {
-                (true, true, _) => RateSource::Turned(twist(platform, 0), c),
-                (true, false, _) => RateSource::Unknown(twist(platform, 3 + c as usize)),
-                (false, _, Some(row)) => RateSource::Row(row),
-                (false, _, None) => RateSource::Turning(orientation(system, platform), c),
-            }
-        }
-        Coordinate::Turn(platform, axis) => match held.platforms[platform] {
-            HeldPlatform::Pose => RateSource::Unknown(twist(platform, axis as usize)),
-            _ => RateSource::Turning(orientation(system, platform), PoseCoordinate::Yaw),
-        },
-    };
-    problem.held.iter().map(way).collect()
-}
-
-fn orientation<T: Factorable>(system: &System<T>, platform: usize) -> usize {
-    let row = system.orientation_row(platform);
-    row.expect("three held angles are an orientation")
-}
-
-/// The angular velocity for a unit rate of one angle of a platform, the other two at rest.
-fn turning<T: Packed>(at: &Configuration<T>, platform: usize, c: PoseCoordinate) -> Vector3<T> {
-    let pose = at.platforms[platform].pose();
-    let slope = |c: PoseCoordinate| {
-        let slope = c.slope(&pose);
-        Vector3([slope[0], slope[1], slope[2]])
-    };
-    let [next, last] = match c {
-        PoseCoordinate::Roll => [PoseCoordinate::Pitch, PoseCoordinate::Yaw],
-        PoseCoordinate::Pitch => [PoseCoordinate::Yaw, PoseCoordinate::Roll],
-        _ => [PoseCoordinate::Roll, PoseCoordinate::Pitch],
-    };
-    let across = slope(next).cross(&slope(last));
-    across.times(T::one() / slope(c).dot(&across))
 }
