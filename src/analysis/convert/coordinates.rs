@@ -8,17 +8,19 @@
 //! a closure, turned as the drawing and under the names that [`AxesDescription::tables`] gives them, are not written as
 //! points.
 
+mod closures;
+mod frames;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
-use super::references::{frame_in, rename};
+use super::references::rename;
 use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{carried, doing_something, joined, zero};
 use crate::description::{
-    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
-    Description, Displacement, Entry, GROUND, Named, PointDescription, Row, Spanned, first_free,
-    free_variable, place_of,
+    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, Convention, Description,
+    Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable, place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
 
@@ -386,173 +388,6 @@ impl Drawing<'_> {
         let (mut alone, mut rest) = (sum.clone(), sum.clone());
         alone.terms = vec![rest.terms.remove(index)];
         (!rest.terms.is_empty()).then_some((alone, rest))
-    }
-
-    fn closures(&mut self) {
-        for (index, named) in self.description.closures.iter().enumerate() {
-            let frames = self.mechanism.closures()[index].frames;
-            let at = frames.map(|frame| self.places[&frame].clone());
-            let between = frames.map(|frame| self.body(frame));
-            if named.value.kind == ClosureKind::Distance {
-                self.rod(index, at.each_ref().map(|steps| point_of(steps)), between);
-                continue;
-            }
-            let mut kinds = AxisKind::ALL.into_iter();
-            let kind = (kinds.find(|kind| kind.closure() == Some(named.value.kind)))
-                .expect("every closure restores some joint");
-            let oblique = at.iter().any(|steps| is_oblique(steps));
-            let parallel = rotations(&at[0]).eq(rotations(&at[1]));
-            let [place, second] = [0, 1].map(|side| {
-                use AxisKind::{Cylindrical, Planar, Prismatic, Revolute, Spherical, Universal};
-                let steps = &at[side];
-                let along = |axis: Axis| axis_along(steps, axis, 1.0);
-                match kind {
-                    Spherical => AxisPlace::Centre(point_of(steps)),
-                    // the axis that the other body has is any perpendicular one
-                    Universal => {
-                        let axes = [[Axis::Z, Axis::X], [Axis::X, Axis::Z]][side];
-                        AxisPlace::Cross(point_of(steps), axes.map(along))
-                    }
-                    Revolute | Cylindrical | Planar if !oblique => {
-                        AxisPlace::Along(Some(point_of(steps)), along(Axis::Z))
-                    }
-                    // its bodies do not turn against one another
-                    Prismatic if !oblique && parallel => {
-                        AxisPlace::Along(Some(point_of(steps)), along(Axis::Z))
-                    }
-                    _ => AxisPlace::Frame(steps.clone()),
-                }
-            });
-            let name = self.free(&named.name.value);
-            let mut joint = AxisDescription::new(kind, place);
-            joint.between = Some(between.map(Spanned::nowhere));
-            if second != joint.place {
-                joint.second = Some(second);
-            }
-            if !kind.always_cut() {
-                self.axes.cut.push(Spanned::nowhere(name.clone()));
-            }
-            self.axes.joints.push(Named::new(name, joint));
-        }
-    }
-
-    /// A rod: of a length that is a variable of its own, or that is given.
-    fn rod(&mut self, index: usize, points: [[Entry; 3]; 2], between: [String; 2]) {
-        let named = &self.description.closures[index];
-        let [first, second] = points;
-        let mut rod = AxisDescription::new(AxisKind::Distance, AxisPlace::Through(first, second));
-        rod.between = Some(between.map(Spanned::nowhere));
-        let length = named.value.length.clone().unwrap_or_else(zero);
-        let sum = self.entry(&length);
-        let own = match &sum.terms[..] {
-            [(name, factor)] if factor.as_number() == Some(1.0) && sum.constant.is_zero() => {
-                Some(name.clone()).filter(|name| !self.own.contains(name))
-            }
-            _ => None,
-        };
-        let name = match own {
-            Some(name) => {
-                rod.home = self.declared(&name, &mut rod);
-                name
-            }
-            None => {
-                rod.value = Some(length);
-                self.free(&named.name.value)
-            }
-        };
-        self.axes.joints.push(Named::new(name, rod));
-    }
-
-    /// Whether a closed form or a quantity names a frame.
-    fn is_asked(&self, frame: &str) -> bool {
-        let forms = self.description.closed_forms.iter();
-        let mut frames = forms.flat_map(|form| form.value.of.iter().chain(&form.value.relative_to));
-        let outputs = self.description.outputs.iter();
-        let mut names = outputs.flat_map(|output| output.value.expression.names());
-        frames.any(|name| name.value == frame)
-            || names.any(|(name, _)| name[frame_in(name)] == *frame)
-    }
-
-    /// Whether a frame has the name that the end of a closure gets in tables.
-    fn ends_closure(&self, frame: &str) -> bool {
-        self.description.closures.iter().any(|closure| {
-            let mut ends = closure.value.frames.iter().enumerate();
-            let name = &closure.name.value;
-            ends.any(|(side, end)| {
-                let on_platform = end
-                    .value
-                    .split_once('.')
-                    .is_some_and(|(_, end)| end == name);
-                end.value == frame && (on_platform || *frame == format!("{name}_{}", side + 1))
-            })
-        })
-    }
-
-    /// Whether the frame of a body stands where it does if nothing is said: at the joint that carries it.
-    fn is_at_joint(&self, body: &str, place: &AxisPlace) -> bool {
-        let carries = |joint: &&Named<AxisDescription>| {
-            let between = joint.value.between.as_ref();
-            between.is_some_and(|between| between[1].value == body)
-        };
-        let carrier = self.axes.joints.iter().find(carries);
-        carrier.is_some_and(|joint| match (&joint.value.place, place) {
-            (AxisPlace::Along(Some(point), _), AxisPlace::Centre(origin)) => point == origin,
-            (joint, place) => joint == place,
-        })
-    }
-
-    /// Adds the frames of bodies and the points; returns the new names of frames.
-    fn frames(&mut self) -> Vec<(String, String)> {
-        let connected = |body: &String| {
-            let mut joints =
-                (self.axes.joints.iter()).flat_map(|j| j.value.between.iter().flatten());
-            body == GROUND || joints.any(|end| end.value == *body)
-        };
-        let (mut bodies, mut points, mut renamed) = (Vec::new(), Vec::new(), Vec::new());
-        for frame in self.mechanism.frames() {
-            let (old, body) = (self.mechanism.frame_name(frame), self.body(frame));
-            if !connected(&body) || frame == Frame::Ground {
-                continue;
-            }
-            let steps = &self.places[&frame];
-            let carrier = self.mechanism.body(frame);
-            let named = self.carries_tip(carrier);
-            let moves = self.mechanism.body_frame(carrier) == frame;
-            let asked = self.is_asked(&old);
-            // such an end has a name of its own, if it is not the frame of the body itself
-            let own = self.places.get(&self.mechanism.body_frame(carrier));
-            let is_end =
-                rotations(steps).next().is_none() && own != Some(steps) && self.ends_closure(&old);
-            match frame {
-                Frame::Platform { .. } => bodies.push(Named::new(body, place_at(steps))),
-                Frame::Tip { .. } if named && body == old => {
-                    let place = place_at(steps);
-                    if !self.is_at_joint(&body, &place) {
-                        bodies.push(Named::new(body, place));
-                    }
-                }
-                Frame::Link { .. } if !asked => {}
-                _ if !asked && is_end => {}
-                Frame::Link { .. } if moves && !named => {
-                    bodies.push(Named::new(body.clone(), AxisPlace::Frame(steps.clone())));
-                    renamed.push((old, body));
-                }
-                _ => {
-                    let wanted = old.replace('.', "_");
-                    let free = |name: &str| {
-                        !self.bodies.values().any(|other| other == name)
-                            && place_of(&points, name).is_none()
-                    };
-                    let name = first_free(&wanted, "_", free);
-                    let body = Spanned::nowhere(body);
-                    let place = place_at(steps);
-                    points.push(Named::new(name.clone(), PointDescription { body, place }));
-                    renamed.push((old, name));
-                }
-            }
-        }
-        (self.axes.bodies, self.axes.points) = (bodies, points);
-        renamed
     }
 }
 
