@@ -219,7 +219,11 @@ impl<'a> Neighbourhood<'a> {
         // platforms on several balls only spin about their line; a ball may be rows of a chain on the platform, or be on a
         // rod that slides in it
         let is_carried = |mut body: Body, platform: usize| {
-            while let Body::Link { chain, .. } = body {
+            while let Body::Link { chain, row } = body {
+                let mut rows = mechanism.dimensions().chains[chain].rows[..row].iter();
+                if rows.any(|row| !row.turn.0.is_empty()) {
+                    return false;
+                }
                 body = mechanism.body(mechanism.chains()[chain].on);
             }
             body == Body::Platform(platform)
