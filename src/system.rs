@@ -14,6 +14,7 @@ mod joint_space;
 mod question;
 mod record;
 mod search;
+mod sets;
 mod tangent;
 
 pub use crate::mechanism::{PointError, Value, ValueError};
@@ -41,6 +42,7 @@ pub use search::{
     Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, Search, Searched, TooLarge,
     WidestGap, close, moved, random_configuration, sampling_range, too_large,
 };
+pub use sets::sets_of_angles;
 pub use tangent::{
     Cone, Driving, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting, Lock, Locked,
     LoopPart, MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist,

@@ -28,8 +28,8 @@ pub use search::{GenericSolutions, StoredError};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
 use crate::solve::{Pruning, Watch};
-use crate::system::{Held, HeldPlatform, Neighbourhood, System};
-use answer::Question;
+use crate::system::{Held, HeldPlatform, Neighbourhood, Still, System, sets_of_angles};
+use answer::{Question, grouped};
 use family::{C, Family, KnownBound, Member};
 use search::question;
 
@@ -268,6 +268,35 @@ impl AssemblySolver {
             report.proof = Some(proof);
         }
         report
+    }
+
+    /// Writes into a report which of its assemblies differ in sets of angles only. What stands `still` so that links do not
+    /// spin is held too.
+    pub fn group_sets_of_angles(
+        &self,
+        report: &mut AssembliesReport,
+        held: &Held<f64>,
+        still: &[Still],
+    ) {
+        if report.fit != Fit::Finite || !report.continua.is_empty() {
+            return;
+        }
+        let coordinates = &self.family.coordinates;
+        let all = report.assemblies.iter().map(Assembly::configuration);
+        let sets: Vec<Vec<Vec<C>>> = all
+            .map(|at| {
+                let sets = sets_of_angles(&self.mechanism, (held, still), &at);
+                sets.iter().map(|at| coordinates.flat(at)).collect()
+            })
+            .collect();
+        let same = |known: usize, mode: usize| {
+            let known = &sets[known - 1][0];
+            sets[mode - 1].iter().any(|x| coordinates.same(known, x))
+        };
+        let positions = grouped(sets.len(), same);
+        if positions.len() < sets.len() {
+            report.positions = positions;
+        }
     }
 
     /// The member with the mechanism's own dimensions and the target inputs.

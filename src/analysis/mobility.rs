@@ -74,7 +74,11 @@ pub fn mobility(
         watch,
         rng: Pcg64Mcg::seed_from_u64(settings.seed),
     };
-    let found = search.find(&tangent);
+    let beside = match locked.is_empty() || search.is_regular(&tangent, STEP, 3) {
+        true => None,
+        false => search.regular_beside(&tangent),
+    };
+    let found = search.find(beside.as_ref().unwrap_or(&tangent));
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
     let moving = |moved: &[bool]| -> Vec<String> {
         let unknowns = near.system().unknowns().iter().zip(moved);
@@ -125,6 +129,7 @@ pub fn mobility(
         moving_joints,
         gimbal_locked_joints,
         gimbal_locked: locked.len(),
+        counted_beside: beside.is_some(),
         joints: mechanism.named_joints(&closed.configuration.joints),
         character: found.character,
         branches,
@@ -144,7 +149,7 @@ pub fn mobility(
         twists: near.twist_spaces(&tangent.at, &tangent.motions, &tangent.idle),
         condition: tangent.decomposition.condition(),
         singular_at: match found.character {
-            Character::Regular => near.singular_within(&tangent, STEP),
+            Character::Regular if beside.is_none() => near.singular_within(&tangent, STEP),
             _ => None,
         },
         length: mechanism.characteristic_length(),

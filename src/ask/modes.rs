@@ -193,7 +193,9 @@ impl Question {
     ) -> Result<AssembliesReport, AskError> {
         let (start, held) = (question.start(), question.held());
         let solver = self.solver(question, watch)?;
-        Ok(solver.at_targets(&start, &held, wanted, watch))
+        let mut report = solver.at_targets(&start, &held, wanted, watch);
+        solver.group_sets_of_angles(&mut report, &held, question.still());
+        Ok(report)
     }
 
     /// The solver for what is held, from the store if that has it.

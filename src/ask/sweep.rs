@@ -171,7 +171,8 @@ impl Question {
             points: self.named_points()?,
             ..CircuitsSettings::default()
         };
-        let mut report = circuits(mechanism, &held, input, &seeds, &settings, watch);
+        let held = (&held, question.still());
+        let mut report = circuits(mechanism, held, input, &seeds, &settings, watch);
         for (path, point) in report.paths.iter_mut().zip(&settings.points) {
             path.order = self.order(&point.point, watch);
         }

@@ -25,6 +25,20 @@ impl Mechanism {
         sets
     }
 
+    /// On which side of the plane of z₁ and z₃ the second axis of each ball is, which tells its two sets of angles apart.
+    pub fn sides_of_rings(&self, at: &Configuration<f64>) -> Vec<bool> {
+        let axis = |(chain, first): Ball, row: usize| {
+            self.hinge((chain, first + row), at)
+                .map(|line| line.direction)
+        };
+        let side = |ball: Ball| {
+            let [z1, z2, z3] = [axis(ball, 0)?, axis(ball, 1)?, axis(ball, 2)?];
+            Some(z1.cross(&z3).dot(&z2) > 0.0)
+        };
+        let balls = self.balls().into_iter();
+        balls.map(|ball| side(ball) == Some(true)).collect()
+    }
+
     /// The axis of a row.
     fn hinge(&self, (chain, row): (usize, usize), at: &Configuration<f64>) -> Option<Line> {
         let [link] = self.poses([Frame::Link { chain, row }], at);
@@ -32,7 +46,7 @@ impl Mechanism {
         Line::new(hinge.position, hinge.rotation.column(Axis::Z))
     }
 
-    /// The passive joint that a row turns by, and its factor, if it does nothing else.
+    /// The passive joint without limits that a row turns by, and its factor, if neither does anything else.
     fn turned(&self, (chain, row): (usize, usize)) -> Option<(usize, f64)> {
         let row = &self.dimensions.chains[chain].rows[row];
         let [(joint, factor)] = row.turn.0[..] else {
@@ -40,10 +54,16 @@ impl Mechanism {
         };
         let of = &self.joints[joint];
         let passive = of.role == Role::Passive && of.kind == JointKind::Revolute;
-        (passive && row.slide.0.is_empty()).then_some((joint, factor))
+        let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
+        let turned = rows
+            .flat_map(|row| &row.turn.0)
+            .filter(|(j, _)| *j == joint);
+        let free = passive && of.limits.is_none() && turned.count() == 1;
+        (free && row.slide.0.is_empty()).then_some((joint, factor))
     }
 
-    /// The balls of which nothing else is fixed to a ring.
+    /// The balls of which nothing else is fixed to a ring, and through whose centre no axis of a neighbouring row passes,
+    /// as the axes of a spherical linkage do, whose links are no rings.
     fn balls(&self) -> Vec<Ball> {
         let (home, length) = (self.home(), self.characteristic_length());
         let meet = |chain: usize, row: usize| {
@@ -55,7 +75,15 @@ impl Mechanism {
         };
         let concurrent = |chain: usize, first: usize| {
             let centres = [meet(chain, first)?[1], meet(chain, first + 1)?[0]];
-            Some((centres[0] - centres[1]).norm() <= RANK_TOLERANCE * length)
+            let passes = |row: usize| {
+                let line = self.hinge((chain, row), &home);
+                line.is_some_and(|line| line.distance(&centres[0]) <= RANK_TOLERANCE * length)
+            };
+            let rows = self.dimensions.chains[chain].rows.len();
+            let neighbours = first.checked_sub(1).into_iter().chain([first + 3]);
+            let mut neighbours = neighbours.filter(|&row| row < rows);
+            let met = (centres[0] - centres[1]).norm() <= RANK_TOLERANCE * length;
+            Some(met && !neighbours.any(passes))
         };
         let carried = self.chains.iter().map(|chain| chain.on);
         let carried = carried.chain(self.closures.iter().flat_map(|closure| closure.frames));

@@ -112,16 +112,39 @@ fn sentence(report: &AssembliesReport) -> String {
         }
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
         (Fit::Finite, 0) => format!("No assembly: 0 real of {} complex.", report.complex),
-        (Fit::Finite, _) => {
-            let poses = poses(report).map(|poses| format!(" in {}", posed(report, &poses)));
-            format!(
-                "{real}{}: {} real of {} complex.",
-                poses.unwrap_or_default(),
-                report.real,
-                report.complex
-            )
-        }
+        (Fit::Finite, _) => match sets_of_angles(report) {
+            Some((sets, complex)) => {
+                let assemblies = report.positions.len();
+                let poses = match (2..assemblies).contains(&report.poses.len()) {
+                    true => format!(" in {} of the platforms", count(report.poses.len(), "pose")),
+                    false => String::new(),
+                };
+                format!(
+                    "{}{poses}: {assemblies} real of {complex} complex. {} is listed with {sets} sets of joint angles, \
+                     because a ball written as three rows has two for each of its orientations.",
+                    count(assemblies, "assembly"),
+                    form(assemblies, "It", "Each"),
+                )
+            }
+            None => {
+                let poses = poses(report).map(|poses| format!(" in {}", posed(report, &poses)));
+                let (real, complex) = (report.real, report.complex);
+                let poses = poses.unwrap_or_default();
+                format!(
+                    "{}{poses}: {real} real of {complex} complex.",
+                    count(real, "assembly")
+                )
+            }
+        },
     }
+}
+
+/// The number of sets of angles of each assembly, where it is the same for all, and of complex assemblies that differ in
+/// more than such sets.
+fn sets_of_angles(report: &AssembliesReport) -> Option<(usize, usize)> {
+    let sets = report.positions.first()?.len();
+    let alike = report.positions.iter().all(|modes| modes.len() == sets);
+    (alike && report.complex.is_multiple_of(sets)).then(|| (sets, report.complex / sets))
 }
 
 fn posed(report: &AssembliesReport, poses: &[Pose<'_>]) -> String {

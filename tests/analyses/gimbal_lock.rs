@@ -1,8 +1,10 @@
 //! Joints of chains in gimbal lock: freedoms do not depend on the configuration that is looked at.
 
-use linkwork::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
+use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts};
+use linkwork::analysis::mobility::{Character, MobilityReport, MobilitySettings, mobility};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::output::Report;
 use linkwork::solve::Watch;
 use linkwork::system::{Mobility, Question};
 
@@ -43,7 +45,12 @@ const LEG: [(f64, f64); 6] = [
 ];
 
 fn read(joints: &String, chains: &String, frames: &String, closures: &String) -> Mechanism {
-    let text = format!(
+    let description = Description::read(&text(joints, chains, frames, closures)).unwrap();
+    Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+fn text(joints: &String, chains: &String, frames: &String, closures: &String) -> String {
+    format!(
         r#"Mechanism(
             version: 1,
             name: "walker",
@@ -53,9 +60,7 @@ fn read(joints: &String, chains: &String, frames: &String, closures: &String) ->
             platforms: {{ "body": Platform(home: [], frames: {{ {frames} }}) }},
             closures: {{ {closures} }},
         )"#
-    );
-    let description = Description::read(&text).unwrap();
-    Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
+    )
 }
 
 fn report(mechanism: &Mechanism, seed: u64) -> MobilityReport {
@@ -88,6 +93,112 @@ fn legs_in_gimbal_lock_take_no_freedom_away() {
         }
         let count = Mobility::near(&mechanism, &mechanism.home()).expect("closes");
         assert_eq!((count.count(), count.idle()), (6, 0), "{locked} locked");
+    }
+}
+
+/// A body on six legs, freed of its actuators. Foot: a ball written as three rows, turned so that it is in gimbal lock at
+/// home where `locked` says so; knee, with a cylinder between pins on shank and thigh; universal joint at the hip, with a
+/// cylinder between balls on body and thigh.
+///
+/// Grübler: 1 + 6·6 bodies; a leg takes 3 (foot) + 5 (knee) + 4 (hip) + 5·3 (pins and slide) + 3·2 + 5 (balls and slide) =
+/// 38; planar loops of the knees give 3 back: 6·37 − 6·38 + 6·3 = 12. Six of these are spins of the cylinders between
+/// balls; the other six are those of the body, for each leg as a chain from foot to hip has six of its own.
+fn robot(locked: impl Fn(usize) -> bool) -> String {
+    let [mut joints, mut chains, mut frames, mut closures] = [const { String::new() }; 4];
+    // in the plane of a leg: from a ball on the body to one on the thigh
+    let [x, y, z]: [f64; 3] = [0.55, -0.1, 0.65];
+    let length = (x * x + y * y + z * z).sqrt();
+    let (turn, rise) = (y.atan2(x), z.atan2(x.hypot(y)));
+    for i in 0..6 {
+        let (leg, turned) = (60 * i + 15, if locked(i) { 90 } else { 0 });
+        joints += &format!(
+            r#""u{i}": Passive(home: 0), "v{i}": Passive(home: "{turned} deg"), "w{i}": Passive(home: 0),
+            "knee{i}": Passive(home: "-90 deg"), "x{i}": Passive(home: 0), "y{i}": Passive(home: 0),
+            "z{i}": Passive(home: 0), "lift{i}": Actuated(home: {length}),
+            "pin{i}": Passive(home: "atan2(0.65, 0.4)"), "bend{i}": Actuated(home: "hypot(0.65, 0.4)"),"#
+        );
+        let ball = |[u, v, w]: [&str; 3]| {
+            format!(
+                r#"(theta: "{u}{i}"), (alpha: "90 deg", theta: "{v}{i} + 90 deg"), (alpha: "90 deg", theta: "{w}{i}")"#
+            )
+        };
+        chains += &format!(
+            r#""leg{i}": Chain(
+                base: [Rz("{leg} deg"), Tx(1.3), Ry("{turned} deg")],
+                rows: [{}, (alpha: "90 deg", a: 1.1, theta: "knee{i}")],
+                tip: [Tx(0.8)],
+            ),
+            "bend{i}": Chain(
+                on: "leg{i}.3",
+                base: [Tx(0.5), Rx("90 deg")],
+                rows: [(theta: "pin{i}"), (alpha: "90 deg", d: "bend{i}")],
+                tip: [Rx("-90 deg")],
+            ),
+            "eye{i}": Chain(on: "leg{i}.4", base: [T(0.4, 0.05, 0)]),
+            "lift{i}": Chain(on: "body.ball{i}", rows: [{}, (d: "lift{i}")]),
+            "ball{i}": Chain(on: "leg{i}.4", base: [T(0.3, -0.05, 0)]),"#,
+            ball(["u", "v", "w"]),
+            ball(["x", "y", "z"]),
+        );
+        frames += &format!(
+            r#""hip{i}": [Rz("{leg} deg"), T(0.5, 0, 1.1)],
+            "ball{i}": [Rz("{leg} deg"), T(0.45, 0.1, 0.4), Rz({turn}), Ry({})],"#,
+            -rise
+        );
+        closures += &format!(
+            r#""hip{i}": Universal("leg{i}", "body.hip{i}"), "eye{i}": Revolute("bend{i}", "eye{i}"),
+            "ball{i}": Spherical("lift{i}", "ball{i}"),"#
+        );
+    }
+    text(&joints, &chains, &frames, &closures)
+}
+
+fn freed(description: &Description, seed: u64) -> MobilityReport {
+    let mechanism = Mechanism::new(description).unwrap_or_else(|problems| panic!("{problems:?}"));
+    report(&mechanism, seed)
+}
+
+#[test]
+fn a_robot_on_six_legs_has_six_freedoms_for_every_seed_and_cut_and_in_gimbal_lock() {
+    let counts = |report: &MobilityReport| {
+        let freedoms = (report.mobility, report.idle_freedoms.len());
+        (freedoms, report.character)
+    };
+    let expected = ((6, 6), Character::Regular);
+    let description = Description::read(&robot(|_| false)).unwrap();
+    for seed in 1..4 {
+        let report = freed(&description, seed);
+        assert_eq!(counts(&report), expected, "seed {seed}");
+        assert_eq!((report.rank, report.kutzbach), (54, -6));
+        assert_eq!(report.gimbal_locked, 0);
+    }
+    let mechanism = Mechanism::new(&description).unwrap();
+    let cuts = possible_cuts(&mechanism, &description);
+    for joint in ["knee1", "pin2", "bend3", "lift4"] {
+        assert!(cuts.iter().any(|cut| cut == joint), "{cuts:?}");
+        let settings = ConvertSettings {
+            cut: Some(joint.into()),
+            ..ConvertSettings::default()
+        };
+        let cut = convert(&mechanism, &description, &settings).unwrap();
+        assert_eq!(counts(&freed(&cut.description, 1)), expected, "{joint}");
+    }
+    // the same pose with other angles of one foot, then of all, in which the equations lose rank
+    for (locked, rank) in [(1, 54), (6, 51)] {
+        let description = Description::read(&robot(|leg| leg < locked)).unwrap();
+        for seed in 1..4 {
+            let report = freed(&description, seed);
+            assert_eq!(counts(&report), expected, "{locked} locked, seed {seed}");
+            assert_eq!((report.rank, report.gimbal_locked), (rank, locked));
+            let names = (0..locked).flat_map(|leg| [format!("u{leg}"), format!("w{leg}")]);
+            assert_eq!(report.gimbal_locked_joints, names.collect::<Vec<_>>());
+            let answer = report.document().answer;
+            let beside = match rank {
+                54 => "The mechanism has 6 freedoms.",
+                _ => "The mechanism has 6 freedoms, counted beside this configuration.",
+            };
+            assert_eq!(answer, beside);
+        }
     }
 }
 

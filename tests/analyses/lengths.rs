@@ -95,3 +95,18 @@ fn a_curve_that_is_followed_whole_has_the_length_of_its_circuit() {
         report.length
     );
 }
+
+/// A plate that moves on a circle without turning, on three cranks of 1 m that turn as one; its lengths are divided by 3 m.
+#[test]
+fn a_platform_on_a_circle_goes_its_circumference() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/three_parallel_cranks.ron");
+    let question = Question::new(Mechanism::load(path).unwrap());
+    let report = question.circuits(&Watch::none()).unwrap();
+    assert_eq!(report.characteristic_length, 3.0);
+    let [circuit] = &report.circuits[..] else {
+        panic!("{:?}", report.circuits);
+    };
+    let exact = TAU * (3.0 + 1.0 / 9.0f64).sqrt();
+    let error = (circuit.length - exact).abs();
+    assert!(error < 0.02 * PRINTED, "{} for {exact}", circuit.length);
+}

@@ -10,6 +10,7 @@ use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::output::Report;
 use linkwork::solve::Watch;
 
 const CRANK: f64 = 0.2;
@@ -22,6 +23,15 @@ const ROD: f64 = 0.8;
 /// on two balls, a link of the crank's chain after a ball of three rows, the same cut in the middle
 /// of the rod, where the spins of both halves are one or, about a swivel, two.
 fn rssr(model: &str) -> Mechanism {
+    read(&written(model))
+}
+
+fn read(text: &str) -> Mechanism {
+    let description = Description::read(text).unwrap();
+    Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+fn written(model: &str) -> String {
     let ball = |first: &str, [u, v, w]: [&str; 3]| {
         format!(
             r#"({first}theta: "{u}"), (alpha: "90 deg", theta: "{v} + 90 deg"),
@@ -68,7 +78,7 @@ fn rssr(model: &str) -> Mechanism {
         ),
         other => panic!("{other}"),
     };
-    let text = format!(
+    format!(
         r#"Mechanism(
             version: 1,
             name: "R-S-S-R, {model}",
@@ -82,9 +92,7 @@ fn rssr(model: &str) -> Mechanism {
             }},
             {rest}
         )"#
-    );
-    let description = Description::read(&text).unwrap();
-    Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
+    )
 }
 
 const MODELS: [&str; 5] = ["distance", "platform", "chain", "halves", "swivel"];
@@ -120,7 +128,8 @@ fn one_freedom_is_counted_however_the_rod_is_written() {
 #[test]
 fn a_finite_number_of_assemblies_stays_finite() {
     // a ball of three rows has two sets of angles for each of its orientations
-    for (model, modes) in MODELS.into_iter().zip([2, 2, 4, 8, 8]) {
+    for (model, sets) in MODELS.into_iter().zip([1, 1, 2, 4, 4]) {
+        let modes = 2 * sets;
         let report = assemblies(&rssr(model));
         assert_eq!(report.fit, Fit::Finite, "{model}");
         assert!(report.continua.is_empty(), "{model}");
@@ -135,6 +144,62 @@ fn a_finite_number_of_assemblies_stays_finite() {
             .iter()
             .filter(|a| of(&a.joints.0, "psi") > 0.0);
         assert_eq!(2 * above.count(), modes, "{model}");
+        let listed = match sets {
+            1 => String::new(),
+            sets => format!(
+                " Each is listed with {sets} sets of joint angles, because a ball written as three rows has two for \
+                 each of its orientations."
+            ),
+        };
+        let answer = report.document().answer;
+        assert_eq!(
+            answer,
+            format!("2 assemblies: 2 real of 2 complex.{listed}")
+        );
+        let psi = |mode: &usize| of(&report.assemblies[mode - 1].joints.0, "psi");
+        for modes in &report.positions {
+            assert_eq!(modes.len(), sets, "{model}");
+            assert!(modes.iter().all(|mode| psi(mode) * psi(&modes[0]) > 0.0));
+        }
+    }
+}
+
+/// The wrist is driven, has limits, carries a rod on its inner link or lies in the centre of a spherical linkage: its two
+/// sets of angles are two assemblies.
+#[test]
+fn hinges_that_are_no_ball_keep_their_assemblies() {
+    let chain = written("chain");
+    let limited = chain.replace(
+        r#""v": Passive(home: "38 deg")"#,
+        r#""v": Passive(home: "38 deg", limits: ("-179 deg", "179 deg"))"#,
+    );
+    let carries = chain
+        .replace(
+            r#""theta": Act"#,
+            r#""slack": Passive(home: 0.5), "theta": Act"#,
+        )
+        .replace(
+            r#"chains: {"#,
+            r#"chains: { "beside": Chain(on: "crank.3", rows: [(a: 0.1, theta: "slack")]),"#,
+        );
+    let skew = chain.replace(r#"a: 0.2, theta: "u""#, r#"a: 0.2, theta: "u + w""#);
+    for (what, text) in [
+        ("limited", limited),
+        ("carries", carries),
+        ("coupled", skew),
+    ] {
+        assert_ne!(text, chain, "{what}");
+        let question = Question::new(read(&text));
+        let question = match what {
+            "carries" => question.hold("slack", 0.5),
+            _ => question,
+        };
+        let report = question
+            .assemblies(Wanted::default(), &Watch::none())
+            .unwrap();
+        assert!(report.positions.is_empty(), "{what}");
+        let answer = report.document().answer;
+        assert_eq!(answer, "4 assemblies: 4 real of 4 complex.", "{what}");
     }
 }
 
@@ -215,13 +280,8 @@ fn a_map_has_the_modes_without_the_spin() {
         };
         let question = Question::new(rssr(model)).input("theta", 0.0, TAU);
         let report = question.workspace(&settings, &Watch::none()).unwrap();
-        // without a platform all joints distinguish modes, also the two sets of angles of a ball
-        let modes = match model {
-            "distance" | "platform" => 2,
-            "chain" => 4,
-            _ => 8,
-        };
-        assert_eq!(report.modes.len(), modes, "{model}");
+        // sets of angles of a ball make no modes of their own
+        assert_eq!(report.modes.len(), 2, "{model}");
         assert!(
             report
                 .modes

@@ -214,6 +214,9 @@ fn the_assemblies_are_two_of_the_upper_arm_with_two_turns_of_the_upright_each() 
     compared(of, |found, plain, model, sets| {
         assert_eq!(found.real, plain.real * sets, "{model}");
         assert_eq!(found.poses.len(), plain.real, "{model}");
+        let answer = found.document().answer;
+        let counted = "4 assemblies: 4 real of 4 complex.";
+        assert!(answer.starts_with(counted), "{model}: {answer}");
         let (found, plain) = (places(found), places(plain));
         for (k, place) in found.iter().enumerate() {
             near(place, &plain[k / sets], model);
@@ -255,9 +258,9 @@ fn modes_that_differ_in_the_angles_of_a_ball_only_share_a_pose() {
     let value = |a: &Assembly, name: &str| *a.joints.get(name).unwrap();
     let (report, plain) = (all(read(&text)), all(suspension("distance")));
     assert_eq!((report.real, plain.real), (8, 4));
-    assert_eq!(report.poses.len(), 4);
+    assert_eq!(report.positions.len(), 4);
     let mut uppers = Vec::new();
-    for modes in &report.poses {
+    for modes in &report.positions {
         let [a, b] = modes[..] else {
             panic!("{modes:?}");
         };
@@ -277,7 +280,7 @@ fn modes_that_differ_in_the_angles_of_a_ball_only_share_a_pose() {
     near(&uppers, &expected, "chains");
     let answer = report.document().answer;
     assert!(
-        answer.starts_with("8 assemblies in 4 poses of the bodies: 8 real of "),
+        answer.starts_with("4 assemblies: 4 real of 4 complex. Each is listed with 2 sets"),
         "{answer}"
     );
 }

@@ -863,7 +863,7 @@ fn circuits_of(lengths: [f64; 4]) -> CircuitsReport {
     let held = Held::nothing(&mechanism);
     circuits(
         &mechanism,
-        &held,
+        (&held, &[]),
         Coordinate::Joint(0),
         &seeds,
         &CircuitsSettings::default(),
@@ -1021,7 +1021,7 @@ fn a_swing_through_a_half_turn_is_told_where_its_values_are() {
         let held = Held::nothing(mechanism);
         let report = circuits(
             mechanism,
-            &held,
+            (&held, &[]),
             Coordinate::Joint(0),
             seeds,
             &CircuitsSettings::default(),
@@ -1079,7 +1079,7 @@ fn seeds_of_one_circuit_find_only_that_one() {
     let held = Held::nothing(&mechanism);
     let report = circuits(
         &mechanism,
-        &held,
+        (&held, &[]),
         Coordinate::Joint(0),
         &[at],
         &CircuitsSettings::default(),

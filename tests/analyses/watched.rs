@@ -154,7 +154,7 @@ fn a_motion_ends_where_it_was_stopped() {
         let settings = CircuitsSettings::default();
         let report = circuits(
             &mechanism,
-            &still,
+            (&still, &[]),
             Coordinate::Joint(0),
             std::slice::from_ref(&start),
             &settings,

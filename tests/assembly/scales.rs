@@ -14,10 +14,15 @@ const SCALES: [f64; 4] = [1e-9, 1e-6, 1e3, 1e9];
 
 fn files() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
-    let files = folder.read_dir().unwrap().map(|file| file.unwrap().path());
-    let mut names: Vec<String> = (files.filter(|path| path.is_file()))
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-        .collect();
+    let within = |subfolder: &'static str| {
+        let files = folder.join(subfolder).read_dir().unwrap();
+        let files = files.map(|file| file.unwrap().path());
+        files.filter(|path| path.is_file()).map(move |path| {
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            format!("{subfolder}{name}")
+        })
+    };
+    let mut names: Vec<String> = within("").chain(within("axes/")).collect();
     names.sort();
     names
 }

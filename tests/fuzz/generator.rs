@@ -97,7 +97,8 @@ pub fn mechanism(seed: u64, size: usize) -> String {
     ]);
     let mut sketch = Sketch {
         manner,
-        scale: dice.pick(&[1e-6, 1e-3, 1.0, 1.0, 1.0, 1.0, 1e3]),
+        // a platform far beyond the lengths given so far would be brought back
+        scale: dice.pick(&[1e-6, 1e-3, 1.0, 1.0, 1.0, 1.0, 300.0]),
         decades: dice.pick(&[0.0, 0.0, 0.0, 1.0]),
         dice,
         parameters: Vec::new(),

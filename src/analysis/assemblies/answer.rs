@@ -7,6 +7,7 @@ mod elsewhere;
 mod paired;
 mod real;
 
+pub(super) use describe::grouped;
 pub(super) use real::{named_joints, real_solution};
 
 use std::ops::Range;

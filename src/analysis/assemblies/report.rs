@@ -52,7 +52,7 @@ pub struct Assembly {
     pub within_limits: bool,
     /// Names of the joints that are not.
     pub outside_limits: Vec<String>,
-    /// Numbers of the other assemblies in the same pose, as in the report's list of poses.
+    /// Numbers of the other assemblies in the same pose of all platforms.
     pub shares_platform_pose_with: Vec<usize>,
 }
 
@@ -163,10 +163,14 @@ pub struct AssembliesReport {
     /// The real assemblies in the order of their numbers.
     pub assemblies: Vec<Assembly>,
     /// The numbers of the assemblies in each pose of all platforms together, poses in the order of
-    /// their first assemblies. Where no pose of a platform is to be found, in each pose of all bodies, which do not tell
-    /// the two sets of angles of a ball written as three rows apart; empty if there are no such sets.
+    /// their first assemblies; empty if no pose of a platform is to be found.
     #[serde(default)]
     pub poses: Vec<Vec<usize>>,
+    /// The numbers of the assemblies in each position of the bodies, which is one for the two sets of angles that a ball
+    /// written as three rows has for each of its orientations, and for all spins of links about their own lines; empty if
+    /// there are no such sets.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub positions: Vec<Vec<usize>>,
     /// Complex assemblies that are not real, if they were asked for: unknown joints and platforms
     /// as pairs of real and imaginary part.
     pub complex_assemblies: Vec<ComplexAssembly>,

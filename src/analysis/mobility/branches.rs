@@ -2,6 +2,8 @@
 
 mod walk;
 
+use std::cmp::Reverse;
+
 use rand_pcg::Pcg64Mcg;
 
 use super::Character;
@@ -59,6 +61,23 @@ pub(super) struct Branch {
     /// Whether the motions are known to about the length of a step only.
     pub approximate: bool,
     pub moved: Vec<bool>,
+}
+
+impl Branch {
+    /// Branches in this order do not depend on random directions: the largest first, then by the projection onto their
+    /// motions, m mᵀ summed over a basis, whatever that is.
+    fn order(&self) -> (Reverse<usize>, Vec<Reverse<i64>>) {
+        /// Tangents are known better than this.
+        const KNOWN: f64 = 1e-2;
+        let columns = 0..self.moved.len();
+        let entries = columns
+            .clone()
+            .flat_map(|i| (i..columns.end).map(move |j| (i, j)));
+        let entry =
+            |(i, j): (usize, usize)| -> f64 { self.motions.iter().map(|m| m[i] * m[j]).sum() };
+        let key = entries.map(|place| Reverse((entry(place) / KNOWN).round() as i64));
+        (Reverse(self.freedoms), key.collect())
+    }
 }
 
 /// The branches of one independent part of a mechanism.
@@ -138,6 +157,17 @@ impl Search<'_, '_> {
             moved,
             gap,
         }
+    }
+
+    /// A regular configuration beside one in gimbal lock, where nothing is locked: of three the one with the fewest
+    /// motions. Angles that turn without moving anything make branches that are none of the bodies.
+    pub fn regular_beside(&mut self, at: &Tangent) -> Option<Tangent> {
+        let beside = (1..4).filter_map(|k| {
+            let lasting = self.near.beside(&at.at, k)?.lasting(self.near);
+            let regular = lasting.locked.is_empty() && self.is_regular(&lasting.tangent, STEP, 3);
+            regular.then_some(lasting.tangent)
+        });
+        beside.min_by_key(|tangent| tangent.motions.len())
     }
 
     /// What moves, and the gap that is left, if random directions are all free; else the gap of one.
@@ -346,9 +376,7 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
         };
         branches.push((seen.regular, branch));
     }
-    sort_by_key(&mut branches, |(_, branch)| {
-        std::cmp::Reverse(branch.freedoms)
-    });
+    sort_by_key(&mut branches, |(_, branch)| branch.order());
     // what was seen from a singular point of a larger branch is part of that
     let within = |i: usize| {
         let (regular, branch) = &branches[i];
@@ -393,6 +421,6 @@ fn products(parts: &[Part], tangent: &Tangent) -> Vec<Branch> {
         products = all.take(LISTED).collect();
     }
     products.retain(|branch| branch.freedoms > 0);
-    sort_by_key(&mut products, |branch| std::cmp::Reverse(branch.freedoms));
+    sort_by_key(&mut products, Branch::order);
     products
 }

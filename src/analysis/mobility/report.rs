@@ -37,6 +37,9 @@ pub struct MobilityReport {
     /// How many freedoms are lost so at the configuration.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub gimbal_locked: usize,
+    /// Whether the freedoms are those beside the configuration, which is singular in angles that are in gimbal lock.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub counted_beside: bool,
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.

@@ -7,7 +7,6 @@
 
 mod class;
 mod course;
-mod sets;
 
 use std::ops::ControlFlow;
 
@@ -20,10 +19,9 @@ use crate::algebra::SiUnit;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role};
 use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
-use crate::system::{Coordinate, Curve, Event, Held, Walk};
+use crate::system::{Coordinate, Curve, Event, Held, Still, Walk, sets_of_angles};
 use class::class;
 use course::Course;
-use sets::sets_of_angles;
 
 /// How to look for circuits.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,17 +156,21 @@ struct Found {
 
 /// Follows a curve from every seed that lies on none so far, and from every crossing.
 ///
-/// `held` must leave one freedom. Circuits on which no seed lies are not found: take all assemblies
+/// `held`, which includes what stands `still` so that links do not spin, must leave one freedom. Circuits on which no seed lies are not found: take all assemblies
 /// at several values of the input. Of circuits that differ only in the two sets of angles of balls written as three
 /// rows there is one.
 pub fn circuits(
     mechanism: &Mechanism,
-    held: &Held<f64>,
+    (held, still): (&Held<f64>, &[Still]),
     input: Coordinate,
     seeds: &[Configuration<f64>],
     settings: &CircuitsSettings,
     watch: &Watch,
 ) -> CircuitsReport {
+    let mut with_input = held.clone();
+    if let Coordinate::Joint(joint) = input {
+        with_input.joints[joint] = true;
+    }
     let mut curve = Curve::new(mechanism, held);
     let method = &settings.continuation;
     let mut traced: Vec<Found> = Vec::new();
@@ -183,7 +185,7 @@ pub fn circuits(
             continue;
         };
         // with another set of the angles of a ball everything moves alike
-        let mut sets = sets_of_angles(mechanism, (held, input), &seed).into_iter();
+        let mut sets = sets_of_angles(mechanism, (&with_input, still), &seed).into_iter();
         let known = sets.find_map(|mut set| {
             let place = curve.begin(mechanism, &mut set, method).ok()?;
             holding(&mut curve, method, &traced, &place)

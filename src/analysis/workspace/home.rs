@@ -49,7 +49,7 @@ impl<'f> Home<'f> {
     /// Starts at its nodes, so that its mode is on the map whatever random starts find.
     pub fn seeds(&self) -> ModeSeeds {
         ModeSeeds::of(
-            self.fill.problem,
+            &self.fill,
             self.nodes
                 .iter()
                 .map(|(node, at)| (*node, vec![at.clone()])),

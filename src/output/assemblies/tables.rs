@@ -36,16 +36,21 @@ pub(super) struct Pose<'r> {
 pub(super) fn are_posed(report: &AssembliesReport) -> &'static str {
     let found = |(name, _): &(String, _)| !report.held_platforms.contains(name);
     let mut assemblies = report.assemblies.iter();
-    match assemblies.any(|a| a.platforms.0.iter().any(found)) {
+    match report.positions.is_empty() && assemblies.any(|a| a.platforms.0.iter().any(found)) {
         true => "platforms",
         false => "bodies",
     }
 }
 
-/// The poses, where there are several and assemblies share them; otherwise a row for each assembly tells as much.
+/// The positions of the bodies where assemblies share them, or the poses where there are several and assemblies share them;
+/// otherwise a row for each assembly tells as much.
 pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<Pose<'_>>> {
-    let shared = (2..report.assemblies.len()).contains(&report.poses.len());
-    let poses = (1..).zip(&report.poses).map(|(number, modes)| Pose {
+    let (poses, least) = match report.positions.is_empty() {
+        true => (&report.poses, 2),
+        false => (&report.positions, 1),
+    };
+    let shared = (least..report.assemblies.len()).contains(&poses.len());
+    let poses = (1..).zip(poses).map(|(number, modes)| Pose {
         number,
         modes: (report.assemblies.iter())
             .filter(|a| modes.contains(&a.mode))
@@ -123,12 +128,8 @@ pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
     };
     let shared = |a: &Assembly| {
         let others = &a.shares_platform_pose_with;
-        let what = match are_posed(report) {
-            "platforms" => "platform pose",
-            _ => "pose of all bodies",
-        };
         let numbers = others.iter().map(usize::to_string);
-        (!others.is_empty()).then(|| format!("same {what} as {}", listed(numbers)))
+        (!others.is_empty()).then(|| format!("same platform pose as {}", listed(numbers)))
     };
     Table::of(&report.assemblies)
         .numbers("mode", |a| a.mode)

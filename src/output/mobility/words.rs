@@ -84,6 +84,10 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             format!("{with}nothing can move, not even infinitesimally.")
         }
         Character::Structure => "A structure: nothing can move, not even infinitesimally.".into(),
+        Character::Regular if report.counted_beside => format!(
+            "{the_mechanism} has {}, counted beside this configuration.",
+            freedoms(*mobility)
+        ),
         Character::Regular => match report.singular_at {
             None => format!("{the_mechanism} has {}.", freedoms(*mobility)),
             Some(distance) => format!(

@@ -3,6 +3,8 @@
 mod follow;
 mod lasting;
 
+use std::collections::HashSet;
+
 use super::STILL;
 use super::twists::FrameTwists;
 use crate::description::Role;
@@ -174,16 +176,33 @@ impl<'a> Neighbourhood<'a> {
         let scale = 1.0 / mechanism.characteristic_length();
         let frames: Vec<Frame> = self.frames.frames().collect();
         let bodies: Vec<Body> = frames.iter().map(|&frame| mechanism.body(frame)).collect();
+        let attached: HashSet<Frame> = (mechanism.closures().iter())
+            .flat_map(|closure| closure.frames)
+            .chain(mechanism.chains().iter().map(|chain| chain.on))
+            .collect();
+        // the frame that the last row of a standard table puts beside the joint axis says nothing about a link to whose tip
+        // something is attached
+        let is_of_link = |&i: &usize| match frames[i] {
+            Frame::Link { chain, row } if row > 0 && !attached.contains(&frames[i]) => {
+                let tip = Frame::Tip { chain };
+                let beside = mechanism.dimensions().chains[chain].rows[row - 1]
+                    .after
+                    .position;
+                beside.norm() == 0.0 || !attached.contains(&tip) || bodies[i] != mechanism.body(tip)
+            }
+            _ => true,
+        };
+        let of_links: Vec<usize> = (0..frames.len()).filter(is_of_link).collect();
         let apart = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
             (a - b).norm() > 1e-6 / scale
         };
         // two points of a link at rest leave a turn about their line, also of one cut in two or sliding in itself
-        let (frames, bodies) = (&frames, &bodies);
+        let (of_links, bodies) = (&of_links, &bodies);
         let has_line = |place: usize, joined: [Frame; 2]| {
             let joined = joined.map(|frame| mechanism.body(frame));
-            let mut others = (0..frames.len()).filter(|k| joined.contains(&bodies[*k]));
-            others.any(|other| apart(place, other))
+            let mut others = of_links.iter().filter(|k| joined.contains(&bodies[**k]));
+            others.any(|other| apart(place, *other))
         };
         let places = self.frames.places();
         let turning: Vec<(usize, bool)> = (mechanism.closures().iter())
@@ -197,20 +216,31 @@ impl<'a> Neighbourhood<'a> {
             })
             .collect();
         let outside = mechanism.joints_outside_closures();
-        // platforms on several balls only spin about their line; a ball may be rows of a chain on the platform
+        // platforms on several balls only spin about their line; a ball may be rows of a chain on the platform, or be on a
+        // rod that slides in it
+        let is_carried = |mut body: Body, platform: usize| {
+            while let Body::Link { chain, row } = body {
+                let mut rows = mechanism.dimensions().chains[chain].rows[..row].iter();
+                if rows.any(|row| !row.turn.0.is_empty()) {
+                    return false;
+                }
+                body = mechanism.body(mechanism.chains()[chain].on);
+            }
+            body == Body::Platform(platform)
+        };
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
             let carried = mechanism.chains().iter().map(|chain| chain.on);
             let balls = (closures.flat_map(|closure| closure.frames)).chain(carried);
             let places = balls.filter_map(|frame| places.get(&frame).copied());
-            places.filter(move |&place| bodies[place] == Body::Platform(platform))
+            places.filter(move |&place| is_carried(bodies[place], platform))
         };
         let rods: Vec<usize> = (0..mechanism.platforms().len())
             .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
             .collect();
         let mut moved = Vec::new();
         for motion in motions {
-            for i in 0..frames.len() {
+            for &i in of_links {
                 let twist = self.frames.twist(i, &placement, motion);
                 moved.extend(twist.velocity.times(scale).0);
             }

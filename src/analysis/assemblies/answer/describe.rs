@@ -45,7 +45,7 @@ impl Question<'_> {
         };
         let flat = |f: &Found| self.coordinates.flat(&f.point);
         let flat: Vec<Vec<C>> = found.iter().map(flat).collect();
-        let poses = self.poses(&found, &flat);
+        let poses = self.poses(&flat);
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
             let stopped = (self.watch).stops(Stage::Certificates, k, Some(found.len()));
             let condition = match f.multiplicity == 1 || columns == 0 {
@@ -110,38 +110,29 @@ impl Question<'_> {
         report.real = report.assemblies.len();
     }
 
-    /// Numbers, from 1, of the solutions in each pose: of the platforms to be found or, without any, of all bodies, which
-    /// do not tell the two sets of angles of a ball apart. None if there are no such sets.
-    fn poses(&self, found: &[Found], flat: &[Vec<C>]) -> Vec<Vec<usize>> {
+    /// Numbers, from 1, of the solutions in each pose of the platforms to be found, if there are any.
+    fn poses(&self, flat: &[Vec<C>]) -> Vec<Vec<usize>> {
         let coordinates = self.coordinates;
-        let by_platforms = !coordinates.free_platforms.is_empty();
-        let sets = |f: &Found| match by_platforms {
-            true => Vec::new(),
-            false => self.mechanism.sets_of_angles(&f.point),
-        };
-        let sets: Vec<_> = found.iter().map(sets).collect();
-        let mut poses: Vec<Vec<usize>> = Vec::new();
-        if !by_platforms && sets.iter().all(|sets| sets.len() < 2) {
-            return poses;
+        if coordinates.free_platforms.is_empty() {
+            return Vec::new();
         }
-        for mode in 1..=flat.len() {
-            let same = |known: &&mut Vec<usize>| {
-                let (known, x) = (&flat[known[0] - 1], &flat[mode - 1]);
-                let mut others = sets[mode - 1].iter().map(|at| coordinates.flat(at));
-                match by_platforms {
-                    true => {
-                        coordinates.same_pose(coordinates.pose_of(known), coordinates.pose_of(x))
-                    }
-                    false => others.any(|x| coordinates.same(known, &x)),
-                }
-            };
-            match poses.iter_mut().find(same) {
-                Some(known) => known.push(mode),
-                None => poses.push(vec![mode]),
-            }
-        }
-        poses
+        let pose = |mode: usize| coordinates.pose_of(&flat[mode - 1]);
+        grouped(flat.len(), |known, mode| {
+            coordinates.same_pose(pose(known), pose(mode))
+        })
     }
+}
+
+/// Numbers from 1 to `count`, each with those that are the same as the first of them.
+pub(crate) fn grouped(count: usize, same: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for number in 1..=count {
+        match groups.iter_mut().find(|group| same(group[0], number)) {
+            Some(group) => group.push(number),
+            None => groups.push(vec![number]),
+        }
+    }
+    groups
 }
 
 /// Quotient of the largest and the smallest singular value of a column-major matrix; `None` if its

@@ -13,7 +13,7 @@ use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Packed;
 use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
-use crate::system::{System, Work, random_configuration, with_coordinates};
+use crate::system::{System, Work, random_configuration, sets_of_angles, with_coordinates};
 
 /// What was found at the nodes that were searched.
 #[derive(Default)]
@@ -24,14 +24,31 @@ pub(crate) struct ModeSeeds {
 }
 
 impl ModeSeeds {
-    /// What was found at each node.
+    /// What was found at each node. Of the sets of angles of a ball written as three rows the one on the side of home is
+    /// taken, so that no mode is there twice.
     pub fn of(
-        problem: &MapProblem,
+        fill: &Flood,
         found: impl IntoIterator<Item = (usize, Vec<Configuration<f64>>)>,
     ) -> Self {
+        let (problem, mechanism) = (fill.problem, fill.problem.mechanism);
+        let sides = mechanism.sides_of_rings(&mechanism.home());
+        let on_sides = |node: usize, at: Configuration<f64>| {
+            let as_home = |set: &Configuration<f64>| {
+                let own = mechanism.sides_of_rings(set);
+                own.iter().zip(&sides).filter(|(a, b)| a == b).count()
+            };
+            let question = problem.at(&fill.grid.values(node));
+            let sets = sets_of_angles(mechanism, (&question.held(), question.still()), &at);
+            // the first of equal ones
+            sets.into_iter().rev().max_by_key(as_home).unwrap_or(at)
+        };
         let mut mode_seeds = ModeSeeds::default();
         for (node, found) in found {
-            for mut at in found {
+            for at in found {
+                let mut at = match sides.is_empty() {
+                    true => at,
+                    false => on_sides(node, at),
+                };
                 problem.mechanism.turn_to_limits(&mut at.joints);
                 match problem.allows(&at.joints) {
                     true => mode_seeds.seeds.push((node, at)),
@@ -94,7 +111,7 @@ pub(crate) fn search_modes(
         take(metric, &mut last, &values, at, &mut found);
         Some((node, found))
     });
-    ModeSeeds::of(problem, found.into_iter().chain(here))
+    ModeSeeds::of(fill, found.into_iter().chain(here))
 }
 
 /// Adds what Newton's method finds from a start, if it is new.
@@ -180,7 +197,7 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         }
         (node, new)
     });
-    ModeSeeds::of(problem, found)
+    ModeSeeds::of(fill, found)
 }
 
 /// The node nearest to a configuration, if it is in the box.

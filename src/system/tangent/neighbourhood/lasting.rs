@@ -2,6 +2,7 @@
 
 use super::{Neighbourhood, Tangent};
 use crate::linear::{complement, dot, orthonormal};
+use crate::mechanism::Configuration;
 use crate::solve::Newton;
 use crate::system::tangent::shake::shaken;
 
@@ -14,6 +15,15 @@ pub struct Lasting {
     pub locked: Vec<Vec<f64>>,
     /// Orthonormal basis of the idle motions at a configuration beside it.
     pub idle_beside: Vec<Vec<f64>>,
+}
+
+impl Neighbourhood<'_> {
+    /// The motions at one of the configurations beside another in directions without symmetry, k > 0.
+    pub fn beside(&mut self, at: &Configuration<f64>, k: u8) -> Option<Tangent> {
+        let start = shaken(self.mechanism(), at, k);
+        let at = self.solve(&Newton::default(), start)?;
+        Some(self.tangent(at))
+    }
 }
 
 impl Tangent {
@@ -29,14 +39,11 @@ impl Tangent {
         if self.idle.is_empty() {
             return unlocked(self);
         }
-        let newton = Newton::default();
         let mut lasting: Option<Vec<Vec<f64>>> = None;
         for k in 1..4 {
-            let start = shaken(near.mechanism(), &self.at, k);
-            let Some(at) = near.solve(&newton, start) else {
+            let Some(beside) = near.beside(&self.at, k) else {
                 continue;
             };
-            let beside = near.tangent(at);
             let least = lasting.as_ref().map_or(self.idle.len(), Vec::len);
             if beside.idle.len() < least {
                 lasting = Some(beside.idle);
