@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::{Operation, Place};
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
+use crate::number::widest;
 
 /// How many numbers one instruction of the processor takes, with AVX-512.
 const WIDTH: usize = 8;
@@ -23,7 +24,7 @@ struct Register([[f64; WIDTH]; DEPTH]);
 
 /// A straight-line program for rows side by side, with the bits that its operations give one by one.
 ///
-/// It consists of sections. The first is run once, the others in their order, as often as needed.
+/// It consists of sections. The first is run once, then the second and after it any of the others, as often as needed.
 #[derive(Clone, Debug)]
 pub struct Batch {
     sections: Vec<Vec<Instruction>>,
@@ -108,6 +109,30 @@ impl Batch {
         }
     }
 
+    /// What the first inputs alone determine of all that is needed for some places: what the first section computes best.
+    pub fn known(operations: &[Operation], first: usize, places: &[Place]) -> Vec<Place> {
+        let mut known: Vec<bool> = Vec::with_capacity(operations.len());
+        for operation in operations {
+            known.push(match *operation {
+                Operation::Input(i) => (i as usize) < first,
+                _ => operation.operands().all(|place| known[place as usize]),
+            });
+        }
+        let needed = needed(operations, &[places.to_vec()]);
+        let needed = |place: &Place| needed[*place as usize].is_some();
+        let all = 0..operations.len() as Place;
+        let open = all.filter(|place| needed(place) && !known[*place as usize]);
+        let used = open.flat_map(|place| operations[place as usize].operands());
+        let mut found: Vec<Place> = used.chain(places.iter().copied()).collect();
+        found.sort_unstable();
+        found.dedup();
+        found.retain(|&place| {
+            let computed = operations[place as usize].operands().next().is_some();
+            computed && known[place as usize]
+        });
+        found
+    }
+
     /// Registers with the constants in them.
     pub fn registers(&self) -> Registers {
         let all = |value| Register([[value; WIDTH]; DEPTH]);
@@ -120,7 +145,7 @@ impl Batch {
 
     /// Runs a section.
     pub fn run(&self, section: usize, registers: &mut Registers) {
-        run(&self.sections[section], &mut registers.0);
+        widest(|| each(&self.sections[section], &mut registers.0));
     }
 
     /// The register in which the number of a place of a section is found.
@@ -140,6 +165,14 @@ impl Registers {
             .expect("a register has a number for each row")
     }
 
+    /// Copies the numbers of some rows from one register to another.
+    pub fn assign(&mut self, to: usize, from: usize, rows: &[bool; BATCH]) {
+        let from = *self.rows(from);
+        for ((to, from), row) in self.rows_mut(to).iter_mut().zip(from).zip(rows) {
+            *to = if *row { from } else { *to };
+        }
+    }
+
     /// The same to be set: the registers of inputs are the first ones.
     pub fn rows_mut(&mut self, register: usize) -> &mut [f64; BATCH] {
         let rows = self.0[register].0.as_flattened_mut();
@@ -148,22 +181,23 @@ impl Registers {
     }
 }
 
-/// For each place the first section that needs it.
+/// For each place the section that computes it: the one that needs it, or the first or second if that or several do.
 fn needed(operations: &[Operation], sections: &[Vec<Place>]) -> Vec<Option<usize>> {
-    let mut needed = vec![None; operations.len()];
+    let mut users = vec![0u32; operations.len()];
     for (section, places) in sections.iter().enumerate() {
-        for &place in places {
-            needed[place as usize].get_or_insert(section);
-        }
-        for place in (0..operations.len()).rev() {
-            if needed[place] == Some(section) {
-                for operand in operations[place].operands() {
-                    needed[operand as usize].get_or_insert(section);
-                }
-            }
+        (places.iter()).for_each(|&place| users[place as usize] |= 1 << section);
+    }
+    for place in (0..operations.len()).rev() {
+        for operand in operations[place].operands() {
+            users[operand as usize] |= users[place];
         }
     }
-    needed
+    let section = |users: u32| match users {
+        0 => None,
+        users if users.is_power_of_two() || users & 1 == 1 => Some(users.trailing_zeros() as usize),
+        _ => Some(1),
+    };
+    users.into_iter().map(section).collect()
 }
 
 type Written = (Vec<Vec<Instruction>>, Vec<(u32, f64)>, usize);
@@ -361,32 +395,6 @@ impl Assignment {
         self.free
             .extend(registers.filter(|register| *register >= self.fixed));
     }
-}
-
-/// Runs the instructions in the widest registers of the processor; the bits are the same in all.
-fn run(instructions: &[Instruction], registers: &mut [Register]) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx512f")]
-        fn run_avx512(instructions: &[Instruction], registers: &mut [Register]) {
-            each(instructions, registers);
-        }
-        #[target_feature(enable = "avx2")]
-        fn run_avx2(instructions: &[Instruction], registers: &mut [Register]) {
-            each(instructions, registers);
-        }
-        // SAFETY: the processor has the instructions that each of the two is compiled to
-        #[allow(unsafe_code)]
-        unsafe {
-            if is_x86_feature_detected!("avx512f") {
-                return run_avx512(instructions, registers);
-            }
-            if is_x86_feature_detected!("avx2") {
-                return run_avx2(instructions, registers);
-            }
-        }
-    }
-    each(instructions, registers);
 }
 
 #[inline(always)]
