@@ -22,7 +22,7 @@ pub(crate) use folded::Folded;
 pub use interval::Interval;
 pub use lanes::{LANES, Lanes};
 pub use num_complex::Complex;
-pub use widest::widest;
+pub(crate) use widest::widest;
 
 /// A number the kinematics can be evaluated over.
 ///

@@ -1,5 +1,6 @@
 //! A straight-line program run for many rows of inputs at once.
 
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use rustc_hash::FxHashMap;
@@ -8,19 +9,14 @@ use super::{Operation, Place};
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
 use crate::number::widest;
 
-/// How many numbers one instruction of the processor takes, with AVX-512.
-const WIDTH: usize = 8;
-/// How many of these a register holds: enough that choosing the operation costs little, few enough that the registers
-/// stay in the first cache.
-const DEPTH: usize = 4;
-
-/// Rows that are run at once.
-pub const BATCH: usize = WIDTH * DEPTH;
+/// Rows that are run at once: enough that choosing the operation costs little, few enough that the registers stay in the
+/// first cache.
+pub const BATCH: usize = 32;
 
 /// One number for each row.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-struct Register([[f64; WIDTH]; DEPTH]);
+struct Register([f64; BATCH]);
 
 /// A straight-line program for rows side by side, with the bits that its operations give one by one.
 ///
@@ -135,7 +131,7 @@ impl Batch {
 
     /// Registers with the constants in them.
     pub fn registers(&self) -> Registers {
-        let all = |value| Register([[value; WIDTH]; DEPTH]);
+        let all = |value| Register([value; BATCH]);
         let mut registers = vec![all(0.0); self.registers as usize];
         for &(register, value) in &self.constants {
             registers[register as usize] = all(value);
@@ -145,7 +141,7 @@ impl Batch {
 
     /// Runs a section.
     pub fn run(&self, section: usize, registers: &mut Registers) {
-        widest(|| each(&self.sections[section], &mut registers.0));
+        run(&self.sections[section], &mut registers.0);
     }
 
     /// The register in which the number of a place of a section is found.
@@ -160,24 +156,12 @@ impl Batch {
 impl Registers {
     /// The numbers of all rows in a register.
     pub fn rows(&self, register: usize) -> &[f64; BATCH] {
-        let rows = self.0[register].0.as_flattened();
-        rows.try_into()
-            .expect("a register has a number for each row")
-    }
-
-    /// Copies the numbers of some rows from one register to another.
-    pub fn assign(&mut self, to: usize, from: usize, rows: &[bool; BATCH]) {
-        let from = *self.rows(from);
-        for ((to, from), row) in self.rows_mut(to).iter_mut().zip(from).zip(rows) {
-            *to = if *row { from } else { *to };
-        }
+        &self.0[register].0
     }
 
     /// The same to be set: the registers of inputs are the first ones.
     pub fn rows_mut(&mut self, register: usize) -> &mut [f64; BATCH] {
-        let rows = self.0[register].0.as_flattened_mut();
-        rows.try_into()
-            .expect("a register has a number for each row")
+        &mut self.0[register].0
     }
 }
 
@@ -364,26 +348,21 @@ impl Assignment {
         register
     }
 
-    /// Puts registers in the place of places. All operands are read before anything is set, so that one of them may be
-    /// the result too.
+    /// Puts registers in the place of places.
     fn assign(&mut self, instruction: &mut Instruction, last: &[usize], number: usize) {
         let mut places: Vec<u32> = instruction.operands().collect();
+        places.push(instruction.to);
         let registers = instruction.of.map(|place| self.register[place as usize]);
-        places.sort_unstable();
-        places.dedup();
-        self.release(&places, last, number);
-        let [mut to, mut second] = [instruction.to, instruction.of[1]];
-        places.clear();
-        places.push(to);
-        to = self.fresh(to);
+        instruction.to = self.fresh(instruction.to);
+        let second = instruction.of[1];
         instruction.of = registers;
         if matches!(instruction.code, Code::SinCos) {
             places.push(second);
-            second = self.fresh(second);
-            instruction.of[1] = second;
+            instruction.of[1] = self.fresh(second);
         }
-        instruction.to = to;
-        // a cosine may be of no use
+        // results of no use too, as a cosine may be
+        places.sort_unstable();
+        places.dedup();
         self.release(&places, last, number);
     }
 
@@ -397,57 +376,70 @@ impl Assignment {
     }
 }
 
+widest! {
+    fn run(instructions: &[Instruction], registers: &mut [Register]) runs each
+}
+
+/// The numbers of a register.
+type Row<'a> = &'a [Cell<f64>; BATCH];
+
 #[inline(always)]
 fn each(instructions: &[Instruction], registers: &mut [Register]) {
+    let registers = Cell::from_mut(registers).as_slice_of_cells();
+    let row = |register: u32| row(&registers[register as usize]);
     for &Instruction { code, to, of } in instructions {
-        let to = to as usize;
-        let [x, y, z] = of.map(|register| register as usize);
+        let (to, [x, y, z]) = (row(to), of.map(row));
         match code {
-            Code::Add => set(registers, to, [x, y], |[x, y]| x + y),
-            Code::Subtract => set(registers, to, [x, y], |[x, y]| x - y),
-            Code::Multiply => set(registers, to, [x, y], |[x, y]| x * y),
-            Code::AddProduct => set(registers, to, [x, y, z], |[x, y, z]| z + x * y),
-            Code::SubtractProduct => set(registers, to, [x, y, z], |[x, y, z]| z - x * y),
-            Code::SubtractFromProduct => set(registers, to, [x, y, z], |[x, y, z]| x * y - z),
-            Code::Divide => set(registers, to, [x, y], |[x, y]| x / y),
-            Code::Negate => set(registers, to, [x], |[x]| -x),
-            Code::Root => set(registers, to, [x], |[x]| x.sqrt()),
-            Code::RootOrZero => set(registers, to, [x], |[x]| x.max(0.0).sqrt()),
-            Code::Near => set(registers, to, [x, y], |[x, y]| {
-                x + TAU * ((y - x) / TAU).round()
+            Code::Add => set(to, [x, y], |[x, y]| x + y),
+            Code::Subtract => set(to, [x, y], |[x, y]| x - y),
+            Code::Multiply => set(to, [x, y], |[x, y]| x * y),
+            Code::AddProduct => set(to, [x, y, z], |[x, y, z]| z + x * y),
+            Code::SubtractProduct => set(to, [x, y, z], |[x, y, z]| z - x * y),
+            Code::SubtractFromProduct => set(to, [x, y, z], |[x, y, z]| x * y - z),
+            Code::Divide => set(to, [x, y], |[x, y]| x / y),
+            Code::Negate => set(to, [x], |[x]| -x),
+            Code::Root => set(to, [x], |[x]| x.sqrt()),
+            Code::RootOrZero => set(to, [x], |[x]| x.max(0.0).sqrt()),
+            Code::Near => set(to, [x, y], |[x, y]| {
+                x + TAU * ((y - x) / TAU).round_ties_even()
             }),
-            Code::Sign => set(registers, to, [x], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
+            Code::Sign => set(to, [x], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
             Code::Angle => {
-                for part in 0..DEPTH {
-                    let angle = atan2_of_each(registers[x].0[part], registers[y].0[part]);
-                    registers[to].0[part] = angle;
-                }
+                let angles = atan2_of_each(numbers(x), numbers(y));
+                (0..BATCH).for_each(|i| to[i].set(angles[i]));
             }
             Code::SinCos => {
-                for part in 0..DEPTH {
-                    let (sin, cos) = sin_cos_of_each(registers[x].0[part]);
-                    registers[to].0[part] = sin;
-                    registers[y].0[part] = cos;
+                let (sin, cos) = sin_cos_of_each(numbers(x));
+                for i in 0..BATCH {
+                    to[i].set(sin[i]);
+                    y[i].set(cos[i]);
                 }
             }
         }
     }
 }
 
+/// Several registers are borrowed at once and one of them is set, in a loop that the compiler makes into vector
+/// instructions. With copies of parts of registers in place of cells it does not: a step took four times as long.
 #[inline(always)]
-fn set<const N: usize>(
-    registers: &mut [Register],
-    to: usize,
-    of: [usize; N],
-    f: impl Fn([f64; N]) -> f64,
-) {
-    for part in 0..DEPTH {
-        let of = of.map(|register| registers[register].0[part]);
-        let mut result = [0.0; WIDTH];
-        for (i, result) in result.iter_mut().enumerate() {
-            *result = f(of.map(|of| of[i]));
-        }
-        registers[to].0[part] = result;
+fn row(register: &Cell<Register>) -> Row<'_> {
+    let first: *const Cell<Register> = register;
+    // SAFETY: a cell is laid out as what is in it, and a register as its numbers
+    #[allow(unsafe_code)]
+    unsafe {
+        &*first.cast()
+    }
+}
+
+#[inline(always)]
+fn numbers(row: Row) -> [f64; BATCH] {
+    std::array::from_fn(|i| row[i].get())
+}
+
+#[inline(always)]
+fn set<const N: usize>(to: Row, of: [Row; N], f: impl Fn([f64; N]) -> f64) {
+    for i in 0..BATCH {
+        to[i].set(f(of.map(|of| of[i].get())));
     }
 }
 
@@ -492,8 +484,10 @@ mod tests {
                 registers.rows_mut(input)[i] = value;
             }
         }
+        let mut narrow = registers.clone();
         for section in [0, 1, 2, 1, 2] {
             batch.run(section, &mut registers);
+            each(&batch.sections[section], &mut narrow.0);
         }
         for i in 0..BATCH {
             let mut values: Vec<f64> = Vec::new();
@@ -502,8 +496,11 @@ mod tests {
                 values.push(value);
             }
             for &place in places.iter().flatten() {
-                let found = registers.rows(batch.result(place))[i];
-                assert_eq!(found.to_bits(), values[place as usize].to_bits());
+                let expected = values[place as usize].to_bits();
+                for registers in [&registers, &narrow] {
+                    let found = registers.rows(batch.result(place))[i];
+                    assert_eq!(found.to_bits(), expected);
+                }
             }
         }
     }

@@ -11,7 +11,7 @@ use crate::algebra::{BATCH, Batch, Place, Recorded, Registers, record};
 use crate::mechanism::Configuration;
 use crate::number::{Number, widest};
 use crate::system::{Coordinate, Question, System};
-use past::Past;
+use past::{Mask, Past};
 
 /// How motions are followed.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,7 +114,12 @@ impl<'a> Follower<'a> {
             plan.recorded(&changing, &inputs, settings.longest_step)
         });
         let written = written?;
-        let mut sections = [Vec::new(), vec![written.size], written.moved.clone(), Vec::new()];
+        let mut sections = [
+            Vec::new(),
+            vec![written.size],
+            written.moved.clone(),
+            Vec::new(),
+        ];
         sections[Section::Step as usize].push(written.doubt);
         let reached = &mut sections[Section::Reached as usize];
         reached.push(written.placing);
@@ -190,7 +195,7 @@ impl<'a> Follower<'a> {
         } = &self.registers;
         let square = self.settings.tolerance.powi(2);
         self.program.run(0, registers);
-        widest(|| past.predict(going, registers));
+        predict(past, &mask(going), registers);
         let (mut open, mut solved) = (*going, [false; BATCH]);
         let mut last = [f64::INFINITY; BATCH];
         for step in 0..=self.settings.most_steps {
@@ -211,19 +216,20 @@ impl<'a> Follower<'a> {
             for i in 0..BATCH {
                 open[i] &= doubt[i] <= 1.0;
             }
-            for (&i, &from) in self.free.iter().zip(moved) {
-                registers.assign(self.changing.len() + i, from, &open);
-            }
+            let free = self.free.iter().map(|i| self.changing.len() + i);
+            free.zip(moved)
+                .for_each(|(to, &from)| assign(to, from, &mask(&open), registers));
         }
         self.program.run(Section::Reached as usize, registers);
         let doubt = registers.rows(*placing);
         for i in 0..BATCH {
             solved[i] &= doubt[i] <= 1.0;
         }
+        let reached = mask(&solved);
         for &(i, from) in placed {
-            registers.assign(self.changing.len() + i, from, &solved);
+            assign(self.changing.len() + i, from, &reached, registers);
         }
-        widest(|| past.learn(&solved, registers));
+        learn(past, &reached, registers);
         for motion in 0..BATCH {
             if going[motion] && !solved[motion] {
                 past.restore(motion, registers);
@@ -258,6 +264,22 @@ impl<'a> Follower<'a> {
     }
 }
 
+widest! {
+    fn predict(past: &Past, going: &Mask, registers: &mut Registers) runs Past::predict
+}
+
+widest! {
+    fn learn(past: &mut Past, reached: &Mask, registers: &Registers) runs Past::learn
+}
+
+widest! {
+    fn assign(to: usize, from: usize, motions: &Mask, registers: &mut Registers) runs past::assign
+}
+
+fn mask(motions: &[bool; BATCH]) -> Mask {
+    motions.map(|motion| if motion { u64::MAX } else { 0 })
+}
+
 impl Plan<'_> {
     /// Records the iteration and what follows from it. The inputs are the held values that change, then the state.
     fn recorded(
@@ -290,7 +312,11 @@ impl Plan<'_> {
             let all = of.into_iter();
             all.fold(Recorded::zero(), |sum, x| sum + x * x)
         };
-        let size = squares(rows.iter().map(|(row, factor)| row.scale(*factor)).collect());
+        let size = squares(
+            rows.iter()
+                .map(|(row, factor)| row.scale(*factor))
+                .collect(),
+        );
         let too_long = step.iter().map(|(_, x)| x.scale(1.0 / longest));
         let too_small = (pivots.iter()).map(|pivot| pivot.inverse.scale(pivot.scale * LEAST_PIVOT));
         let doubt = squares(too_long.chain(too_small).collect());

@@ -5,6 +5,9 @@ use crate::algebra::{BATCH, Registers};
 /// Orders of extrapolation: none, constant moves, moves that change linearly and quadratically.
 const ORDERS: usize = 4;
 
+/// For each motion all bits or none.
+pub(super) type Mask = [u64; BATCH];
+
 /// A number for each motion.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
@@ -65,57 +68,73 @@ impl Past {
 
     /// Puts the numbers of motions where they will be next.
     #[inline(always)]
-    pub fn predict(&self, going: &[bool; BATCH], registers: &mut Registers) {
+    pub fn predict(&self, going: &Mask, registers: &mut Registers) {
         for known in &self.known {
-            let next = registers.rows_mut(known.register);
-            for i in 0..BATCH {
-                let mut sum = known.latest.0[i];
-                for (difference, added) in known.differences.iter().zip(&self.added) {
-                    sum += added.0[i] * difference.0[i];
+            let mut sum = known.latest;
+            for (difference, added) in known.differences.iter().zip(&self.added) {
+                for i in 0..BATCH {
+                    sum.0[i] += added.0[i] * difference.0[i];
                 }
-                next[i] = if going[i] { sum } else { next[i] };
             }
+            choose(registers.rows_mut(known.register), &sum.0, going);
         }
     }
 
     /// Takes in where motions are now.
     #[inline(always)]
-    pub fn learn(&mut self, reached: &[bool; BATCH], registers: &Registers) {
+    pub fn learn(&mut self, reached: &Mask, registers: &Registers) {
         let mut errors = [Row::ZERO; ORDERS];
+        let [first, higher @ ..] = &mut errors;
         for known in &mut self.known {
             let now = registers.rows(known.register);
-            let Known {
-                latest,
-                differences,
-                ..
-            } = known;
+            let mut latest = Row::ZERO;
             for i in 0..BATCH {
-                let mut difference = now[i] - latest.0[i];
-                latest.0[i] = if reached[i] { now[i] } else { latest.0[i] };
-                errors[0].0[i] += difference * difference;
-                for (before, error) in differences.iter_mut().zip(&mut errors[1..]) {
-                    let next = difference - before.0[i];
-                    before.0[i] = if reached[i] { difference } else { before.0[i] };
-                    difference = next;
-                    error.0[i] += difference * difference;
+                latest.0[i] = now[i] - known.latest.0[i];
+                first.0[i] += latest.0[i] * latest.0[i];
+            }
+            choose(&mut known.latest.0, now, reached);
+            for (difference, error) in known.differences.iter_mut().zip(&mut *higher) {
+                let mut change = Row::ZERO;
+                for i in 0..BATCH {
+                    change.0[i] = latest.0[i] - difference.0[i];
+                    error.0[i] += change.0[i] * change.0[i];
                 }
+                choose(&mut difference.0, &latest.0, reached);
+                latest = change;
             }
         }
-        // order p is added to where a higher one missed less than all up to p
-        let mut behind = errors;
-        for p in (0..ORDERS - 1).rev() {
+        // difference p is added where an order above it missed less than all up to it
+        let mut above = errors;
+        for p in (1..ORDERS - 1).rev() {
+            let [lower, upper] = [p, p + 1].map(|p| above[p]);
             for i in 0..BATCH {
-                behind[p].0[i] = behind[p].0[i].min(behind[p + 1].0[i]);
+                above[p].0[i] = lower.0[i].min(upper.0[i]);
             }
         }
-        let mut least = errors[0];
-        for p in 0..ORDERS - 1 {
+        let mut least = Row([f64::INFINITY; BATCH]);
+        for (p, row) in self.added.iter_mut().enumerate() {
+            let mut added = Row::ZERO;
             for i in 0..BATCH {
                 least.0[i] = least.0[i].min(errors[p].0[i]);
-                let added = if behind[p + 1].0[i] < least.0[i] { 1.0 } else { 0.0 };
-                let row = &mut self.added[p].0[i];
-                *row = if reached[i] { added } else { *row };
+                added.0[i] = f64::from(u8::from(above[p + 1].0[i] < least.0[i]));
             }
+            choose(&mut row.0, &added.0, reached);
         }
+    }
+}
+
+/// Copies the numbers of some motions from one register to another.
+#[inline(always)]
+pub(super) fn assign(to: usize, from: usize, motions: &Mask, registers: &mut Registers) {
+    let from = *registers.rows(from);
+    choose(registers.rows_mut(to), &from, motions);
+}
+
+/// Sets the numbers of some motions.
+#[inline(always)]
+fn choose(to: &mut [f64; BATCH], from: &[f64; BATCH], motions: &Mask) {
+    for i in 0..BATCH {
+        let kept = to[i].to_bits() & !motions[i];
+        to[i] = f64::from_bits(kept | from[i].to_bits() & motions[i]);
     }
 }
