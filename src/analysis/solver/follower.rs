@@ -239,10 +239,10 @@ impl<'a> Follower<'a> {
         solved
     }
 
-    /// All coordinates of a motion that has just arrived, joints first, in rad and m.
-    pub fn columns(&self, motions: &Motions, motion: usize) -> impl Iterator<Item = f64> {
-        let columns = self.registers.columns.iter();
-        columns.map(move |&register| motions.registers.rows(register)[motion])
+    /// Where the last [`solve`](Self::solve) led: all motions' values of a coordinate, numbered as [`Coordinate::all`]
+    /// lists them, in rad and m. Roll and yaw are noise where the pitch is ±90°.
+    pub fn column<'m>(&self, motions: &'m Motions, coordinate: usize) -> &'m [f64; BATCH] {
+        motions.registers.rows(self.registers.columns[coordinate])
     }
 
     /// The latest solution of a motion, found for these values of the coordinates that change.
