@@ -39,8 +39,12 @@ pub struct Registers(Vec<Register>);
 struct Instruction {
     code: Code,
     to: u32,
-    of: [u32; 3],
+    /// As many as the code takes; the others stand for nothing.
+    of: [u32; OPERANDS],
 }
+
+/// The most operands of an instruction.
+const OPERANDS: usize = 5;
 
 #[derive(Clone, Copy, Debug)]
 enum Code {
@@ -53,6 +57,16 @@ enum Code {
     SubtractProduct,
     /// x y − z
     SubtractFromProduct,
+    /// x y + z u
+    AddedProducts,
+    /// x y − z u
+    SubtractedProducts,
+    /// w + x y + z u
+    AddProducts,
+    /// w − x y − z u
+    SubtractProducts,
+    /// x y − w − z u
+    SubtractFromAndProduct,
     Divide,
     Negate,
     Root,
@@ -207,7 +221,7 @@ fn written(
         let Some(section) = needed[place] else {
             continue;
         };
-        let (code, of) = match *operation {
+        let (code, of): (_, &[u32]) = match *operation {
             O::Constant(value) => {
                 constants.push((place as u32, value));
                 continue;
@@ -215,23 +229,23 @@ fn written(
             O::Input(_) => continue,
             O::Multiply(..) if fused[place] => continue,
             O::Add(x, y) => match (product(x), product(y)) {
-                (Some((a, b)), _) => (Code::AddProduct, [a, b, y]),
-                (None, Some((a, b))) => (Code::AddProduct, [a, b, x]),
-                (None, None) => (Code::Add, [x, y, x]),
+                (Some((a, b)), _) => (Code::AddProduct, &[a, b, y]),
+                (None, Some((a, b))) => (Code::AddProduct, &[a, b, x]),
+                (None, None) => (Code::Add, &[x, y]),
             },
             O::Subtract(x, y) => match (product(x), product(y)) {
-                (_, Some((a, b))) => (Code::SubtractProduct, [a, b, x]),
-                (Some((a, b)), None) => (Code::SubtractFromProduct, [a, b, y]),
-                (None, None) => (Code::Subtract, [x, y, x]),
+                (_, Some((a, b))) => (Code::SubtractProduct, &[a, b, x]),
+                (Some((a, b)), None) => (Code::SubtractFromProduct, &[a, b, y]),
+                (None, None) => (Code::Subtract, &[x, y]),
             },
-            O::Multiply(x, y) => (Code::Multiply, [x, y, x]),
-            O::Divide(x, y) => (Code::Divide, [x, y, x]),
-            O::Negate(x) => (Code::Negate, [x; 3]),
-            O::Root(x) => (Code::Root, [x; 3]),
-            O::RootOrZero(x) => (Code::RootOrZero, [x; 3]),
-            O::Angle(y, x) => (Code::Angle, [y, x, y]),
-            O::Near(x, y) => (Code::Near, [x, y, x]),
-            O::Sign(x) => (Code::Sign, [x; 3]),
+            O::Multiply(x, y) => (Code::Multiply, &[x, y]),
+            O::Divide(x, y) => (Code::Divide, &[x, y]),
+            O::Negate(x) => (Code::Negate, &[x]),
+            O::Root(x) => (Code::Root, &[x]),
+            O::RootOrZero(x) => (Code::RootOrZero, &[x]),
+            O::Angle(y, x) => (Code::Angle, &[y, x]),
+            O::Near(x, y) => (Code::Near, &[x, y]),
+            O::Sign(x) => (Code::Sign, &[x]),
             O::Sin(x) | O::Cos(x) => {
                 let section: &mut Vec<Instruction> = &mut written[section];
                 let both = angles.entry((needed[place].unwrap_or(0), x));
@@ -239,11 +253,7 @@ fn written(
                     // the one that is not needed has a place of its own
                     let [sin, cos] = [places as u32, places as u32 + 1];
                     places += 2;
-                    section.push(Instruction {
-                        code: Code::SinCos,
-                        to: sin,
-                        of: [x, cos, x],
-                    });
+                    section.push(Instruction::new(Code::SinCos, sin, &[x, cos]));
                     section.len() - 1
                 });
                 match operation {
@@ -253,12 +263,9 @@ fn written(
                 continue;
             }
         };
-        written[section].push(Instruction {
-            code,
-            to: place as u32,
-            of,
-        });
+        written[section].push(Instruction::new(code, place as u32, of));
     }
+    merged(&mut written, kept, places);
     (written, constants, places)
 }
 
@@ -323,11 +330,84 @@ fn last_uses(
     last
 }
 
+impl Code {
+    fn operands(self) -> usize {
+        use Code as C;
+        match self {
+            C::Negate | C::Root | C::SinCos | C::RootOrZero | C::Sign => 1,
+            C::Add | C::Subtract | C::Multiply | C::Divide | C::Angle | C::Near => 2,
+            C::AddProduct | C::SubtractProduct | C::SubtractFromProduct => 3,
+            C::AddedProducts | C::SubtractedProducts => 4,
+            C::AddProducts | C::SubtractProducts | C::SubtractFromAndProduct => 5,
+        }
+    }
+}
+
 impl Instruction {
-    fn operands(&self) -> impl Iterator<Item = u32> {
-        let [x, y, z] = self.of;
-        let one = matches!(self.code, Code::SinCos);
-        [x, if one { x } else { y }, z].into_iter()
+    fn new(code: Code, to: u32, operands: &[u32]) -> Self {
+        let mut of = [0; OPERANDS];
+        of[..operands.len()].copy_from_slice(operands);
+        Instruction { code, to, of }
+    }
+
+    /// Places or registers, each once.
+    fn operands(&self) -> Vec<u32> {
+        let mut operands = self.of[..self.code.operands()].to_vec();
+        operands.sort_unstable();
+        operands.dedup();
+        operands
+    }
+
+    /// The same with one operand computed in place, if there is such an instruction.
+    fn with(&self, inner: &Instruction) -> Option<Self> {
+        let ([x, y, z, ..], [u, v, w, ..]) = (self.of, inner.of);
+        if z != inner.to || x == z || y == z {
+            return None;
+        }
+        let (code, of): (_, &[u32]) = match (inner.code, self.code) {
+            (Code::Multiply, Code::AddProduct) => (Code::AddedProducts, &[u, v, x, y]),
+            (Code::Multiply, Code::SubtractProduct) => (Code::SubtractedProducts, &[u, v, x, y]),
+            (Code::Multiply, Code::SubtractFromProduct) => {
+                (Code::SubtractedProducts, &[x, y, u, v])
+            }
+            (Code::AddProduct, Code::AddProduct) => (Code::AddProducts, &[u, v, x, y, w]),
+            (Code::SubtractProduct, Code::SubtractProduct) => {
+                (Code::SubtractProducts, &[u, v, x, y, w])
+            }
+            (Code::SubtractFromProduct, Code::SubtractProduct) => {
+                (Code::SubtractFromAndProduct, &[u, v, x, y, w])
+            }
+            _ => return None,
+        };
+        Some(Instruction::new(code, self.to, of))
+    }
+}
+
+/// Instructions of which one is used by another of the section alone are made one.
+fn merged(sections: &mut [Vec<Instruction>], kept: &[Place], places: usize) {
+    let mut uses = vec![0; places];
+    kept.iter().for_each(|&place| uses[place as usize] += 1);
+    for instruction in sections.iter().flatten() {
+        (instruction.operands().into_iter()).for_each(|place| uses[place as usize] += 1);
+    }
+    for section in sections {
+        let mut written: FxHashMap<Place, usize> = FxHashMap::default();
+        let mut gone = vec![false; section.len()];
+        for number in 0..section.len() {
+            let instruction = section[number];
+            let inner = written
+                .get(&instruction.of[2])
+                .filter(|_| instruction.code.operands() == 3);
+            if let Some(&inner) = inner.filter(|_| uses[instruction.of[2] as usize] == 1)
+                && let Some(both) = instruction.with(&section[inner])
+            {
+                section[number] = both;
+                gone[inner] = true;
+            }
+            written.insert(instruction.to, number);
+        }
+        let mut gone = gone.into_iter();
+        section.retain(|_| gone.next() == Some(false));
     }
 }
 
@@ -350,12 +430,13 @@ impl Assignment {
 
     /// Puts registers in the place of places.
     fn assign(&mut self, instruction: &mut Instruction, last: &[usize], number: usize) {
-        let mut places: Vec<u32> = instruction.operands().collect();
+        let mut places = instruction.operands();
         places.push(instruction.to);
-        let registers = instruction.of.map(|place| self.register[place as usize]);
         instruction.to = self.fresh(instruction.to);
         let second = instruction.of[1];
-        instruction.of = registers;
+        for place in &mut instruction.of[..instruction.code.operands()] {
+            *place = self.register[*place as usize];
+        }
         if matches!(instruction.code, Code::SinCos) {
             places.push(second);
             instruction.of[1] = self.fresh(second);
@@ -387,32 +468,46 @@ type Row<'a> = &'a [Cell<f64>; BATCH];
 fn each(instructions: &[Instruction], registers: &mut [Register]) {
     let registers = Cell::from_mut(registers).as_slice_of_cells();
     let row = |register: u32| row(&registers[register as usize]);
-    for &Instruction { code, to, of } in instructions {
-        let (to, [x, y, z]) = (row(to), of.map(row));
-        match code {
-            Code::Add => set(to, [x, y], |[x, y]| x + y),
-            Code::Subtract => set(to, [x, y], |[x, y]| x - y),
-            Code::Multiply => set(to, [x, y], |[x, y]| x * y),
-            Code::AddProduct => set(to, [x, y, z], |[x, y, z]| z + x * y),
-            Code::SubtractProduct => set(to, [x, y, z], |[x, y, z]| z - x * y),
-            Code::SubtractFromProduct => set(to, [x, y, z], |[x, y, z]| x * y - z),
-            Code::Divide => set(to, [x, y], |[x, y]| x / y),
-            Code::Negate => set(to, [x], |[x]| -x),
-            Code::Root => set(to, [x], |[x]| x.sqrt()),
-            Code::RootOrZero => set(to, [x], |[x]| x.max(0.0).sqrt()),
-            Code::Near => set(to, [x, y], |[x, y]| {
+    for instruction in instructions {
+        let to = row(instruction.to);
+        let of = |i: usize| row(instruction.of[i]);
+        let two = || [of(0), of(1)];
+        let three = || [of(0), of(1), of(2)];
+        let four = || [of(0), of(1), of(2), of(3)];
+        let five = || [of(0), of(1), of(2), of(3), of(4)];
+        match instruction.code {
+            Code::Add => set(to, two(), |[x, y]| x + y),
+            Code::Subtract => set(to, two(), |[x, y]| x - y),
+            Code::Multiply => set(to, two(), |[x, y]| x * y),
+            Code::AddProduct => set(to, three(), |[x, y, z]| z + x * y),
+            Code::SubtractProduct => set(to, three(), |[x, y, z]| z - x * y),
+            Code::SubtractFromProduct => set(to, three(), |[x, y, z]| x * y - z),
+            Code::AddedProducts => set(to, four(), |[x, y, z, u]| x * y + z * u),
+            Code::SubtractedProducts => set(to, four(), |[x, y, z, u]| x * y - z * u),
+            Code::AddProducts => set(to, five(), |[x, y, z, u, w]| (w + x * y) + z * u),
+            Code::SubtractProducts => set(to, five(), |[x, y, z, u, w]| (w - x * y) - z * u),
+            Code::SubtractFromAndProduct => {
+                set(to, five(), |[x, y, z, u, w]| (x * y - w) - z * u);
+            }
+            Code::Divide => set(to, two(), |[x, y]| x / y),
+            Code::Negate => set(to, [of(0)], |[x]| -x),
+            Code::Root => set(to, [of(0)], |[x]| x.sqrt()),
+            Code::RootOrZero => set(to, [of(0)], |[x]| x.max(0.0).sqrt()),
+            Code::Near => set(to, two(), |[x, y]| {
                 x + TAU * ((y - x) / TAU).round_ties_even()
             }),
-            Code::Sign => set(to, [x], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
+            Code::Sign => set(to, [of(0)], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
             Code::Angle => {
-                let angles = atan2_of_each(numbers(x), numbers(y));
+                let [y, x] = two();
+                let angles = atan2_of_each(numbers(y), numbers(x));
                 (0..BATCH).for_each(|i| to[i].set(angles[i]));
             }
             Code::SinCos => {
+                let [x, second] = two();
                 let (sin, cos) = sin_cos_of_each(numbers(x));
                 for i in 0..BATCH {
                     to[i].set(sin[i]);
-                    y[i].set(cos[i]);
+                    second[i].set(cos[i]);
                 }
             }
         }

@@ -88,8 +88,8 @@ impl Past {
         for known in &mut self.known {
             let now = registers.rows(known.register);
             let mut latest = Row::ZERO;
-            for i in 0..BATCH {
-                latest.0[i] = now[i] - known.latest.0[i];
+            for (i, now) in now.iter().enumerate() {
+                latest.0[i] = now - known.latest.0[i];
                 first.0[i] += latest.0[i] * latest.0[i];
             }
             choose(&mut known.latest.0, now, reached);
