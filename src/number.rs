@@ -12,6 +12,7 @@ mod lanes;
 mod real;
 pub(crate) mod sorting;
 pub(crate) mod trigonometry;
+mod widest;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -21,6 +22,7 @@ pub(crate) use folded::Folded;
 pub use interval::Interval;
 pub use lanes::{LANES, Lanes};
 pub use num_complex::Complex;
+pub(crate) use widest::widest;
 
 /// A number the kinematics can be evaluated over.
 ///

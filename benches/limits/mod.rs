@@ -9,6 +9,7 @@
 use std::array::from_fn;
 
 pub mod four_bar;
+pub mod lanes;
 pub mod stewart_gough;
 pub mod three_rps;
 pub mod trajectories;

@@ -267,10 +267,8 @@ impl Recorded {
 
     /// The angle of the vector (x, y), within half a turn of another.
     pub fn angle(y: Self, x: Self, near: Self) -> Self {
-        with(|list| {
-            let angle = list.put(Operation::Angle(y.0, x.0));
-            list.put(Operation::Near(angle.0, near.0))
-        })
+        let angle = y.atan2(x);
+        with(|list| list.put(Operation::Near(angle.0, near.0)))
     }
 
     /// √x, and 0 where x is negative.
@@ -329,9 +327,9 @@ impl Number for Recorded {
         ln: x.of_constant(f64::ln),
     );
     fn atan2(self, x: Self) -> Self {
-        match x.constant() {
-            Some(x) => self.of_constant(|y| Number::atan2(y, x)),
-            None => Self::from_f64(f64::NAN),
+        match (self.constant(), x.constant()) {
+            (Some(y), Some(x)) => Self::from_f64(Number::atan2(y, x)),
+            _ => with(|list| list.put(Operation::Angle(self.0, x.0))),
         }
     }
     fn is_finite(self) -> bool {

@@ -5,10 +5,12 @@
 
 mod closed;
 mod elimination;
+mod follower;
 mod iteration;
 mod placing;
 mod report;
 
+pub use follower::{Follower, Following, Motions};
 pub use report::{ClosedProgram, Component, Divisor, FrameProgram, Radicand, Solver};
 
 use crate::algebra::{Recorded, SiUnit, record};
@@ -57,12 +59,7 @@ pub fn solver(
     frames: &[(String, Frame)],
 ) -> Result<Solver, NoSolver> {
     let plan = Plan::new(question);
-    if plan.state.is_empty() {
-        return Err(NoSolver::NothingUnknown);
-    }
-    if plan.inputs.is_empty() {
-        return Err(NoSolver::NothingHeld);
-    }
+    plan.check()?;
     let mechanism = question.mechanism();
     let (inputs, state) = plan.values(at);
     let mut sample = [inputs.clone(), state.clone()].concat();
@@ -146,6 +143,7 @@ impl Variable {
 }
 
 /// What is given and what is unknown.
+#[derive(Clone, Debug)]
 struct Plan<'a> {
     mechanism: &'a Mechanism,
     held: Held<f64>,
@@ -178,6 +176,14 @@ impl<'a> Plan<'a> {
             held,
             inputs,
             state,
+        }
+    }
+
+    fn check(&self) -> Result<(), NoSolver> {
+        match (self.state.is_empty(), self.inputs.is_empty()) {
+            (true, _) => Err(NoSolver::NothingUnknown),
+            (_, true) => Err(NoSolver::NothingHeld),
+            _ => Ok(()),
         }
     }
 
@@ -261,20 +267,16 @@ impl<'a> Plan<'a> {
         let unknowns = system.unknowns().len();
         let mut sides = vec![rows.residual.clone()];
         sides.extend((0..given).map(|input| rows.among(&self.slope(input, &inputs, &state))));
-        let (solutions, mut pivots) = eliminate(rows.jacobian.clone(), sides, unknowns)
+        let (solutions, pivots) = eliminate(rows.jacobian.clone(), sides, unknowns)
             .map_err(|rank| NoSolver::Singular { rank, unknowns })?;
         let mut solutions = solutions.into_iter().map(negated);
         let step = solutions.next().expect("one for each side");
         let rates: Vec<Vec<Recorded>> = solutions.collect();
-        let mut iteration = Iteration {
-            rows: rows.residual.iter().map(|&row| (row, 1.0)).collect(),
-            step: step.into_iter().enumerate().collect(),
-            placed: Vec::new(),
-        };
-        if let Some((few, more)) = self.placing(&system, held, &dimensions, &at) {
-            iteration = few;
-            pivots.extend(more);
-        }
+        let all = Iteration::of(&rows, step, pivots);
+        let few = self.placing(&system, held, &dimensions, &at);
+        let pivots = [Some(&all), few.as_ref()].into_iter().flatten();
+        let pivots = pivots.flat_map(|of| of.placing.iter().chain(&of.pivots));
+        let iteration = few.as_ref().unwrap_or(&all);
         let first_step = given + kept;
         let step: Vec<Recorded> = (first_step..first_step + unknowns)
             .map(Recorded::input)
@@ -290,7 +292,7 @@ impl<'a> Plan<'a> {
             iterated: (iteration.rows.iter())
                 .map(|(row, factor)| (row.place(), *factor))
                 .collect(),
-            pivots: pivots.iter().filter_map(Pivot::divisor).collect(),
+            pivots: pivots.filter_map(Pivot::divisor).collect(),
             step: numbered(&iteration.step),
             moved: (self.state.iter())
                 .map(|variable| variable.of(&moved).place())

@@ -1,22 +1,30 @@
 //! One configuration after another for rows of held values.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::{AskError, Question, Role};
-use crate::linear::Factorable;
-use crate::mechanism::Configuration;
-use crate::number::{LANES, Lanes, Packed};
+use crate::algebra::BATCH;
+use crate::analysis::solver::{Follower, Following};
+use crate::mechanism::{Configuration, PoseCoordinate};
 use crate::solve::{Progress, Stage, Watch, each};
-use crate::system::{self, Coordinate, MotionTracker, System, check_count};
+use crate::system::{self, Coordinate, HeldPlatform, MotionTracker, System, check_count};
 
-/// Rows that one lane follows from the start; they decide where following begins again, and so belong to the answer.
+/// The most rows that are followed from the start; they decide where following begins again, and so belong to the answer.
 const ROWS: usize = 256;
+
+/// As many rows repay writing down the program that follows them side by side.
+const FEW: usize = 1000;
 
 /// The longest step of what is held, in rad or characteristic lengths.
 const LONGEST: f64 = 0.2;
 
 /// The shortest step that is tried, over the longest.
 const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Steps beyond which a row is too far away.
+const FARTHEST: f64 = 10_000.0;
 
 /// Configurations for rows of held values.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,11 +39,17 @@ pub struct Many {
     pub interrupted: bool,
 }
 
+/// A pitch this near to ±90°, in rad, is taken for it.
+const LOCKED: f64 = 2e-12;
+
 /// What follows rows.
-struct Follower<'a> {
+struct Rows<'a> {
+    question: &'a system::Question<'a>,
     coordinates: &'a [Coordinate],
+    columns: Vec<Coordinate>,
     system: System<f64>,
-    wide: System<Lanes>,
+    /// Whether the system takes the values of all coordinates.
+    by_value: bool,
     start: Configuration<f64>,
     values: &'a [f64],
     /// The rows in the order in which they are followed; empty for the order in which they are given.
@@ -49,10 +63,11 @@ impl Question {
     /// and rad.
     ///
     /// The path begins at the configuration of the question, in its mode, and goes straight from row to row, so each row is
-    /// on the branch of the row before it unless the path between them is lost; every 256th row is reached from the
-    /// beginning. Unsorted values of one coordinate, most of them far from the one before, are followed from the least to
-    /// the greatest. Eight paths are followed at a time in the lanes of a vector register, on all cores, with the same
-    /// results on any number of cores. A row to which no path leads, as beyond a dead point, is not reached.
+    /// on the branch of the row before it unless the path between them is lost; after at most 256 rows it begins again.
+    /// Unsorted values of one coordinate, most of them far from the one before, are followed from the least to the greatest.
+    /// Where there are 1,000 rows and more, 32 paths are followed at a time in the widest vector registers of the processor,
+    /// on all cores, with the same results on any number of cores and in registers of any width. A row to which no path
+    /// leads, as beyond a dead point, is not reached.
     ///
     /// # Errors
     /// If the question or a name is wrong, or the mechanism does not assemble where the path begins.
@@ -79,10 +94,20 @@ impl Question {
         let question = begins.resolved()?;
         check_count(&question).map_err(AskError::Question)?;
         let question = question.with_spins_still();
-        let mut follower = Follower {
+        let held = question.held();
+        let by_value = |of: &Coordinate| match of.platform() {
+            Some(platform) => match &held.platforms[platform] {
+                HeldPlatform::Partly(parts) => parts.orientation.is_none(),
+                _ => false,
+            },
+            None => true,
+        };
+        let mut all = Rows {
+            question: &question,
             coordinates: &coordinates,
+            columns: Coordinate::all(mechanism).collect(),
             system: question.system(),
-            wide: question.system_over(),
+            by_value: coordinates.iter().all(by_value),
             start: begins.start(&question, watch)?,
             values,
             order: Vec::new(),
@@ -95,75 +120,88 @@ impl Question {
                 values.len() / width
             }
         };
-        follower.order = follower.order(rows);
-        let block = LANES * ROWS;
-        let blocks = rows.div_ceil(block);
+        all.order = all.order(rows);
+        let settings = Following::default();
+        let follower = (rows >= FEW)
+            .then(|| Follower::new(&question, &all.start, &coordinates, settings).ok())
+            .flatten();
+        let most = ROWS * follower.as_ref().map_or(1, |_| BATCH);
+        // blocks of the same size, for cores to share
+        let block = rows.div_ceil(rows.div_ceil(most).max(1)).max(1);
+        let width = all.columns.len();
+        let (mut found, mut reached) = (vec![f64::NAN; rows * width], vec![false; rows]);
+        let blocks = (found.chunks_mut(block * width)).zip(reached.chunks_mut(block));
+        let blocks = blocks.enumerate().map(|(number, (values, reached))| {
+            Mutex::new(Block {
+                first: number * block,
+                columns: &all.columns,
+                values,
+                reached,
+            })
+        });
+        let blocks: Vec<Mutex<Block>> = blocks.collect();
         let done = AtomicUsize::new(0);
-        let columns: Vec<Coordinate> = Coordinate::all(mechanism).collect();
-        let found = each(blocks, &(), |(), number| {
-            let first = number * block;
-            let last = rows.min(first + block);
-            let done = done.fetch_add(last - first, Ordering::Relaxed);
+        each(blocks.len(), &(), |(), number| {
+            let block = &mut *blocks[number]
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            let done = done.fetch_add(block.reached.len(), Ordering::Relaxed);
             let of = Some(rows);
             let stage = Stage::Motion;
-            let mut found = Found::none(&columns, last - first);
             if watch.at(Progress { stage, done, of }).is_continue() {
-                follower.block(first, last, &mut found);
+                match &follower {
+                    Some(follower) => all.side_by_side(follower, block),
+                    None => all.one_by_one(block),
+                }
             }
-            found
         });
-        let width = columns.len();
+        drop(blocks);
         let mut many = Many {
-            names: columns.iter().map(|of| of.name(mechanism)).collect(),
-            values: vec![f64::NAN; rows * width],
-            reached: vec![false; rows],
+            names: all.columns.iter().map(|of| of.name(mechanism)).collect(),
+            values: found,
+            reached,
             interrupted: watch.is_stopped(),
         };
-        let found = found.iter();
-        let found = found.flat_map(|block| block.values.chunks(width).zip(&block.reached));
-        for (place, (values, reached)) in found.enumerate() {
-            let row = follower.number(place);
-            many.values[row * width..(row + 1) * width].copy_from_slice(values);
-            many.reached[row] = *reached;
+        if !all.order.is_empty() {
+            let (values, reached) = (many.values.clone(), many.reached.clone());
+            let found = values.chunks(width).zip(reached);
+            for (&row, (values, reached)) in all.order.iter().zip(found) {
+                let row = row as usize;
+                many.values[row * width..(row + 1) * width].copy_from_slice(values);
+                many.reached[row] = reached;
+            }
         }
         Ok(many)
     }
 }
 
-/// What was found for some rows.
-struct Found<'a> {
+/// Rows that are followed from the start.
+struct Block<'a> {
+    /// The place of the first.
+    first: usize,
     columns: &'a [Coordinate],
-    values: Vec<f64>,
-    reached: Vec<bool>,
+    values: &'a mut [f64],
+    reached: &'a mut [bool],
 }
 
-impl<'a> Found<'a> {
-    fn none(columns: &'a [Coordinate], rows: usize) -> Self {
-        Found {
-            columns,
-            values: vec![f64::NAN; rows * columns.len()],
-            reached: vec![false; rows],
-        }
-    }
-
-    fn put(&mut self, row: usize, at: &Configuration<f64>) {
+impl Block<'_> {
+    fn put(&mut self, row: usize, found: impl Iterator<Item = f64>) {
         let width = self.columns.len();
-        let values = &mut self.values[row * width..(row + 1) * width];
-        for (value, column) in values.iter_mut().zip(self.columns) {
-            *value = column.of(at);
-        }
+        let values = self.values[row * width..(row + 1) * width].iter_mut();
+        values.zip(found).for_each(|(value, found)| *value = found);
         self.reached[row] = true;
     }
+
+    fn put_at(&mut self, row: usize, at: &Configuration<f64>) {
+        let columns = self.columns;
+        self.put(row, columns.iter().map(|column| column.of(at)));
+    }
 }
 
-impl Follower<'_> {
-    /// The number of the row that is followed at a place.
-    fn number(&self, place: usize) -> usize {
-        (self.order.get(place)).map_or(place, |row| *row as usize)
-    }
-
+impl Rows<'_> {
+    /// The values of the row that is followed at a place.
     fn row(&self, place: usize) -> &[f64] {
-        let row = self.number(place);
+        let row = (self.order.get(place)).map_or(place, |row| *row as usize);
         let width = self.coordinates.len();
         &self.values[row * width..(row + 1) * width]
     }
@@ -184,16 +222,6 @@ impl Follower<'_> {
         order
     }
 
-    /// Solves for other held values.
-    fn solve<T: Factorable>(
-        &self,
-        tracker: &mut MotionTracker<T>,
-        value: impl Fn(usize) -> T,
-    ) -> bool {
-        let held = self.coordinates.iter().copied();
-        tracker.solve_at(held, value).solved
-    }
-
     /// How far it is from one row of values to another, in rad or characteristic lengths.
     fn distance(&self, from: &[f64], to: &[f64]) -> f64 {
         let ways = from.iter().zip(to).zip(&self.scales);
@@ -202,67 +230,135 @@ impl Follower<'_> {
         })
     }
 
-    /// The rows from `first` to before `last`, side by side where all lanes can be followed.
-    fn block(&self, first: usize, last: usize, found: &mut Found) {
-        let length = (last - first).div_ceil(LANES);
-        // lanes past the end follow its last row, which is not theirs
-        let own = |lane: usize, k: usize| Some(lane * length + k).filter(|row| first + row < last);
-        let row = |lane: usize, k: usize| own(lane, k).map_or(last - 1, |row| first + row);
+    /// In how many steps values are reached from others; none if they are too far away or no numbers.
+    fn steps(&self, from: &[f64], to: &[f64]) -> usize {
+        let steps = (self.distance(from, to) / LONGEST).ceil();
+        match to.iter().all(|x| x.is_finite()) && steps <= FARTHEST {
+            true => (steps as usize).max(1),
+            false => 0,
+        }
+    }
+
+    fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
+        self.coordinates.iter().map(|of| of.of(at)).collect()
+    }
+
+    /// The rows of a block in as many paths as there are motions side by side.
+    fn side_by_side(&self, follower: &Follower, block: &mut Block) {
+        let rows = block.reached.len();
+        let length = rows.div_ceil(BATCH);
         let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
-        let mut at: Vec<Configuration<f64>> = vec![self.start.clone(); LANES];
-        let mut wide =
-            MotionTracker::new(self.wide.clone(), Configuration::beside(|_| &self.start));
-        let mut standing = [true; LANES];
+        let mut motions = follower.motions(&self.start);
+        let mut here = vec![self.values(&self.start); BATCH];
+        let mut next = here.clone();
+        let pitch =
+            |i: &usize| matches!(self.columns[*i], Coordinate::Pose(_, PoseCoordinate::Pitch));
+        let pitches: Vec<usize> = (0..self.columns.len()).filter(pitch).collect();
         for k in 0..length {
-            let near = |lane: usize| {
-                let [before, now] = [k - 1, k].map(|k| self.row(row(lane, k)));
-                standing[lane] && self.distance(before, now) <= LONGEST
-            };
-            // a lane that is lost or goes far stands still meanwhile
-            let goes: [bool; LANES] = std::array::from_fn(|lane| k > 0 && near(lane));
-            let side_by_side = goes.contains(&true)
-                && self.solve(&mut wide, |i| {
-                    Lanes::of_parts(|lane| match goes[lane] {
-                        true => self.row(row(lane, k))[i],
-                        false => self.coordinates[i].of(&at[lane]),
-                    })
-                });
-            let mut moved = !side_by_side;
-            for (lane, at) in at.iter_mut().enumerate() {
-                let reached = match side_by_side && goes[lane] {
-                    true => {
-                        wide.configuration().copy_lane(lane, at);
-                        true
+            let row = |motion: usize| Some(motion * length + k).filter(|row| *row < rows);
+            let first = block.first;
+            let to = |motion: usize| row(motion).map(|row| self.row(first + row));
+            let steps: [usize; BATCH] = std::array::from_fn(|motion| {
+                to(motion).map_or(0, |to| self.steps(&here[motion], to))
+            });
+            let mut arrived = [false; BATCH];
+            let mut standing = steps.map(|steps| steps > 0);
+            for step in 1..=steps.into_iter().max().unwrap_or(0) {
+                let going: [bool; BATCH] =
+                    std::array::from_fn(|motion| standing[motion] && step <= steps[motion]);
+                for motion in (0..BATCH).filter(|motion| going[*motion]) {
+                    let Some(to) = to(motion) else { continue };
+                    let part = 1.0 / (steps[motion] - step + 1) as f64;
+                    for (i, &to) in to.iter().enumerate() {
+                        let from = here[motion][i];
+                        let value = if part == 1.0 {
+                            to
+                        } else {
+                            from + part * (to - from)
+                        };
+                        next[motion][i] = value;
+                        follower.values(&mut motions, i)[motion] = value;
                     }
-                    // one by one, each from where its lane was last, or else from the beginning
-                    false => {
-                        let to = self.row(row(lane, k));
-                        let mut start = self.start.clone();
-                        let reached = self.goes(&mut single, at, to)
-                            || self.goes(&mut single, &mut start, to) && {
-                                *at = start;
-                                true
-                            };
-                        moved |= reached;
-                        reached
+                }
+                let solved = follower.solve(&mut motions, &going);
+                for motion in (0..BATCH).filter(|motion| going[*motion]) {
+                    standing[motion] = solved[motion];
+                    if !solved[motion] {
+                        continue;
                     }
-                };
-                standing[lane] = reached;
-                if let (true, Some(row)) = (reached, own(lane, k)) {
-                    found.put(row, at);
+                    here[motion].copy_from_slice(&next[motion]);
+                    if let (true, Some(row)) = (step == steps[motion], row(motion)) {
+                        arrived[motion] = true;
+                        let value = |i: usize| follower.column(&motions, i)[motion];
+                        let locked = |i: &usize| value(*i).abs() > FRAC_PI_2 - LOCKED;
+                        if pitches.iter().any(locked) {
+                            let at = follower.configuration(&motions, motion, &here[motion]);
+                            block.put_at(row, &at);
+                        } else {
+                            block.put(row, (0..self.columns.len()).map(value));
+                        }
+                    }
                 }
             }
-            if moved {
-                wide.restart(&Configuration::beside(|lane| &at[lane]));
+            for motion in (0..BATCH).filter(|motion| steps[*motion] > 0 && !arrived[*motion]) {
+                let (Some(row), Some(to)) = (row(motion), to(motion)) else {
+                    continue;
+                };
+                let mut place = Place {
+                    at: follower.configuration(&motions, motion, &here[motion]),
+                    values: here[motion].clone(),
+                };
+                if self.goes_or_begins(&mut single, &mut place, to) {
+                    block.put_at(row, &place.at);
+                }
+                follower.put(&mut motions, motion, &place.at);
+                for (i, &value) in place.values.iter().enumerate() {
+                    follower.values(&mut motions, i)[motion] = value;
+                }
+                here[motion] = place.values;
             }
         }
     }
 
-    /// Follows the straight path from a configuration to held values; stays there if it cannot be followed.
-    fn goes(&self, tracker: &mut MotionTracker, at: &mut Configuration<f64>, to: &[f64]) -> bool {
-        let begin: Vec<f64> = self.coordinates.iter().map(|c| c.of(at)).collect();
-        let longest = (LONGEST / self.distance(&begin, to)).min(1.0);
-        tracker.restart(at);
+    /// The rows of a block in one path.
+    fn one_by_one(&self, block: &mut Block) {
+        let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
+        let mut place = self.begin();
+        for row in 0..block.reached.len() {
+            if self.goes_or_begins(&mut tracker, &mut place, self.row(block.first + row)) {
+                block.put_at(row, &place.at);
+            }
+        }
+    }
+
+    fn begin(&self) -> Place {
+        Place {
+            values: self.values(&self.start),
+            at: self.start.clone(),
+        }
+    }
+
+    /// Goes to held values from a place, or else from the beginning; stays there if neither leads to them.
+    fn goes_or_begins(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
+        let mut begin = self.begin();
+        self.goes(tracker, place, to)
+            || self.goes(tracker, &mut begin, to) && {
+                *place = begin;
+                true
+            }
+    }
+
+    /// Follows the straight path from a place to held values; stays there if it cannot be followed.
+    fn goes(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
+        let steps = self.steps(&place.values, to);
+        if steps == 0 {
+            return false;
+        }
+        if *tracker.configuration() != place.at {
+            tracker.restart(&place.at);
+        }
+        let begin = &place.values;
+        let longest = 1.0 / steps as f64;
         let (mut gone, mut step) = (0.0, longest);
         while gone < 1.0 {
             let next = f64::min(gone + step, 1.0);
@@ -282,7 +378,29 @@ impl Follower<'_> {
                 return false;
             }
         }
-        at.clone_from(tracker.configuration());
+        place.at.clone_from(tracker.configuration());
+        place.values.copy_from_slice(to);
         true
     }
+
+    /// Solves for other held values near by.
+    fn solve(&self, tracker: &mut MotionTracker, value: impl Fn(usize) -> f64) -> bool {
+        let held = self.coordinates.iter().copied();
+        if self.by_value {
+            return tracker.solve_at(held, value).solved;
+        }
+        let values = held
+            .enumerate()
+            .map(|(i, coordinate)| (coordinate, value(i)));
+        let near = self.question.clone().near(tracker.configuration());
+        let question = near.at_values(values);
+        *tracker = MotionTracker::new(question.system(), question.start());
+        tracker.solve(|_| ()).solved
+    }
+}
+
+/// A configuration, and the held values it was found for.
+struct Place {
+    at: Configuration<f64>,
+    values: Vec<f64>,
 }

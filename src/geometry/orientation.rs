@@ -134,12 +134,13 @@ impl<T: Number> RollPitchYaw<T> {
         RollPitchYaw { roll, pitch, yaw }
     }
 
-    /// One of the [angles](Self::from_rotation) alone, about a fixed axis.
+    /// One of the [angles](Self::from_rotation) alone, about a fixed axis. Where no decision is made over numbers, the pitch
+    /// is taken not to be ±90°.
     #[inline]
     pub fn angle(rotation: &Rotation<T>, axis: Axis) -> T {
         let [n, s, a] = &rotation.0;
         let cos_pitch = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
-        let locked = cos_pitch.real().abs() < 1e-12;
+        let locked = T::REAL && cos_pitch.real().abs() < 1e-12;
         match (axis, locked) {
             (Axis::X, true) => T::zero(),
             (Axis::X, false) => s.0[2].atan2(a.0[2]),

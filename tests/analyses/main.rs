@@ -13,6 +13,7 @@ mod formulas;
 mod frames;
 mod gimbal_lock;
 mod lengths;
+mod many;
 mod mobility;
 mod modes;
 mod quantities;

@@ -35,7 +35,7 @@ pub enum Operation {
     RootOrZero(Place),
     /// The angle of the vector (x, y), of y and x.
     Angle(Place, Place),
-    /// The angle x, whole turns on, within half a turn of y.
+    /// The angle x, whole turns on, within half a turn of y; the number of turns is even where two are as near.
     Near(Place, Place),
     /// −1 where x is negative, 1 elsewhere.
     Sign(Place),
@@ -88,7 +88,7 @@ impl Operation {
             Operation::Cos(x) => Number::sin_cos(at(x)).1,
             Operation::RootOrZero(x) => at(x).max(0.0).sqrt(),
             Operation::Angle(y, x) => Number::atan2(at(y), at(x)),
-            Operation::Near(x, y) => at(x) + TAU * ((at(y) - at(x)) / TAU).round(),
+            Operation::Near(x, y) => at(x) + TAU * ((at(y) - at(x)) / TAU).round_ties_even(),
             Operation::Sign(x) if at(x) < 0.0 => -1.0,
             Operation::Sign(_) => 1.0,
         }

@@ -2,7 +2,7 @@
 
 use super::elimination::{Pivot, eliminate};
 use super::placing::placings;
-use super::{Plan, Variable};
+use super::{NoSolver, Plan, Variable};
 use crate::algebra::{Place, Recorded};
 use crate::mechanism::{Configuration, Dimensions};
 use crate::solve::Equations;
@@ -14,8 +14,25 @@ pub(super) struct Iteration {
     pub rows: Vec<(Recorded, f64)>,
     /// The steps of unknowns by their places.
     pub step: Vec<(usize, Recorded)>,
+    /// What is divided by in a step.
+    pub pivots: Vec<Pivot>,
     /// What follows afterwards, by its places in the state.
     pub placed: Vec<(usize, Recorded)>,
+    /// What is divided by there.
+    pub placing: Vec<Pivot>,
+}
+
+impl Iteration {
+    /// On all rows, with the step that follows from them by these pivots.
+    pub fn of(rows: &Rows, step: Vec<Recorded>, pivots: Vec<Pivot>) -> Self {
+        Iteration {
+            rows: rows.residual.iter().map(|&row| (row, 1.0)).collect(),
+            step: step.into_iter().enumerate().collect(),
+            pivots,
+            placed: Vec::new(),
+            placing: Vec::new(),
+        }
+    }
 }
 
 /// Rows that do not vanish whatever the unknowns are, which would say nothing.
@@ -61,6 +78,20 @@ pub(super) fn numbered(of: &[(usize, Recorded)]) -> Vec<(usize, Place)> {
 }
 
 impl Plan<'_> {
+    /// The iteration on all closure rows.
+    pub(super) fn on_all(
+        &self,
+        system: &System<Recorded>,
+        at: &Configuration<Recorded>,
+    ) -> Result<Iteration, NoSolver> {
+        let (rows, unknowns) = (Rows::of(system, at), system.unknowns().len());
+        let sides = vec![rows.residual.clone()];
+        let (mut solutions, pivots) = eliminate(rows.jacobian.clone(), sides, unknowns)
+            .map_err(|rank| NoSolver::Singular { rank, unknowns })?;
+        let step = negated(solutions.swap_remove(0));
+        Ok(Iteration::of(&rows, step, pivots))
+    }
+
     /// The iteration without the poses of platforms that stand on three balls, if there are any.
     pub(super) fn placing(
         &self,
@@ -68,16 +99,16 @@ impl Plan<'_> {
         mut held: Held<Recorded>,
         dimensions: &Dimensions<Recorded>,
         at: &Configuration<Recorded>,
-    ) -> Option<(Iteration, Vec<Pivot>)> {
+    ) -> Option<Iteration> {
         let placings = placings(self.mechanism, &self.held);
         let (mut few, mut reached) = (dimensions.clone(), at.clone());
-        let (mut more, mut own) = (Vec::new(), Vec::new());
-        for placing in &placings {
-            let (pose, pivot) = placing.pose(dimensions, at);
-            reached.platforms[placing.platform] = pose;
-            placing.leave(&mut few, &mut held);
-            more.push(pivot);
-            own.push(placing.platform);
+        let (mut placing, mut own) = (Vec::new(), Vec::new());
+        for platform in &placings {
+            let (pose, pivot) = platform.pose(dimensions, at);
+            reached.platforms[platform.platform] = pose;
+            platform.leave(&mut few, &mut held);
+            placing.push(pivot);
+            own.push(platform.platform);
         }
         if own.is_empty() {
             return None;
@@ -93,7 +124,6 @@ impl Plan<'_> {
         let unknowns = few.unknowns().len();
         let (mut solutions, pivots) =
             eliminate(rows.jacobian, vec![rows.residual.clone()], unknowns).ok()?;
-        more.extend(pivots);
         let step = negated(solutions.pop()?).into_iter().zip(few.unknowns());
         let step = step.filter_map(|(x, &unknown)| Some((system.place_of(unknown)?, x)));
         let placed = self
@@ -106,13 +136,14 @@ impl Plan<'_> {
                 }
                 _ => None,
             });
-        let iteration = Iteration {
+        Some(Iteration {
             rows: (rows.residual.into_iter())
                 .zip(rows.open.into_iter().map(factor))
                 .collect(),
             step: step.collect(),
+            pivots,
             placed: placed.collect(),
-        };
-        Some((iteration, more))
+            placing,
+        })
     }
 }

@@ -1,0 +1,140 @@
+//! Where motions went so far, and where they will be next.
+
+use crate::algebra::{BATCH, Registers};
+
+/// Orders of extrapolation: none, constant moves, moves that change linearly and quadratically.
+const ORDERS: usize = 4;
+
+/// For each motion all bits or none.
+pub(super) type Mask = [u64; BATCH];
+
+/// A number for each motion.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Row([f64; BATCH]);
+
+impl Row {
+    const ZERO: Row = Row([0.0; BATCH]);
+}
+
+/// The latest solutions, with the backward differences m, ∇m, ∇²m of the moves m that led there.
+///
+/// Extrapolation of order p adds the first p of them; each motion has the order that would have missed its latest move
+/// least.
+#[derive(Clone, Debug)]
+pub(super) struct Past {
+    known: Vec<Known>,
+    /// 1 where a difference is added, otherwise 0.
+    added: [Row; ORDERS - 1],
+}
+
+/// The past of one number.
+#[derive(Clone, Debug)]
+struct Known {
+    register: usize,
+    latest: Row,
+    differences: [Row; ORDERS - 1],
+}
+
+impl Past {
+    /// None, of the numbers in these registers.
+    pub fn none(of: &[usize], registers: &Registers) -> Self {
+        let known = of.iter().map(|&register| Known {
+            register,
+            latest: Row(*registers.rows(register)),
+            differences: [Row::ZERO; ORDERS - 1],
+        });
+        Past {
+            known: known.collect(),
+            added: [Row::ZERO; ORDERS - 1],
+        }
+    }
+
+    /// Forgets where a motion came from; its numbers are the latest.
+    pub fn forget(&mut self, motion: usize, registers: &Registers) {
+        for known in &mut self.known {
+            known.latest.0[motion] = registers.rows(known.register)[motion];
+            (known.differences.iter_mut()).for_each(|row| row.0[motion] = 0.0);
+        }
+        (self.added.iter_mut()).for_each(|row| row.0[motion] = 0.0);
+    }
+
+    /// Puts the latest numbers of a motion back.
+    pub fn restore(&self, motion: usize, registers: &mut Registers) {
+        for known in &self.known {
+            registers.rows_mut(known.register)[motion] = known.latest.0[motion];
+        }
+    }
+
+    /// Puts the numbers of motions where they will be next.
+    #[inline(always)]
+    pub fn predict(&self, going: &Mask, registers: &mut Registers) {
+        for known in &self.known {
+            let mut sum = known.latest;
+            for (difference, added) in known.differences.iter().zip(&self.added) {
+                for i in 0..BATCH {
+                    sum.0[i] += added.0[i] * difference.0[i];
+                }
+            }
+            choose(registers.rows_mut(known.register), &sum.0, going);
+        }
+    }
+
+    /// Takes in where motions are now.
+    #[inline(always)]
+    pub fn learn(&mut self, reached: &Mask, registers: &Registers) {
+        let mut errors = [Row::ZERO; ORDERS];
+        let [first, higher @ ..] = &mut errors;
+        for known in &mut self.known {
+            let now = registers.rows(known.register);
+            let mut latest = Row::ZERO;
+            for (i, now) in now.iter().enumerate() {
+                latest.0[i] = now - known.latest.0[i];
+                first.0[i] += latest.0[i] * latest.0[i];
+            }
+            choose(&mut known.latest.0, now, reached);
+            for (difference, error) in known.differences.iter_mut().zip(&mut *higher) {
+                let mut change = Row::ZERO;
+                for i in 0..BATCH {
+                    change.0[i] = latest.0[i] - difference.0[i];
+                    error.0[i] += change.0[i] * change.0[i];
+                }
+                choose(&mut difference.0, &latest.0, reached);
+                latest = change;
+            }
+        }
+        // difference p is added where an order above it missed less than all up to it
+        let mut above = errors;
+        for p in (1..ORDERS - 1).rev() {
+            let [lower, upper] = [p, p + 1].map(|p| above[p]);
+            for i in 0..BATCH {
+                above[p].0[i] = lower.0[i].min(upper.0[i]);
+            }
+        }
+        let mut least = Row([f64::INFINITY; BATCH]);
+        for (p, row) in self.added.iter_mut().enumerate() {
+            let mut added = Row::ZERO;
+            for i in 0..BATCH {
+                least.0[i] = least.0[i].min(errors[p].0[i]);
+                added.0[i] = f64::from(u8::from(above[p + 1].0[i] < least.0[i]));
+            }
+            choose(&mut row.0, &added.0, reached);
+        }
+    }
+}
+
+/// Copies the numbers of some motions from one register to another.
+#[inline(always)]
+pub(super) fn assign(to: usize, from: usize, motions: &Mask, registers: &mut Registers) {
+    let from = *registers.rows(from);
+    choose(registers.rows_mut(to), &from, motions);
+}
+
+/// Sets the numbers of some motions.
+#[inline(always)]
+fn choose(to: &mut [f64; BATCH], from: &[f64; BATCH], motions: &Mask) {
+    for i in 0..BATCH {
+        let kept = to[i].to_bits() & !motions[i];
+        to[i] = f64::from_bits(kept | from[i].to_bits() & motions[i]);
+    }
+}
