@@ -4,14 +4,14 @@
 //! The one kinematics runs over recorded operations; nothing is derived a second time.
 
 mod closed;
-mod elimination;
 mod iteration;
 mod placing;
 mod report;
 
 pub use report::{ClosedProgram, Component, Divisor, FrameProgram, Radicand, Solver};
 
-use crate::algebra::{Recorded, SiUnit, record};
+pub use crate::algebra::LEAST_PIVOT;
+use crate::algebra::{Recorded, SiUnit, eliminate, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{
@@ -20,11 +20,7 @@ use crate::mechanism::{
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
 use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, System, Unknown};
-use elimination::{Pivot, eliminate};
 use iteration::{Iteration, Rows, negated, numbered, places};
-
-/// The part of its natural size beyond which a pivot is not small.
-pub const LEAST_PIVOT: f64 = 1e-4;
 
 /// Why there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -290,7 +286,7 @@ impl<'a> Plan<'a> {
             iterated: (iteration.rows.iter())
                 .map(|(row, factor)| (row.place(), *factor))
                 .collect(),
-            pivots: pivots.iter().filter_map(Pivot::divisor).collect(),
+            pivots: pivots.iter().filter_map(Divisor::of).collect(),
             step: numbered(&iteration.step),
             moved: (self.state.iter())
                 .map(|variable| variable.of(&moved).place())

@@ -5,6 +5,9 @@ use std::f64::consts::TAU;
 use rustc_hash::FxHashMap;
 
 use super::{Operation, Place};
+use crate::algebra::Function;
+use crate::algebra::evaluation::call;
+use crate::number::Number;
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
 
 /// How many numbers one instruction of the processor takes, with AVX-512.
@@ -65,6 +68,8 @@ enum Code {
     Angle,
     Near,
     Sign,
+    Larger,
+    Call(Function),
 }
 
 impl Batch {
@@ -214,6 +219,8 @@ fn written(
             O::Angle(y, x) => (Code::Angle, [y, x, y]),
             O::Near(x, y) => (Code::Near, [x, y, x]),
             O::Sign(x) => (Code::Sign, [x; 3]),
+            O::Larger(x, y) => (Code::Larger, [x, y, x]),
+            O::Call(function, x) => (Code::Call(function), [x; 3]),
             O::Sin(x) | O::Cos(x) => {
                 let section: &mut Vec<Instruction> = &mut written[section];
                 let both = angles.entry((needed[place].unwrap_or(0), x));
@@ -409,6 +416,8 @@ fn each(instructions: &[Instruction], registers: &mut [Register]) {
                 x + TAU * ((y - x) / TAU).round()
             }),
             Code::Sign => set(registers, to, [x], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
+            Code::Larger => set(registers, to, [x, y], |[x, y]| x.greater(y)),
+            Code::Call(f) => set(registers, to, [x], |[x]| call(f, x, x)),
             Code::Angle => {
                 for part in 0..DEPTH {
                     let angle = atan2_of_each(registers[x].0[part], registers[y].0[part]);
