@@ -25,7 +25,10 @@ pub use measure::{Measure, MeasureError, MeasureErrorKind};
 pub(crate) use parser::shown;
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
-pub use straight_line::{BATCH, Batch, Operation, Place, Recorded, Registers, record};
+pub use straight_line::{
+    BATCH, Batch, Decision, LEAST_PIVOT, Operation, Pivot, Place, Recorded, Registers, eliminate,
+    record,
+};
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, ByUnknowns, Key, Monomial, Powers, Trigonometric, Wave};
 pub(crate) use vocabulary::words;

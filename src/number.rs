@@ -88,22 +88,30 @@ pub trait Number:
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
+    /// Whether the real part is less than that of another.
+    #[inline]
+    fn less(self, other: Self) -> bool {
+        self.real() < other.real()
+    }
+    /// One number where the real part is less than that of another, else a second one.
+    #[inline]
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+        if self.less(other) { then } else { otherwise }
+    }
     /// `self` or `-self`, whichever has a real part that is not negative.
     #[inline]
     fn abs(self) -> Self {
-        if self.real() < 0.0 { -self } else { self }
+        self.if_less(Self::zero(), -self, self)
     }
     /// The one of two with the lesser real part; the first if they are equal.
     #[inline]
     fn lesser(self, other: Self) -> Self {
-        let less = other.real() < self.real();
-        if less { other } else { self }
+        other.if_less(self, other, self)
     }
     /// The one of two with the greater real part; the first if they are equal.
     #[inline]
     fn greater(self, other: Self) -> Self {
-        let greater = other.real() > self.real();
-        if greater { other } else { self }
+        self.if_less(other, other, self)
     }
     /// Whole power.
     #[inline]

@@ -6,21 +6,27 @@
 //! are left out, so that structural zeros are recognised.
 
 mod batch;
+mod elimination;
 mod operation;
 
 use std::cell::RefCell;
 
 use rustc_hash::FxHashMap;
 
-use crate::linear::{DenseOnly, Factorable};
+use super::Function;
+use crate::linear::Factorable;
 use crate::number::{Field, Number, functions, operators};
 pub use batch::{BATCH, Batch, Registers};
+pub use elimination::{LEAST_PIVOT, Pivot, eliminate};
 pub use operation::Operation;
 
 /// A place in a list of operations.
 pub type Place = u32;
 
 type Key = (std::mem::Discriminant<Operation>, u64, u64);
+
+/// What was taken for true of all inputs because it is at the sample: that a number is negative, or that it is not.
+pub type Decision = (Place, bool);
 
 /// The value of an operation, as long as the list it was written into is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +41,7 @@ struct List {
     sample: Vec<f64>,
     /// Angles whose sine and cosine are known.
     turns: FxHashMap<Place, [Recorded; 2]>,
+    decisions: Vec<Decision>,
 }
 
 thread_local! {
@@ -232,6 +239,14 @@ impl List {
         }
     }
 
+    fn call(&mut self, function: Function, x: Recorded) -> Recorded {
+        let called = self.put(Operation::Call(function, x.0));
+        match self.constant(x) {
+            Some(_) => self.literal(self.values[called.0 as usize]),
+            None => called,
+        }
+    }
+
     fn root(&mut self, x: Recorded) -> Recorded {
         match self.constant(x) {
             Some(value) => self.literal(value.sqrt()),
@@ -286,12 +301,13 @@ impl Recorded {
         with(|list| list.turns.insert(self.0, [sin, cos]));
     }
 
-    /// A function that no closure equation uses: carried out on constants, not a number otherwise.
-    fn of_constant(self, f: impl FnOnce(f64) -> f64) -> Self {
-        with(|list| {
-            let value = list.constant(self).map_or(f64::NAN, f);
-            list.literal(value)
-        })
+    /// The decisions made since the list was opened: where one is another, the operations do not hold.
+    pub fn decisions() -> Vec<Decision> {
+        with(|list| list.decisions.clone())
+    }
+
+    fn call(self, function: Function) -> Self {
+        with(|list| list.call(function, self))
     }
 }
 
@@ -320,17 +336,43 @@ impl Number for Recorded {
     }
     functions!(|x|
         sqrt: with(|list| list.root(x)),
-        asin: x.of_constant(f64::asin),
-        acos: x.of_constant(f64::acos),
-        atan: x.of_constant(f64::atan),
-        exp: x.of_constant(f64::exp),
-        ln: x.of_constant(f64::ln),
+        asin: x.call(Function::Asin),
+        acos: x.call(Function::Acos),
+        atan: x.call(Function::Atan),
+        exp: x.call(Function::Exp),
+        ln: x.call(Function::Ln),
     );
     fn atan2(self, x: Self) -> Self {
-        match (self.constant(), x.constant()) {
-            (Some(y), Some(x)) => Self::from_f64(Number::atan2(y, x)),
-            _ => with(|list| list.put(Operation::Angle(self.0, x.0))),
+        with(|list| match (list.constant(self), list.constant(x)) {
+            (Some(y), Some(x)) => list.literal(Number::atan2(y, x)),
+            _ => list.put(Operation::Angle(self.0, x.0)),
+        })
+    }
+    /// As at the sample, which is a [`Decision`].
+    fn less(self, other: Self) -> bool {
+        let less = self.real() < other.real();
+        let difference = self - other;
+        if difference.constant().is_none() {
+            with(|list| list.decisions.push((difference.0, less)));
         }
+        less
+    }
+    /// Wherever it is less.
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+        let difference = self - other;
+        if let Some(constant) = difference.constant() {
+            return if constant < 0.0 { then } else { otherwise };
+        }
+        if (then, otherwise) == (other, self) {
+            return with(|list| list.put(Operation::Larger(self.0, other.0)));
+        }
+        let sign = difference.sign();
+        if then == -otherwise {
+            return sign * otherwise;
+        }
+        // 1 or 0
+        let part = Self::from_f64(0.5) - sign.scale(0.5);
+        then * part + otherwise * (Self::one() - part)
     }
     fn is_finite(self) -> bool {
         self.real().is_finite()
@@ -354,7 +396,7 @@ impl Field for Recorded {
 }
 
 impl Factorable for Recorded {
-    type Sparse = DenseOnly;
+    type Sparse = elimination::RecordedElimination;
 }
 
 #[cfg(test)]

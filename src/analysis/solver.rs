@@ -4,7 +4,6 @@
 //! The one kinematics runs over recorded operations; nothing is derived a second time.
 
 mod closed;
-mod elimination;
 mod follower;
 mod iteration;
 mod placing;
@@ -13,7 +12,8 @@ mod report;
 pub use follower::{Follower, Following, Motions};
 pub use report::{ClosedProgram, Component, Divisor, FrameProgram, Radicand, Solver};
 
-use crate::algebra::{Recorded, SiUnit, record};
+pub use crate::algebra::LEAST_PIVOT;
+use crate::algebra::{Recorded, SiUnit, eliminate, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{
@@ -22,11 +22,7 @@ use crate::mechanism::{
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
 use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, System, Unknown};
-use elimination::{Pivot, eliminate};
 use iteration::{Iteration, Rows, negated, numbered, places};
-
-/// The part of its natural size beyond which a pivot is not small.
-pub const LEAST_PIVOT: f64 = 1e-4;
 
 /// Why there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -292,7 +288,7 @@ impl<'a> Plan<'a> {
             iterated: (iteration.rows.iter())
                 .map(|(row, factor)| (row.place(), *factor))
                 .collect(),
-            pivots: pivots.filter_map(Pivot::divisor).collect(),
+            pivots: pivots.filter_map(Divisor::of).collect(),
             step: numbered(&iteration.step),
             moved: (self.state.iter())
                 .map(|variable| variable.of(&moved).place())

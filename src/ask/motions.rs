@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 
-use super::quantities::{Course, Extremes, Meter, Metered, Passage, Seen};
+use super::quantities::{Block, Course, Extremes, Meter, Metered, Passage, Seen};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
     Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Paths, Row, Schedule, Sink,
@@ -172,25 +172,21 @@ impl Motions<'_> {
         let mut all: Vec<Seen> = Vec::new();
         let steps = self.settings.steps as f64;
         let latest = Cell::new(0);
-        let mut take = |row: &Row, time: f64, found: &[Option<f64>], noise: &[f64]| {
-            let at = row.configuration;
-            if !row.between {
-                extremes.take(at, time, found, noise);
-            }
-            if wanted && !row.between {
-                all.push(Seen {
-                    at: at.clone(),
-                    time,
-                    values: found.to_vec(),
+        let mut take = |block: &Block| {
+            extremes.take(block);
+            for i in 0..block.len() {
+                let (row, time) = block.row(i);
+                if wanted && !row.between {
+                    all.push(Seen::of(block, i));
+                }
+                values.clear();
+                values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
+                values.extend(block.values(i));
+                sink(&Row {
+                    quantities: &values,
+                    ..row
                 });
             }
-            values.clear();
-            values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
-            values.extend_from_slice(found);
-            sink(&Row {
-                quantities: &values,
-                ..*row
-            });
         };
         let mut measured = |row: &Row| {
             let at = row.configuration;

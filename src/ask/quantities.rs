@@ -6,7 +6,7 @@ mod passage;
 mod poles;
 
 pub(super) use extremes::Extremes;
-pub(super) use meter::{Meter, Metered};
+pub(super) use meter::{Block, Meter, Metered};
 pub(super) use passage::{Course, Passage, Seen};
 
 use super::{AskError, Item, Question, Role, Unmeasured};

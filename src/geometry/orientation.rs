@@ -140,7 +140,7 @@ impl<T: Number> RollPitchYaw<T> {
     pub fn angle(rotation: &Rotation<T>, axis: Axis) -> T {
         let [n, s, a] = &rotation.0;
         let cos_pitch = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
-        let locked = T::REAL && cos_pitch.real().abs() < 1e-12;
+        let locked = cos_pitch.less(T::from_f64(1e-12));
         match (axis, locked) {
             (Axis::X, true) => T::zero(),
             (Axis::X, false) => s.0[2].atan2(a.0[2]),

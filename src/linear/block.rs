@@ -1,5 +1,7 @@
 use std::fmt::Debug;
 
+use super::DENSE_LIMIT;
+
 /// The columns of one block of rows: unknowns of its own, and shared ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
@@ -35,16 +37,18 @@ impl<T> Filled<T> {
     }
 }
 
-/// Least-squares steps for a large matrix made of blocks that touch few unknowns each.
+/// Steps for a matrix made of blocks that touch few unknowns each.
 pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
-    /// Whether there is such a factorisation; otherwise large matrices are treated as dense.
-    const AVAILABLE: bool;
+    /// Matrices with more unknowns than this are factorised so; the others are treated as dense.
+    const ABOVE: usize = DENSE_LIMIT;
     /// Analyses the pattern of the blocks and of `extra_rows` rows that touch every unknown.
     fn new(unknowns: usize, blocks: &[Filled<T>], extra_rows: usize) -> Self;
     /// Factorises the blocks and the extra rows, row after row.
     fn factorise(&mut self, blocks: &[Filled<T>], extra: &[T], damping: f64);
     /// The step −J⁺r for the blocks last factorised.
     fn step(&self, blocks: &[Filled<T>], r: &[T], x: &mut [T]);
+    /// How many unknowns the last factorisation left undetermined.
+    fn nullity(&self) -> usize;
 }
 
 /// No sparse factorisation: large matrices are dense, or with `FILLED` filled in block by block and never factorised.
@@ -55,7 +59,7 @@ pub struct NoFactors<const FILLED: bool>;
 pub type DenseOnly = NoFactors<false>;
 
 impl<T, const FILLED: bool> SparseStep<T> for NoFactors<FILLED> {
-    const AVAILABLE: bool = FILLED;
+    const ABOVE: usize = if FILLED { DENSE_LIMIT } else { usize::MAX };
     fn new(_: usize, _: &[Filled<T>], _: usize) -> Self {
         NoFactors
     }
@@ -63,6 +67,9 @@ impl<T, const FILLED: bool> SparseStep<T> for NoFactors<FILLED> {
         unreachable!("derivatives are taken of residuals; equations are solved over other numbers")
     }
     fn step(&self, _: &[Filled<T>], _: &[T], _: &mut [T]) {
+        unreachable!("never factorised")
+    }
+    fn nullity(&self) -> usize {
         unreachable!("never factorised")
     }
 }

@@ -1,6 +1,6 @@
 use super::Qr;
 use super::lu::Lu;
-use super::{Block, DENSE_LIMIT, Factorable, Filled, SparseStep};
+use super::{Block, Factorable, Filled, SparseStep};
 use crate::number::Field;
 
 /// Least squares min ‖J x + r‖ for a J made of blocks with unknowns of their own and shared ones.
@@ -58,7 +58,7 @@ impl<T: Factorable> Bordered<T> {
         };
         let blocks: Vec<Filled<T>> = blocks.into_iter().map(filled).collect();
         // the sparse factors have no border
-        let sparse = (T::Sparse::AVAILABLE && shared.len() > DENSE_LIMIT)
+        let sparse = (shared.len() > T::Sparse::ABOVE)
             .then(|| T::Sparse::new(unknowns, &blocks, extra_rows));
         let factors = blocks.iter().map(|Filled { block, .. }| {
             let (rows, own) = (block.rows, block.own.len());
@@ -303,6 +303,9 @@ impl<T: Factorable> Bordered<T> {
 
     /// How many unknowns the last factorisation left undetermined.
     pub fn nullity(&self) -> usize {
+        if let Some(sparse) = &self.sparse {
+            return sparse.nullity();
+        }
         let blocks = self.blocks.iter().zip(&self.factors);
         let blocks = blocks.map(|(filled, factor)| filled.block.own.len() - factor.qr.rank());
         let free = match self.square {

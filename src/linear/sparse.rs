@@ -22,11 +22,11 @@ pub struct SparseNormal<T> {
     values: Vec<T>,
     extra: Vec<T>,
     damping: f64,
+    /// Whether the factors are those of more than was asked for.
+    raised: bool,
 }
 
 impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
-    const AVAILABLE: bool = true;
-
     fn new(size: usize, blocks: &[Filled<T>], extra_rows: usize) -> Self {
         let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
         for Filled { block, .. } in blocks {
@@ -45,6 +45,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
             values: Vec::with_capacity(pairs.len()),
             extra: Vec::new(),
             damping: 0.0,
+            raised: false,
             pattern,
             order,
             analysis,
@@ -84,11 +85,17 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
             self.factors = matrix.ok().and_then(|matrix| {
                 Llt::try_new_with_symbolic(self.analysis.clone(), matrix.as_ref(), Side::Lower).ok()
             });
+            self.raised = floor > damping;
             if self.factors.is_some() || floor > largest {
                 return;
             }
             floor = (floor * 100.0).max(1e-15 * largest);
         }
+    }
+
+    /// Whether there are some.
+    fn nullity(&self) -> usize {
+        usize::from(self.raised)
     }
 
     /// Zero if the entries were not finite.

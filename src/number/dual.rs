@@ -86,6 +86,14 @@ impl<T: Number> Number for Dual<T> {
         )
     }
     #[inline]
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+        let chosen = |then, otherwise| self.value.if_less(other.value, then, otherwise);
+        dual(
+            chosen(then.value, otherwise.value),
+            chosen(then.slope, otherwise.slope),
+        )
+    }
+    #[inline]
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.slope.is_finite()
     }

@@ -398,3 +398,59 @@ fn outputs_of_a_file_are_checked_where_they_stand() {
     let text = again.to_ron().unwrap();
     assert_eq!(Description::read(&text).unwrap(), again);
 }
+
+/// Rows of a long motion are read many at a time, those of a short one singly.
+#[test]
+fn a_long_motion_has_the_values_of_a_short_one() {
+    let four_bar = Question::new(load("four_bar"))
+        .input("theta1", "0 deg", "360 deg")
+        .load("phi1", 1.0)
+        .report(
+            "left.x, yaw=left.yaw, turn=velocity:left.yaw, velocity:left+1, acceleration:left+1, \
+             curvature:left+1, transmission, force:theta1, determinant, manipulability, condition, \
+             atan2(left.y, left.x), abs(left.x), min(left.x, left.y), max(phi1, 2*phi2), \
+             exp(left.y/left.x), asin(left.x/6)^2, sqrt(left.x + 3), left.y^1.5",
+        );
+    let three_rps = Question::new(load("three_rps"))
+        .input("l1", "0.6", "0.7")
+        .input("l2", "0.65", "0.6")
+        .wrench("top", [1.0, 0.0, -10.0], [0.0; 3])
+        .report(
+            "top.x, top.roll, top.pitch, top.yaw, velocity:top, velocity:top.z, velocity:top.yaw, \
+             acceleration:top, acceleration:top.pitch, force:l1, force:l2, condition, distance:direct",
+        );
+    let rssr = Question::new(load("rssr"))
+        .input("theta", "20 deg", "60 deg")
+        .report("velocity, acceleration");
+    let pace = Pace {
+        law: Law::Cycloidal,
+        duration: 2.0,
+    };
+    const EVERY: usize = 25;
+    for question in [four_bar, three_rps, rssr] {
+        let [short, long] = [40, 40 * EVERY].map(|steps| moved(&question, steps, pace));
+        for name in short.columns.iter().map(|of| &of.name) {
+            let [short, long] = [&short, &long].map(|motion| column(motion, name));
+            let largest = short
+                .iter()
+                .filter(|x| x.is_finite())
+                .fold(0.0, |m: f64, x| m.max(x.abs()));
+            for (i, (a, b)) in short.iter().zip(long.iter().step_by(EVERY)).enumerate() {
+                let same = (a - b).abs() <= 1e-10 * largest.max(1.0) || a.is_nan() && b.is_nan();
+                assert!(same, "{name} {i}: {a} {b}");
+            }
+        }
+        for (short, long) in short.extremes.iter().zip(&long.extremes) {
+            let ends = [
+                (&short.least, &long.least),
+                (&short.greatest, &long.greatest),
+            ];
+            for (a, b) in ends {
+                let [a, b] = [a, b].map(|end| end.as_ref().map(|of| of.value));
+                let same = a == b
+                    || matches!((a, b), (Some(a), Some(b)) if (a - b).abs() < 1e-9 * a.abs().max(1.0));
+                assert!(same, "{}: {a:?} {b:?}", short.name);
+            }
+        }
+    }
+}

@@ -6,6 +6,9 @@ use std::f64::consts::TAU;
 use rustc_hash::FxHashMap;
 
 use super::{Operation, Place};
+use crate::algebra::Function;
+use crate::algebra::evaluation::call;
+use crate::number::Number;
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
 use crate::number::widest;
 
@@ -76,6 +79,8 @@ enum Code {
     Angle,
     Near,
     Sign,
+    Larger,
+    Call(Function),
 }
 
 impl Batch {
@@ -246,6 +251,8 @@ fn written(
             O::Angle(y, x) => (Code::Angle, &[y, x]),
             O::Near(x, y) => (Code::Near, &[x, y]),
             O::Sign(x) => (Code::Sign, &[x]),
+            O::Larger(x, y) => (Code::Larger, &[x, y]),
+            O::Call(function, x) => (Code::Call(function), &[x]),
             O::Sin(x) | O::Cos(x) => {
                 let section: &mut Vec<Instruction> = &mut written[section];
                 let both = angles.entry((needed[place].unwrap_or(0), x));
@@ -334,8 +341,8 @@ impl Code {
     fn operands(self) -> usize {
         use Code as C;
         match self {
-            C::Negate | C::Root | C::SinCos | C::RootOrZero | C::Sign => 1,
-            C::Add | C::Subtract | C::Multiply | C::Divide | C::Angle | C::Near => 2,
+            C::Negate | C::Root | C::SinCos | C::RootOrZero | C::Sign | C::Call(_) => 1,
+            C::Add | C::Subtract | C::Multiply | C::Divide | C::Angle | C::Near | C::Larger => 2,
             C::AddProduct | C::SubtractProduct | C::SubtractFromProduct => 3,
             C::AddedProducts | C::SubtractedProducts => 4,
             C::AddProducts | C::SubtractProducts | C::SubtractFromAndProduct => 5,
@@ -497,6 +504,8 @@ fn each(instructions: &[Instruction], registers: &mut [Register]) {
                 x + TAU * ((y - x) / TAU).round_ties_even()
             }),
             Code::Sign => set(to, [of(0)], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
+            Code::Larger => set(to, two(), |[x, y]| x.greater(y)),
+            Code::Call(f) => set(to, [of(0)], |[x]| call(f, x, x)),
             Code::Angle => {
                 let [y, x] = two();
                 let angles = atan2_of_each(numbers(y), numbers(x));

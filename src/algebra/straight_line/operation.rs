@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::{Key, Place};
+use crate::algebra::Function;
+use crate::algebra::evaluation::call;
 use crate::number::Number;
 
 /// One operation of a straight-line program; operands stand at lower places.
@@ -39,14 +41,18 @@ pub enum Operation {
     Near(Place, Place),
     /// −1 where x is negative, 1 elsewhere.
     Sign(Place),
+    /// The larger of x and y.
+    Larger(Place, Place),
+    /// A function of x that no operation computes.
+    Call(Function, Place),
 }
 
 impl Operation {
     /// The places of its operands.
     pub fn operands(self) -> impl Iterator<Item = Place> {
         use Operation::{
-            Add, Angle, Constant, Cos, Divide, Input, Multiply, Near, Negate, Root, RootOrZero,
-            Sign, Sin, Subtract,
+            Add, Angle, Call, Constant, Cos, Divide, Input, Larger, Multiply, Near, Negate, Root,
+            RootOrZero, Sign, Sin, Subtract,
         };
         let both = match self {
             Constant(_) | Input(_) => [None, None],
@@ -55,8 +61,11 @@ impl Operation {
             | Multiply(x, y)
             | Divide(x, y)
             | Angle(x, y)
-            | Near(x, y) => [Some(x), Some(y)],
-            Negate(x) | Root(x) | Sin(x) | Cos(x) | RootOrZero(x) | Sign(x) => [Some(x), None],
+            | Near(x, y)
+            | Larger(x, y) => [Some(x), Some(y)],
+            Negate(x) | Root(x) | Sin(x) | Cos(x) | RootOrZero(x) | Sign(x) | Call(_, x) => {
+                [Some(x), None]
+            }
         };
         both.into_iter().flatten()
     }
@@ -69,8 +78,11 @@ impl Operation {
             Operation::Input(i) => u64::from(i),
             _ => operands.next().unwrap_or(0),
         };
-        let kind = std::mem::discriminant(&self);
-        (kind, first, operands.next().unwrap_or(0))
+        let second = match self {
+            Operation::Call(function, _) => function as u64,
+            _ => operands.next().unwrap_or(0),
+        };
+        (std::mem::discriminant(&self), first, second)
     }
 
     /// Its value, from those of its operands and of the inputs.
@@ -91,6 +103,8 @@ impl Operation {
             Operation::Near(x, y) => at(x) + TAU * ((at(y) - at(x)) / TAU).round_ties_even(),
             Operation::Sign(x) if at(x) < 0.0 => -1.0,
             Operation::Sign(_) => 1.0,
+            Operation::Larger(x, y) => at(x).greater(at(y)),
+            Operation::Call(function, x) => call(function, at(x), at(x)),
         }
     }
 }

@@ -76,6 +76,8 @@ struct Places<T = usize> {
     placing: T,
     /// All coordinates.
     columns: Vec<T>,
+    /// Numbers on whose sign these rest, and whether they are negative.
+    decided: Vec<(T, bool)>,
 }
 
 /// The latest solutions of [`BATCH`] motions.
@@ -125,6 +127,7 @@ impl<'a> Follower<'a> {
         reached.push(written.placing);
         reached.extend(written.placed.iter().map(|(_, place)| *place));
         reached.extend(&written.columns);
+        reached.extend(written.decided.iter().map(|(place, _)| *place));
         sections[0] = Batch::known(&operations, changing.len(), &sections.concat());
         let program = Batch::new(&operations, count, &sections);
         let at = |place: Place| program.result(place);
@@ -137,6 +140,9 @@ impl<'a> Follower<'a> {
                 .collect(),
             placing: at(written.placing),
             columns: written.columns.iter().map(|&place| at(place)).collect(),
+            decided: (written.decided.iter())
+                .map(|&(place, negative)| (at(place), negative))
+                .collect(),
         };
         let placed = |i: &usize| written.placed.iter().any(|(of, _)| of == i);
         let free = (0..plan.state.len()).filter(|i| !placed(i)).collect();
@@ -191,6 +197,7 @@ impl<'a> Follower<'a> {
             moved,
             placed,
             placing,
+            decided,
             ..
         } = &self.registers;
         let square = self.settings.tolerance.powi(2);
@@ -225,6 +232,10 @@ impl<'a> Follower<'a> {
         for i in 0..BATCH {
             solved[i] &= doubt[i] <= 1.0;
         }
+        for &(register, negative) in decided {
+            let rows = registers.rows(register);
+            (solved.iter_mut().zip(rows)).for_each(|(solved, x)| *solved &= (*x < 0.0) == negative);
+        }
         let reached = mask(&solved);
         for &(i, from) in placed {
             assign(self.changing.len() + i, from, &reached, registers);
@@ -240,7 +251,7 @@ impl<'a> Follower<'a> {
     }
 
     /// Where the last [`solve`](Self::solve) led: all motions' values of a coordinate, numbered as [`Coordinate::all`]
-    /// lists them, in rad and m. Roll and yaw are noise where the pitch is ±90°.
+    /// lists them, in rad and m.
     pub fn column<'m>(&self, motions: &'m Motions, coordinate: usize) -> &'m [f64; BATCH] {
         motions.registers.rows(self.registers.columns[coordinate])
     }
@@ -344,6 +355,7 @@ impl Plan<'_> {
             placed: numbered(&placed),
             placing: small.place(),
             columns: columns.collect(),
+            decided: Recorded::decisions(),
         })
     }
 }

@@ -1,8 +1,8 @@
 //! What Newton's method runs on: all closure equations, or fewer where platforms leave.
 
-use super::elimination::{Pivot, eliminate};
 use super::placing::placings;
 use super::{NoSolver, Plan, Variable};
+use crate::algebra::{Pivot, eliminate};
 use crate::algebra::{Place, Recorded};
 use crate::mechanism::{Configuration, Dimensions};
 use crate::solve::Equations;

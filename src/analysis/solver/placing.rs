@@ -6,7 +6,7 @@
 //! in which the pose does not occur; it follows from the points in closed form.
 
 use super::LEAST_PIVOT;
-use super::elimination::Pivot;
+use crate::algebra::Pivot;
 use crate::algebra::Recorded;
 use crate::geometry::{Quaternion, Rotation, Vector3};
 use crate::linear::Factorable;

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::algebra::{Operation, Place, SiUnit};
+use crate::algebra::{Operation, Pivot, Place, SiUnit};
 
 /// A component of the arrays that go in and out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +33,18 @@ pub struct Divisor {
     pub inverse: Place,
     /// Its natural size: it is small where it is small beside this.
     pub scale: f64,
+}
+
+impl Divisor {
+    /// A pivot, unless it is constant.
+    pub(super) fn of(pivot: &Pivot) -> Option<Self> {
+        let varies = pivot.number.constant().is_none();
+        varies.then(|| Divisor {
+            place: pivot.number.unsigned().place(),
+            inverse: pivot.inverse.unsigned().place(),
+            scale: pivot.scale,
+        })
+    }
 }
 
 /// A number whose square root is taken.

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::frames::Spins;
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
-use crate::linear::{Factorable, rank, singular_values};
+use crate::linear::{CANCELLED, Factorable, RANK_TOLERANCE, rank, singular_values};
 use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
-use crate::number::Packed;
+use crate::number::Number;
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
@@ -84,12 +84,15 @@ fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
     }
 }
 
-/// The determinant of a square matrix, by elimination with the largest pivot of each column.
-fn determinant(size: usize, entries: &[f64]) -> f64 {
+/// The determinant of a square matrix, by elimination with the largest pivot of each column; none where such a pivot is
+/// small, if many matrices are eliminated in the order of one.
+fn determinant<T: Number>(size: usize, entries: &[T]) -> Option<T> {
+    /// Beside what it is where the order is chosen.
+    const SMALL: f64 = 1e-3;
     let mut matrix = entries.to_vec();
-    let mut product = 1.0;
+    let mut product = T::one();
     for k in 0..size {
-        let size_of = |row: &usize| matrix[k * size + row].abs();
+        let size_of = |row: &usize| matrix[k * size + row].real().abs();
         let pivot = (k..size).max_by(|a, b| size_of(a).total_cmp(&size_of(b)));
         let pivot = pivot.unwrap_or(k);
         if pivot != k {
@@ -98,17 +101,21 @@ fn determinant(size: usize, entries: &[f64]) -> f64 {
         }
         let top = matrix[k * size + k];
         product *= top;
-        if top == 0.0 {
-            return 0.0;
+        if k + 1 == size || top == T::zero() {
+            break;
+        }
+        if (top.abs()).less(T::from_f64(SMALL * top.real().abs())) {
+            return None;
         }
         for row in k + 1..size {
             let factor = matrix[k * size + row] / top;
             for column in k..size {
-                matrix[column * size + row] -= factor * matrix[column * size + k];
+                let change = factor * matrix[column * size + k];
+                matrix[column * size + row] -= change;
             }
         }
     }
-    product
+    Some(product)
 }
 
 /// The map from rates of the inputs to those of the outputs, planned once.
@@ -132,14 +139,21 @@ pub(crate) struct Normalised<T = f64> {
     entries: Vec<T>,
 }
 
-impl Normalised {
-    pub fn determinant(&self) -> Option<f64> {
-        (self.rows == self.columns).then(|| determinant(self.rows, &self.entries))
+impl<T: Number> Normalised<T> {
+    pub fn determinant(&self) -> Option<T> {
+        (self.rows == self.columns).then(|| determinant(self.rows, &self.entries))?
     }
 
-    /// Its singular values, largest first.
-    pub fn singular_values(&self) -> Vec<f64> {
-        singular_values(self.rows, self.columns, &self.entries)
+    /// Its singular values, largest first; none of a larger matrix that is not known.
+    pub fn singular_values(&self) -> Option<Vec<T>> {
+        if self.rows.min(self.columns) == 1 {
+            let squares = self.entries.iter().map(|x| *x * *x);
+            return Some(vec![squares.fold(T::zero(), |sum, x| sum + x).sqrt()]);
+        }
+        let known = self.entries.iter().map(|x| x.is_real().then(|| x.real()));
+        let known: Option<Vec<f64>> = known.collect();
+        let values = singular_values(self.rows, self.columns, &known?);
+        Some(values.into_iter().map(T::from_f64).collect())
     }
 }
 
@@ -154,20 +168,13 @@ impl<T> Default for Normalised<T> {
     }
 }
 
-impl<T: Packed> Normalised<T> {
-    /// What is in one place of it, without units.
-    pub fn take(&self, place: usize, to: &mut Normalised) {
-        (to.rows, to.columns) = (self.rows, self.columns);
-        to.entries.clear();
-        to.entries
-            .extend(self.entries.iter().map(|x| x.part(place)));
-    }
-}
-
 /// Largest over smallest of singular values; `None` (infinite) if some freedom is lost.
-pub(crate) fn condition(values: &[f64]) -> Option<f64> {
-    let smallest = values.last().copied().unwrap_or(1.0);
-    (rank(values) == values.len()).then(|| values.first().map_or(1.0, |most| most / smallest))
+pub(crate) fn condition<T: Number>(values: &[T]) -> Option<T> {
+    let (Some(&most), Some(&least)) = (values.first(), values.last()) else {
+        return Some(T::one());
+    };
+    let lost = (most.scale(RANK_TOLERANCE)).greater(T::from_f64(CANCELLED));
+    lost.less(least).then(|| most / least)
 }
 
 impl Outputs<'_> {
@@ -289,7 +296,7 @@ impl Outputs<'_> {
     ) -> InputOutput {
         let (responses, mut normalised) = (motion.responses(), Normalised::default());
         self.normalised_into(&mut normalised, at, motion.placement(), &responses, spins);
-        let values = normalised.singular_values();
+        let values = (normalised.singular_values()).expect("reals are known");
         let mechanism = self.mechanism;
         let rows = (self.outputs.iter()).flat_map(|&output| rows_of(mechanism, output));
         let inputs = motion.coordinates().iter();

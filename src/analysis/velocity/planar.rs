@@ -12,7 +12,7 @@ use crate::linear::{dot, norm};
 use crate::mechanism::{
     Body, ClosureKind, Configuration, Frame, Kinematics, Mechanism, Placement, Point,
 };
-use crate::number::Packed;
+use crate::number::Number;
 use crate::system::{
     Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, loops,
 };
@@ -135,7 +135,7 @@ impl TransmissionAngles {
     }
 
     /// The angle of each loop, from 0 to π/2; not a number where it does not move in a plane. Nothing allocates.
-    pub fn angles<T: Packed>(&self, placement: &Placement<T>) -> impl Iterator<Item = T> {
+    pub fn angles<T: Number>(&self, placement: &Placement<T>) -> impl Iterator<Item = T> {
         let right = T::from_f64(FRAC_PI_2);
         (self.dyads.iter()).map(move |dyad| right - self.pressure(dyad, placement))
     }
@@ -158,7 +158,7 @@ impl TransmissionAngles {
         found.collect()
     }
 
-    fn pressure<T: Packed>(&self, dyad: &Dyad, placement: &Placement<T>) -> T {
+    fn pressure<T: Number>(&self, dyad: &Dyad, placement: &Placement<T>) -> T {
         let turned =
             |slot: usize, v: &Vector3<f64>| placement.pose(slot).rotation * v.map(T::from_f64);
         let normals = dyad.normals.iter();
@@ -167,7 +167,7 @@ impl TransmissionAngles {
             return T::from_f64(f64::NAN);
         };
         let askew = ground.fold(T::zero(), |most, other| {
-            most.larger(other.cross(&normal).norm())
+            most.greater(other.cross(&normal).norm())
         });
         let place = |(slot, point): &Spot| point.placed(placement.pose(*slot));
         let in_plane = |v: Vector3<T>| v - normal.times(normal.dot(&v));
@@ -180,13 +180,12 @@ impl TransmissionAngles {
         };
         let (size, sizes) = (motion.norm(), force.norm() * motion.norm());
         let (across, along) = (force.cross(&motion).norm(), force.dot(&motion));
-        T::of_parts(|i| {
-            let least = ZERO * self.length * size.part(i).max(ZERO);
-            match askew.part(i) <= ZERO && sizes.part(i) > least {
-                true => across.part(i).atan2(along.part(i).abs()),
-                false => f64::NAN,
-            }
-        })
+        let zero = T::from_f64(ZERO);
+        let least = size.greater(zero).scale(ZERO * self.length);
+        match !zero.less(askew) && least.less(sizes) {
+            true => across.atan2(along.abs()),
+            false => T::from_f64(f64::NAN),
+        }
     }
 }
 

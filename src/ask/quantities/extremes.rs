@@ -3,13 +3,15 @@
 use std::cmp::Ordering;
 
 use super::poles::{middle_of_gap, unbounded};
-use super::{Meter, Passage, Seen};
+use super::{Block, Meter, Passage, Seen};
+use crate::algebra::BATCH;
 use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
 use crate::mechanism::{Configuration, Measured, Order, Quantity};
 use crate::solve::summit;
 
 /// Watches rows and remembers where quantities are least and greatest.
 pub(in super::super) struct Extremes {
+    /// The last rows, three if there are so many.
     rows: Vec<Seen>,
     seen: usize,
     quantities: Vec<Watched>,
@@ -19,8 +21,6 @@ pub(in super::super) struct Extremes {
 #[derive(Clone)]
 struct Watched {
     sides: [Side; 2],
-    /// Its values at the two rows before.
-    before: [Option<f64>; 2],
     /// The range of values that all rows allow.
     allowed: [f64; 2],
 }
@@ -28,11 +28,8 @@ struct Watched {
 /// Rows where a quantity is greater than at their neighbours, or less: the best of them.
 #[derive(Clone, Default)]
 struct Side {
-    /// The greatest value at a row at all.
-    most: Option<f64>,
-    /// Where it is, and when, once another row has followed.
-    place: Option<(Configuration<f64>, f64)>,
-    is_latest: bool,
+    /// The greatest value at a row at all, and where and when it is.
+    most: Option<(f64, Configuration<f64>, f64)>,
     peaks: Vec<Peak>,
 }
 
@@ -51,86 +48,68 @@ const SENSES: [f64; 2] = [-1.0, 1.0];
 /// Peaks remembered: a lower row may have the higher peak beside it.
 const PEAKS: usize = 8;
 
+/// Two rows before those of a block, and these.
+const WATCHED: usize = BATCH + 2;
+
 impl Extremes {
     pub fn new(quantities: usize) -> Self {
+        let none = Watched {
+            sides: Default::default(),
+            allowed: [f64::NEG_INFINITY, f64::INFINITY],
+        };
         Extremes {
             rows: Vec::new(),
             seen: 0,
-            quantities: vec![
-                Watched {
-                    sides: Default::default(),
-                    before: [None; 2],
-                    allowed: [f64::NEG_INFINITY, f64::INFINITY],
-                };
-                quantities
-            ],
+            quantities: vec![none; quantities],
         }
     }
 
-    /// Takes in the next row, with how far its values may be off.
-    pub fn take(
-        &mut self,
-        at: &Configuration<f64>,
-        time: f64,
-        values: &[Option<f64>],
-        noise: &[f64],
-    ) {
-        match self.rows.len() {
-            3 => {
-                // the oldest gives way
-                self.rows.swap(0, 1);
-                self.rows.swap(1, 2);
-                self.rows[2].at.clone_from(at);
-                self.rows[2].time = time;
-                self.rows[2].values.copy_from_slice(values);
+    /// Takes in the next rows, but for those between the ones asked for.
+    pub fn take(&mut self, block: &Block) {
+        let mut quantities = std::mem::take(&mut self.quantities);
+        let kept = (0..block.len()).filter(|&i| !block.row(i).0.between);
+        let kept: Vec<usize> = kept.collect();
+        let before = self.rows.len().min(2);
+        let earlier = &self.rows[self.rows.len() - before..];
+        let count = before + kept.len();
+        let seen = |i: usize| match earlier.get(i) {
+            Some(row) => row.clone(),
+            None => Seen::of(block, kept[i - before]),
+        };
+        for (number, (quantity, column)) in quantities.iter_mut().zip(block.columns()).enumerate() {
+            let mut values = [f64::NAN; WATCHED];
+            let mut noise = [0.0; WATCHED];
+            for (value, row) in values.iter_mut().zip(earlier) {
+                *value = row.values[number].unwrap_or(f64::NAN);
             }
-            _ => self.rows.push(Seen {
-                at: at.clone(),
-                time,
-                values: values.to_vec(),
-            }),
-        }
-        self.seen += 1;
-        let latest = values.iter().zip(noise);
-        for (quantity, (&value, noise)) in self.quantities.iter_mut().zip(latest) {
-            let Watched {
-                sides,
-                before,
-                allowed: [low, high],
-            } = quantity;
-            let [first, middle] = std::mem::replace(before, [before[1], value]);
-            if let Some(value) = value
-                && low <= high
+            for ((value, noise), &i) in values[before..]
+                .iter_mut()
+                .zip(&mut noise[before..])
+                .zip(&kept)
             {
-                let off = 4.0 * noise.max(f64::EPSILON * value.abs());
-                (*low, *high) = (low.max(value - off), high.min(value + off));
+                (*value, *noise) = (column.values[i], column.noise[i]);
             }
-            for (side, sense) in sides.iter_mut().zip(SENSES) {
-                side.reach(value.map(|value| sense * value), &self.rows);
+            let latest = before..count;
+            quantity.allow(&values[latest.clone()], &noise[latest.clone()]);
+            for (side, sense) in quantity.sides.iter_mut().zip(SENSES) {
+                side.reach(&values[latest.clone()], sense, |i| seen(before + i));
             }
-            if self.seen < 3 {
-                continue;
-            }
-            if let (Some(a), Some(b), Some(c)) = (first, middle, value) {
-                // most rows lie between their neighbours
-                if self.seen == 3 || (b - a) * (c - b) <= 0.0 {
-                    for (side, sense) in sides.iter_mut().zip(SENSES) {
-                        let [a, b, c] = [a, b, c].map(|x| sense * x);
-                        if b >= a && b >= c && b > a.min(c) || self.seen == 3 && a > b {
-                            side.peak(a.max(b), None, &self.rows);
-                        }
-                    }
-                }
-            } else if let Some(known) = middle {
-                // it may grow towards a row where it is not known
-                let grows = |other: Option<f64>| other.is_none_or(|x| x.abs() < known.abs());
-                let side = &mut sides[usize::from(known > 0.0)];
-                for (beyond, other, gap) in [(first, value, 0.0), (value, first, 1.0)] {
-                    if beyond.is_none() && grows(other) {
-                        side.peak(known.abs(), Some(gap), &self.rows);
-                    }
+            let first = self.seen < 3;
+            if first || turns(&values[..count]) {
+                for middle in 1..count.max(1) - 1 {
+                    let near = [middle - 1, middle, middle + 1];
+                    let first = self.seen + middle + 2 == before + 3;
+                    quantity.bend(near.map(|i| values[i]), first, || near.map(seen));
                 }
             }
+        }
+        self.quantities = quantities;
+        self.seen += kept.len();
+        let last = (count.saturating_sub(3)..count).map(seen).collect();
+        if count >= 3 {
+            self.rows = last;
+        } else {
+            self.rows.extend(kept.iter().map(|&i| Seen::of(block, i)));
         }
     }
 
@@ -144,13 +123,10 @@ impl Extremes {
         // beside the last row there may be more too, as beside the first
         for (i, quantity) in self.quantities.iter_mut().enumerate() {
             for (side, sense) in quantity.sides.iter_mut().zip(SENSES) {
-                if let Some(last) = self.rows.last().filter(|_| side.is_latest) {
-                    side.keep(last);
-                }
                 if let Some([_, b, c]) = heights(&self.rows, i, sense)
                     && c > b
                 {
-                    side.peak(c, None, &self.rows);
+                    side.peak(c, None, || [0, 1, 2].map(|k| self.rows[k].clone()));
                 }
             }
         }
@@ -168,7 +144,7 @@ impl Extremes {
                 unbounded: Vec::new(),
                 missing: None,
             };
-            let row = |k: usize| sides[k].most.map(|height| SENSES[k] * height);
+            let row = |k: usize| sides[k].most.as_ref().map(|most| SENSES[k] * most.0);
             let (Some(least), Some(greatest)) = (row(0), row(1)) else {
                 all.push(Extremum {
                     missing: Some(missing(quantity)),
@@ -194,8 +170,7 @@ impl Extremes {
             let mut poles: Vec<Pole> = Vec::new();
             let [least, greatest] = std::array::from_fn::<_, 2, _>(|k| {
                 let (side, sense) = (&sides[k], SENSES[k]);
-                let (at, time) = side.place.clone()?;
-                let mut best = (side.most?, at, time);
+                let mut best = side.most.clone()?;
                 for peak in &side.peaks {
                     let rows = &peak.rows;
                     let Some(mut between) = passage.between(rows.each_ref()) else {
@@ -312,34 +287,69 @@ fn heights(rows: &[Seen], quantity: usize, sense: f64) -> Option<[f64; 3]> {
     Some([sense * a?, sense * b?, sense * c?])
 }
 
-impl Side {
-    /// Takes in the value at the last of some rows.
-    fn reach(&mut self, height: Option<f64>, rows: &[Seen]) {
-        if let Some(height) = height
-            && self.most.is_none_or(|most| height > most)
-        {
-            (self.most, self.is_latest) = (Some(height), true);
-        } else if let [.., before, _] = rows
-            && self.is_latest
-        {
-            self.keep(before);
+/// Whether one of some values is an extreme beside its neighbours, or one is missing.
+fn turns(values: &[f64]) -> bool {
+    let mut found = false;
+    let neighbours = values.iter().zip(&values[1..]).zip(&values[2..]);
+    for ((a, b), c) in neighbours {
+        let beyond = (b >= a) & (b >= c) | (b <= a) & (b <= c);
+        let missing = a.is_nan() | b.is_nan() | c.is_nan();
+        found |= missing | beyond & !((a == b) & (b == c));
+    }
+    found
+}
+
+impl Watched {
+    /// Takes in values with how far they may be off.
+    fn allow(&mut self, values: &[f64], noise: &[f64]) {
+        let [mut low, mut high] = self.allowed;
+        for (&value, &noise) in values.iter().zip(noise) {
+            let off = 4.0 * noise.max(f64::EPSILON * value.abs());
+            // nothing changes where there is no value
+            (low, high) = (low.max(value - off), high.min(value + off));
         }
+        self.allowed = [low, high];
     }
 
-    /// Remembers the row of the greatest value.
-    fn keep(&mut self, row: &Seen) {
-        self.is_latest = false;
-        match &mut self.place {
-            Some((place, time)) => {
-                place.clone_from(&row.at);
-                *time = row.time;
+    /// Takes in three neighbouring values; `first` says whether there are none before.
+    fn bend(&mut self, [a, b, c]: [f64; 3], first: bool, rows: impl Fn() -> [Seen; 3]) {
+        if ![a, b, c].iter().any(|x| x.is_nan()) {
+            for (side, sense) in self.sides.iter_mut().zip(SENSES) {
+                let [a, b, c] = [a, b, c].map(|x| sense * x);
+                if b >= a && b >= c && b > a.min(c) || first && a > b {
+                    side.peak(a.max(b), None, &rows);
+                }
             }
-            none => *none = Some((row.at.clone(), row.time)),
+        } else if !b.is_nan() {
+            // it may grow towards a row where it is not known
+            let side = &mut self.sides[usize::from(b > 0.0)];
+            for (beyond, other, gap) in [(a, c, 0.0), (c, a, 1.0)] {
+                if beyond.is_nan() && (other.is_nan() || other.abs() < b.abs()) {
+                    side.peak(b.abs(), Some(gap), &rows);
+                }
+            }
+        }
+    }
+}
+
+impl Side {
+    /// Takes in values at rows.
+    fn reach(&mut self, values: &[f64], sense: f64, row: impl Fn(usize) -> Seen) {
+        let greatest = values.iter().fold(f64::NEG_INFINITY, |most, x| {
+            let height = sense * x;
+            if height > most { height } else { most }
+        });
+        let more = match &self.most {
+            Some((most, ..)) => greatest > *most,
+            None => greatest > f64::NEG_INFINITY,
+        };
+        if let Some(first) = values.iter().position(|x| more && sense * x == greatest) {
+            let Seen { at, time, .. } = row(first);
+            self.most = Some((greatest, at, time));
         }
     }
 
-    fn peak(&mut self, height: f64, gap: Option<f64>, rows: &[Seen]) {
-        let [a, b, c] = rows else { return };
+    fn peak(&mut self, height: f64, gap: Option<f64>, rows: impl Fn() -> [Seen; 3]) {
         if self.peaks.len() == PEAKS {
             let lowest =
                 (0..PEAKS).min_by(|&i, &j| self.peaks[i].height.total_cmp(&self.peaks[j].height));
@@ -350,7 +360,7 @@ impl Side {
                 _ => return,
             }
         }
-        let rows = [a, b, c].map(Clone::clone);
+        let rows = rows();
         self.peaks.push(Peak { height, rows, gap });
     }
 }

@@ -1,13 +1,14 @@
 //! Quantities at the configurations of a motion, from the engines of the analyses.
 
+mod block;
 mod found;
 mod probe;
 mod programs;
-mod waiting;
+mod recorded;
 
 use std::f64::consts::{PI, TAU};
 
-use crate::algebra::Expression;
+use crate::algebra::{BATCH, Expression};
 use crate::analysis::singularities::Classifier;
 use crate::analysis::sweep::{Pace, Row, Schedule};
 use crate::analysis::velocity::{
@@ -15,12 +16,13 @@ use crate::analysis::velocity::{
 };
 use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
-use crate::number::{LANES, Lanes, Number, Packed};
+use crate::number::Number;
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
+pub(in super::super) use block::Block;
 use found::Here;
-use probe::{Found, Plan, Probe};
+use probe::{Plan, Probe};
 use programs::{evaluated, turns};
-use waiting::Waiting;
+use recorded::Recording;
 
 /// What a meter is for.
 #[derive(Clone, Debug)]
@@ -35,11 +37,16 @@ pub(in super::super) struct Metered<'q> {
     pub outputs: Vec<Lock>,
 }
 
-/// Whether rows are read in lanes: a second copy of the engine of rates, which would be nearly a tenth of the page.
-const SIDE_BY_SIDE: bool = !cfg!(target_family = "wasm");
+/// After so many rows the quantities are written down as a program: that takes as long as reading some hundred rows one
+/// by one. Not in the page, which would grow by a tenth.
+const RECORDED_AFTER: usize = match cfg!(target_family = "wasm") {
+    true => usize::MAX,
+    false => 256,
+};
 
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
-/// once; rates, forces and Jacobian come from one factorisation of the closures, of eight rows of a motion side by side.
+/// once; rates, forces and Jacobian come from one factorisation of the closures. Of a long motion many rows are read side
+/// by side.
 pub(in super::super) struct Meter<'q> {
     of: &'q Metered<'q>,
     /// For each held coordinate the number of its input and how far that goes, if it is one.
@@ -50,12 +57,14 @@ pub(in super::super) struct Meter<'q> {
     coordinates: Vec<Coordinate>,
     plan: Plan,
     probe: Probe<'q, f64>,
-    /// That of rows side by side, once there are so many.
-    side_by_side: Option<Box<Side<'q>>>,
-    /// Rows that wait for others, and how many do.
-    waiting: Vec<Waiting>,
-    waits: usize,
-    jacobian: Normalised,
+    /// Rows that wait for others.
+    block: Block,
+    /// How many were read.
+    rows: usize,
+    /// What reads many at once.
+    recording: Option<Recording>,
+    /// How often it was tried in vain to write that down.
+    failed: usize,
     spinning: Spinning<'q>,
     /// With the distances that are asked for.
     distances: Option<(Classifier<'q>, Vec<Figure>)>,
@@ -64,7 +73,6 @@ pub(in super::super) struct Meter<'q> {
     driven: [Vec<f64>; 2],
     before: Vec<Option<f64>>,
     values: Vec<Option<f64>>,
-    figures: Vec<(Figure, Option<f64>)>,
     /// What the names in the quantities stand for, each once, with the number of the point, if it is of one.
     names: Vec<(Measured, usize)>,
     /// The quantities over the numbers of these names.
@@ -75,15 +83,8 @@ pub(in super::super) struct Meter<'q> {
     noise: Vec<f64>,
 }
 
-/// A configuration in each lane, and rates and accelerations of what is held there.
-struct Side<'q> {
-    probe: Probe<'q, Lanes>,
-    at: Configuration<Lanes>,
-    driven: [Vec<Lanes>; 2],
-}
-
-/// What takes rows with the part of the time that is gone, their values, and how far these may be off.
-pub(in super::super) type Take<'t> = dyn FnMut(&Row, f64, &[Option<f64>], &[f64]) + 't;
+/// What takes rows with the quantities at them.
+pub(in super::super) type Take<'t> = dyn FnMut(&Block) + 't;
 
 /// The lines about which links spin: none, or those of each configuration.
 enum Spinning<'q> {
@@ -232,7 +233,6 @@ impl<'q> Meter<'q> {
                 true => Spinning::Nothing(spins),
                 false => Spinning::Something(Box::new(held)),
             },
-            figures: Vec::new(),
             loose,
             distances: wants.distances.then(|| {
                 let inputs = system::inputs_of(question);
@@ -250,10 +250,10 @@ impl<'q> Meter<'q> {
             coordinates,
             plan,
             probe,
-            side_by_side: None,
-            waiting: Vec::new(),
-            waits: 0,
-            jacobian: Normalised::default(),
+            block: Block::new(of.quantities.len()),
+            rows: 0,
+            recording: None,
+            failed: 0,
             before: vec![None; of.quantities.len()],
             values: vec![None; of.quantities.len()],
             known: vec![[0.0; 2]; names.len()],
@@ -267,7 +267,102 @@ impl<'q> Meter<'q> {
 
     /// The values at a configuration where a part of the time is gone; none where something is not determined.
     pub fn read(&mut self, at: &Configuration<f64>, time: f64) -> &[Option<f64>] {
-        driven(self.of, &self.ways, |_| time, &mut self.driven);
+        self.read_alone(at, time);
+        for i in 0..self.values.len() {
+            self.values[i] = self.values[i].map(|value| self.without_jump(i, value));
+        }
+        &self.values
+    }
+
+    /// Reads a row of a motion where a part of the time is gone, or lets it wait for others; rows go to `take` in their
+    /// order.
+    pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
+        self.block.put(row, time);
+        let alone = self.probe.unknowns() > DENSE_LIMIT || self.spins().is_none();
+        if alone || self.block.len() == BATCH {
+            self.read_waiting(take);
+        }
+    }
+
+    /// Reads the rows that wait.
+    pub fn read_waiting(&mut self, take: &mut Take) {
+        /// A row may be singular.
+        const TRIED: usize = 3;
+        let mut block = std::mem::take(&mut self.block);
+        let full = block.len() == BATCH;
+        if full && self.rows >= RECORDED_AFTER && self.recording.is_none() && self.failed < TRIED {
+            self.recording = self.recorded(&block);
+            self.failed += usize::from(self.recording.is_none());
+        }
+        let read = self.read_together(&mut block);
+        for i in (0..block.len()).filter(|i| !read[*i]) {
+            let (row, time) = block.row(i);
+            self.read_alone(row.configuration, time);
+            for (column, known) in block
+                .columns
+                .iter_mut()
+                .zip(self.values.iter().zip(&self.noise))
+            {
+                column.values[i] = known.0.unwrap_or(f64::NAN);
+                column.noise[i] = *known.1;
+            }
+        }
+        let count = block.len();
+        for i in 0..self.values.len() {
+            let values = &mut block.columns[i].values[..count];
+            if self.turns[i] {
+                for value in values.iter_mut().filter(|value| !value.is_nan()) {
+                    *value = self.without_jump(i, *value);
+                }
+            }
+        }
+        self.rows += count;
+        take(&block);
+        block.clear();
+        self.block = block;
+    }
+
+    /// An angle is given without jumps.
+    fn without_jump(&mut self, i: usize, value: f64) -> f64 {
+        let value = match self.before[i] {
+            Some(before) if self.turns[i] && (value - before).abs() > PI => {
+                value - TAU * ((value - before) / TAU).round()
+            }
+            _ => value,
+        };
+        self.before[i] = Some(value);
+        value
+    }
+
+    /// The lines about which links spin, if they are the same everywhere.
+    fn spins(&self) -> Option<&Spins> {
+        match &self.spinning {
+            Spinning::Nothing(spins) => Some(spins),
+            Spinning::Something(_) => None,
+        }
+    }
+
+    /// The figures of a Jacobian; none if they cannot be had over such numbers.
+    fn figures_of<T: Number>(&self, jacobian: &Normalised<T>) -> Option<Vec<(Figure, Option<T>)>> {
+        let mut figures = Vec::new();
+        if self.wants.determinant {
+            figures.push((Figure::Determinant, Some(jacobian.determinant()?)));
+        }
+        if self.wants.singular_values {
+            let values = jacobian.singular_values()?;
+            let product = values.iter().fold(T::one(), |product, x| product * *x);
+            figures.push((Figure::Condition, condition(&values)));
+            figures.push((Figure::Manipulability, Some(product)));
+        }
+        Some(figures)
+    }
+
+    /// The values at one configuration, angles between −π and π.
+    fn read_alone(&mut self, at: &Configuration<f64>, time: f64) {
+        for of in 0..self.ways.len() {
+            let driven = self.driven(of, time);
+            (self.driven.iter_mut().zip(driven)).for_each(|(to, x)| to[of] = x);
+        }
         match &mut self.spinning {
             Spinning::Nothing(spins) => self.probe.at(&self.plan, at, &self.driven, spins),
             Spinning::Something(held) => {
@@ -277,119 +372,37 @@ impl<'q> Meter<'q> {
             }
         }
         let found = std::mem::take(&mut self.probe.found);
-        self.evaluate(at, &found, 0);
-        self.probe.found = found;
-        &self.values
-    }
-
-    /// Reads a row of a motion where a part of the time is gone, or lets it wait for others; rows go to `take` in their
-    /// order.
-    pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
-        let (at, unknowns) = (row.configuration, self.probe.unknowns());
-        let alone = unknowns > DENSE_LIMIT || matches!(self.spinning, Spinning::Something(_));
-        if alone || !SIDE_BY_SIDE {
-            self.read(at, time);
-            return take(row, time, &self.values, &self.noise);
-        }
-        if self.waits == self.waiting.len() {
-            self.waiting.push(Waiting::new(at));
-        }
-        self.waiting[self.waits].put(row, time);
-        self.waits += 1;
-        if self.waits == LANES {
-            self.read_waiting(take);
-        }
-    }
-
-    /// Reads the rows that wait.
-    pub fn read_waiting(&mut self, take: &mut Take) {
-        let rows = std::mem::take(&mut self.waiting);
-        let waits = std::mem::take(&mut self.waits);
-        let full = SIDE_BY_SIDE && waits == LANES;
-        let side = full.then(|| self.side_by_side(&rows)).flatten();
-        let together = side.as_ref().and_then(|side| side.probe.sure());
-        for (place, row) in rows[..waits].iter().enumerate() {
-            match together {
-                Some(found) => self.evaluate(&row.at, found, place),
-                None => _ = self.read(&row.at, row.time),
-            }
-            take(&row.row(), row.time, &self.values, &self.noise);
-        }
-        self.side_by_side = side;
-        self.waiting = rows;
-    }
-
-    /// What is planned, worked out for eight rows.
-    fn side_by_side(&mut self, rows: &[Waiting]) -> Option<Box<Side<'q>>> {
-        let Spinning::Nothing(spins) = &self.spinning else {
-            return None;
+        let figures = match found.moves {
+            true => self.figures_of(&found.jacobian),
+            false => None,
         };
-        let mut side = self.side_by_side.take().unwrap_or_else(|| {
-            Box::new(Side {
-                probe: Probe::new(self.of, &self.plan),
-                at: rows[0].at.map(Lanes::from_f64),
-                driven: [(); 2].map(|()| vec![Lanes::zero(); self.coordinates.len()]),
-            })
-        });
-        for (lane, row) in rows.iter().enumerate() {
-            side.at.set_lane(lane, &row.at);
+        let mut figures = figures.unwrap_or_default();
+        if let Some((classifier, distances)) = &mut self.distances {
+            let of = |figure: &Figure| (*figure, classifier.distance(*figure, at));
+            figures.extend(distances.iter().map(of));
         }
-        let time = |lane: usize| rows[lane].time;
-        driven(self.of, &self.ways, time, &mut side.driven);
-        side.probe.at(&self.plan, &side.at, &side.driven, spins);
-        Some(side)
-    }
-
-    /// Values at a configuration from what was found there, in one place.
-    fn evaluate<T: Packed>(&mut self, at: &Configuration<f64>, found: &Found<T>, place: usize) {
-        self.figures.clear();
-        if found.moves && self.wants.jacobian {
-            let jacobian = &mut self.jacobian;
-            found.jacobian.take(place, jacobian);
-            if self.wants.determinant {
-                (self.figures).push((Figure::Determinant, jacobian.determinant()));
-            }
-            if self.wants.singular_values {
-                let values = jacobian.singular_values();
-                let product = values.iter().product();
-                (self.figures).push((Figure::Condition, condition(&values)));
-                (self.figures).push((Figure::Manipulability, Some(product)));
-            }
-        }
-        if let Some((classifier, figures)) = &mut self.distances {
-            let figures = figures
-                .iter()
-                .map(|figure| (*figure, classifier.distance(*figure, at)));
-            self.figures.extend(figures);
-        }
-        let largest = |of: &[T]| {
-            let sizes = of.iter().map(|x| x.part(place).abs());
-            sizes.fold(0.0, f64::max)
-        };
-        let here = Here {
-            at,
-            found,
-            place,
-            largest: [largest(&found.rates[0]), largest(&found.rates[1])],
-        };
+        let here = Here::new(at, &found, &figures);
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
             *known = self.value(&here, name, *number);
         }
-        self.known = known;
         for (i, program) in self.programs.iter().enumerate() {
-            let (value, noise) = evaluated(program, &self.known);
-            let value = value.map(|value| match (self.turns[i], self.before[i]) {
-                // an angle is given without jumps
-                (true, Some(before)) if (value - before).abs() > PI => {
-                    value - TAU * ((value - before) / TAU).round()
-                }
-                _ => value,
-            });
-            self.values[i] = value;
-            self.noise[i] = noise;
-            self.before[i] = value.or(self.before[i]);
+            (self.values[i], self.noise[i]) = evaluated(program, &known);
         }
+        self.known = known;
+        self.probe.found = found;
+    }
+
+    /// Rate and acceleration of a held coordinate where a part of the time is gone.
+    fn driven(&self, of: usize, time: f64) -> [f64; 2] {
+        let Some((input, way)) = self.ways[of] else {
+            return [0.0; 2];
+        };
+        let [_, rate, change] = match &self.of.schedule {
+            None => self.of.pace.at(time).map(|x| way * x),
+            Some(schedule) => schedule.at(input, time),
+        };
+        [rate, change]
     }
 
     /// How far each value last read may be off.
@@ -400,23 +413,5 @@ impl<'q> Meter<'q> {
     /// Angles are given near to these values from here on.
     pub fn settle(&mut self, values: &[Option<f64>]) {
         self.before.copy_from_slice(values);
-    }
-}
-
-/// Rates and accelerations of the held coordinates where a part of the time is gone, in each place.
-fn driven<T: Packed>(
-    of: &Metered,
-    ways: &[Option<(usize, f64)>],
-    time: impl Fn(usize) -> f64,
-    driven: &mut [Vec<T>; 2],
-) {
-    for (i, way) in ways.iter().enumerate() {
-        let Some((input, way)) = *way else { continue };
-        for (order, driven) in driven.iter_mut().enumerate() {
-            driven[i] = T::of_parts(|place| match &of.schedule {
-                None => way * of.pace.at(time(place))[1 + order],
-                Some(schedule) => schedule.at(input, time(place))[1 + order],
-            });
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! Places of a motion between its rows.
 
+use super::Block;
 use crate::analysis::sweep::{Between, Schedule};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{Driven, Held};
@@ -11,6 +12,18 @@ pub(in super::super) struct Seen {
     /// The part of the time that is gone.
     pub time: f64,
     pub values: Vec<Option<f64>>,
+}
+
+impl Seen {
+    /// A row of a block.
+    pub fn of(block: &Block, i: usize) -> Self {
+        let (row, time) = block.row(i);
+        Seen {
+            at: row.configuration.clone(),
+            time,
+            values: block.values(i).collect(),
+        }
+    }
 }
 
 /// A motion that is solved anywhere between its rows.

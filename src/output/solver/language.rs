@@ -153,6 +153,9 @@ pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String
         Operation::Angle(y, x) => format!("@own@angle({}, {})", name(y), name(x)),
         Operation::Near(x, y) => format!("@own@nearest({}, {})", name(x), name(y)),
         Operation::Sign(x) => format!("@own@sign({})", name(x)),
+        Operation::Larger(..) | Operation::Call(..) => {
+            unreachable!("no closure equation uses them")
+        }
         Operation::Constant(_) | Operation::Input(_) | Operation::Sin(_) | Operation::Cos(_) => {
             unreachable!("numbers have names of their own, and sines come with their cosines")
         }

@@ -1,6 +1,6 @@
 use super::Spin;
 use crate::geometry::Rotation;
-use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
+use crate::linear::{Block, Factorable, SparseStep};
 use crate::mechanism::{Closure, Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
 
@@ -232,7 +232,7 @@ impl Layout {
 
         // the first unknowns may belong to one block alone; for a sparse matrix every closure is a block and all are
         // shared
-        let sparse = T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT;
+        let sparse = unknowns.len() > T::Sparse::ABOVE;
         let owned = if sparse { 0 } else { joints };
         let unknowns_of = |closure: &Closure<T>| {
             let joints = closure.joints().into_iter();

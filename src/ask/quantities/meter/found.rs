@@ -3,85 +3,104 @@
 use super::Meter;
 use super::probe::Found;
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Measured, Order, Point, PoseCoordinate};
-use crate::number::Packed;
+use crate::mechanism::{Configuration, Figure, Measured, Order, Point, PoseCoordinate};
+use crate::number::Number;
 use crate::system::Coordinate;
 
 /// A configuration and what is known of its motion.
 pub(super) struct Here<'a, T> {
-    pub at: &'a Configuration<f64>,
-    /// What was found there, in this place.
+    pub at: &'a Configuration<T>,
     pub found: &'a Found<T>,
-    pub place: usize,
+    pub figures: &'a [(Figure, Option<T>)],
     /// The largest rate and acceleration, in rad and characteristic lengths.
-    pub largest: [f64; 2],
+    pub largest: [T; 2],
 }
 
-impl<T: Packed> Here<'_, T> {
+impl<'a, T: Number> Here<'a, T> {
+    pub fn new(
+        at: &'a Configuration<T>,
+        found: &'a Found<T>,
+        figures: &'a [(Figure, Option<T>)],
+    ) -> Self {
+        Here {
+            at,
+            found,
+            figures,
+            largest: [0, 1].map(|order| largest(&found.rates[order])),
+        }
+    }
+
     fn tells(&self, order: Order) -> bool {
         self.found.moves || order == Order::Value
     }
 
     /// Where the point of that number is, or how it moves.
-    fn moved(&self, i: usize, order: Order) -> Option<Vector3<f64>> {
-        let moved = self.found.points[order as usize].get(i)?;
-        Some(moved.map(|x| x.part(self.place)))
+    fn moved(&self, i: usize, order: Order) -> Option<Vector3<T>> {
+        self.found.points[order as usize].get(i).copied()
     }
+}
+
+/// The largest size of some numbers, but for those that are not known.
+fn largest<T: Number>(of: &[T]) -> T {
+    let sizes = of.iter().filter(|x| x.is_finite()).map(|x| x.abs());
+    sizes.fold(T::zero(), T::greater)
 }
 
 impl Meter<'_> {
     /// The value of a name, not a number where it is not determined, and how far it may be off; with the number of the
     /// point, if it is of one.
-    pub(super) fn value<T: Packed>(&self, here: &Here<T>, of: &Measured, i: usize) -> [f64; 2] {
-        let value = self.known(here, of, i).unwrap_or(f64::NAN);
+    pub(super) fn value<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize) -> [T; 2] {
+        let value = (self.known(here, of, i)).unwrap_or_else(|| T::from_f64(f64::NAN));
         [value, self.off(here, of, i, value)]
     }
 
     /// How far the value of a name may be off: configurations are closed to 1e-12.
-    fn off<T: Packed>(&self, here: &Here<T>, of: &Measured, i: usize, value: f64) -> f64 {
+    fn off<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize, value: T) -> T {
         const ROUNDING: f64 = 1e-12;
         let [rate, change] = here.largest;
         let most = |order: Order| match order {
-            Order::Value => 1.0,
+            Order::Value => T::one(),
             Order::Velocity => rate,
-            Order::Acceleration => change.max(rate * rate),
+            Order::Acceleration => change.greater(rate * rate),
         };
         let mechanism = self.of.question.mechanism();
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
         let size = match *of {
-            Measured::Parameter(_) => 0.0,
+            Measured::Parameter(_) => T::zero(),
             Measured::Joint(joint, order) => {
-                mechanism.dimensions().joint_scales[joint] * most(order)
+                most(order).scale(mechanism.dimensions().joint_scales[joint])
             }
-            Measured::Place(_, c, order) => scale(c.is_angle()) * most(order),
-            Measured::Size(_, order) => length * most(order),
-            Measured::Transmission(_) => 10.0,
-            Measured::Force(_) | Measured::PlatformForce(..) => {
-                let forces = here.found.forces.iter().map(|x| x.part(here.place).abs());
-                forces.fold(0.0, f64::max)
-            }
+            Measured::Place(_, c, order) => most(order).scale(scale(c.is_angle())),
+            Measured::Size(_, order) => most(order).scale(length),
+            Measured::Transmission(_) => T::from_f64(10.0),
+            Measured::Force(_) | Measured::PlatformForce(..) => largest(&here.found.forces),
             // κ = |v × a| / |v|³ by δv and δa
             Measured::Curvature(point) => {
-                let [v, a] = [Order::Velocity, Order::Acceleration]
-                    .map(|order| self.vector(here, point, i, order).map_or(0.0, |v| v.norm()));
-                length * (change.max(rate * rate) + rate * a / v) / (v * v)
+                let [v, a] = [Order::Velocity, Order::Acceleration].map(|order| {
+                    let vector = self.vector(here, point, i, order);
+                    vector.map_or(T::zero(), |v| v.norm())
+                });
+                let both = change.greater(rate * rate) + rate * a / v;
+                both.scale(length) / (v * v)
             }
-            Measured::Figure(_) if value.is_nan() => 0.0,
+            Measured::Figure(_) if !value.is_finite() => T::zero(),
             Measured::Figure(_) => value.abs(),
         };
-        ROUNDING * size
+        size.scale(ROUNDING)
     }
 
-    fn known<T: Packed>(&self, here: &Here<T>, of: &Measured, i: usize) -> Option<f64> {
+    fn known<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize) -> Option<T> {
         let mechanism = self.of.question.mechanism();
         match *of {
-            Measured::Parameter(parameter) => Some(mechanism.parameters()[parameter].value),
+            Measured::Parameter(parameter) => {
+                Some(T::from_f64(mechanism.parameters()[parameter].value))
+            }
             Measured::Joint(joint, Order::Value) => Some(here.at.joints[joint]),
             Measured::Joint(joint, order) => {
                 let rates = &here.found.rates[usize::from(order == Order::Acceleration)];
                 let rate = rates.get(joint).filter(|_| here.found.moves)?;
-                Some(rate.part(here.place) * mechanism.dimensions().joint_scales[joint])
+                Some(rate.scale(mechanism.dimensions().joint_scales[joint]))
             }
             Measured::Place(point, coordinate, order) => {
                 let loose = order > Order::Value
@@ -95,7 +114,7 @@ impl Meter<'_> {
             Measured::Curvature(point) => {
                 let velocity = self.vector(here, point, i, Order::Velocity)?;
                 let size = velocity.norm();
-                if size <= self.off(here, &Measured::Size(point, Order::Velocity), i, size) {
+                if !(self.off(here, &Measured::Size(point, Order::Velocity), i, size)).less(size) {
                     return None;
                 }
                 let across = velocity.cross(&self.vector(here, point, i, Order::Acceleration)?);
@@ -108,48 +127,48 @@ impl Meter<'_> {
                 let loops = self.plan.transmission.as_ref()?.loops();
                 let loops = loops.zip(&here.found.transmission);
                 let of_it = loops.filter(|(closure, _)| name.is_none_or(|name| name == *closure));
-                let angles = of_it.map(|(_, angle)| angle.part(here.place));
-                angles.filter(|angle| !angle.is_nan()).reduce(f64::min)
+                let angles = of_it.map(|(_, angle)| *angle);
+                angles.filter(|angle| angle.is_finite()).reduce(T::lesser)
             }
             Measured::Figure(figure) => {
-                let mut known = self.figures.iter();
+                let mut known = here.figures.iter();
                 known.find(|(of, _)| *of == figure)?.1
             }
         }
     }
 
     /// Place, velocity or acceleration of a point, by its number.
-    fn vector<T: Packed>(
+    fn vector<T: Number>(
         &self,
         here: &Here<T>,
         point: Point,
         i: usize,
         order: Order,
-    ) -> Option<Vector3<f64>> {
+    ) -> Option<Vector3<T>> {
         let loose = order > Order::Value && !point.is_origin() && self.loose.contains(&point.frame);
         let known = here.tells(order) && !loose;
         known.then(|| here.moved(i, order))?
     }
 
     /// A coordinate of the point of that number, or of the orientation of its frame.
-    fn coordinate<T: Packed>(
+    fn coordinate<T: Number>(
         &self,
         here: &Here<T>,
         i: usize,
         c: PoseCoordinate,
         order: Order,
-    ) -> Option<f64> {
+    ) -> Option<T> {
         if !c.is_angle() {
             return Some(here.moved(i, order)?.0[c as usize]);
         }
         let mut angles = self.plan.angles.iter();
         let place = angles.position(|of| *of == (i, c, order))?;
-        Some(here.found.angles.get(place)?.part(here.place))
+        here.found.angles.get(place).copied()
     }
 
-    fn force<T: Packed>(&self, here: &Here<T>, of: Coordinate) -> Option<f64> {
+    fn force<T: Number>(&self, here: &Here<T>, of: Coordinate) -> Option<T> {
         let place = self.coordinates.iter().position(|known| *known == of)?;
-        let force = here.found.forces.get(place)?.part(here.place);
-        (here.found.moves && !force.is_nan()).then_some(force)
+        let force = *here.found.forces.get(place)?;
+        (here.found.moves && force.is_finite()).then_some(force)
     }
 }

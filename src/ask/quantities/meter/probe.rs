@@ -1,11 +1,11 @@
-//! What quantities are made of, at a configuration or at several side by side.
+//! What quantities are made of, at a configuration or over recorded numbers.
 
 use super::Metered;
 use crate::analysis::velocity::{Normalised, Outputs, Spins, TransmissionAngles};
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Kinematics, Order, Placement, Point, PoseCoordinate};
-use crate::number::{Dual, Packed};
+use crate::number::Dual;
 use crate::system::{FrameTwists, Loaded, Lock, Motion, Unknown};
 
 /// What is wanted, and only what some quantity needs.
@@ -61,7 +61,7 @@ impl Plan {
     }
 }
 
-impl<'q, T: Factorable + Packed> Probe<'q, T> {
+impl<'q, T: Factorable> Probe<'q, T> {
     pub fn new(of: &Metered<'q>, plan: &Plan) -> Self {
         let mechanism = of.question.mechanism();
         let coordinates = of.question.driven_coordinates();
@@ -190,14 +190,6 @@ impl<'q, T: Factorable + Packed> Probe<'q, T> {
         if let Some(angles) = &plan.transmission {
             found.transmission.extend(angles.angles(placement));
         }
-    }
-
-    /// What was found, if it is as certain in every place as it would be alone.
-    pub fn sure(&self) -> Option<&Found<T>> {
-        let rates = self.found.rates.iter().flatten();
-        let mut all = rates.chain(self.responses.iter().flatten());
-        let sure = self.motion.is_none() || self.found.moves && all.all(|x| x.is_finite());
-        sure.then_some(&self.found)
     }
 }
 

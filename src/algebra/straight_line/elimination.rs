@@ -1,9 +1,11 @@
 //! Gaussian elimination in an order that is chosen at one point, for numbers that are not known yet.
 
-use super::Divisor;
-use crate::algebra::Recorded;
+use super::Recorded;
+use crate::linear::{Filled, SparseStep};
 use crate::number::Number;
 
+/// The part of its natural size beyond which a pivot is not small.
+pub const LEAST_PIVOT: f64 = 1e-4;
 /// A pivot smaller than this is taken for zero; rows and unknowns are dimensionless.
 const LEAST: f64 = 1e-6;
 /// A pivot is at least this part of the largest entry in its column.
@@ -13,7 +15,8 @@ const PART: f64 = 0.1;
 const LAST: usize = 3;
 
 /// A number that is divided by.
-pub(super) struct Pivot {
+pub struct Pivot {
+    /// The number.
     pub number: Recorded,
     /// What is made of it by the division.
     pub inverse: Recorded,
@@ -21,23 +24,11 @@ pub(super) struct Pivot {
     pub scale: f64,
 }
 
-impl Pivot {
-    /// The same in a program, unless it is constant.
-    pub fn divisor(&self) -> Option<Divisor> {
-        let varies = self.number.constant().is_none();
-        varies.then(|| Divisor {
-            place: self.number.unsigned().place(),
-            inverse: self.inverse.unsigned().place(),
-            scale: self.scale,
-        })
-    }
-}
-
 /// Solves A x = b for each of several right-hand sides, with the pivots in the order of elimination. Rows that are left
 /// over depend on the others. The rank, if it is less than the number of unknowns.
 ///
 /// Where every pivot would make new entries the last three unknowns or two follow by Cramer's rule, with one division.
-pub(super) fn eliminate(
+pub fn eliminate(
     mut matrix: Vec<Vec<Recorded>>,
     mut sides: Vec<Vec<Recorded>>,
     unknowns: usize,
@@ -207,4 +198,64 @@ fn chosen(
         }
     }
     best.2
+}
+
+/// Steps by [elimination](eliminate). That no pivot becomes small is a [`Decision`](super::Decision).
+#[derive(Clone, Debug)]
+pub struct RecordedElimination {
+    matrix: Vec<Vec<Recorded>>,
+    unknowns: usize,
+    undetermined: usize,
+}
+
+impl SparseStep<Recorded> for RecordedElimination {
+    const ABOVE: usize = 0;
+
+    fn new(unknowns: usize, _: &[Filled<Recorded>], _: usize) -> Self {
+        RecordedElimination {
+            matrix: Vec::new(),
+            unknowns,
+            undetermined: 0,
+        }
+    }
+
+    fn factorise(&mut self, blocks: &[Filled<Recorded>], extra: &[Recorded], _: f64) {
+        let zero = Recorded::zero();
+        self.matrix.clear();
+        for filled in blocks {
+            let first = self.matrix.len();
+            let rows = first + filled.block.rows;
+            self.matrix.resize(rows, vec![zero; self.unknowns]);
+            for (unknown, column) in filled.columns() {
+                let rows = self.matrix[first..].iter_mut();
+                rows.zip(column).for_each(|(row, &x)| row[unknown] = x);
+            }
+        }
+        let extra = extra.chunks_exact(self.unknowns.max(1));
+        self.matrix.extend(extra.map(<[Recorded]>::to_vec));
+        let eliminated = eliminate(self.matrix.clone(), Vec::new(), self.unknowns);
+        self.undetermined = match eliminated {
+            Ok((_, pivots)) => {
+                let is_small = |of: &Pivot| {
+                    let least = Recorded::from_f64(LEAST_PIVOT * of.scale);
+                    of.number.abs().less(least)
+                };
+                pivots.iter().filter(|of| is_small(of)).count()
+            }
+            Err(rank) => self.unknowns - rank,
+        };
+    }
+
+    /// Zero if not all unknowns are determined.
+    fn step(&self, _: &[Filled<Recorded>], r: &[Recorded], x: &mut [Recorded]) {
+        x.fill(Recorded::zero());
+        let found = eliminate(self.matrix.clone(), vec![r.to_vec()], self.unknowns);
+        if let Ok((found, _)) = found {
+            x.iter_mut().zip(&found[0]).for_each(|(x, &y)| *x = -y);
+        }
+    }
+
+    fn nullity(&self) -> usize {
+        self.undetermined
+    }
 }

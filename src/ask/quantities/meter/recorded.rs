@@ -1,0 +1,156 @@
+//! Quantities at many rows at once, by the operations that give them at one.
+
+use super::Meter;
+use super::block::Block;
+use super::found::Here;
+use super::probe::Probe;
+use super::programs::{estimated, is_clear, is_name};
+use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
+use crate::geometry::Quaternion;
+use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::Number;
+
+/// The quantities as a program, which holds wherever all that was decided at one row is decided in the same way.
+pub(super) struct Recording {
+    batch: Batch,
+    registers: Registers,
+    /// For each quantity the registers of its value and of how far that may be off, and whether the value must be large
+    /// beside that.
+    quantities: Vec<([usize; 2], bool)>,
+    /// Registers of numbers, and whether they are negative.
+    decided: Vec<(usize, bool)>,
+}
+
+impl Recording {
+    /// Runs the program for the rows of a block whose numbers are put into the registers; whether it holds for each.
+    pub fn run(&mut self, block: &mut Block) -> [bool; BATCH] {
+        self.batch.run(0, &mut self.registers);
+        let mut holds = [true; BATCH];
+        for (register, negative) in &self.decided {
+            let rows = self.registers.rows(*register);
+            for (holds, x) in holds.iter_mut().zip(rows) {
+                *holds &= (*x < 0.0) == *negative && !x.is_nan();
+            }
+        }
+        let columns = block.columns.iter_mut().zip(&self.quantities);
+        for (column, ([value, noise], clear)) in columns {
+            column.values = *self.registers.rows(*value);
+            column.noise = self.registers.rows(*noise).map(f64::abs);
+            let both = column.values.iter().zip(&column.noise);
+            for (holds, (&value, &noise)) in holds.iter_mut().zip(both) {
+                *holds &= value.is_finite() & (!clear | is_clear([value, noise]));
+            }
+        }
+        holds
+    }
+}
+
+impl Meter<'_> {
+    /// The numbers at a row from which its quantities follow.
+    fn given(&mut self, at: &Configuration<f64>, time: f64, mut put: impl FnMut(usize, f64)) {
+        let mut next = 0;
+        let mut put = |x: f64| {
+            put(next, x);
+            next += 1;
+        };
+        at.joints.iter().for_each(|&x| put(x));
+        for pose in &at.platforms {
+            let parts = pose.orientation.0.iter().chain(&pose.position.0);
+            parts.for_each(|&x| put(x));
+        }
+        for of in 0..self.ways.len() {
+            if self.plan.moves() && self.ways[of].is_some() {
+                self.driven(of, time).into_iter().for_each(&mut put);
+            }
+        }
+        if let Some((classifier, figures)) = &mut self.distances {
+            for figure in figures {
+                put(classifier.distance(*figure, at).unwrap_or(f64::NAN));
+            }
+        }
+    }
+
+    /// Writes the quantities down at a row; none if not all of them can be, or if it is singular.
+    pub(super) fn recorded(&mut self, block: &Block) -> Option<Recording> {
+        let (row, time) = block.row(0);
+        let mut sample = Vec::new();
+        self.given(row.configuration, time, |_, x| sample.push(x));
+        let inputs = sample.len();
+        let (written, operations) = record(sample, || self.written(row.configuration));
+        let (quantities, decisions) = written?;
+        let places = quantities.iter().flat_map(|(of, _)| *of);
+        let decided = decisions.iter().map(|(place, _)| *place);
+        let batch = Batch::new(&operations, inputs, &[places.chain(decided).collect()]);
+        let register = |place: Place| batch.result(place);
+        Some(Recording {
+            quantities: (quantities.iter())
+                .map(|(of, clear)| (of.map(register), *clear))
+                .collect(),
+            decided: (decisions.iter())
+                .map(|(place, negative)| (register(*place), *negative))
+                .collect(),
+            registers: batch.registers(),
+            batch,
+        })
+    }
+
+    /// The places of the quantities and of how far they may be off, and what was decided.
+    fn written(&self, at: &Configuration<f64>) -> Option<(Vec<([Place; 2], bool)>, Vec<Decision>)> {
+        let mut all = (0..).map(Recorded::input);
+        let mut next = || all.next().expect("there is no last one");
+        let at = Configuration {
+            joints: at.joints.iter().map(|_| next()).collect(),
+            platforms: (at.platforms.iter())
+                .map(|_| PlatformPose {
+                    orientation: Quaternion([(); 4].map(|()| next())),
+                    position: crate::geometry::Vector3([(); 3].map(|()| next())),
+                })
+                .collect(),
+        };
+        let mut driven = [(); 2].map(|()| vec![Recorded::zero(); self.ways.len()]);
+        for (of, way) in self.ways.iter().enumerate() {
+            if self.plan.moves() && way.is_some() {
+                driven.iter_mut().for_each(|driven| driven[of] = next());
+            }
+        }
+        let mut probe = Probe::new(self.of, &self.plan);
+        probe.at(&self.plan, &at, &driven, self.spins()?);
+        let found = &probe.found;
+        if self.plan.moves() && !found.moves {
+            return None;
+        }
+        let mut figures = self.figures_of(&found.jacobian)?;
+        if let Some((_, distances)) = &self.distances {
+            figures.extend(distances.iter().map(|figure| (*figure, Some(next()))));
+        }
+        let here = Here::new(&at, found, &figures);
+        let names = self.names.iter();
+        let known: Vec<[Recorded; 2]> = names
+            .map(|(name, number)| self.value(&here, name, *number))
+            .collect();
+        let written = self.programs.iter().map(|program| {
+            let both = estimated(program, &known)?;
+            let both: [Place; 2] = both.map(Recorded::place);
+            Some((both, !is_name(program)))
+        });
+        let written = written.collect::<Option<_>>()?;
+        Some((written, Recorded::decisions()))
+    }
+
+    /// Reads the rows of a block side by side; whether each could be.
+    pub(super) fn read_together(&mut self, block: &mut Block) -> [bool; BATCH] {
+        let Some(mut recording) = self.recording.take() else {
+            return [false; BATCH];
+        };
+        for i in 0..block.len() {
+            let (row, time) = block.row(i);
+            let registers = &mut recording.registers;
+            self.given(row.configuration, time, |input, x| {
+                registers.rows_mut(input)[i] = x;
+            });
+        }
+        let holds = recording.run(block);
+        self.recording = Some(recording);
+        holds
+    }
+}
