@@ -15,6 +15,7 @@ mod gimbal_lock;
 mod lengths;
 mod mobility;
 mod modes;
+mod printed_solutions;
 mod quantities;
 mod rank;
 mod reports;
