@@ -1,11 +1,13 @@
 //! Solvers written as C and Rust: compiled without warnings, they find what the library finds.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use linkwork::analysis::solver::{NoSolver, Solver};
+use linkwork::algebra::SiUnit;
+use linkwork::analysis::solver::{Component, NoSolver, Solver};
 use linkwork::ask::{Example, Question};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::solver::{Code, Language, Precision};
@@ -13,6 +15,8 @@ use linkwork::solve::Watch;
 
 /// Configurations that every solver is run through.
 const CONFIGURATIONS: usize = 10_000;
+/// Every number of a state that is no assembly of any.
+const NOWHERE: f64 = 0.123;
 /// Unknowns of the largest mechanisms that are compiled.
 const MOST_UNKNOWNS: usize = 12;
 
@@ -88,6 +92,26 @@ fn has_cc() -> bool {
         eprintln!("skipped: there is no C compiler here");
     }
     has
+}
+
+fn c_program(folder: &Path, main: &str) -> PathBuf {
+    let (source, program) = (folder.join("all.c"), folder.join("all_c"));
+    fs::write(&source, main).unwrap();
+    compiled(cc().arg(&source).arg("-o").arg(&program).arg("-lm"));
+    program
+}
+
+fn rust_program(folder: &Path, main: &str) -> PathBuf {
+    let (source, program) = (folder.join("all.rs"), folder.join("all_rust"));
+    fs::write(&source, main).unwrap();
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    compiled(
+        Command::new(rustc)
+            .args(["--edition=2021", "-Copt-level=1", "-Dwarnings", "-o"])
+            .arg(&program)
+            .arg(&source),
+    );
+    program
 }
 
 /// All configurations of all mechanisms as numbers in a file, in the order of the solvers.
@@ -174,10 +198,7 @@ static void run_{name}(FILE *file)
          if (!file) return 1;\n{calls}    return 0;\n}}\n"
     )
     .unwrap();
-    let (source, program) = (folder.join("all.c"), folder.join("all_c"));
-    fs::write(&source, main).unwrap();
-    compiled(cc().arg(&source).arg("-o").arg(&program).arg("-lm"));
-    program
+    c_program(folder, &main)
 }
 
 /// The same as Rust.
@@ -220,16 +241,147 @@ fn main() {{
 "#
     )
     .unwrap();
-    let (source, program) = (folder.join("all.rs"), folder.join("all_rust"));
-    fs::write(&source, main).unwrap();
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    compiled(
-        Command::new(rustc)
-            .args(["--edition=2021", "-Copt-level=1", "-Dwarnings", "-o"])
-            .arg(&program)
-            .arg(&source),
-    );
-    program
+    rust_program(folder, &main)
+}
+
+/// For all combinations of signs, each from a state that is nothing like it: the verdict and the state of `assembly`, by a program in
+/// either language. It is called at the inputs of the start, but for the last solver at those given.
+fn assembled(
+    language: Language,
+    folder: &Path,
+    solvers: &[(String, Question, Solver)],
+    last: f64,
+) -> Vec<Vec<(i32, Vec<f64>)>> {
+    let (mut main, mut calls) = (String::new(), String::new());
+    for (i, (name, _, solver)) in solvers.iter().enumerate() {
+        let inputs = solver
+            .inputs
+            .iter()
+            .map(|input| match i + 1 == solvers.len() {
+                true => format!("{last:?}"),
+                false => format!("{:?}", input.value),
+            });
+        let inputs = inputs.collect::<Vec<_>>().join(", ");
+        let text = code(language, name).solver(solver);
+        let all = 1 << solver.closed.as_ref().unwrap().signs.len();
+        match language {
+            Language::Rust => {
+                fs::write(folder.join(format!("{name}.rs")), text).unwrap();
+                writeln!(main, "mod {name};").unwrap();
+                write!(
+                    calls,
+                    r#"    for k in 0..{all} {{
+        use {name}::*;
+        let (mut x, u) = ([{NOWHERE}; STATE], [{inputs}]);
+        let signs = std::array::from_fn(|i| if k >> i & 1 == 0 {{ 1.0 }} else {{ -1.0 }});
+        print!("{{}}", assembly(&u, Some(&signs), &mut x) as i32);
+        x.iter().for_each(|x| print!(" {{x:e}}"));
+        println!();
+    }}
+"#
+                )
+                .unwrap();
+            }
+            Language::C => {
+                let upper = name.to_uppercase();
+                fs::write(folder.join(format!("{name}.h")), text).unwrap();
+                writeln!(main, "#include \"{name}.h\"").unwrap();
+                write!(
+                    calls,
+                    r#"    for (k = 0; k < {all}; ++k) {{
+        const double u[] = {{{inputs}}};
+        double x[{upper}_STATE], signs[8];
+        for (i = 0; i < {upper}_STATE; ++i) x[i] = {NOWHERE};
+        for (i = 0; i < 8; ++i) signs[i] = (k >> i) & 1 ? -1 : 1;
+        printf("%d", {name}_assembly(u, signs, x));
+        for (i = 0; i < {upper}_STATE; ++i) printf(" %.17e", x[i]);
+        printf("\n");
+    }}
+"#
+                )
+                .unwrap();
+            }
+        }
+    }
+    let program = match language {
+        Language::Rust => rust_program(folder, &format!("{main}fn main() {{\n{calls}}}\n")),
+        Language::C => c_program(
+            folder,
+            &format!(
+                "#include <stdio.h>\n{main}int main(void)\n{{\n    int i, k;\n{calls}    return 0;\n}}\n"
+            ),
+        ),
+    };
+    let said = String::from_utf8(Command::new(program).output().unwrap().stdout).unwrap();
+    let mut lines = said.lines().map(|line| {
+        let (verdict, state) = line.split_once(' ').unwrap();
+        let state = state.split(' ').map(|x| x.parse().unwrap());
+        (verdict.parse().unwrap(), state.collect())
+    });
+    let of = |(_, _, solver): &(String, Question, Solver)| {
+        let signs = solver.closed.as_ref().unwrap().signs.len();
+        lines.by_ref().take(1 << signs).collect()
+    };
+    solvers.iter().map(of).collect()
+}
+
+/// Homotopies over the complex numbers, which know nothing of the formulas, find the assemblies. Where crank and rocker
+/// of the 4-bar are too far apart for its coupler there are none, whatever the signs; where bars of the scissor lift
+/// or of the inversor are folded onto one another others turn freely, which is said.
+#[test]
+fn each_combination_of_signs_is_an_assembly_of_its_own() {
+    let mut solvers = shipped();
+    solvers.retain(|(_, _, solver)| solver.closed.is_some());
+    assert!(solvers.len() >= 19, "{} in closed form", solvers.len());
+    let rocker = load("four_bar").free("theta1").hold("phi1", 2.4);
+    let solver = written(&rocker).unwrap();
+    solvers.push(("apart".into(), rocker, solver));
+    let mut languages = vec![("signs", Language::Rust)];
+    languages.extend(has_cc().then_some(("signs_c", Language::C)));
+    let found = solvers.iter().map(|(_, question, solver)| {
+        let found = question.assemblies(Default::default(), &Watch::none());
+        let mut found = found.unwrap();
+        let sets: Vec<usize> = (found.continua.iter())
+            .flat_map(|set| set.samples.iter().copied())
+            .collect();
+        found.assemblies.retain(|one| !sets.contains(&one.mode));
+        let found = found.assemblies.into_iter().map(|assembly| {
+            let of = |joint: &Component| *assembly.joints.get(&joint.name).unwrap();
+            solver.state.iter().map(of).collect()
+        });
+        found.collect()
+    });
+    let mut found: Vec<Vec<Vec<f64>>> = found.collect();
+    *found.last_mut().unwrap() = Vec::new();
+    for (place, language) in languages {
+        let answers = assembled(language, &folder(place), &solvers, 2.0);
+        for (((name, _, solver), answers), found) in solvers.iter().zip(answers).zip(&found) {
+            // not assembled, or undetermined: the state is left as it was
+            let (apart, real): (Vec<_>, Vec<_>) =
+                (answers.into_iter()).partition(|(_, x)| x.iter().all(|x| *x == NOWHERE));
+            assert_eq!(real.len(), found.len(), "{name}");
+            for assembly in found {
+                let same = (real.iter()).filter(|(_, state)| is_same(solver, state, assembly));
+                assert_eq!(same.count(), 1, "{name} {assembly:?}");
+            }
+            let free = ["axes_scissor_lift", "peaucellier"].contains(&name.as_str());
+            let refused = if free { 1 } else { 2 };
+            assert!(apart.iter().all(|(v, _)| *v == refused), "{name}");
+            assert!(real.iter().all(|(v, _)| *v < 2), "{name}");
+        }
+    }
+}
+
+/// Whether two states are equal but for whole turns of angles.
+fn is_same(solver: &Solver, a: &[f64], b: &[f64]) -> bool {
+    let pairs = a.iter().zip(b).zip(&solver.state);
+    pairs.into_iter().all(|((a, b), component)| {
+        let turns = match component.unit {
+            SiUnit::RADIAN => ((a - b) / TAU).round(),
+            _ => 0.0,
+        };
+        (a - b - TAU * turns).abs() < 1e-9
+    })
 }
 
 /// The rocker of the 4-bar turns back where crank and coupler are in line: law of cosines.

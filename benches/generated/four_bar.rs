@@ -64,15 +64,12 @@ fn larger(size: f64, x: f64) -> f64 {
     if size > x { size } else { x }
 }
 
-/// √x for x ≥ 0: by its series near 1, where quaternions are, otherwise by Newton's method for 1/√x.
+/// 1/√x for x > 0: by its series near 1, where quaternions are, otherwise by Newton's method.
 #[inline]
-fn root(x: f64) -> f64 {
+fn inverse_root(x: f64) -> f64 {
     let e = x - 1.0;
     if absolute(e) < 1e-4 {
-        return 1.0 + e * (0.5 - e * (0.125 - e * 0.0625));
-    }
-    if !(x > 0.0) {
-        return 0.0;
+        return 1.0 - e * (0.5 - e * (0.375 - e * 0.3125));
     }
     let mut y: f64 = f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (x.to_bits() >> 1));
     let mut k = 0;
@@ -80,6 +77,16 @@ fn root(x: f64) -> f64 {
         y = y * (1.5 - 0.5 * x * y * y);
         k += 1;
     }
+    y
+}
+
+/// √x for x ≥ 0.
+#[inline]
+fn root(x: f64) -> f64 {
+    if !(x > 0.0) {
+        return 0.0;
+    }
+    let y = inverse_root(x);
     let s = x * y;
     s + 0.5 * y * (x - s * s)
 }

@@ -77,15 +77,12 @@ fn larger(size: f64, x: f64) -> f64 {
     if size > x { size } else { x }
 }
 
-/// √x for x ≥ 0: by its series near 1, where quaternions are, otherwise by Newton's method for 1/√x.
+/// 1/√x for x > 0: by its series near 1, where quaternions are, otherwise by Newton's method.
 #[inline]
-fn root(x: f64) -> f64 {
+fn inverse_root(x: f64) -> f64 {
     let e = x - 1.0;
     if absolute(e) < 1e-4 {
-        return 1.0 + e * (0.5 - e * (0.125 - e * 0.0625));
-    }
-    if !(x > 0.0) {
-        return 0.0;
+        return 1.0 - e * (0.5 - e * (0.375 - e * 0.3125));
     }
     let mut y: f64 = f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (x.to_bits() >> 1));
     let mut k = 0;
@@ -93,6 +90,16 @@ fn root(x: f64) -> f64 {
         y = y * (1.5 - 0.5 * x * y * y);
         k += 1;
     }
+    y
+}
+
+/// √x for x ≥ 0.
+#[inline]
+fn root(x: f64) -> f64 {
+    if !(x > 0.0) {
+        return 0.0;
+    }
+    let y = inverse_root(x);
     let s = x * y;
     s + 0.5 * y * (x - s * s)
 }
@@ -538,8 +545,7 @@ fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
     let t997: f64 = t995 + t996;
     let t998: f64 = t992 * t992;
     let t999: f64 = t997 + t998;
-    let t1000: f64 = root(t999);
-    let t1001: f64 = 1.0 / t1000;
+    let t1001: f64 = inverse_root(t999);
     let t1002: f64 = t974 * t1001;
     let t1003: f64 = t980 * t1001;
     let t1004: f64 = t986 * t1001;
@@ -1175,8 +1181,7 @@ fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
         let t997: f64 = t995 + t996;
         let t998: f64 = t992 * t992;
         let t999: f64 = t997 + t998;
-        let t1000: f64 = root(t999);
-        let t1001: f64 = 1.0 / t1000;
+        let t1001: f64 = inverse_root(t999);
         let t1002: f64 = t974 * t1001;
         let t1003: f64 = t980 * t1001;
         let t1004: f64 = t986 * t1001;

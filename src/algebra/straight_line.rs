@@ -2,8 +2,8 @@
 //!
 //! [`Number`] is `Copy`, so a [`Recorded`] is a place in a list of operations that belongs to its thread.
 //! [`record`] opens the list, runs the work and hands the list over. Equal operations have one place (common
-//! subexpressions are shared), operations on constants are carried out, and sums with 0 and products with 0, 1 and −1
-//! are left out, so that structural zeros are recognised.
+//! subexpressions are shared), operations on constants are carried out, multiples of one number are added, and sums with 0
+//! and products with 0, 1 and −1 are left out, so that structural zeros are recognised.
 
 mod batch;
 mod elimination;
@@ -89,6 +89,26 @@ impl List {
         }
     }
 
+    /// k and x of k x with a constant k.
+    fn scaled(&self, of: Recorded) -> Option<(f64, Recorded)> {
+        match self.operations[of.0 as usize] {
+            Operation::Multiply(k, x) => Some((self.constant(Recorded(k))?, Recorded(x))),
+            _ => None,
+        }
+    }
+
+    /// k x + l x of two multiples of the same number.
+    fn merged(&mut self, x: Recorded, y: Recorded, sign: f64) -> Option<Recorded> {
+        let (a, b) = (self.scaled(x), self.scaled(y));
+        let (k, of) = a.unwrap_or((1.0, x));
+        let (l, other) = b.unwrap_or((1.0, y));
+        if of != other || (a.is_none() && b.is_none()) {
+            return None;
+        }
+        let factor = self.literal(k + sign * l);
+        Some(self.multiply(factor, of))
+    }
+
     fn literal(&mut self, x: f64) -> Recorded {
         // −0 and 0 are one constant
         self.put(Operation::Constant(x + 0.0))
@@ -112,6 +132,9 @@ impl List {
             (_, Some(0.0)) => return x,
             _ => {}
         }
+        if let Some(sum) = self.merged(x, y, 1.0) {
+            return sum;
+        }
         match (self.negated(x), self.negated(y)) {
             (_, Some(b)) => self.subtract(x, b),
             (Some(a), None) => self.subtract(y, a),
@@ -125,6 +148,9 @@ impl List {
             (Some(0.0), _) => return self.negate(y),
             (_, Some(0.0)) => return x,
             _ => {}
+        }
+        if let Some(difference) = self.merged(x, y, -1.0) {
+            return difference;
         }
         if let Some(rest) = self.without(x, y, 0) {
             return rest;
@@ -182,11 +208,20 @@ impl List {
                 -1.0 => return self.negate(y),
                 _ => {}
             }
-            if let Operation::Multiply(c, inner) = self.operations[y.0 as usize]
-                && let Some(second) = self.constant(Recorded(c))
-            {
+            if let Some((second, inner)) = self.scaled(y) {
                 let factor = self.literal(factor * second);
-                return self.multiply(factor, Recorded(inner));
+                return self.multiply(factor, inner);
+            }
+        } else {
+            // l (k sin x) = k (l sin x): a length times directions at fixed angles to one another is one product
+            for (x, y) in [(x, y), (y, x)] {
+                if let Some((factor, inner)) = self.scaled(x)
+                    && let Operation::Sin(_) | Operation::Cos(_) = self.operations[inner.0 as usize]
+                    && let Operation::Input(_) = self.operations[y.0 as usize]
+                {
+                    let (factor, product) = (self.literal(factor), self.multiply(inner, y));
+                    return self.multiply(factor, product);
+                }
             }
         }
         match (self.negated(x), self.negated(y)) {
@@ -417,6 +452,11 @@ mod tests {
             assert_eq!((sum - x) - y * y, x * y);
             assert_eq!(-(-x), x);
             assert_eq!(x * y, y * x);
+            let [quarter, half] = [0.25, 0.5].map(Recorded::from_f64);
+            assert_eq!(quarter * x + half * x + quarter * x, x);
+            assert_eq!(half * x - half * x, zero);
+            let of = x.sin_cos().0;
+            assert_eq!((half * of) * y, half * (of * y));
             let (sin, cos) = (-x).sin_cos();
             assert_eq!((-sin, cos), x.sin_cos());
             (x * y + sin).place()

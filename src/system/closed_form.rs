@@ -158,7 +158,7 @@ impl ClosedSolution {
             derivation.read(&formal);
             let unsolved = derivation.left();
             let solved = derivation.run();
-            let (_, residual) = solved.tried(question, at);
+            let residual = solved.tried(question, at).residual;
             // equations that were too long are missing, and signs may depend on one another
             let holds = !solved.is_complete() || residual < CLOSED;
             Ok(if holds { solved } else { unsolved })

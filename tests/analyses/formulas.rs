@@ -343,7 +343,7 @@ fn ron_pastes_back_and_is_proved() {
 }
 
 /// The functions of Rust text: name, arguments.
-fn functions(text: &str) -> Vec<(String, Vec<String>)> {
+pub fn functions(text: &str) -> Vec<(String, Vec<String>)> {
     let lines = text.lines().filter_map(|line| line.strip_prefix("pub fn "));
     let functions = lines.map(|line| {
         let (name, rest) = line.split_once('(').unwrap();
@@ -356,9 +356,27 @@ fn functions(text: &str) -> Vec<(String, Vec<String>)> {
     functions.collect()
 }
 
+/// What a Rust program prints, which must compile without warnings.
+pub fn run(program: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let [source, built] = ["formulas.rs", "formulas"].map(|name| folder.path().join(name));
+    fs::write(&source, program).unwrap();
+    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = Command::new(compiler)
+        .args(["--edition=2024", "-Dwarnings", "-Adead_code", "-o"])
+        .args([&built, &source])
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(Command::new(built).output().unwrap().stdout).unwrap()
+}
+
 #[test]
 fn rust_functions_compile_and_agree_with_the_chains() {
-    let folder = tempfile::tempdir().unwrap();
     let mut program = String::new();
     let mut main = String::new();
     let mut expected: Vec<(String, f64)> = Vec::new();
@@ -399,32 +417,7 @@ fn rust_functions_compile_and_agree_with_the_chains() {
         }
     }
     program += &format!("fn main() {{\n{main}}}\n");
-    let source = folder.path().join("formulas.rs");
-    fs::write(&source, program).unwrap();
-    let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let built = Command::new(compiler)
-        .args([
-            "--edition",
-            "2024",
-            "-D",
-            "warnings",
-            "-A",
-            "dead_code",
-            "-o",
-        ])
-        .arg(folder.path().join("formulas"))
-        .arg(&source)
-        .output()
-        .unwrap();
-    assert!(
-        built.status.success(),
-        "{}",
-        String::from_utf8_lossy(&built.stderr)
-    );
-    let ran = Command::new(folder.path().join("formulas"))
-        .output()
-        .unwrap();
-    let printed = String::from_utf8(ran.stdout).unwrap();
+    let printed = run(&program);
     let found: Vec<f64> = printed.lines().map(|line| line.parse().unwrap()).collect();
     assert_eq!(found.len(), expected.len());
     for (found, (place, expected)) in found.into_iter().zip(expected) {
@@ -447,8 +440,8 @@ for (const [, body] of text.matchAll(/^\\\[\n([\s\S]*?)\n\\\]$/gm)) {
 console.log(count);
 "#;
 
-#[test]
-fn latex_is_set_by_katex() {
+/// Sets all displays of a text; nothing where node or KaTeX is not installed.
+pub fn set_by_katex(latex: &str) -> Option<Result<usize, String>> {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/katex/node_modules/katex");
     let katex = if own.exists() {
         own
@@ -456,15 +449,32 @@ fn latex_is_set_by_katex() {
         PathBuf::from("katex")
     };
     let folder = tempfile::tempdir().unwrap();
-    let script = folder.path().join("set.cjs");
+    let [script, tex] = ["set.cjs", "formulas.tex"].map(|name| folder.path().join(name));
     fs::write(&script, KATEX).unwrap();
-    let set = |tex: &Path| {
-        Command::new("node")
-            .arg(&script)
-            .arg(&katex)
-            .arg(tex)
-            .output()
+    fs::write(&tex, latex).unwrap();
+    let ran = match Command::new("node").args([&script, &katex, &tex]).output() {
+        Ok(ran) => ran,
+        Err(error) => {
+            eprintln!("skipped: node does not run ({error})");
+            return None;
+        }
     };
+    let complaint = String::from_utf8(ran.stderr).unwrap();
+    if complaint.contains("Cannot find module") {
+        eprintln!(
+            "skipped: KaTeX is not here; `npm install --prefix target/katex katex` brings it"
+        );
+        return None;
+    }
+    let count = String::from_utf8(ran.stdout).unwrap();
+    Some(match ran.status.success() {
+        true => Ok(count.trim().parse().unwrap()),
+        false => Err(complaint),
+    })
+}
+
+#[test]
+fn latex_is_set_by_katex() {
     let mut whole = String::new();
     for (_, _, report) in all() {
         whole += &output::latex(report);
@@ -473,30 +483,12 @@ fn latex_is_set_by_katex() {
     whole += &output::latex(&everything(&strange));
     let displays = whole.lines().filter(|line| *line == "\\[").count();
     assert!(displays > 300, "{displays}");
-    let tex = folder.path().join("formulas.tex");
-    fs::write(&tex, &whole).unwrap();
-    let ran = match set(&tex) {
-        Ok(ran) => ran,
-        Err(error) => {
-            eprintln!("skipped: node does not run ({error})");
-            return;
-        }
-    };
-    let complaint = String::from_utf8_lossy(&ran.stderr);
-    if complaint.contains("Cannot find module") {
-        eprintln!(
-            "skipped: KaTeX is not here; `npm install --prefix target/katex katex` brings it"
-        );
+    let Some(set) = set_by_katex(&whole) else {
         return;
-    }
-    assert!(ran.status.success(), "{complaint}");
-    assert_eq!(
-        String::from_utf8_lossy(&ran.stdout).trim(),
-        displays.to_string()
-    );
+    };
+    assert_eq!(set, Ok(displays));
     // and what is no LaTeX is refused
-    fs::write(&tex, "\\[\n\\frac{1\n\\]\n").unwrap();
-    assert!(!set(&tex).unwrap().status.success());
+    assert!(set_by_katex("\\[\n\\frac{1\n\\]\n").unwrap().is_err());
 }
 
 /// Chains and closures may be called anything.

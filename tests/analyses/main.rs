@@ -16,6 +16,7 @@ mod lengths;
 mod many;
 mod mobility;
 mod modes;
+mod printed_solutions;
 mod quantities;
 mod rank;
 mod reports;

@@ -130,7 +130,10 @@ pub struct SolutionFormula {
     pub remaining: Option<Remaining>,
     /// How many combinations of signs are real where the question holds its inputs.
     pub real: usize,
-    /// Solutions that were put into the closure equations, at these and at random inputs.
+    /// Combinations of signs there for which a joint is undetermined: the assemblies are infinitely many.
+    #[serde(default)]
+    pub undetermined: usize,
+    /// Solutions checked by substitution into the closure equations, at these and at random inputs.
     pub samples: usize,
     /// The largest closure residual of them, in characteristic lengths and rad.
     pub residual: f64,

@@ -8,11 +8,11 @@ use crate::algebra::{EvaluationError, Expression, Function, Node, Operator};
 use crate::mechanism::{Configuration, JointKind, Mechanism};
 use crate::system::{ClosedSolution, Question, Rule, Step, check_count, random_configuration};
 
-/// Random inputs at which formulas are put into the closure equations.
+/// Random inputs at which the formulas are checked by substitution into the closure equations.
 const SAMPLES: usize = 40;
 
-/// Solves the closures of a question one after another, as far as they can be, and puts the solutions into the closure
-/// equations at random inputs, with all combinations of signs. `at` is an assembled configuration.
+/// Solves the closures of a question one after another, as far as they can be, and checks the solutions at random inputs,
+/// with all combinations of signs, by substitution into the closure equations. `at` is an assembled configuration.
 ///
 /// # Errors
 /// If an expression of the file has no value in letters.
@@ -43,6 +43,7 @@ pub fn solution(
         steps,
         remaining,
         real: 0,
+        undetermined: 0,
         samples: 0,
         residual: 0.0,
         overdetermined: check_count(question).is_err(),
@@ -60,7 +61,7 @@ pub fn solution(
     })
 }
 
-/// Fills in what comes of putting all branches into the closure equations.
+/// Checks all branches by substitution into the closure equations.
 fn check(
     solution: &mut SolutionFormula,
     form: &ClosedSolution,
@@ -76,12 +77,13 @@ fn check(
             (_, true) => break,
             _ => random_configuration(mechanism, at, &mut rng),
         };
-        let (real, residual) = form.tried(question, &inputs);
+        let tried = form.tried(question, &inputs);
         if sample == 0 {
-            solution.real = real;
+            solution.real = tried.real;
+            solution.undetermined = tried.undetermined;
         }
-        solution.samples += real;
-        solution.residual = solution.residual.max(residual);
+        solution.samples += tried.real;
+        solution.residual = solution.residual.max(tried.residual);
     }
 }
 

@@ -141,17 +141,16 @@ impl Placing {
         let origin = rotation * self.balls[0].map(Recorded::from_f64);
         let (orientation, square) = at.platforms[self.platform].orientation.near(&rotation);
         let position = tips[0] - origin;
-        (
-            PlatformPose {
-                orientation,
-                position,
-            },
-            Pivot {
-                number: square,
-                inverse: square.sqrt(),
-                scale: 0.5 / LEAST_PIVOT,
-            },
-        )
+        let pivot = Pivot {
+            number: square,
+            inverse: orientation.0[0],
+            scale: 0.5 / LEAST_PIVOT,
+        };
+        let pose = PlatformPose {
+            orientation,
+            position,
+        };
+        (pose, pivot)
     }
 }
 

@@ -77,7 +77,14 @@ fn answer(solution: &SolutionFormula) -> String {
                 real if real == all => "all of them real here".to_owned(),
                 real => format!("{real} of them real here"),
             };
-            format!("Solved in closed form{given}: {signs}, so at most {all} assemblies, {real}.")
+            let solved = format!("Solved in closed form{given}: {signs}, so at most {all}");
+            match solution.undetermined {
+                0 => format!("{solved} assemblies, {real}."),
+                others => format!(
+                    "{solved} isolated assemblies, {real}; for {others} more combinations of signs a joint is undetermined, \
+                     and the assemblies are infinitely many."
+                ),
+            }
         }
     }
 }

@@ -88,10 +88,25 @@ impl<'a> Writer<'a> {
         let mut open: Vec<Place> = places.into_iter().collect();
         while let Some(place) = open.pop() {
             if needed.insert(place) {
-                open.extend(self.solver.operations[place as usize].operands());
+                match self.root_under(place) {
+                    Some((of, square)) => open.extend([of, square]),
+                    None => open.extend(self.solver.operations[place as usize].operands()),
+                }
             }
         }
         needed
+    }
+
+    /// Of x/√y the places of x and y: it is written with 1/√y.
+    fn root_under(&self, place: Place) -> Option<(Place, Place)> {
+        let operations = &self.solver.operations;
+        match operations[place as usize] {
+            Operation::Divide(x, root) => match operations[root as usize] {
+                Operation::Root(y) => Some((x, y)),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     /// The numbers of the state whose sines or cosines are used.
@@ -330,6 +345,7 @@ impl Text<'_, '_> {
         let Writer { code, solver, .. } = self.writer;
         let pivots = solver.pivots.iter();
         for pivot in pivots.filter(|pivot| used.contains(&pivot.inverse)) {
+            self.operations(self.writer.needed([pivot.place]));
             let name = self.writer.name(pivot.place, self.carries);
             let scale = code.precision.literal(pivot.scale, code.language);
             let small = format!("!(@fabs@({name}) > {scale} * LEAST_PIVOT)");
@@ -356,7 +372,16 @@ impl Text<'_, '_> {
                     self.turned(place, angle);
                 }
                 of => {
-                    let value = operation(of, &name);
+                    let value = match writer.root_under(place) {
+                        Some((x, y)) => {
+                            let inverse = format!("@own@inverse_root({})", name(y));
+                            match writer.solver.operations[x as usize] {
+                                Operation::Constant(1.0) => inverse,
+                                _ => format!("{} * {inverse}", name(x)),
+                            }
+                        }
+                        None => operation(of, &name),
+                    };
                     let value = match writer.sign_of(place) {
                         Some(number) => writer.code.language.sign(number, &value),
                         None => value,

@@ -25,6 +25,17 @@ pub trait Branching<T> {
     fn quotient(&mut self, of: T, over: T) -> T;
 }
 
+/// What comes of all combinations of signs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tried {
+    /// How many are real.
+    pub real: usize,
+    /// How many leave a variable undetermined.
+    pub undetermined: usize,
+    /// The largest closure residual of the real ones, in characteristic lengths and rad.
+    pub residual: f64,
+}
+
 impl ClosedSolution {
     /// The joint variables for what is held in `at`; those to be found are near those in `at`.
     ///
@@ -82,79 +93,84 @@ impl ClosedSolution {
         Ok(found)
     }
 
-    /// The joint variables with given signs of the steps that have two solutions; `None` if they are not real, or not
-    /// determined.
-    pub fn branch(
-        &self,
-        mechanism: &Mechanism,
-        at: &Configuration<f64>,
-        signs: &[bool],
-    ) -> Option<Configuration<f64>> {
-        let mut signed = Signed {
-            signs: signs.iter(),
-            real: true,
-        };
-        let found = self.solve(mechanism, at, &mut signed).ok()?;
-        signed.real.then_some(found)
-    }
-
-    /// All real solutions, each with its signs.
+    /// The real solutions for all combinations of signs. Left out, and counted, are combinations for which a number that
+    /// is divided by vanishes: they leave a variable undetermined.
     pub fn branches(
         &self,
         mechanism: &Mechanism,
         at: &Configuration<f64>,
-    ) -> Vec<(Vec<bool>, Configuration<f64>)> {
-        let signs = self.signs();
-        let all = (0_u64..1 << signs.min(20)).filter_map(|number| {
-            let signs: Vec<bool> = (0..signs).map(|i| number >> i & 1 == 0).collect();
-            let found = self.branch(mechanism, at, &signs)?;
-            Some((signs, found))
+    ) -> (Vec<Configuration<f64>>, usize) {
+        let all = (0_u64..1 << self.signs().min(20)).filter_map(|signs| {
+            let mut signed = Signed {
+                signs,
+                real: true,
+                divisors: Vec::new(),
+            };
+            let found = self.solve(mechanism, at, &mut signed).ok()?;
+            signed.real.then_some((signed.divisors, found))
         });
-        all.collect()
+        let all: Vec<_> = all.collect();
+        let mut sizes: Vec<f64> = Vec::new();
+        for (divisors, _) in &all {
+            sizes.resize(divisors.len(), 0.0);
+            let pairs = sizes.iter_mut().zip(divisors);
+            pairs.for_each(|(size, divisor)| *size = size.max(*divisor));
+        }
+        let count = all.len();
+        let determined = all.into_iter().filter_map(|(divisors, found)| {
+            let mut pairs = divisors.iter().zip(&sizes);
+            let all = pairs.all(|(divisor, size)| *divisor > ROUNDING * size);
+            all.then_some(found)
+        });
+        let determined: Vec<_> = determined.collect();
+        let left_out = count - determined.len();
+        (determined, left_out)
     }
-}
 
-impl ClosedSolution {
-    /// How many branches are real for the held values of a configuration, and the largest closure residual of them, in
-    /// characteristic lengths and rad.
-    pub fn tried(&self, question: &Question, inputs: &Configuration<f64>) -> (usize, f64) {
+    /// All combinations of signs for the held values of a configuration.
+    pub fn tried(&self, question: &Question, inputs: &Configuration<f64>) -> Tried {
         let mechanism = question.mechanism();
         let held = question.held_coordinates().into_iter();
         let values: Vec<_> = held.map(|c| (c, c.of(inputs))).collect();
         let there = question.clone().near(inputs).at_values(values).start();
-        let branches = self.branches(mechanism, &there);
+        let (branches, undetermined) = self.branches(mechanism, &there);
         let system = System::new(mechanism.dimensions(), &question.held());
         let mut work = system.work();
         let mut largest = 0.0_f64;
-        for (_, found) in &branches {
+        for found in &branches {
             system.residual(found, &mut work);
             let rows = system.residual_of(&work).iter();
             largest = rows.fold(largest, |most, row| most.max(row.abs()));
         }
-        (branches.len(), largest)
+        Tried {
+            real: branches.len(),
+            undetermined,
+            residual: largest,
+        }
     }
 
     /// Whether it gives every unknown of a question that is not overdetermined, and holds at a configuration.
     pub fn solves(&self, question: &Question, at: &Configuration<f64>) -> bool {
         let determined = self.is_complete() && check_count(question).is_ok();
-        determined && self.tried(question, at).0 > 0
+        determined && self.tried(question, at).real > 0
     }
 }
 
-/// Below this part of its size a radicand is negative.
+/// Below this part of its size a radicand is negative, and what is divided by is zero.
 const ROUNDING: f64 = 1e-12;
 
-struct Signed<'s> {
-    signs: std::slice::Iter<'s, bool>,
+struct Signed {
+    /// The bits of the signs to come.
+    signs: u64,
     real: bool,
+    divisors: Vec<f64>,
 }
 
-impl Branching<f64> for Signed<'_> {
+impl Branching<f64> for Signed {
     fn sign(&mut self, _: f64) -> f64 {
-        match self.signs.next() {
-            Some(false) => -1.0,
-            _ => 1.0,
-        }
+        let negative = self.signs & 1 == 1;
+        self.signs >>= 1;
+        if negative { -1.0 } else { 1.0 }
     }
 
     fn root(&mut self, radicand: f64, size: f64) -> f64 {
@@ -163,12 +179,12 @@ impl Branching<f64> for Signed<'_> {
     }
 
     fn angle(&mut self, _: f64, sin: f64, cos: f64, norm: f64) -> f64 {
-        self.real &= norm > 0.0;
+        self.divisors.push(norm);
         sin.atan2(cos)
     }
 
     fn quotient(&mut self, of: f64, over: f64) -> f64 {
-        self.real &= over != 0.0;
+        self.divisors.push(over.abs());
         of / over
     }
 }
