@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds page.html, which `linkwork view` fills in: the library for wasm32, the script, both into one page.
-# Needs npm, and either rustup's target wasm32-unknown-unknown or Debian's rustc-web, cargo-web, libstd-rust-web-dev,
+# Needs npm, xz, and either rustup's target wasm32-unknown-unknown or Debian's rustc-web, cargo-web, libstd-rust-web-dev,
 # rust-web-src and lld-22 (another wasm-ld in WASM_LD). PAGE_OUT is where the page goes, if not beside this script; PAGE_TARGET_DIR where cargo works.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,6 +1,6 @@
 // The solver out of the page, for node.
 import { readFileSync } from "node:fs";
-import { gunzipSync } from "node:zlib";
+import { unpackedLzma } from "../../src/page/script/lzma.js";
 
 export async function solver(page) {
   return instance(await compiled(page));
@@ -9,8 +9,8 @@ export async function solver(page) {
 /** The module in a page. */
 export async function compiled(page) {
   const html = readFileSync(page, "utf8");
-  const packed = html.match(/<script type="text\/plain" id="wasm">([^<]*)</)[1];
-  return WebAssembly.compile(gunzipSync(Buffer.from(packed, "base64")));
+  const [, size, packed] = html.match(/id="wasm" data-size="(\d+)">([^<]*)</);
+  return WebAssembly.compile(unpackedLzma(Buffer.from(packed, "base64"), Number(size)));
 }
 
 /** What answers requests. */

@@ -1,5 +1,5 @@
 // The only script that the page's policy names: it unpacks the script that does all the rest, and the solver beside it.
-import { unpacked } from "./packed";
+import { unpacked, unpackedSolver } from "./packed";
 
 const failed = (error: unknown) => {
   const said = document.getElementById("said");
@@ -12,8 +12,7 @@ async function begin() {
   made.src = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
   made.onerror = () => failed("its script was not let in");
   document.body.append(made);
-  // the browser compiles what it has while the rest is unpacked
-  globalThis.solver = WebAssembly.compileStreaming(unpacked("wasm", "application/wasm"));
+  globalThis.solver = WebAssembly.compile(unpackedSolver());
 }
 
 begin().catch(failed);
