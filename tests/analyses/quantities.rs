@@ -407,7 +407,7 @@ fn a_long_motion_has_the_values_of_a_short_one() {
         .load("phi1", 1.0)
         .report(
             "left.x, yaw=left.yaw, turn=velocity:left.yaw, velocity:left+1, acceleration:left+1, \
-             curvature:left+1, transmission, force:theta1, determinant, manipulability, condition, \
+             curvature:left+1, transmission, force:theta1, manipulability, condition, \
              atan2(left.y, left.x), abs(left.x), min(left.x, left.y), max(phi1, 2*phi2), \
              exp(left.y/left.x), asin(left.x/6)^2, sqrt(left.x + 3), left.y^1.5",
         );
@@ -422,12 +422,15 @@ fn a_long_motion_has_the_values_of_a_short_one() {
     let rssr = Question::new(load("rssr"))
         .input("theta", "20 deg", "60 deg")
         .report("velocity, acceleration");
+    let five_bar = Question::new(load("five_bar"))
+        .input("theta1", "60 deg", "75 deg")
+        .report("determinant, condition, velocity");
     let pace = Pace {
         law: Law::Cycloidal,
         duration: 2.0,
     };
     const EVERY: usize = 25;
-    for question in [four_bar, three_rps, rssr] {
+    for question in [four_bar, three_rps, rssr, five_bar] {
         let [short, long] = [40, 40 * EVERY].map(|steps| moved(&question, steps, pace));
         for name in short.columns.iter().map(|of| &of.name) {
             let [short, long] = [&short, &long].map(|motion| column(motion, name));

@@ -140,6 +140,17 @@ pub(crate) struct Normalised<T = f64> {
 }
 
 impl<T: Number> Normalised<T> {
+    /// Column by column.
+    pub fn entries(&self) -> &[T] {
+        &self.entries
+    }
+
+    /// Other entries of the same shape.
+    pub fn set_entries(&mut self, entries: impl Iterator<Item = T>) {
+        self.entries.clear();
+        self.entries.extend(entries);
+    }
+
     pub fn determinant(&self) -> Option<T> {
         (self.rows == self.columns).then(|| determinant(self.rows, &self.entries))?
     }

@@ -6,7 +6,7 @@ use super::found::Here;
 use super::probe::Probe;
 use super::programs::{estimated, is_clear, is_name};
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
-use crate::geometry::Quaternion;
+use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Number;
 
@@ -19,12 +19,25 @@ pub(super) struct Recording {
     quantities: Vec<([usize; 2], bool)>,
     /// Registers of numbers, and whether they are negative.
     decided: Vec<(usize, bool)>,
+    /// Registers of the entries of a Jacobian, if its figures follow from them row by row.
+    entries: Vec<usize>,
+    /// The register of the first of these figures.
+    figures: usize,
+}
+
+/// The places of what a program computes.
+struct Written {
+    /// For each quantity those of its value and of how far that may be off, and whether the value must be large beside
+    /// that.
+    quantities: Vec<([Place; 2], bool)>,
+    decisions: Vec<Decision>,
+    entries: Vec<Place>,
 }
 
 impl Recording {
     /// Runs the program for the rows of a block whose numbers are put into the registers; whether it holds for each.
-    pub fn run(&mut self, block: &mut Block) -> [bool; BATCH] {
-        self.batch.run(0, &mut self.registers);
+    fn run(&mut self, block: &mut Block) -> [bool; BATCH] {
+        self.batch.run(1, &mut self.registers);
         let mut holds = [true; BATCH];
         for (register, negative) in &self.decided {
             let rows = self.registers.rows(*register);
@@ -75,27 +88,34 @@ impl Meter<'_> {
         let (row, time) = block.row(0);
         let mut sample = Vec::new();
         self.given(row.configuration, time, |_, x| sample.push(x));
+        // the figures of the row that was read last
+        let known = self.figures_of(&self.probe.found.jacobian)?;
+        let first = sample.len();
+        sample.extend(known.iter().map(|(_, value)| value.unwrap_or(f64::NAN)));
         let inputs = sample.len();
         let (written, operations) = record(sample, || self.written(row.configuration));
-        let (quantities, decisions) = written?;
-        let places = quantities.iter().flat_map(|(of, _)| *of);
-        let decided = decisions.iter().map(|(place, _)| *place);
-        let batch = Batch::new(&operations, inputs, &[places.chain(decided).collect()]);
+        let written = written?;
+        let places = written.quantities.iter().flat_map(|(of, _)| *of);
+        let decided = written.decisions.iter().map(|(place, _)| *place);
+        let all = places.chain(decided).collect();
+        let batch = Batch::new(&operations, inputs, &[written.entries.clone(), all]);
         let register = |place: Place| batch.result(place);
         Some(Recording {
-            quantities: (quantities.iter())
+            quantities: (written.quantities.iter())
                 .map(|(of, clear)| (of.map(register), *clear))
                 .collect(),
-            decided: (decisions.iter())
+            decided: (written.decisions.iter())
                 .map(|(place, negative)| (register(*place), *negative))
                 .collect(),
+            entries: written.entries.into_iter().map(register).collect(),
+            figures: first,
             registers: batch.registers(),
             batch,
         })
     }
 
-    /// The places of the quantities and of how far they may be off, and what was decided.
-    fn written(&self, at: &Configuration<f64>) -> Option<(Vec<([Place; 2], bool)>, Vec<Decision>)> {
+    /// Writes everything.
+    fn written(&self, at: &Configuration<f64>) -> Option<Written> {
         let mut all = (0..).map(Recorded::input);
         let mut next = || all.next().expect("there is no last one");
         let at = Configuration {
@@ -103,7 +123,7 @@ impl Meter<'_> {
             platforms: (at.platforms.iter())
                 .map(|_| PlatformPose {
                     orientation: Quaternion([(); 4].map(|()| next())),
-                    position: crate::geometry::Vector3([(); 3].map(|()| next())),
+                    position: Vector3([(); 3].map(|()| next())),
                 })
                 .collect(),
         };
@@ -119,10 +139,20 @@ impl Meter<'_> {
         if self.plan.moves() && !found.moves {
             return None;
         }
-        let mut figures = self.figures_of(&found.jacobian)?;
-        if let Some((_, distances)) = &self.distances {
-            figures.extend(distances.iter().map(|figure| (*figure, Some(next()))));
+        let mut distances = Vec::new();
+        if let Some((_, wanted)) = &self.distances {
+            distances.extend(wanted.iter().map(|figure| (*figure, Some(next()))));
         }
+        let (mut figures, entries) = match self.figures_of(&found.jacobian) {
+            Some(figures) => (figures, Vec::new()),
+            None => {
+                let known = self.figures_of(&self.probe.found.jacobian)?;
+                let given = known.iter().map(|(figure, _)| (*figure, Some(next())));
+                let entries = found.jacobian.entries().iter().map(|x| x.place());
+                (given.collect(), entries.collect())
+            }
+        };
+        figures.extend(distances);
         let here = Here::new(&at, found, &figures);
         let names = self.names.iter();
         let known: Vec<[Recorded; 2]> = names
@@ -133,8 +163,11 @@ impl Meter<'_> {
             let both: [Place; 2] = both.map(Recorded::place);
             Some((both, !is_name(program)))
         });
-        let written = written.collect::<Option<_>>()?;
-        Some((written, Recorded::decisions()))
+        Some(Written {
+            quantities: written.collect::<Option<_>>()?,
+            decisions: Recorded::decisions(),
+            entries,
+        })
     }
 
     /// Reads the rows of a block side by side; whether each could be.
@@ -148,6 +181,21 @@ impl Meter<'_> {
             self.given(row.configuration, time, |input, x| {
                 registers.rows_mut(input)[i] = x;
             });
+        }
+        recording.batch.run(0, &mut recording.registers);
+        if !recording.entries.is_empty() {
+            let mut jacobian = std::mem::take(&mut self.probe.found.jacobian);
+            for i in 0..block.len() {
+                let registers = &mut recording.registers;
+                let entries = recording.entries.iter();
+                jacobian.set_entries(entries.map(|of| registers.rows(*of)[i]));
+                let figures = self.figures_of(&jacobian).into_iter().flatten();
+                for (k, (_, value)) in figures.enumerate() {
+                    let first = recording.figures;
+                    registers.rows_mut(first + k)[i] = value.unwrap_or(f64::NAN);
+                }
+            }
+            self.probe.found.jacobian = jacobian;
         }
         let holds = recording.run(block);
         self.recording = Some(recording);
