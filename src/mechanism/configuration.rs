@@ -1,5 +1,5 @@
 use crate::geometry::{Pose, Quaternion, Vector3};
-use crate::number::{LANES, Lanes, Number, Packed};
+use crate::number::{Lanes, Number};
 
 /// The pose of a platform as the solver keeps it: orientation by a unit quaternion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,15 +92,6 @@ impl<T> Configuration<T> {
 }
 
 impl Configuration<Lanes> {
-    /// Several configurations of one mechanism side by side, one for each lane.
-    pub fn beside<'a>(of: impl Fn(usize) -> &'a Configuration<f64>) -> Self {
-        let mut all = of(0).map(Lanes::from_f64);
-        for lane in 0..LANES {
-            all.set_lane(lane, of(lane));
-        }
-        all
-    }
-
     /// Puts a configuration into one lane.
     pub fn set_lane(&mut self, lane: usize, to: &Configuration<f64>) {
         for (x, &value) in self.joints.iter_mut().zip(&to.joints) {
@@ -110,25 +101,6 @@ impl Configuration<Lanes> {
             let parts = (pose.orientation.0.iter_mut()).chain(&mut pose.position.0);
             let values = to.orientation.0.iter().chain(&to.position.0);
             parts.zip(values).for_each(|(x, &value)| x.set(lane, value));
-        }
-    }
-
-    /// The configuration in one lane.
-    pub fn lane(&self, lane: usize) -> Configuration<f64> {
-        self.map(|x| x.part(lane))
-    }
-
-    /// The same, put into another configuration of the mechanism.
-    pub fn copy_lane(&self, lane: usize, to: &mut Configuration<f64>) {
-        for (x, value) in to.joints.iter_mut().zip(&self.joints) {
-            *x = value.part(lane);
-        }
-        for (pose, of) in to.platforms.iter_mut().zip(&self.platforms) {
-            let parts = (pose.orientation.0.iter_mut()).chain(&mut pose.position.0);
-            let values = of.orientation.0.iter().chain(&of.position.0);
-            parts
-                .zip(values)
-                .for_each(|(x, value)| *x = value.part(lane));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! A straight-line program run for many rows of inputs at once.
 
+mod instructions;
+
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -11,6 +13,7 @@ use crate::algebra::evaluation::call;
 use crate::number::Number;
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
 use crate::number::widest;
+use instructions::{Assignment, Code, Instruction, last_uses, needed, written};
 
 /// Rows that are run at once: enough that choosing the operation costs little, few enough that the registers stay in the
 /// first cache.
@@ -23,7 +26,8 @@ struct Register([f64; BATCH]);
 
 /// A straight-line program for rows side by side, with the bits that its operations give one by one.
 ///
-/// It consists of sections. The first is run once, then the second and after it any of the others, as often as needed.
+/// It consists of sections. The first is run once, then the second and after it any of the others, as often as needed. The
+/// results of a section hold until one before it is run again.
 #[derive(Clone, Debug)]
 pub struct Batch {
     sections: Vec<Vec<Instruction>>,
@@ -38,51 +42,6 @@ pub struct Batch {
 #[derive(Clone, Debug)]
 pub struct Registers(Vec<Register>);
 
-#[derive(Clone, Copy, Debug)]
-struct Instruction {
-    code: Code,
-    to: u32,
-    /// As many as the code takes; the others stand for nothing.
-    of: [u32; OPERANDS],
-}
-
-/// The most operands of an instruction.
-const OPERANDS: usize = 5;
-
-#[derive(Clone, Copy, Debug)]
-enum Code {
-    Add,
-    Subtract,
-    Multiply,
-    /// z + x y
-    AddProduct,
-    /// z − x y
-    SubtractProduct,
-    /// x y − z
-    SubtractFromProduct,
-    /// x y + z u
-    AddedProducts,
-    /// x y − z u
-    SubtractedProducts,
-    /// w + x y + z u
-    AddProducts,
-    /// w − x y − z u
-    SubtractProducts,
-    /// x y − w − z u
-    SubtractFromAndProduct,
-    Divide,
-    Negate,
-    Root,
-    /// The sine of x; its cosine goes into the register y.
-    SinCos,
-    RootOrZero,
-    Angle,
-    Near,
-    Sign,
-    Larger,
-    Call(Function),
-}
-
 impl Batch {
     /// The program that computes the places of each section, without what none of them needs. `inputs` is the number of
     /// inputs.
@@ -90,13 +49,7 @@ impl Batch {
         let needed = needed(operations, sections);
         let kept: Vec<Place> = sections.concat();
         let (written, constants, places) = written(operations, sections.len(), &needed, &kept);
-        let fixed = (inputs + constants.len()) as u32;
-        let mut assignment = Assignment {
-            register: vec![u32::MAX; places],
-            fixed,
-            free: Vec::new(),
-            registers: inputs as u32,
-        };
+        let mut assignment = Assignment::new(inputs, constants.len(), places);
         for (place, operation) in operations.iter().enumerate() {
             if let Operation::Input(input) = *operation {
                 assignment.register[place] = input;
@@ -181,286 +134,6 @@ impl Registers {
     /// The same to be set: the registers of inputs are the first ones.
     pub fn rows_mut(&mut self, register: usize) -> &mut [f64; BATCH] {
         &mut self.0[register].0
-    }
-}
-
-/// For each place the section that computes it: the one that needs it, or the first or second if that or several do.
-fn needed(operations: &[Operation], sections: &[Vec<Place>]) -> Vec<Option<usize>> {
-    let mut users = vec![0u32; operations.len()];
-    for (section, places) in sections.iter().enumerate() {
-        (places.iter()).for_each(|&place| users[place as usize] |= 1 << section);
-    }
-    for place in (0..operations.len()).rev() {
-        for operand in operations[place].operands() {
-            users[operand as usize] |= users[place];
-        }
-    }
-    let section = |users: u32| match users {
-        0 => None,
-        users if users.is_power_of_two() || users & 1 == 1 => Some(users.trailing_zeros() as usize),
-        _ => Some(1),
-    };
-    users.into_iter().map(section).collect()
-}
-
-type Written = (Vec<Vec<Instruction>>, Vec<(u32, f64)>, usize);
-
-/// The instructions of each section, over places in place of registers, the constants, and how many places there are.
-fn written(
-    operations: &[Operation],
-    sections: usize,
-    needed: &[Option<usize>],
-    kept: &[Place],
-) -> Written {
-    use Operation as O;
-    let fused = fused(operations, needed, kept);
-    let product = |place: Place| match operations[place as usize] {
-        O::Multiply(x, y) if fused[place as usize] => Some((x, y)),
-        _ => None,
-    };
-    let mut written = vec![Vec::new(); sections];
-    let mut constants = Vec::new();
-    let mut angles: FxHashMap<(usize, Place), usize> = FxHashMap::default();
-    let mut places = operations.len();
-    for (place, operation) in operations.iter().enumerate() {
-        let Some(section) = needed[place] else {
-            continue;
-        };
-        let (code, of): (_, &[u32]) = match *operation {
-            O::Constant(value) => {
-                constants.push((place as u32, value));
-                continue;
-            }
-            O::Input(_) => continue,
-            O::Multiply(..) if fused[place] => continue,
-            O::Add(x, y) => match (product(x), product(y)) {
-                (Some((a, b)), _) => (Code::AddProduct, &[a, b, y]),
-                (None, Some((a, b))) => (Code::AddProduct, &[a, b, x]),
-                (None, None) => (Code::Add, &[x, y]),
-            },
-            O::Subtract(x, y) => match (product(x), product(y)) {
-                (_, Some((a, b))) => (Code::SubtractProduct, &[a, b, x]),
-                (Some((a, b)), None) => (Code::SubtractFromProduct, &[a, b, y]),
-                (None, None) => (Code::Subtract, &[x, y]),
-            },
-            O::Multiply(x, y) => (Code::Multiply, &[x, y]),
-            O::Divide(x, y) => (Code::Divide, &[x, y]),
-            O::Negate(x) => (Code::Negate, &[x]),
-            O::Root(x) => (Code::Root, &[x]),
-            O::RootOrZero(x) => (Code::RootOrZero, &[x]),
-            O::Angle(y, x) => (Code::Angle, &[y, x]),
-            O::Near(x, y) => (Code::Near, &[x, y]),
-            O::Sign(x) => (Code::Sign, &[x]),
-            O::Larger(x, y) => (Code::Larger, &[x, y]),
-            O::Call(function, x) => (Code::Call(function), &[x]),
-            O::Sin(x) | O::Cos(x) => {
-                let section: &mut Vec<Instruction> = &mut written[section];
-                let both = angles.entry((needed[place].unwrap_or(0), x));
-                let at = *both.or_insert_with(|| {
-                    // the one that is not needed has a place of its own
-                    let [sin, cos] = [places as u32, places as u32 + 1];
-                    places += 2;
-                    section.push(Instruction::new(Code::SinCos, sin, &[x, cos]));
-                    section.len() - 1
-                });
-                match operation {
-                    O::Sin(_) => section[at].to = place as u32,
-                    _ => section[at].of[1] = place as u32,
-                }
-                continue;
-            }
-        };
-        written[section].push(Instruction::new(code, place as u32, of));
-    }
-    merged(&mut written, kept, places);
-    (written, constants, places)
-}
-
-/// The products that are used once only, by a sum or difference of their own section, and are computed with it.
-fn fused(operations: &[Operation], needed: &[Option<usize>], kept: &[Place]) -> Vec<bool> {
-    let mut users: Vec<Option<usize>> = vec![None; operations.len()];
-    let mut fused = vec![false; operations.len()];
-    let mut used_again = vec![false; operations.len()];
-    let users_of = (0..operations.len()).filter(|&place| needed[place].is_some());
-    for user in users_of {
-        for operand in operations[user].operands() {
-            let operand = operand as usize;
-            used_again[operand] |= users[operand].replace(user).is_some();
-        }
-    }
-    kept.iter()
-        .for_each(|&place| used_again[place as usize] = true);
-    let mut taken = vec![false; operations.len()];
-    for place in 0..operations.len() {
-        let (Operation::Multiply(..), Some(user)) = (operations[place], users[place]) else {
-            continue;
-        };
-        let sum = matches!(
-            operations[user],
-            Operation::Add(..) | Operation::Subtract(..)
-        );
-        if sum && !used_again[place] && needed[place] == needed[user] && !taken[user] {
-            taken[user] = true;
-            fused[place] = true;
-        }
-    }
-    fused
-}
-
-/// For each place the number of the last instruction that uses it; never for those that must stay.
-fn last_uses(
-    written: &[Vec<Instruction>],
-    needed: &[Option<usize>],
-    kept: &[Place],
-    places: usize,
-) -> Vec<usize> {
-    let mut last = vec![0; places];
-    let mut number = 0;
-    for (section, instructions) in written.iter().enumerate() {
-        for instruction in instructions {
-            for place in instruction.operands() {
-                let first = needed[place as usize] == Some(0);
-                let last = &mut last[place as usize];
-                // what the first section computes is used whenever the others are run
-                let next = if first && section > 0 {
-                    usize::MAX
-                } else {
-                    number
-                };
-                *last = next.max(*last);
-            }
-            number += 1;
-        }
-    }
-    kept.iter()
-        .for_each(|&place| last[place as usize] = usize::MAX);
-    last
-}
-
-impl Code {
-    fn operands(self) -> usize {
-        use Code as C;
-        match self {
-            C::Negate | C::Root | C::SinCos | C::RootOrZero | C::Sign | C::Call(_) => 1,
-            C::Add | C::Subtract | C::Multiply | C::Divide | C::Angle | C::Near | C::Larger => 2,
-            C::AddProduct | C::SubtractProduct | C::SubtractFromProduct => 3,
-            C::AddedProducts | C::SubtractedProducts => 4,
-            C::AddProducts | C::SubtractProducts | C::SubtractFromAndProduct => 5,
-        }
-    }
-}
-
-impl Instruction {
-    fn new(code: Code, to: u32, operands: &[u32]) -> Self {
-        let mut of = [0; OPERANDS];
-        of[..operands.len()].copy_from_slice(operands);
-        Instruction { code, to, of }
-    }
-
-    /// Places or registers, each once.
-    fn operands(&self) -> Vec<u32> {
-        let mut operands = self.of[..self.code.operands()].to_vec();
-        operands.sort_unstable();
-        operands.dedup();
-        operands
-    }
-
-    /// The same with one operand computed in place, if there is such an instruction.
-    fn with(&self, inner: &Instruction) -> Option<Self> {
-        let ([x, y, z, ..], [u, v, w, ..]) = (self.of, inner.of);
-        if z != inner.to || x == z || y == z {
-            return None;
-        }
-        let (code, of): (_, &[u32]) = match (inner.code, self.code) {
-            (Code::Multiply, Code::AddProduct) => (Code::AddedProducts, &[u, v, x, y]),
-            (Code::Multiply, Code::SubtractProduct) => (Code::SubtractedProducts, &[u, v, x, y]),
-            (Code::Multiply, Code::SubtractFromProduct) => {
-                (Code::SubtractedProducts, &[x, y, u, v])
-            }
-            (Code::AddProduct, Code::AddProduct) => (Code::AddProducts, &[u, v, x, y, w]),
-            (Code::SubtractProduct, Code::SubtractProduct) => {
-                (Code::SubtractProducts, &[u, v, x, y, w])
-            }
-            (Code::SubtractFromProduct, Code::SubtractProduct) => {
-                (Code::SubtractFromAndProduct, &[u, v, x, y, w])
-            }
-            _ => return None,
-        };
-        Some(Instruction::new(code, self.to, of))
-    }
-}
-
-/// Instructions of which one is used by another of the section alone are made one.
-fn merged(sections: &mut [Vec<Instruction>], kept: &[Place], places: usize) {
-    let mut uses = vec![0; places];
-    kept.iter().for_each(|&place| uses[place as usize] += 1);
-    for instruction in sections.iter().flatten() {
-        (instruction.operands().into_iter()).for_each(|place| uses[place as usize] += 1);
-    }
-    for section in sections {
-        let mut written: FxHashMap<Place, usize> = FxHashMap::default();
-        let mut gone = vec![false; section.len()];
-        for number in 0..section.len() {
-            let instruction = section[number];
-            let inner = written
-                .get(&instruction.of[2])
-                .filter(|_| instruction.code.operands() == 3);
-            if let Some(&inner) = inner.filter(|_| uses[instruction.of[2] as usize] == 1)
-                && let Some(both) = instruction.with(&section[inner])
-            {
-                section[number] = both;
-                gone[inner] = true;
-            }
-            written.insert(instruction.to, number);
-        }
-        let mut gone = gone.into_iter();
-        section.retain(|_| gone.next() == Some(false));
-    }
-}
-
-/// Registers are given to places, and again to others when they are no longer used.
-struct Assignment {
-    register: Vec<u32>,
-    /// Those before it are never given again: inputs and constants.
-    fixed: u32,
-    free: Vec<u32>,
-    registers: u32,
-}
-
-impl Assignment {
-    fn fresh(&mut self, place: u32) -> u32 {
-        let register = self.free.pop().unwrap_or(self.registers);
-        self.registers = self.registers.max(register + 1);
-        self.register[place as usize] = register;
-        register
-    }
-
-    /// Puts registers in the place of places.
-    fn assign(&mut self, instruction: &mut Instruction, last: &[usize], number: usize) {
-        let mut places = instruction.operands();
-        places.push(instruction.to);
-        instruction.to = self.fresh(instruction.to);
-        let second = instruction.of[1];
-        for place in &mut instruction.of[..instruction.code.operands()] {
-            *place = self.register[*place as usize];
-        }
-        if matches!(instruction.code, Code::SinCos) {
-            places.push(second);
-            instruction.of[1] = self.fresh(second);
-        }
-        // results of no use too, as a cosine may be
-        places.sort_unstable();
-        places.dedup();
-        self.release(&places, last, number);
-    }
-
-    fn release(&mut self, places: &[u32], last: &[usize], number: usize) {
-        let done = places
-            .iter()
-            .filter(|place| last[**place as usize] <= number);
-        let registers = done.map(|place| self.register[*place as usize]);
-        self.free
-            .extend(registers.filter(|register| *register >= self.fixed));
     }
 }
 

@@ -1,4 +1,3 @@
-use crate::linear::Factorable;
 use crate::mechanism::Configuration;
 use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 use crate::system::{Coordinate, System, Work};
@@ -14,17 +13,17 @@ use crate::system::{Coordinate, System, Work};
 /// }
 /// ```
 #[derive(Clone, Debug)]
-pub struct MotionTracker<T: Factorable = f64> {
-    system: System<T>,
+pub struct MotionTracker {
+    system: System<f64>,
     warm: Warm,
-    configuration: Configuration<T>,
-    work: Work<T>,
-    trail: Trail<Configuration<T>, T>,
+    configuration: Configuration<f64>,
+    work: Work<f64>,
+    trail: Trail<Configuration<f64>, f64>,
 }
 
-impl<T: Factorable> MotionTracker<T> {
+impl MotionTracker {
     /// Follows from `start`, which ought to be assembled or nearly so.
-    pub fn new(system: System<T>, start: Configuration<T>) -> Self {
+    pub fn new(system: System<f64>, start: Configuration<f64>) -> Self {
         MotionTracker {
             work: system.work(),
             trail: Trail::new(&start, system.unknowns().len()),
@@ -40,19 +39,19 @@ impl<T: Factorable> MotionTracker<T> {
     }
 
     /// The equations that are solved.
-    pub fn system(&self) -> &System<T> {
+    pub fn system(&self) -> &System<f64> {
         &self.system
     }
 
     /// The latest solution; after a solve that failed, the one before with the held values asked for.
-    pub fn configuration(&self) -> &Configuration<T> {
+    pub fn configuration(&self) -> &Configuration<f64> {
         &self.configuration
     }
 
     /// Lets `hold` change the held joints and poses, and finds the free ones. Nothing allocates. `solved` is said only
     /// of a residual evaluated at the configuration returned.
     #[inline]
-    pub fn solve(&mut self, hold: impl FnOnce(&mut Configuration<T>)) -> WarmReport {
+    pub fn solve(&mut self, hold: impl FnOnce(&mut Configuration<f64>)) -> WarmReport {
         hold(&mut self.configuration);
         (self.warm).solve(
             &self.system,
@@ -67,7 +66,7 @@ impl<T: Factorable> MotionTracker<T> {
     pub fn solve_at(
         &mut self,
         held: impl Iterator<Item = Coordinate> + Clone,
-        value: impl Fn(usize) -> T,
+        value: impl Fn(usize) -> f64,
     ) -> WarmReport {
         for (i, coordinate) in held.clone().enumerate() {
             if let Coordinate::Pose(platform, coordinate) = coordinate {
@@ -84,7 +83,7 @@ impl<T: Factorable> MotionTracker<T> {
     }
 
     /// Goes on from another configuration, which ought to be assembled.
-    pub fn restart(&mut self, at: &Configuration<T>) {
+    pub fn restart(&mut self, at: &Configuration<f64>) {
         self.trail.forget();
         self.configuration.clone_from(at);
     }
