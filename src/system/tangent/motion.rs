@@ -19,7 +19,7 @@ pub use frames::FrameMotion;
 /// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, where H ḣ are the rates of the rows in a motion of h alone, and r̈ = 0 gives
 /// ẍ = −J⁺ γ, where γ is r̈ along the path that has these rates and no acceleration but that of h.
 ///
-/// Over [`Lanes`](crate::number::Lanes) it does so for eight configurations side by side.
+/// Over [`Recorded`](crate::algebra::Recorded) numbers it writes down how.
 ///
 /// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths. At a singular
 /// configuration they are one choice of many ([`Freedoms`](super::Freedoms) of [`Motion::held`]).
