@@ -164,8 +164,8 @@ fn a_finite_number_of_assemblies_stays_finite() {
     }
 }
 
-/// The wrist is driven, has limits, carries a rod on its inner link or lies in the centre of a spherical linkage: its two
-/// sets of angles are two assemblies.
+/// A row that has limits or turns with another one, or an inner link that carries something: two sets of angles are two
+/// assemblies.
 #[test]
 fn hinges_that_are_no_ball_keep_their_assemblies() {
     let chain = written("chain");
@@ -330,4 +330,30 @@ fn a_rod_that_a_joint_stops_does_not_spin() {
             .iter()
             .all(|joint| joint.held == (joint.name == "theta"))
     );
+}
+
+/// Two bodies that slide in one another on the line through their balls; with a universal joint for a ball nothing spins.
+#[test]
+fn a_cylinder_between_balls_spins_as_a_rod_does() {
+    for (end, spins) in [
+        ("Spherical(", 1),
+        ("Universal(directions: ((0, 0, 1), (2, 1, 0)), ", 0),
+    ] {
+        let text = format!(
+            r#"Axes(
+                version: 1,
+                name: "cylinder",
+                joints: {{
+                    "arm": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: ("ground", "arm")),
+                    "low": Spherical(point: (1, 0, 0), between: ("ground", "tube")),
+                    "lift": Prismatic(through: ((1, 0, 0), (0.5, 1, 0.3)), role: Actuated, between: ("tube", "rod")),
+                    "high": {end}point: (0.5, 1, 0.3), between: ("rod", "arm")),
+                }},
+            )"#
+        );
+        let question = Question::new(read(&text));
+        let report = question.mobility(&Watch::none()).unwrap().closed().unwrap();
+        assert_eq!((report.mobility, report.infinitesimal), (1, 1), "{end}");
+        assert_eq!(report.idle_freedoms.len(), spins, "{end}");
+    }
 }

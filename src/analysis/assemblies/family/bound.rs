@@ -120,6 +120,15 @@ impl<'a> Structure<'a> {
         (joints.iter()).all(|joint| kind(joint) == JointKind::Revolute)
     }
 
+    /// Whether two joints of a closure slide along one direction, so that it does not determine where they meet.
+    fn slide_alike(&self, link: &Link, joints: [usize; 2]) -> bool {
+        let along = joints.map(|joint| {
+            let own = link.axes.joints.iter().find(|(j, ..)| *j == joint);
+            own.filter(|_| !self.turns(&[joint])).map(|(.., v)| v)
+        });
+        matches!(along, [Some(a), Some(b)] if parallel(a, b))
+    }
+
     /// Closures that can be closed one after another, each by two joints or one.
     ///
     /// Circles and lines share two finite points at most: 4-bar and slider-crank linkages, spherical
@@ -141,7 +150,7 @@ impl<'a> Structure<'a> {
                     ([], _) => Some(1),
                     ([_], ClosureKind::Distance) => Some(2),
                     ([_], _) if meets => Some(1),
-                    ([a, b], _) if meets => {
+                    ([a, b], _) if meets && !self.slide_alike(link, [*a, *b]) => {
                         Some(1 + usize::from(self.turns(&[*a]) || self.turns(&[*b])))
                     }
                     _ => None,
