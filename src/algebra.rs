@@ -146,9 +146,10 @@ impl<N> Expression<N> {
 
     /// Every occurrence of a name, in the order they are written, with its place.
     pub fn names(&self) -> impl Iterator<Item = (&N, &Range<usize>)> {
-        let mut waiting = vec![self];
+        // most expressions are single numbers or names, for which nothing is allocated
+        let (mut first, mut waiting) = (Some(self), Vec::new());
         std::iter::from_fn(move || {
-            while let Some(expression) = waiting.pop() {
+            while let Some(expression) = first.take().or_else(|| waiting.pop()) {
                 if let Node::Name(name) = &expression.node {
                     return Some((name, &expression.span));
                 }

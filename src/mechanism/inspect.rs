@@ -145,7 +145,11 @@ impl Mechanism {
                 visit(&row.a);
             }
         }
-        for (_, steps) in self.platforms.iter().flat_map(|platform| &platform.frames) {
+        for (_, steps) in self
+            .platforms
+            .iter()
+            .flat_map(|platform| platform.frames.iter())
+        {
             fixed(steps, visit);
         }
         for affine in self.affine_entries() {

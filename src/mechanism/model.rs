@@ -1,5 +1,7 @@
 //! The parts of a mechanism, every name resolved.
 
+use std::sync::Arc;
+
 use crate::algebra::{Affine, Expression, Measure, words};
 use crate::description::{ClosureKind, Convention, Displacement, MatrixEntry, Role};
 use crate::geometry::Pose;
@@ -144,7 +146,7 @@ pub struct Platform {
     /// Its pose in the home configuration: ground from platform.
     pub home: Pose<f64>,
     /// Frames fixed in it.
-    pub frames: Vec<(String, Vec<FixedStep>)>,
+    pub frames: Arc<[(String, Vec<FixedStep>)]>,
 }
 
 /// A closure: a broken joint, restored between two frames.

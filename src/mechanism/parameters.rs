@@ -19,9 +19,13 @@ impl Mechanism {
     /// The parameters that are defined by numbers alone. The others follow from them, so that a
     /// relation between dimensions (Bennett's, say) survives any change of these.
     pub fn independent_parameters(&self) -> Vec<usize> {
-        (0..self.parameters().len())
-            .filter(|&i| uses(&self.parameters()[i].definition).next().is_none())
-            .collect()
+        self.independent().collect()
+    }
+
+    fn independent(&self) -> impl Iterator<Item = usize> {
+        let all = self.parameters().iter().enumerate();
+        let independent = all.filter(|(_, of)| uses(&of.definition).next().is_none());
+        independent.map(|(i, _)| i)
     }
 
     /// Values of all parameters over any number, from values of the independent ones in the order
@@ -32,7 +36,7 @@ impl Mechanism {
     pub fn parameters_from<T: Number>(&self, independent: &[T]) -> Result<Vec<T>, EvaluationError> {
         let count = self.parameters().len();
         let mut values: Vec<Option<T>> = vec![None; count];
-        for (i, value) in self.independent_parameters().into_iter().zip(independent) {
+        for (value, i) in independent.iter().zip(self.independent()) {
             values[i] = Some(*value);
         }
         // definitions have no cycles, so every round settles at least one
