@@ -62,7 +62,7 @@ pub fn mobility(
     };
     let locking = Question::locking(mechanism, &settings.locked, &closed.configuration);
     let held = locking.held();
-    let mut near = Neighbourhood::holding(mechanism, &held);
+    let mut near = Neighbourhood::holding(mechanism, &held).watched(watch);
     let tangent = near.tangent(closed.configuration.clone());
     let Lasting {
         tangent,

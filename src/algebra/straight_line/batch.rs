@@ -8,7 +8,6 @@ use std::f64::consts::TAU;
 use rustc_hash::FxHashMap;
 
 use super::{Operation, Place};
-use crate::algebra::Function;
 use crate::algebra::evaluation::call;
 use crate::number::Number;
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};

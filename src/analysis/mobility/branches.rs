@@ -99,8 +99,7 @@ impl Search<'_, '_> {
         let freedoms = tangent.motions.len();
         let whole = self.free(tangent);
         let gap = match &whole {
-            Ok((_, gap)) => Some(*gap),
-            Err(gap) => *gap,
+            Ok((_, gap)) | Err(gap) => *gap,
         };
         if let Ok((moved, _)) = whole {
             return Finite {
@@ -170,8 +169,10 @@ impl Search<'_, '_> {
         beside.min_by_key(|tangent| tangent.motions.len())
     }
 
-    /// What moves, and the gap that is left, if random directions are all free; else the gap of one.
-    fn free(&mut self, tangent: &Tangent) -> Result<(Vec<bool>, f64), Option<f64>> {
+    /// What moves, and the gap that is left where steps were made, if all directions are free; else the gap of one.
+    fn free(&mut self, tangent: &Tangent) -> Result<(Vec<bool>, Option<f64>), Option<f64>> {
+        /// A component of a unit motion that is not rounding.
+        const CLEAR: f64 = 1e-12;
         let mut moved = vec![false; tangent.columns()];
         let mut gap: f64 = 0.0;
         let directions = match tangent.motions.is_empty() {
@@ -181,6 +182,12 @@ impl Search<'_, '_> {
         for _ in 0..directions {
             let direction = combination(&tangent.motions, &mut self.rng);
             let step = match self.near.free_step(tangent, &direction, STEP) {
+                Err(None) if self.is_independent(tangent) => {
+                    for motion in &tangent.motions {
+                        see(&mut moved, motion, CLEAR);
+                    }
+                    return Ok((moved, None));
+                }
                 Err(None) if tangent.motions.len() == 1 => {
                     self.settled(tangent, &direction).ok_or(None)?
                 }
@@ -190,7 +197,15 @@ impl Search<'_, '_> {
             let way = self.near.system().difference(&tangent.at, &step.at);
             see(&mut moved, &way, MOVED);
         }
-        Ok((moved, gap))
+        Ok((moved, Some(gap)))
+    }
+
+    /// Whether all equations of a large mechanism that do not vanish everywhere are independent: by the implicit
+    /// function theorem its motions are finite, also where it is too ill-conditioned for steps.
+    fn is_independent(&self, tangent: &Tangent) -> bool {
+        let system = self.near.system();
+        let equations = self.near.mechanism().equations_that_vary() + system.hold_rows().len();
+        system.is_large() && tangent.decomposition.rank() == equations
     }
 
     /// A finite step along the only motion, by steps each with its own Jacobian: where the Jacobian is ill-conditioned, as

@@ -3,7 +3,9 @@
 use super::{System, Work};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
-use crate::solve::{Equations, Newton, Report, Stop, deflating_step, step_off_saddle};
+use crate::solve::{
+    Equations, Newton, Report, Stage, Stop, Watch, deflating_step, step_off_saddle,
+};
 
 /// Newton's method from `at`. Where equations only touch zero, as those of rods stretched straight, it
 /// nears a solution ever more slowly: it is led there by the slopes that vanish there. Where it ends at a
@@ -69,7 +71,7 @@ pub fn solve(
     }
     let nearly = report.stop != Stop::Solved && report.size.largest < NEARLY;
     if nearly && found.is_none() {
-        found = settle(system, work, at.clone(), REACH);
+        found = settle(system, work, at.clone(), REACH, None);
     }
     if let Some(found) = found {
         *at = found;
@@ -166,12 +168,13 @@ fn level(
 }
 
 /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
-/// rounding; `None` if they go further than `reach` or do not arrive.
+/// rounding; `None` if they go further than `reach`, do not arrive or are stopped.
 pub fn settle(
     system: &System<f64>,
     work: &mut Work<f64>,
     mut at: Configuration<f64>,
     reach: f64,
+    watch: Option<&Watch>,
 ) -> Option<Configuration<f64>> {
     const STEPS: usize = 60;
     /// No further step improves the result once this is reached.
@@ -180,7 +183,12 @@ pub fn settle(
     let start = at.clone();
     let mut best: Option<(f64, Configuration<f64>)> = None;
     let mut stale = 0;
-    for _ in 0..STEPS {
+    // each step factorises, which takes long for large equations only
+    let stops = |step| watch.is_some_and(|watch| watch.stops(Stage::Steps, step, Some(STEPS)));
+    for step in 0..STEPS {
+        if system.is_large() && stops(step) {
+            return None;
+        }
         let size = system.linearise(&at, work).largest;
         if best.as_ref().is_none_or(|(least, _)| size < 0.5 * least) {
             best = Some((size, at.clone()));

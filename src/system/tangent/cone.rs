@@ -40,7 +40,9 @@ impl Cone {
             basis: motions.clone(),
             forms: vec![],
         };
-        if !(2..=LIMIT).contains(&n) {
+        // of a large Jacobian the dependencies are not known
+        let is_large = near.system().is_large();
+        if is_large || !(2..=LIMIT).contains(&n) {
             return cone;
         }
         let dependencies = tangent.decomposition.left_null_space();

@@ -10,7 +10,7 @@ use super::twists::FrameTwists;
 use crate::description::Role;
 use crate::linear::{Decomposition, Svd, complement, independent, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
-use crate::solve::{Equations, Newton, Stop};
+use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::equations::solve;
 use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
@@ -24,6 +24,7 @@ pub struct Neighbourhood<'a> {
     system: System<f64>,
     work: Work<f64>,
     frames: FrameTwists<f64>,
+    watch: Option<&'a Watch<'a>>,
 }
 
 /// The closure equations linearised at an assembled configuration: J ξ = 0.
@@ -54,6 +55,15 @@ impl<'a> Neighbourhood<'a> {
             work: system.work(),
             frames: FrameTwists::new(mechanism.dimensions(), system.unknowns(), &frames),
             system,
+            watch: None,
+        }
+    }
+
+    /// The same; steps of large mechanisms can be stopped.
+    pub fn watched(self, watch: &'a Watch<'a>) -> Self {
+        Neighbourhood {
+            watch: Some(watch),
+            ..self
         }
     }
 

@@ -210,6 +210,6 @@ impl Neighbourhood<'_> {
 
     /// The assembled configuration that Gauss–Newton steps of least length reach within `reach`, to rounding.
     pub fn settle(&mut self, at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
-        settle(&self.system, &mut self.work, at, reach)
+        settle(&self.system, &mut self.work, at, reach, self.watch)
     }
 }
