@@ -171,8 +171,6 @@ impl Search<'_, '_> {
 
     /// What moves, and the gap that is left where steps were made, if all directions are free; else the gap of one.
     fn free(&mut self, tangent: &Tangent) -> Result<(Vec<bool>, Option<f64>), Option<f64>> {
-        /// A component of a unit motion that is not rounding.
-        const CLEAR: f64 = 1e-12;
         let mut moved = vec![false; tangent.columns()];
         let mut gap: f64 = 0.0;
         let directions = match tangent.motions.is_empty() {
@@ -184,7 +182,8 @@ impl Search<'_, '_> {
             let step = match self.near.free_step(tangent, &direction, STEP) {
                 Err(None) if self.is_independent(tangent) => {
                     for motion in &tangent.motions {
-                        see(&mut moved, motion, CLEAR);
+                        // along a row motions die away to less than rounding of the largest
+                        see(&mut moved, motion, 0.0);
                     }
                     return Ok((moved, None));
                 }
