@@ -134,8 +134,8 @@ pub enum AskError {
     /// The time of a motion is none.
     #[error("the duration of a motion must be positive, not {0} s")]
     Duration(f64),
-    /// A range is given to one coordinate twice.
-    #[error("`{name}` has two ranges")]
+    /// One coordinate has two ranges, or two columns of values.
+    #[error("`{name}` is given twice")]
     Twice {
         /// The second of them.
         item: Item,

@@ -1,13 +1,12 @@
 //! One configuration after another for rows of held values.
 
-use std::f64::consts::FRAC_PI_2;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::{AskError, Question, Role};
 use crate::algebra::BATCH;
 use crate::analysis::solver::{Follower, Following};
-use crate::mechanism::{Configuration, PoseCoordinate};
+use crate::mechanism::Configuration;
 use crate::solve::{Progress, Stage, Watch, each};
 use crate::system::{self, Coordinate, HeldPlatform, MotionTracker, System, check_count};
 
@@ -38,9 +37,6 @@ pub struct Many {
     /// Whether the work was stopped before it was done.
     pub interrupted: bool,
 }
-
-/// A pitch this near to ±90°, in rad, is taken for it.
-const LOCKED: f64 = 2e-12;
 
 /// What follows rows.
 struct Rows<'a> {
@@ -86,6 +82,13 @@ impl Question {
         let mut begins = self.clone();
         for (index, name) in names.iter().enumerate() {
             let (coordinate, _) = (plain.value(name, "home")).map_err(Role::Input.named(index))?;
+            if let Some(first) = coordinates.iter().position(|known| *known == coordinate) {
+                return Err(AskError::Twice {
+                    item: Role::Input.item(index),
+                    first: Role::Input.item(first),
+                    name: name.clone(),
+                });
+            }
             coordinates.push(coordinate);
             if !self.hold.iter().any(|(held, _)| held == name) {
                 begins = begins.hold(name, "home");
@@ -251,9 +254,6 @@ impl Rows<'_> {
         let mut motions = follower.motions(&self.start);
         let mut here = vec![self.values(&self.start); BATCH];
         let mut next = here.clone();
-        let pitch =
-            |i: &usize| matches!(self.columns[*i], Coordinate::Pose(_, PoseCoordinate::Pitch));
-        let pitches: Vec<usize> = (0..self.columns.len()).filter(pitch).collect();
         for k in 0..length {
             let row = |motion: usize| Some(motion * length + k).filter(|row| *row < rows);
             let first = block.first;
@@ -290,13 +290,7 @@ impl Rows<'_> {
                     if let (true, Some(row)) = (step == steps[motion], row(motion)) {
                         arrived[motion] = true;
                         let value = |i: usize| follower.column(&motions, i)[motion];
-                        let locked = |i: &usize| value(*i).abs() > FRAC_PI_2 - LOCKED;
-                        if pitches.iter().any(locked) {
-                            let at = follower.configuration(&motions, motion, &here[motion]);
-                            block.put_at(row, &at);
-                        } else {
-                            block.put(row, (0..self.columns.len()).map(value));
-                        }
+                        block.put(row, (0..self.columns.len()).map(value));
                     }
                 }
             }

@@ -134,8 +134,7 @@ impl<T: Number> RollPitchYaw<T> {
         RollPitchYaw { roll, pitch, yaw }
     }
 
-    /// One of the [angles](Self::from_rotation) alone, about a fixed axis. Where no decision is made over numbers, the pitch
-    /// is taken not to be ±90°.
+    /// One of the [angles](Self::from_rotation) alone, about a fixed axis.
     #[inline]
     pub fn angle(rotation: &Rotation<T>, axis: Axis) -> T {
         let [n, s, a] = &rotation.0;

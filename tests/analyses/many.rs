@@ -1,6 +1,7 @@
 //! Rows of held values, followed side by side and one by one.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::Range;
 use std::path::Path;
 
 use linkwork::ask::{Many, Question};
@@ -197,6 +198,50 @@ fn the_pose_of_a_platform_is_held_as_its_legs_are() {
             }
         }
     }
+}
+
+#[test]
+fn angles_in_gimbal_lock_are_those_of_a_row_alone() {
+    let question = Question::new(load("stewart_gough_6sps")).free("actuated");
+    let pose = [
+        "top.z",
+        "top.pitch",
+        "top.yaw",
+        "top.roll",
+        "top.x",
+        "top.y",
+    ];
+    // row 600 stands at 90° to the bit
+    let pitch = |row: usize| FRAC_PI_2 + (row as f64 - 600.0) * 1e-3;
+    let rows = |range: Range<usize>| -> Vec<f64> {
+        let row = |k| [1.2, pitch(k), 0.1, 0.0, 0.0, 0.0];
+        range.flat_map(row).collect()
+    };
+    let together = many(&question, &pose, &rows(0..1200));
+    let alone = many(&question, &pose, &rows(0..900));
+    assert!(!together.reached.contains(&false) && !alone.reached.contains(&false));
+    let width = together.names.len();
+    let near = |row: usize| &together.values[width * row..width * (row + 1)];
+    for (name, (a, b)) in
+        (together.names.iter()).zip(near(600).iter().zip(&alone.values[width * 600..]))
+    {
+        assert!((a - b).abs() < 1e-9, "{name}: {a} and {b}");
+    }
+    // beside it the angles are as they were given
+    for (name, value) in pose.iter().zip([1.2, pitch(590), 0.1, 0.0, 0.0, 0.0]) {
+        assert!(
+            (column(&together, name)[590] - value).abs() < 1e-9,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_name_that_is_given_twice_is_refused() {
+    let question = Question::new(load("four_bar"));
+    let names = ["theta1", "theta1"].map(String::from);
+    let error = question.solve_many(&names, &[0.1, 0.2], &Watch::none());
+    assert_eq!(error.unwrap_err().to_string(), "`theta1` is given twice");
 }
 
 #[test]

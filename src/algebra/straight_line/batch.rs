@@ -20,7 +20,7 @@ pub const BATCH: usize = 32;
 
 /// One number for each row.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
+#[repr(C, align(64))]
 struct Register([f64; BATCH]);
 
 /// A straight-line program for rows side by side, with the bits that its operations give one by one.
@@ -200,7 +200,7 @@ fn each(instructions: &[Instruction], registers: &mut [Register]) {
 #[inline(always)]
 fn row(register: &Cell<Register>) -> Row<'_> {
     let first: *const Cell<Register> = register;
-    // SAFETY: a cell is laid out as what is in it, and a register as its numbers
+    // SAFETY: a cell is laid out as what is in it, and a register begins with its numbers
     #[allow(unsafe_code)]
     unsafe {
         &*first.cast()
@@ -246,6 +246,14 @@ mod tests {
                 root / (cos + held),
                 (held - y * z).sign(),
                 -sin - x * z,
+                x.greater(z * y),
+                (x * z).exp(),
+                // two products in one instruction
+                x * held + y * cos,
+                x * sin - z * held,
+                held + x * root + z * root,
+                sin - y * root - z * cos,
+                y * held - root - x * cos,
             ];
             vec![
                 first,

@@ -47,7 +47,7 @@ pub struct Follower<'a> {
     /// Numbers of the state that are iterated; the others follow from them.
     free: Vec<usize>,
     program: Batch,
-    registers: Places,
+    results: Results,
 }
 
 /// The sections of the program, after the one for what depends on held values alone.
@@ -63,7 +63,7 @@ enum Section {
 
 /// Where the results of the program are.
 #[derive(Clone, Debug)]
-struct Places<T = usize> {
+struct Results<T = usize> {
     /// The sum of the squares of all rows.
     size: T,
     /// More than 1 if a step is too long or a pivot small.
@@ -131,7 +131,7 @@ impl<'a> Follower<'a> {
         sections[0] = Batch::known(&operations, changing.len(), &sections.concat());
         let program = Batch::new(&operations, count, &sections);
         let at = |place: Place| program.result(place);
-        let registers = Places {
+        let results = Results {
             size: at(written.size),
             doubt: at(written.doubt),
             moved: written.moved.iter().map(|&place| at(place)).collect(),
@@ -153,7 +153,7 @@ impl<'a> Follower<'a> {
             inputs,
             free,
             program,
-            registers,
+            results,
         })
     }
 
@@ -191,7 +191,7 @@ impl<'a> Follower<'a> {
     /// Leads the motions that go to the values set, and says which arrive; the others stay at their latest solution.
     pub fn solve(&self, motions: &mut Motions, going: &[bool; BATCH]) -> [bool; BATCH] {
         let Motions { registers, past } = motions;
-        let Places {
+        let Results {
             size,
             doubt,
             moved,
@@ -199,7 +199,7 @@ impl<'a> Follower<'a> {
             placing,
             decided,
             ..
-        } = &self.registers;
+        } = &self.results;
         let square = self.settings.tolerance.powi(2);
         self.program.run(0, registers);
         predict(past, &mask(going), registers);
@@ -253,7 +253,7 @@ impl<'a> Follower<'a> {
     /// Where the last [`solve`](Self::solve) led: all motions' values of a coordinate, numbered as [`Coordinate::all`]
     /// lists them, in rad and m.
     pub fn column<'m>(&self, motions: &'m Motions, coordinate: usize) -> &'m [f64; BATCH] {
-        motions.registers.rows(self.registers.columns[coordinate])
+        motions.registers.rows(self.results.columns[coordinate])
     }
 
     /// The latest solution of a motion, found for these values of the coordinates that change.
@@ -298,7 +298,7 @@ impl Plan<'_> {
         changing: &[usize],
         values: &[f64],
         longest: f64,
-    ) -> Result<Places<Place>, NoSolver> {
+    ) -> Result<Results<Place>, NoSolver> {
         let input = |(i, &value): (usize, &f64)| match changing.iter().position(|of| *of == i) {
             Some(number) => Recorded::input(number),
             None => Recorded::from_f64(value),
@@ -348,7 +348,7 @@ impl Plan<'_> {
         placed.iter().for_each(|&(i, x)| state[i] = x);
         let (_, reached) = self.posed(&inputs, &state);
         let columns = Coordinate::all(self.mechanism).map(|of| of.of(&reached).place());
-        Ok(Places {
+        Ok(Results {
             size: size.place(),
             doubt: doubt.place(),
             moved: places(&moved),

@@ -182,31 +182,15 @@ impl<T: Factorable> Motion<T> {
 
     fn solve_rates(&mut self) -> &[T] {
         self.changing.placed = false;
-        let Motion {
-            driving,
-            system,
-            here,
-            given: [given, _],
-            work,
-            rates,
-            ..
-        } = self;
-        driving.rates(system, here, given, work, rates);
-        rates
+        let (system, given) = (&self.system, &self.given[0]);
+        (self.driving).rates(system, &self.here, given, &mut self.work, &mut self.rates);
+        &self.rates
     }
 
     /// The rates of all rows for the rates of all unknowns and those given.
     fn row_rates(&mut self) -> &mut [T] {
-        let Motion {
-            driving,
-            system,
-            here,
-            given: [given, _],
-            work,
-            rates,
-            ..
-        } = self;
-        driving.row_rates(system, here, given, work, rates)
+        let (system, given) = (&self.system, &self.given[0]);
+        (self.driving).row_rates(system, &self.here, given, &mut self.work, &self.rates)
     }
 
     /// Rates of all unknowns for unit rates of the held coordinates, one at a time.
