@@ -122,6 +122,25 @@ fn a_row_too_ill_conditioned_for_steps_is_regular_as_its_equations_are_independe
     assert_eq!((report.mobility, report.rank), (1, 2000));
     assert_eq!(report.character, Character::Regular);
     assert_eq!(report.moving_joints.len(), 2001);
+    // a triangle beside it stands still
+    let beside = |text: String| {
+        let joints = "joints: { \"ta\": Passive(home: \"50 deg\"), \"tb\": Passive(home: \"-90 deg\"), \"tc\": Passive(),";
+        let chains = "chains: { \"tl\": Chain(base: [Ty(\"9\")], rows: [(theta: \"ta\"), (a: \"3\", theta: \"tb\")], tip: [Tx(\"4\")]),
+            \"tr\": Chain(base: [Ty(\"9\"), Tx(\"5\")], rows: [(theta: \"tc\")]),";
+        let closures = "closures: { \"tri\": Revolute(\"tl\", \"tr\"),";
+        let text = lengths(text).replace("joints: {", joints);
+        text.replace("chains: {", chains)
+            .replace("closures: {", closures)
+    };
+    let report = mobility_of(&row_with(1000, beside), &[]);
+    assert_eq!((report.mobility, report.rank), (1, 2002));
+    assert_eq!(report.moving_joints.len(), 2001);
+    assert!(
+        !report
+            .moving_joints
+            .iter()
+            .any(|joint| joint.starts_with('t'))
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Deciding which infinitesimal freedoms are finite.
 
+mod free;
 mod walk;
 
 use std::cmp::Reverse;
@@ -7,27 +8,21 @@ use std::cmp::Reverse;
 use rand_pcg::Pcg64Mcg;
 
 use super::Character;
-use crate::linear::{dot, orthonormal};
+use crate::linear::orthonormal;
 use crate::number::sorting::sort_by_key;
 use crate::solve::{Stage, Watch};
-use crate::system::{Cone, FiniteStep, Neighbourhood, Tangent, combination, independent_parts};
+use crate::system::{Cone, Neighbourhood, Tangent, independent_parts};
 use walk::{Directions, MOVED_ON_A_BRANCH, Seen, Walk, contains, same};
 
 /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
 /// motion that is only infinitesimal to second order leaves a gap of about its square.
 pub(super) const STEP: f64 = 0.05;
 
-/// Directions of motion that are tried; all must be free for the mechanism to be regular.
-const DIRECTIONS: usize = 3;
-
 /// Length of the steps by which branches are sought where it is not.
 const BRANCH_STEP: f64 = 0.02;
 
 /// Steps per infinitesimal freedom by which branches are sought.
 const BRANCH_TRIALS: usize = 8;
-
-/// What a joint moves by at least in a finite step: at a dead point it moves to second order only.
-const MOVED: f64 = 1e-7;
 
 /// Branches whose tangents at the meeting point differ by less than this are one.
 const SAME_THERE: f64 = 0.02;
@@ -64,18 +59,19 @@ pub(super) struct Branch {
 }
 
 impl Branch {
-    /// Branches in this order do not depend on random directions: the largest first, then by the projection onto their
-    /// motions, m mᵀ summed over a basis, whatever that is.
+    /// Branches in this order do not depend on random directions: the largest first, then by what the projection onto
+    /// their motions, which is the same for every basis, makes of a fixed direction.
     fn order(&self) -> (Reverse<usize>, Vec<Reverse<i64>>) {
         /// Tangents are known better than this.
         const KNOWN: f64 = 1e-2;
-        let columns = 0..self.moved.len();
-        let entries = columns
-            .clone()
-            .flat_map(|i| (i..columns.end).map(move |j| (i, j)));
-        let entry =
-            |(i, j): (usize, usize)| -> f64 { self.motions.iter().map(|m| m[i] * m[j]).sum() };
-        let key = entries.map(|place| Reverse((entry(place) / KNOWN).round() as i64));
+        // uneven, so that it is not the same to branches that mirror one another
+        let fixed = |i: usize| 1.0 + (0.618 * i as f64).fract();
+        let mut made = vec![0.0; self.moved.len()];
+        for motion in &self.motions {
+            let along: f64 = (motion.iter().enumerate()).map(|(i, x)| fixed(i) * x).sum();
+            (made.iter_mut().zip(motion)).for_each(|(made, x)| *made += along * x);
+        }
+        let key = made.iter().map(|x| Reverse((x / KNOWN).round() as i64));
         (Reverse(self.freedoms), key.collect())
     }
 }
@@ -156,72 +152,6 @@ impl Search<'_, '_> {
             moved,
             gap,
         }
-    }
-
-    /// A regular configuration beside one in gimbal lock, where nothing is locked: of three the one with the fewest
-    /// motions. Angles that turn without moving anything make branches that are none of the bodies.
-    pub fn regular_beside(&mut self, at: &Tangent) -> Option<Tangent> {
-        let beside = (1..4).filter_map(|k| {
-            let lasting = self.near.beside(&at.at, k)?.lasting(self.near);
-            let regular = lasting.locked.is_empty() && self.is_regular(&lasting.tangent, STEP, 3);
-            regular.then_some(lasting.tangent)
-        });
-        beside.min_by_key(|tangent| tangent.motions.len())
-    }
-
-    /// What moves, and the gap that is left where steps were made, if all directions are free; else the gap of one.
-    fn free(&mut self, tangent: &Tangent) -> Result<(Vec<bool>, Option<f64>), Option<f64>> {
-        let mut moved = vec![false; tangent.columns()];
-        let mut gap: f64 = 0.0;
-        let directions = match tangent.motions.is_empty() {
-            true => 0,
-            false => DIRECTIONS,
-        };
-        for _ in 0..directions {
-            let direction = combination(&tangent.motions, &mut self.rng);
-            let step = match self.near.free_step(tangent, &direction, STEP) {
-                Err(None) if self.is_independent(tangent) => {
-                    for motion in &tangent.motions {
-                        // along a row motions die away to less than rounding of the largest
-                        see(&mut moved, motion, 0.0);
-                    }
-                    return Ok((moved, None));
-                }
-                Err(None) if tangent.motions.len() == 1 => {
-                    self.settled(tangent, &direction).ok_or(None)?
-                }
-                step => step?,
-            };
-            gap = gap.max(step.gap);
-            let way = self.near.system().difference(&tangent.at, &step.at);
-            see(&mut moved, &way, MOVED);
-        }
-        Ok((moved, Some(gap)))
-    }
-
-    /// Whether all equations of a large mechanism that do not vanish everywhere are independent: by the implicit
-    /// function theorem its motions are finite, also where it is too ill-conditioned for steps.
-    fn is_independent(&self, tangent: &Tangent) -> bool {
-        let system = self.near.system();
-        let equations = self.near.mechanism().equations_that_vary() + system.hold_rows().len();
-        system.is_large() && tangent.decomposition.rank() == equations
-    }
-
-    /// A finite step along the only motion, by steps each with its own Jacobian: where the Jacobian is ill-conditioned, as
-    /// in long rows of loops, a fixed one does not lead back at any length.
-    fn settled(&mut self, tangent: &Tangent, direction: &[f64]) -> Option<FiniteStep> {
-        const ALONG: f64 = 0.95;
-        let (at, way) = self.near.arrive(tangent, direction, STEP)?;
-        let gap = self.near.residual(&at);
-        (dot(&way, direction) > ALONG).then_some(FiniteStep { at, gap })
-    }
-
-    /// Whether random directions of motion are all free, so that every direction is.
-    pub fn is_regular(&mut self, tangent: &Tangent, distance: f64, directions: usize) -> bool {
-        (0..directions).all(|_| {
-            let direction = combination(&tangent.motions, &mut self.rng);
-            self.near.free_step(tangent, &direction, distance).is_ok()
-        })
     }
 
     /// The branches of an independent part, which is known to be singular if it is the `only` one.

@@ -5,6 +5,7 @@ mod found;
 mod probe;
 mod programs;
 mod recorded;
+mod wants;
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,7 +16,7 @@ use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
 };
 use crate::linear::DENSE_LIMIT;
-use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
+use crate::mechanism::{Configuration, Figure, Frame, Measured, Point, Quantity};
 use crate::number::Number;
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
 pub(in super::super) use block::Block;
@@ -23,6 +24,7 @@ use found::Here;
 use probe::{Plan, Probe};
 use programs::{evaluated, turns};
 use recorded::Recording;
+use wants::Wants;
 
 /// What a meter is for.
 #[derive(Clone, Debug)]
@@ -41,7 +43,7 @@ pub(in super::super) struct Metered<'q> {
 /// by one. Not in the page, which would grow by a tenth.
 const RECORDED_AFTER: usize = match cfg!(target_family = "wasm") {
     true => usize::MAX,
-    false => 256,
+    false => 96,
 };
 
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
@@ -90,51 +92,6 @@ pub(in super::super) type Take<'t> = dyn FnMut(&Block) + 't;
 enum Spinning<'q> {
     Nothing(Spins),
     Something(Box<Neighbourhood<'q>>),
-}
-
-/// What the quantities need beside positions.
-#[derive(Clone, Copy)]
-struct Wants {
-    order: Order,
-    forces: bool,
-    transmission: bool,
-    jacobian: bool,
-    determinant: bool,
-    singular_values: bool,
-    distances: bool,
-}
-
-impl Wants {
-    fn of<'m>(measured: impl Iterator<Item = &'m Measured>) -> Self {
-        let mut wants = Wants {
-            order: Order::Value,
-            forces: false,
-            transmission: false,
-            jacobian: false,
-            determinant: false,
-            singular_values: false,
-            distances: false,
-        };
-        for measured in measured {
-            match measured {
-                Measured::Parameter(_) => {}
-                Measured::Joint(_, order)
-                | Measured::Place(_, _, order)
-                | Measured::Size(_, order) => wants.order = wants.order.max(*order),
-                Measured::Curvature(_) => wants.order = Order::Acceleration,
-                Measured::Force(_) | Measured::PlatformForce(..) => wants.forces = true,
-                Measured::Transmission(_) => wants.transmission = true,
-                Measured::Figure(Figure::Determinant) => {
-                    (wants.jacobian, wants.determinant) = (true, true);
-                }
-                Measured::Figure(Figure::Condition | Figure::Manipulability) => {
-                    (wants.jacobian, wants.singular_values) = (true, true);
-                }
-                Measured::Figure(_) => wants.distances = true,
-            }
-        }
-        wants
-    }
 }
 
 impl<'q> Meter<'q> {

@@ -17,14 +17,12 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
-use super::newton_starts::{Seed, newton, newton_seeds, solution};
 use super::solutions::GenericSolutions;
 use super::trace;
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Member, learn};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
-use crate::system::System;
 
 fn generator(seed: u64, stream: u64) -> Pcg64 {
     Pcg64::seed_from_u64(
@@ -234,73 +232,6 @@ impl Search<'_> {
         for x in points.into_iter().flatten().map(|x| conjugate(&x)) {
             if stands_alone(&mut still, C::from_f64(0.0), &x) {
                 new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
-            }
-        }
-        if new {
-            self.found.quiet_loops = 0;
-        }
-        new
-    }
-
-    /// Newton iterations from points about as far out as paths are followed; whether one of them ended at a solution that
-    /// is new. Where angles are nearly imaginary neither seeds nor loops nearer in may lead to it.
-    fn look_far_out(&mut self, still: &ParameterHomotopy<'_>) -> bool {
-        const TRIES: usize = 512;
-        const REACH: f64 = 64.0;
-        let (seed, loops) = (self.settings.seed, self.found.loops as u64);
-        let ends = crate::solve::each(TRIES, still, |homotopy, k| {
-            // streams beyond those of seeds and loops
-            let mut rng = generator(seed, (1 << 47) + (loops << 16) + k as u64);
-            newton_seeds(homotopy, REACH, &mut rng)
-        });
-        let mut new = false;
-        for end in ends {
-            if let Seed::Isolated(x) = end {
-                new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
-            }
-        }
-        if new {
-            self.found.quiet_loops = 0;
-        }
-        new
-    }
-
-    /// Newton iterations for the joints of one leg from random values, with all else as in a known
-    /// solution; whether they found another way to close it.
-    fn close_legs(&mut self, still: &ParameterHomotopy<'_>) -> bool {
-        const TRIES: u64 = 16;
-        let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {
-            return false;
-        };
-        let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
-        let known: Vec<Vec<C>> = (self.found.legwise.iter())
-            .map(|solutions_at_pose| {
-                solutions_at_pose
-                    .spanning_points(coordinates)
-                    .swap_remove(0)
-            })
-            .collect();
-        let mut new = false;
-        for places in &coordinates.legs {
-            let system = System::new(&dimensions, &self.family.held_but(places));
-            let storage = (system.work(), still.clone());
-            let tries = known.len() as u64 * TRIES;
-            let ends = crate::solve::each(tries as usize, &storage, |(work, homotopy), k| {
-                // streams beyond those of seeds and loops
-                let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
-                let mut x = known[k / TRIES as usize].clone();
-                let mut rng = generator(seed, stream);
-                let random = homotopy.family.random_point(&mut rng, 1.0);
-                places.iter().for_each(|&place| x[place] = random[place]);
-                homotopy.linearise(C::from_f64(0.0), &x);
-                let mut point = homotopy.here.at.clone();
-                let mut trial = point.clone();
-                let report = newton().solve(&system, &mut point, &mut trial, work);
-                let x = solution(homotopy, &report, &point)?;
-                stands_alone(homotopy, C::from_f64(0.0), &x).then_some(x)
-            });
-            for x in ends.into_iter().flatten() {
-                new |= learn(&mut self.found.legwise, coordinates, &x);
             }
         }
         if new {

@@ -2,8 +2,10 @@
 
 use super::{BATCH, Search, generator};
 use crate::analysis::assemblies::family::{C, learn, size};
-use crate::analysis::assemblies::search::newton_starts::{Seed, newton_seeds};
-use crate::analysis::assemblies::track::ParameterHomotopy;
+use crate::analysis::assemblies::search::newton_starts::{Seed, newton, newton_seeds, solution};
+use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone};
+use crate::number::Number;
+use crate::system::System;
 
 impl Search<'_> {
     /// Newton iterations from random complex points at the member where a way starts; the isolated
@@ -88,5 +90,72 @@ impl Search<'_> {
                 false => self.found.quiet_seeds += 1,
             }
         }
+    }
+
+    /// Newton iterations from points about as far out as paths are followed; whether one of them ended at a solution that
+    /// is new. Where angles are nearly imaginary neither seeds nor loops nearer in may lead to it.
+    pub(super) fn look_far_out(&mut self, still: &ParameterHomotopy<'_>) -> bool {
+        const TRIES: usize = 512;
+        const REACH: f64 = 64.0;
+        let (seed, loops) = (self.settings.seed, self.found.loops as u64);
+        let ends = crate::solve::each(TRIES, still, |homotopy, k| {
+            // streams beyond those of seeds and loops
+            let mut rng = generator(seed, (1 << 47) + (loops << 16) + k as u64);
+            newton_seeds(homotopy, REACH, &mut rng)
+        });
+        let mut new = false;
+        for end in ends {
+            if let Seed::Isolated(x) = end {
+                new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
+            }
+        }
+        if new {
+            self.found.quiet_loops = 0;
+        }
+        new
+    }
+
+    /// Newton iterations for the joints of one leg from random values, with all else as in a known
+    /// solution; whether they found another way to close it.
+    pub(super) fn close_legs(&mut self, still: &ParameterHomotopy<'_>) -> bool {
+        const TRIES: u64 = 16;
+        let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {
+            return false;
+        };
+        let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
+        let known: Vec<Vec<C>> = (self.found.legwise.iter())
+            .map(|solutions_at_pose| {
+                solutions_at_pose
+                    .spanning_points(coordinates)
+                    .swap_remove(0)
+            })
+            .collect();
+        let mut new = false;
+        for places in &coordinates.legs {
+            let system = System::new(&dimensions, &self.family.held_but(places));
+            let storage = (system.work(), still.clone());
+            let tries = known.len() as u64 * TRIES;
+            let ends = crate::solve::each(tries as usize, &storage, |(work, homotopy), k| {
+                // streams beyond those of seeds and loops
+                let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
+                let mut x = known[k / TRIES as usize].clone();
+                let mut rng = generator(seed, stream);
+                let random = homotopy.family.random_point(&mut rng, 1.0);
+                places.iter().for_each(|&place| x[place] = random[place]);
+                homotopy.linearise(C::from_f64(0.0), &x);
+                let mut point = homotopy.here.at.clone();
+                let mut trial = point.clone();
+                let report = newton().solve(&system, &mut point, &mut trial, work);
+                let x = solution(homotopy, &report, &point)?;
+                stands_alone(homotopy, C::from_f64(0.0), &x).then_some(x)
+            });
+            for x in ends.into_iter().flatten() {
+                new |= learn(&mut self.found.legwise, coordinates, &x);
+            }
+        }
+        if new {
+            self.found.quiet_loops = 0;
+        }
+        new
     }
 }

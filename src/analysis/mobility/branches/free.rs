@@ -1,0 +1,82 @@
+//! Which directions of motion are free: a finite step is possible along them.
+
+use super::{STEP, Search, see};
+use crate::linear::dot;
+use crate::system::{FiniteStep, Tangent, combination};
+
+/// Directions of motion that are tried; all must be free for the mechanism to be regular.
+const DIRECTIONS: usize = 3;
+
+/// What a joint moves by at least in a finite step: at a dead point it moves to second order only.
+const MOVED: f64 = 1e-7;
+
+impl Search<'_, '_> {
+    /// A regular configuration beside one in gimbal lock, where nothing is locked: of three the one with the fewest
+    /// motions. Angles that turn without moving anything make branches that are none of the bodies.
+    pub fn regular_beside(&mut self, at: &Tangent) -> Option<Tangent> {
+        let beside = (1..4).filter_map(|k| {
+            let lasting = self.near.beside(&at.at, k)?.lasting(self.near);
+            let regular = lasting.locked.is_empty() && self.is_regular(&lasting.tangent, STEP, 3);
+            regular.then_some(lasting.tangent)
+        });
+        beside.min_by_key(|tangent| tangent.motions.len())
+    }
+
+    /// What moves, and the gap that is left where steps were made, if all directions are free; else the gap of one.
+    pub(super) fn free(
+        &mut self,
+        tangent: &Tangent,
+    ) -> Result<(Vec<bool>, Option<f64>), Option<f64>> {
+        let mut moved = vec![false; tangent.columns()];
+        let mut gap: f64 = 0.0;
+        let directions = match tangent.motions.is_empty() {
+            true => 0,
+            false => DIRECTIONS,
+        };
+        for _ in 0..directions {
+            let direction = combination(&tangent.motions, &mut self.rng);
+            let step = match self.near.free_step(tangent, &direction, STEP) {
+                Err(None) if self.is_independent(tangent) => {
+                    for motion in &tangent.motions {
+                        // along a row motions die away to less than rounding of the largest
+                        see(&mut moved, motion, 0.0);
+                    }
+                    return Ok((moved, None));
+                }
+                Err(None) if tangent.motions.len() == 1 => {
+                    self.settled(tangent, &direction).ok_or(None)?
+                }
+                step => step?,
+            };
+            gap = gap.max(step.gap);
+            let way = self.near.system().difference(&tangent.at, &step.at);
+            see(&mut moved, &way, MOVED);
+        }
+        Ok((moved, Some(gap)))
+    }
+
+    /// Whether all equations of a large mechanism that do not vanish everywhere are independent: by the implicit
+    /// function theorem its motions are finite, also where it is too ill-conditioned for steps.
+    fn is_independent(&self, tangent: &Tangent) -> bool {
+        let system = self.near.system();
+        let equations = self.near.mechanism().equations_that_vary() + system.hold_rows().len();
+        system.is_large() && tangent.decomposition.rank() == equations
+    }
+
+    /// A finite step along the only motion, by steps each with its own Jacobian: where the Jacobian is ill-conditioned, as
+    /// in long rows of loops, a fixed one does not lead back at any length.
+    fn settled(&mut self, tangent: &Tangent, direction: &[f64]) -> Option<FiniteStep> {
+        const ALONG: f64 = 0.95;
+        let (at, way) = self.near.arrive(tangent, direction, STEP)?;
+        let gap = self.near.residual(&at);
+        (dot(&way, direction) > ALONG).then_some(FiniteStep { at, gap })
+    }
+
+    /// Whether random directions of motion are all free, so that every direction is.
+    pub fn is_regular(&mut self, tangent: &Tangent, distance: f64, directions: usize) -> bool {
+        (0..directions).all(|_| {
+            let direction = combination(&tangent.motions, &mut self.rng);
+            self.near.free_step(tangent, &direction, distance).is_ok()
+        })
+    }
+}

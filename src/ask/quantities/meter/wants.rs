@@ -1,0 +1,48 @@
+//! What must be worked out for quantities.
+
+use crate::mechanism::{Figure, Measured, Order};
+
+/// What the quantities need beside positions.
+#[derive(Clone, Copy)]
+pub(super) struct Wants {
+    pub order: Order,
+    pub forces: bool,
+    pub transmission: bool,
+    pub jacobian: bool,
+    pub determinant: bool,
+    pub singular_values: bool,
+    pub distances: bool,
+}
+
+impl Wants {
+    pub fn of<'m>(measured: impl Iterator<Item = &'m Measured>) -> Self {
+        let mut wants = Wants {
+            order: Order::Value,
+            forces: false,
+            transmission: false,
+            jacobian: false,
+            determinant: false,
+            singular_values: false,
+            distances: false,
+        };
+        for measured in measured {
+            match measured {
+                Measured::Parameter(_) => {}
+                Measured::Joint(_, order)
+                | Measured::Place(_, _, order)
+                | Measured::Size(_, order) => wants.order = wants.order.max(*order),
+                Measured::Curvature(_) => wants.order = Order::Acceleration,
+                Measured::Force(_) | Measured::PlatformForce(..) => wants.forces = true,
+                Measured::Transmission(_) => wants.transmission = true,
+                Measured::Figure(Figure::Determinant) => {
+                    (wants.jacobian, wants.determinant) = (true, true);
+                }
+                Measured::Figure(Figure::Condition | Figure::Manipulability) => {
+                    (wants.jacobian, wants.singular_values) = (true, true);
+                }
+                Measured::Figure(_) => wants.distances = true,
+            }
+        }
+        wants
+    }
+}
