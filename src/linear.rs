@@ -36,7 +36,7 @@ pub use rows::Rows;
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
 pub use svd::Svd;
-pub use vectors::{add, complement, dot, norm, orthonormal, product, remove};
+pub use vectors::{add, complement, dot, norm, orthonormal, product, remove, without};
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside the largest one.
 ///
@@ -102,7 +102,7 @@ pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
     rank(matrix.singular_values().as_slice())
 }
 
-/// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube. Beyond it the
+/// The most columns whose spectrum is computed: it takes seconds for so many, and grows as the cube. Beyond it the
 /// groups of rows are eliminated one after another ([`Elimination`]).
 pub const SPECTRUM_LIMIT: usize = 500;
 

@@ -51,23 +51,50 @@ pub fn orthonormal(vectors: &[Vec<f64>], tolerance: f64) -> Vec<Vec<f64>> {
 /// Orthonormal basis of all that is orthogonal to orthonormal vectors of `size` components.
 pub fn complement(basis: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
     let mut known: Vec<Vec<f64>> = basis.to_vec();
-    let mut missing: Vec<Vec<f64>> = Vec::new();
+    // the square of each unit vector's projection on the known ones
+    let mut explained = vec![0.0; size];
+    let explain = |explained: &mut [f64], by: &[f64]| {
+        (explained.iter_mut().zip(by)).for_each(|(square, v)| *square += v * v);
+    };
+    known.iter().for_each(|by| explain(&mut explained, by));
     for _ in basis.len()..size {
         // the unit vector that the known ones explain worst
-        let explained = |i: usize| known.iter().map(|v| v[i] * v[i]).sum::<f64>();
-        let unexplained = |i: usize| 1.0 - explained(i);
+        let unexplained = |i: usize| 1.0 - explained[i];
         let worst = (0..size).max_by(|&i, &j| unexplained(i).total_cmp(&unexplained(j)));
-        let best = worst.expect("size > 0");
         let mut next = vec![0.0; size];
-        next[best] = 1.0;
+        next[worst.expect("size > 0")] = 1.0;
         remove(&mut next, &known);
         remove(&mut next, &known);
         let length = norm(&next);
         next.iter_mut().for_each(|x| *x /= length);
-        known.push(next.clone());
-        missing.push(next);
+        explain(&mut explained, &next);
+        known.push(next);
     }
-    missing
+    known.split_off(basis.len())
+}
+
+/// Combinations of vectors whose weights are orthogonal to given orthonormal ones, and to one another: each reflection
+/// (Householder 1958) turns one of the given weights onto a single vector, which is left out.
+pub fn without(mut vectors: Vec<Vec<f64>>, mut weights: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    while let Some(mut normal) = weights.pop() {
+        let largest = |&i: &usize, &j: &usize| normal[i].abs().total_cmp(&normal[j].abs());
+        let Some(pivot) = (0..normal.len()).max_by(largest) else {
+            break;
+        };
+        let scale = 1.0 / (1.0 + normal[pivot].abs());
+        normal[pivot] += normal[pivot].signum();
+        let mut sum = vec![0.0; vectors[pivot].len()];
+        (vectors.iter().zip(&normal)).for_each(|(vector, n)| add(&mut sum, *n, vector));
+        vectors.swap_remove(pivot);
+        for other in &mut weights {
+            let along = scale * dot(other, &normal);
+            add(other, -along, &normal);
+            other.swap_remove(pivot);
+        }
+        normal.swap_remove(pivot);
+        (vectors.iter_mut().zip(&normal)).for_each(|(vector, n)| add(vector, -scale * n, &sum));
+    }
+    vectors
 }
 
 /// What is left of a vector without its components along orthonormal ones.
@@ -114,5 +141,48 @@ pub(super) fn orthogonalise(
 pub(super) fn rotate(first: &mut [f64], second: &mut [f64], cosine: f64, sine: f64) {
     for (x, y) in first.iter_mut().zip(second) {
         (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::numbers;
+
+    /// Random orthonormal weights: what is left is orthonormal as the vectors were, and orthogonal to the combinations
+    /// left out; without a reflection it would not be.
+    #[test]
+    fn combinations_without_weights_are_orthogonal_to_those_left_out() {
+        let (count, size) = (9, 14);
+        let mut next = numbers(3);
+        let mut random = |many: usize, size: usize| -> Vec<Vec<f64>> {
+            let vector = |_| (0..size).map(|_| next()).collect();
+            orthonormal(&(0..many).map(vector).collect::<Vec<_>>(), 1e-9)
+        };
+        let (vectors, weights) = (random(count, size), random(4, count));
+        let combined = |weights: &Vec<f64>| -> Vec<f64> {
+            let mut sum = vec![0.0; size];
+            (weights.iter().zip(&vectors)).for_each(|(w, vector)| add(&mut sum, *w, vector));
+            sum
+        };
+        let out: Vec<Vec<f64>> = weights.iter().map(combined).collect();
+        let left = without(vectors.clone(), weights.clone());
+        assert_eq!(left.len(), count - weights.len());
+        let all = [out, left].concat();
+        for (i, a) in all.iter().enumerate() {
+            for (j, b) in all.iter().enumerate() {
+                let expected = f64::from(u8::from(i == j));
+                assert!(
+                    (dot(a, b) - expected).abs() < 1e-14,
+                    "{i} {j}: {}",
+                    dot(a, b)
+                );
+            }
+        }
+        let kept = dot(&combined(&weights[0]), &vectors[0]).abs();
+        assert!(
+            kept > 1e-3,
+            "the vectors themselves are not orthogonal to those left out"
+        );
     }
 }

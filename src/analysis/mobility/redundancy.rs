@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector3;
-use crate::linear::{add, axis_aligned, complement, orthonormal};
+use crate::linear::{add, axis_aligned, orthonormal, without};
 use crate::system::{Neighbourhood, Tangent};
 
 /// Equations of a closure that follow from those of earlier closures and from one another.
@@ -60,7 +60,6 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
         if entering.is_empty() {
             continue;
         }
-        let rest = complement(&entering, dependencies.len());
         // placed in full: closures without axes leave frames unturned
         let first = mechanism.poses([closure.frames[0]], &tangent.at)[0];
         let turn = |v: &[f64]| first.rotation.inverse_rotate(&Vector3([v[0], v[1], v[2]]));
@@ -88,15 +87,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
                 .collect(),
             rod: closure.kind.has_length(),
         });
-        dependencies = (rest.iter())
-            .map(|weights| {
-                let mut sum = vec![0.0; dependencies[0].len()];
-                for (weight, dependency) in weights.iter().zip(&dependencies) {
-                    add(&mut sum, *weight, dependency);
-                }
-                sum
-            })
-            .collect();
+        dependencies = without(dependencies, entering);
     }
     found.reverse();
     found
