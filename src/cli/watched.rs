@@ -1,7 +1,9 @@
 //! Long work on a terminal: a line that says how far it is, and Ctrl-C, which ends it.
 
+use std::mem::discriminant;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -13,8 +15,8 @@ static UNREAD: AtomicBool = AtomicBool::new(false);
 
 /// Work that is done sooner needs no progress line.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// Milliseconds between two lines, so that they can be read and cost nothing.
-const BETWEEN: u64 = 100;
+/// Time between two lines, so that they can be read and cost nothing.
+const BETWEEN: Duration = Duration::from_millis(100);
 
 /// Does long work, showing how far it is on a terminal. The first Ctrl-C ends the work with what it has, the second ends
 /// the writing of rows with a whole one, the third ends the program.
@@ -26,19 +28,22 @@ pub fn watched<R>(work: impl FnOnce(&Watch) -> R) -> R {
         }
     });
     let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-    let (begun, last) = (Instant::now(), AtomicU64::new(0));
+    let begun = Instant::now();
+    let shown: Mutex<(Duration, Option<Stage>)> = Mutex::default();
     let observer = |now: Progress| {
         let spent = begun.elapsed();
-        if spent >= PATIENCE && !bar.is_hidden() {
-            let spent = spent.as_millis() as u64;
-            let before = last.load(Ordering::Relaxed);
-            // one of several threads draws
-            let next = last.compare_exchange(before, spent, Ordering::Relaxed, Ordering::Relaxed);
-            match next {
-                Ok(_) if spent >= before + BETWEEN => show(&bar, now),
-                Ok(_) => last.store(before, Ordering::Relaxed),
-                Err(_) => {}
+        // one of several threads draws
+        if spent >= PATIENCE
+            && !bar.is_hidden()
+            && let Ok(mut shown) = shown.try_lock()
+            && spent >= shown.0 + BETWEEN
+        {
+            let another = |stage| discriminant(&stage) != discriminant(&now.stage);
+            if shown.1.is_none_or(another) {
+                bar.reset_eta();
             }
+            *shown = (spent, Some(now.stage));
+            show(&bar, now);
         }
         match interruptions() > 0 || UNREAD.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
@@ -60,20 +65,21 @@ pub fn read_no_more() {
     UNREAD.store(true, Ordering::Relaxed);
 }
 
+/// Draws the line once, with all of its parts.
 fn show(bar: &ProgressBar, now: Progress) {
-    let template = match now.of {
-        Some(_) => "{msg}: {human_pos} of {human_len}, {eta} left {wide_bar}",
-        None => "{msg}: {human_pos}",
+    let amount = match now.of {
+        Some(_) => "{human_pos} of {human_len}, {eta} left {wide_bar}",
+        None => "{human_pos}",
     };
-    if let Ok(style) = ProgressStyle::with_template(template) {
+    if let Ok(style) = ProgressStyle::with_template(&format!("{}: {amount}", words(now.stage))) {
         bar.set_style(style);
     }
-    match now.of {
-        Some(of) => bar.set_length(of as u64),
-        None => bar.unset_length(),
-    }
-    bar.set_message(words(now.stage));
-    bar.set_position(now.done as u64);
+    bar.update(|state| {
+        if let Some(of) = now.of {
+            state.set_len(of as u64);
+        }
+        state.set_pos(now.done as u64);
+    });
 }
 
 pub fn words(stage: Stage) -> String {
