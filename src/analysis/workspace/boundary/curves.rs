@@ -2,7 +2,7 @@
 
 use super::kinds::{BoundaryCurve, Crossing, Kind, Piece, named};
 use crate::analysis::workspace::problem::MapProblem;
-use crate::linear::{dot, norm};
+use crate::linear::dot;
 use crate::mechanism::Configuration;
 use crate::number::sorting::sort_by;
 use crate::solve::Place;
@@ -13,6 +13,8 @@ struct Known<P> {
     traced: Traced<P>,
     /// The mapped coordinates of its places.
     points: Vec<[f64; 2]>,
+    /// The steps from each place to the next.
+    chords: Vec<Vec<f64>>,
     met: Vec<(f64, usize)>,
 }
 
@@ -34,12 +36,9 @@ impl Tracer<'_> {
         place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
     ) -> Vec<BoundaryCurve> {
         let mut known: Vec<Known<C::Point>> = Vec::new();
-        // no piece is longer than a step
-        let reach = [0, 1].map(|i| {
-            let scale = self.problem.axes[i]
-                .coordinate
-                .scale(self.problem.mechanism);
-            3.0 * region.method.longest * scale
+        let scale = [0, 1].map(|i| {
+            let coordinate = self.problem.axes[i].coordinate;
+            coordinate.scale(self.problem.mechanism)
         });
         let all = Curve::new(
             self.problem.mechanism,
@@ -53,17 +52,10 @@ impl Tracer<'_> {
             };
             let point = self.point(region, &at);
             let near = |known: &Known<C::Point>| {
-                let at_place = |i: usize| C::configuration(&known.traced.places[i].at);
-                let apart = |from: usize, to: &Configuration<f64>| {
-                    all.difference_but_turns(at_place(from), to)
+                let to = |i: usize| {
+                    all.difference_but_turns(C::configuration(&known.traced.places[i].at), &at)
                 };
-                let in_reach =
-                    |i: usize| (0..2).all(|k| (known.points[i][k] - point[k]).abs() < reach[k]);
-                beside(
-                    in_reach,
-                    |i| [apart(i, at_place(i + 1)), apart(i, &at)],
-                    known,
-                )
+                beside(known, |k, i| (known.points[i][k] - point[k]) / scale[k], to)
             };
             let mut beside = known
                 .iter()
@@ -94,9 +86,11 @@ impl Tracer<'_> {
                     if traced.places.len() > 1 {
                         traced.places = traced.places.into_iter().map(Place::thinned).collect();
                         let places = traced.places.iter();
+                        let at: Vec<_> = places.map(|p| C::configuration(&p.at)).collect();
                         known.push(Known {
-                            points: places
-                                .map(|p| self.point(region, C::configuration(&p.at)))
+                            points: at.iter().map(|at| self.point(region, at)).collect(),
+                            chords: (at.windows(2))
+                                .map(|pair| all.difference_but_turns(pair[0], pair[1]))
                                 .collect(),
                             traced,
                             met: vec![(along, mode)],
@@ -171,28 +165,34 @@ impl Tracer<'_> {
     }
 }
 
-/// Where a configuration is along a curve, if it is near; none within if that is uncertain.
+/// Where a configuration is along a curve, if it is near; none within if that is uncertain. Given are the differences of
+/// the mapped coordinates from those of a place, and the step from a place.
 ///
 /// The tangent turns by less than a quarter of a radian from one place to the next, so that the curve
 /// is off the chord by less than a thirtieth of its length.
 fn beside<P>(
-    near: impl Fn(usize) -> bool,
-    apart: impl Fn(usize) -> [Vec<f64>; 2],
     known: &Known<P>,
+    mapped: impl Fn(usize, usize) -> f64,
+    step: impl Fn(usize) -> Vec<f64>,
 ) -> Option<Option<f64>> {
     /// Parts of the chord.
     const ON_IT: f64 = 0.1;
     const NEAR: f64 = 1.0;
+    /// Beyond so many chords in a mapped coordinate a piece is not near.
+    const REACH: f64 = 3.0;
     /// Pieces that are near one another because they follow one another.
     const NEXT: usize = 4;
-    let pieces = known.points.len() - 1;
+    let pieces = known.chords.len();
     let mut beside: Vec<(usize, f64, f64)> = Vec::new();
-    for i in (0..pieces).filter(|i| near(*i)) {
-        let [chord, to] = apart(i);
-        let length = norm(&chord);
-        let part = (dot(&chord, &to) / (length * length)).clamp(0.0, 1.0);
+    for (i, chord) in known.chords.iter().enumerate() {
+        let square = dot(chord, chord);
+        if (0..2).any(|k| mapped(k, i).powi(2) > REACH * REACH * square) {
+            continue;
+        }
+        let to = step(i);
+        let part = (dot(chord, &to) / square).clamp(0.0, 1.0);
         let off = chord.iter().zip(&to).map(|(c, x)| (x - part * c).powi(2));
-        let off = off.sum::<f64>().sqrt() / length;
+        let off = (off.sum::<f64>() / square).sqrt();
         if off <= NEAR {
             beside.push((i, part, off));
         }
