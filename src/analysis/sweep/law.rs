@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::words;
+use crate::number::Number;
 
 words! {
     /// The way from 0 to 1 of a part s of the segment over a part u of the time.
@@ -42,24 +43,31 @@ impl Default for Pace {
 
 impl Law {
     /// s, s′ and s″ at u.
-    pub fn at(self, u: f64) -> [f64; 3] {
+    pub fn at<T: Number>(self, u: T) -> [T; 3] {
         use std::f64::consts::TAU;
+        let n = T::from_f64;
+        // what is left
+        let v = n(1.0) - u;
         match self {
-            Law::Constant => [u, 1.0, 0.0],
-            Law::Cubic => [u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u), 6.0 - 12.0 * u],
+            Law::Constant => [u, n(1.0), n(0.0)],
+            Law::Cubic => [
+                u * u * (n(3.0) - n(2.0) * u),
+                n(6.0) * u * v,
+                n(6.0) - n(12.0) * u,
+            ],
             Law::Quintic => [
-                u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u),
-                30.0 * (u * (1.0 - u)).powi(2),
-                60.0 * u * (1.0 - u) * (1.0 - 2.0 * u),
+                u.powi(3) * (n(10.0) - n(15.0) * u + n(6.0) * u * u),
+                n(30.0) * (u * v).powi(2),
+                n(60.0) * u * v * (n(1.0) - n(2.0) * u),
             ],
             Law::Septic => [
-                u.powi(4) * (35.0 - 84.0 * u + 70.0 * u * u - 20.0 * u.powi(3)),
-                140.0 * (u * (1.0 - u)).powi(3),
-                420.0 * (u * (1.0 - u)).powi(2) * (1.0 - 2.0 * u),
+                u.powi(4) * (n(35.0) - n(84.0) * u + n(70.0) * u * u - n(20.0) * u.powi(3)),
+                n(140.0) * (u * v).powi(3),
+                n(420.0) * (u * v).powi(2) * (n(1.0) - n(2.0) * u),
             ],
             Law::Cycloidal => {
-                let (sin, cos) = (TAU * u).sin_cos();
-                [u - sin / TAU, 1.0 - cos, TAU * sin]
+                let (sin, cos) = (n(TAU) * u).sin_cos();
+                [u - sin / n(TAU), n(1.0) - cos, n(TAU) * sin]
             }
         }
     }
@@ -87,9 +95,10 @@ impl Law {
 
 impl Pace {
     /// The part of the segment that is gone, its rate per s and its acceleration per s², where a part of the time is.
-    pub fn at(&self, u: f64) -> [f64; 3] {
+    pub fn at<T: Number>(&self, u: T) -> [T; 3] {
         let [s, rate, change] = self.law.at(u);
-        [s, rate / self.duration, change / self.duration.powi(2)]
+        let duration = T::from_f64(self.duration);
+        [s, rate / duration, change / (duration * duration)]
     }
 }
 

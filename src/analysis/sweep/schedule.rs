@@ -69,6 +69,12 @@ impl Schedule {
         ]
     }
 
+    /// Rate and acceleration of an input where a part of the time is gone.
+    pub fn rates(&self, input: usize, part: f64) -> [f64; 2] {
+        let [_, rate, change] = self.at(input, part);
+        [rate, change]
+    }
+
     /// The inputs from where one of equal steps in time begins to where it ends.
     pub fn between(&self, inputs: &[Driven], step: usize, steps: usize) -> Vec<Driven> {
         let inputs = inputs.iter().enumerate().map(|(i, input)| {

@@ -7,6 +7,7 @@ use super::{Block, Meter, Passage, Seen};
 use crate::algebra::BATCH;
 use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
 use crate::mechanism::{Configuration, Measured, Order, Quantity};
+use crate::number::widest;
 use crate::solve::summit;
 
 /// Watches rows and remembers where quantities are least and greatest.
@@ -15,6 +16,8 @@ pub(in super::super) struct Extremes {
     rows: Vec<Seen>,
     seen: usize,
     quantities: Vec<Watched>,
+    /// The rows of a block that count.
+    kept: Vec<usize>,
 }
 
 /// What is remembered of a quantity.
@@ -61,14 +64,16 @@ impl Extremes {
             rows: Vec::new(),
             seen: 0,
             quantities: vec![none; quantities],
+            kept: Vec::with_capacity(BATCH),
         }
     }
 
     /// Takes in the next rows, but for those between the ones asked for.
     pub fn take(&mut self, block: &Block) {
-        let mut quantities = std::mem::take(&mut self.quantities);
+        self.kept.clear();
         let kept = (0..block.len()).filter(|&i| !block.row(i).0.between);
-        let kept: Vec<usize> = kept.collect();
+        self.kept.extend(kept);
+        let kept = &self.kept;
         let before = self.rows.len().min(2);
         let earlier = &self.rows[self.rows.len() - before..];
         let count = before + kept.len();
@@ -76,26 +81,31 @@ impl Extremes {
             Some(row) => row.clone(),
             None => Seen::of(block, kept[i - before]),
         };
-        for (number, (quantity, column)) in quantities.iter_mut().zip(block.columns()).enumerate() {
+        let quantities = self.quantities.iter_mut().zip(block.columns());
+        for (number, (quantity, column)) in quantities.enumerate() {
             let mut values = [f64::NAN; WATCHED];
-            let mut noise = [0.0; WATCHED];
+            let mut noise = [0.0; BATCH];
             for (value, row) in values.iter_mut().zip(earlier) {
                 *value = row.values[number].unwrap_or(f64::NAN);
             }
-            for ((value, noise), &i) in values[before..]
-                .iter_mut()
-                .zip(&mut noise[before..])
-                .zip(&kept)
-            {
-                (*value, *noise) = (column.values[i], column.noise[i]);
+            let latest = &mut values[before..before + BATCH];
+            for ((value, noise), &i) in latest.iter_mut().zip(&mut noise).zip(kept) {
+                (*value, *noise) = (column.values[i % BATCH], column.noise[i % BATCH]);
             }
-            let latest = before..count;
-            quantity.allow(&values[latest.clone()], &noise[latest.clone()]);
-            for (side, sense) in quantity.sides.iter_mut().zip(SENSES) {
-                side.reach(&values[latest.clone()], sense, |i| seen(before + i));
+            let mut most = [0.0; 4];
+            outermost(latest, &noise, &mut most);
+            let [least, greatest, low, high] = most;
+            let [known_low, known_high] = quantity.allowed;
+            quantity.allowed = [larger(low, known_low), -larger(high, -known_high)];
+            let sides = quantity.sides.iter_mut().zip(SENSES);
+            for ((side, sense), height) in sides.zip([least, greatest]) {
+                side.reach(height, sense, latest, |i| seen(before + i));
             }
-            let first = self.seen < 3;
-            if first || turns(&values[..count]) {
+            let mut bends = self.seen < 3;
+            if !bends {
+                turns(&values[..count], &mut bends);
+            }
+            if bends {
                 for middle in 1..count.max(1) - 1 {
                     let near = [middle - 1, middle, middle + 1];
                     let first = self.seen + middle + 2 == before + 3;
@@ -103,13 +113,14 @@ impl Extremes {
                 }
             }
         }
-        self.quantities = quantities;
         self.seen += kept.len();
-        let last = (count.saturating_sub(3)..count).map(seen).collect();
-        if count >= 3 {
-            self.rows = last;
-        } else {
-            self.rows.extend(kept.iter().map(|&i| Seen::of(block, i)));
+        for &i in &kept[kept.len().saturating_sub(3)..] {
+            if self.rows.len() < 3 {
+                self.rows.push(Seen::of(block, i));
+            } else {
+                self.rows.rotate_left(1);
+                self.rows[2].put(block, i);
+            }
         }
     }
 
@@ -287,30 +298,51 @@ fn heights(rows: &[Seen], quantity: usize, sense: f64) -> Option<[f64; 3]> {
     Some([sense * a?, sense * b?, sense * c?])
 }
 
-/// Whether one of some values is an extreme beside its neighbours, or one is missing.
-fn turns(values: &[f64]) -> bool {
-    let mut found = false;
+widest! {
+    /// The greatest of −x, x, x − δ and −(x + δ) for values x that may be off by δ, a block of them. What is not a number
+    /// does not count.
+    fn outermost(values: &[f64], noise: &[f64], most: &mut [f64; 4]) runs outermost_in_lanes
+}
+
+#[inline(always)]
+fn outermost_in_lanes(values: &[f64], noise: &[f64], most: &mut [f64; 4]) {
+    const LANES: usize = 8;
+    let mut all = [[f64::NEG_INFINITY; LANES]; 4];
+    let (values, noise) = (values.as_chunks::<LANES>().0, noise.as_chunks::<LANES>().0);
+    for (values, noise) in values.iter().zip(noise) {
+        for i in 0..LANES {
+            let x = values[i];
+            let off = 4.0 * larger(noise[i], f64::EPSILON * x.abs());
+            for (most, y) in all.iter_mut().zip([-x, x, x - off, -x - off]) {
+                most[i] = larger(y, most[i]);
+            }
+        }
+    }
+    *most = all.map(|most| most.into_iter().fold(f64::NEG_INFINITY, larger));
+}
+
+/// The larger of two numbers, the second if one is none.
+#[inline(always)]
+fn larger(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
+widest! {
+    /// Whether one of some values is an extreme beside its neighbours, or one is missing.
+    fn turns(values: &[f64], found: &mut bool) runs turns_of_each
+}
+
+#[inline(always)]
+fn turns_of_each(values: &[f64], found: &mut bool) {
     let neighbours = values.iter().zip(&values[1..]).zip(&values[2..]);
     for ((a, b), c) in neighbours {
         let beyond = (b >= a) & (b >= c) | (b <= a) & (b <= c);
         let missing = a.is_nan() | b.is_nan() | c.is_nan();
-        found |= missing | beyond & !((a == b) & (b == c));
+        *found |= missing | beyond & !((a == b) & (b == c));
     }
-    found
 }
 
 impl Watched {
-    /// Takes in values with how far they may be off.
-    fn allow(&mut self, values: &[f64], noise: &[f64]) {
-        let [mut low, mut high] = self.allowed;
-        for (&value, &noise) in values.iter().zip(noise) {
-            let off = 4.0 * noise.max(f64::EPSILON * value.abs());
-            // nothing changes where there is no value
-            (low, high) = (low.max(value - off), high.min(value + off));
-        }
-        self.allowed = [low, high];
-    }
-
     /// Takes in three neighbouring values; `first` says whether there are none before.
     fn bend(&mut self, [a, b, c]: [f64; 3], first: bool, rows: impl Fn() -> [Seen; 3]) {
         if ![a, b, c].iter().any(|x| x.is_nan()) {
@@ -333,17 +365,12 @@ impl Watched {
 }
 
 impl Side {
-    /// Takes in values at rows.
-    fn reach(&mut self, values: &[f64], sense: f64, row: impl Fn(usize) -> Seen) {
-        let greatest = values.iter().fold(f64::NEG_INFINITY, |most, x| {
-            let height = sense * x;
-            if height > most { height } else { most }
-        });
-        let more = match &self.most {
-            Some((most, ..)) => greatest > *most,
-            None => greatest > f64::NEG_INFINITY,
-        };
-        if let Some(first) = values.iter().position(|x| more && sense * x == greatest) {
+    /// Takes in values at rows with the greatest of them in this sense.
+    fn reach(&mut self, greatest: f64, sense: f64, values: &[f64], row: impl Fn(usize) -> Seen) {
+        let most = self.most.as_ref().map_or(f64::NEG_INFINITY, |most| most.0);
+        if greatest > most
+            && let Some(first) = values.iter().position(|x| sense * x == greatest)
+        {
             let Seen { at, time, .. } = row(first);
             self.most = Some((greatest, at, time));
         }

@@ -265,12 +265,9 @@ impl<'q> Meter<'q> {
             }
         }
         let count = block.len();
-        for i in 0..self.values.len() {
-            let values = &mut block.columns[i].values[..count];
+        for (i, column) in block.columns.iter_mut().enumerate() {
             if self.turns[i] {
-                for value in values.iter_mut().filter(|value| !value.is_nan()) {
-                    *value = self.without_jump(i, *value);
-                }
+                self.without_jumps(i, &mut column.values[..count]);
             }
         }
         self.rows += count;
@@ -279,16 +276,36 @@ impl<'q> Meter<'q> {
         self.block = block;
     }
 
+    /// By how many whole turns an angle is to be smaller so that it does not jump.
+    fn turned(&self, i: usize, value: f64) -> f64 {
+        match self.before[i] {
+            Some(before) if self.turns[i] && (value - before).abs() > PI => {
+                TAU * ((value - before) / TAU).round()
+            }
+            _ => 0.0,
+        }
+    }
+
     /// An angle is given without jumps.
     fn without_jump(&mut self, i: usize, value: f64) -> f64 {
-        let value = match self.before[i] {
-            Some(before) if self.turns[i] && (value - before).abs() > PI => {
-                value - TAU * ((value - before) / TAU).round()
-            }
-            _ => value,
-        };
+        let value = value - self.turned(i, value);
         self.before[i] = Some(value);
         value
+    }
+
+    /// Many of them, one after another.
+    fn without_jumps(&mut self, i: usize, values: &mut [f64]) {
+        let pairs = values.iter().zip(values.iter().skip(1));
+        let smooth = pairs.fold(true, |smooth, (a, b)| smooth & ((b - a).abs() <= PI));
+        if smooth && values.len() > 1 {
+            let turned = self.turned(i, values[0]);
+            values.iter_mut().for_each(|value| *value -= turned);
+            self.before[i] = values.last().copied();
+            return;
+        }
+        for value in values.iter_mut().filter(|value| !value.is_nan()) {
+            *value = self.without_jump(i, *value);
+        }
     }
 
     /// The lines about which links spin, if they are the same everywhere.
@@ -355,11 +372,13 @@ impl<'q> Meter<'q> {
         let Some((input, way)) = self.ways[of] else {
             return [0.0; 2];
         };
-        let [_, rate, change] = match &self.of.schedule {
-            None => self.of.pace.at(time).map(|x| way * x),
-            Some(schedule) => schedule.at(input, time),
-        };
-        [rate, change]
+        match &self.of.schedule {
+            None => {
+                let [_, rate, change] = self.of.pace.at(time);
+                [way * rate, way * change]
+            }
+            Some(schedule) => schedule.rates(input, time),
+        }
     }
 
     /// How far each value last read may be off.

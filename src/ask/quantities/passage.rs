@@ -24,6 +24,15 @@ impl Seen {
             values: block.values(i).collect(),
         }
     }
+
+    /// Another row in its place.
+    pub fn put(&mut self, block: &Block, i: usize) {
+        let (row, time) = block.row(i);
+        self.at.clone_from(row.configuration);
+        self.time = time;
+        self.values.clear();
+        self.values.extend(block.values(i));
+    }
 }
 
 /// A motion that is solved anywhere between its rows.

@@ -27,6 +27,7 @@ pub(super) fn estimated<T: Number>(
 const UNEVEN: [f64; 4] = [1.0, -0.73, 0.87, -0.61];
 
 /// Whether a value is large beside how far it may be off.
+#[inline(always)]
 pub(super) fn is_clear([value, noise]: [f64; 2]) -> bool {
     4.0 * noise.abs() <= value.abs()
 }

@@ -1,14 +1,14 @@
 //! Quantities at many rows at once, by the operations that give them at one.
 
 use super::Meter;
-use super::block::Block;
+use super::block::{Block, Column};
 use super::found::Here;
 use super::probe::Probe;
 use super::programs::{estimated, is_clear, is_name};
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::number::Number;
+use crate::number::{Number, widest};
 
 /// The quantities as a program, which holds wherever all that was decided at one row is decided in the same way.
 pub(super) struct Recording {
@@ -39,23 +39,37 @@ impl Recording {
     fn run(&mut self, block: &mut Block) -> [bool; BATCH] {
         self.batch.run(1, &mut self.registers);
         let mut holds = [true; BATCH];
-        for (register, negative) in &self.decided {
-            let rows = self.registers.rows(*register);
-            for (holds, x) in holds.iter_mut().zip(rows) {
-                *holds &= (*x < 0.0) == *negative && !x.is_nan();
-            }
-        }
-        let columns = block.columns.iter_mut().zip(&self.quantities);
-        for (column, ([value, noise], clear)) in columns {
-            column.values = *self.registers.rows(*value);
-            column.noise = self.registers.rows(*noise).map(f64::abs);
-            let both = column.values.iter().zip(&column.noise);
-            for (holds, (&value, &noise)) in holds.iter_mut().zip(both) {
-                *holds &= value.is_finite() & (!clear | is_clear([value, noise]));
-            }
-        }
+        told(self, &mut block.columns, &mut holds);
         holds
     }
+
+    /// Gives the quantities to columns and says for which rows the program holds.
+    #[inline(always)]
+    fn tell(&self, columns: &mut [Column], holds: &mut [bool; BATCH]) {
+        // how many conditions do not hold: of the width of the numbers, for vector instructions
+        let mut broken = [0u64; BATCH];
+        for (register, negative) in &self.decided {
+            let rows = self.registers.rows(*register);
+            for (broken, x) in broken.iter_mut().zip(rows) {
+                *broken += u64::from(((*x < 0.0) != *negative) | x.is_nan());
+            }
+        }
+        for (column, ([value, noise], clear)) in columns.iter_mut().zip(&self.quantities) {
+            column.values = *self.registers.rows(*value);
+            let noise = self.registers.rows(*noise);
+            for (i, broken) in broken.iter_mut().enumerate() {
+                let (value, noise) = (column.values[i], noise[i].abs());
+                column.noise[i] = noise;
+                let clear = !clear | is_clear([value, noise]);
+                *broken += u64::from(!value.is_finite() | !clear);
+            }
+        }
+        *holds = broken.map(|count| count == 0);
+    }
+}
+
+widest! {
+    fn told(recording: &Recording, columns: &mut [Column], holds: &mut [bool; BATCH]) runs Recording::tell
 }
 
 impl Meter<'_> {
@@ -71,9 +85,12 @@ impl Meter<'_> {
             let parts = pose.orientation.0.iter().chain(&pose.position.0);
             parts.for_each(|&x| put(x));
         }
-        for of in 0..self.ways.len() {
-            if self.plan.moves() && self.ways[of].is_some() {
-                self.driven(of, time).into_iter().for_each(&mut put);
+        match &self.of.schedule {
+            None => put(time),
+            Some(schedule) => {
+                let inputs = self.ways.iter().flatten();
+                let rates = inputs.flat_map(|(input, _)| schedule.rates(*input, time));
+                rates.for_each(&mut put);
             }
         }
         if let Some((classifier, figures)) = &mut self.distances {
@@ -128,10 +145,14 @@ impl Meter<'_> {
                 .collect(),
         };
         let mut driven = [(); 2].map(|()| vec![Recorded::zero(); self.ways.len()]);
+        let pace = (self.of.schedule.is_none()).then(|| self.of.pace.at(next()));
         for (of, way) in self.ways.iter().enumerate() {
-            if self.plan.moves() && way.is_some() {
-                driven.iter_mut().for_each(|driven| driven[of] = next());
-            }
+            let Some((_, way)) = *way else { continue };
+            let [rate, change] = match pace {
+                Some([_, rate, change]) => [rate, change].map(|x| x.scale(way)),
+                None => [next(), next()],
+            };
+            (driven[0][of], driven[1][of]) = (rate, change);
         }
         let mut probe = Probe::new(self.of, &self.plan);
         probe.at(&self.plan, &at, &driven, self.spins()?);
