@@ -69,7 +69,7 @@ pub struct Mechanism {
     closed_forms: Arc<Vec<ClosedForm>>,
     outputs: Arc<Vec<Quantity>>,
     homes: Arc<model::Homes>,
-    dimensions: Dimensions<f64>,
+    dimensions: Arc<Dimensions<f64>>,
     /// For each joint whether a full turn leaves every frame where it is.
     repeating: Vec<bool>,
     /// For each closure the rows that do not vanish in every configuration, once asked for.

@@ -116,7 +116,7 @@ impl Mechanism {
     /// The parameters with their values in m, rad or without unit.
     fn parameters(&self) -> Vec<(String, f64)> {
         let parameters = self.mechanism.parameters().iter();
-        parameters.map(|p| (p.name.clone(), p.value)).collect()
+        parameters.map(|p| (p.name.to_string(), p.value)).collect()
     }
 
     /// What is odd about the file, in words; empty if nothing is.

@@ -94,7 +94,12 @@ impl Writer<'_> {
         // one may be defined by another
         for _ in &self.settings.numbers {
             for (i, parameter) in self.mechanism.parameters().iter().enumerate() {
-                if self.settings.numbers.contains(&parameter.name) {
+                if self
+                    .settings
+                    .numbers
+                    .iter()
+                    .any(|name| **name == *parameter.name)
+                {
                     values[i] = parameter.definition.evaluate(&|symbol| match *symbol {
                         Symbol::Parameter(j) => values[j],
                         Symbol::Joint(_) | Symbol::Local(_) => Symbolic::zero(),

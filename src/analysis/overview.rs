@@ -31,7 +31,7 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
         }),
         parameters: parameters
             .map(|parameter| ParameterOverview {
-                name: parameter.name.clone(),
+                name: parameter.name.to_string(),
                 definition: written(mechanism, &parameter.definition),
                 value: parameter.value,
             })
@@ -183,7 +183,7 @@ fn steps(mechanism: &Mechanism, steps: &[FixedStep]) -> Vec<String> {
 
 fn name(mechanism: &Mechanism, symbol: Symbol) -> String {
     match symbol {
-        Symbol::Parameter(i) => mechanism.parameters()[i].name.clone(),
+        Symbol::Parameter(i) => mechanism.parameters()[i].name.to_string(),
         Symbol::Joint(i) => mechanism.joints()[i].name.clone(),
         Symbol::Local(i) => format!("local{i}"),
     }

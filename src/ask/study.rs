@@ -63,7 +63,7 @@ pub struct StudyRows {
 impl Varied {
     fn parameter(index: usize, of: &Parameter) -> Self {
         Varied {
-            name: of.name.clone(),
+            name: of.name.to_string(),
             unit: match of.measure {
                 Measure::Angle => SiUnit::RADIAN,
                 Measure::Length => SiUnit::METRE,
@@ -88,13 +88,13 @@ fn parameter<'m>(
     name: &str,
 ) -> Result<Option<(usize, &'m Parameter)>, StudyError> {
     let mut parameters = mechanism.parameters().iter().enumerate();
-    let found = parameters.find(|(_, of)| of.name == name);
+    let found = parameters.find(|(_, of)| *of.name == *name);
     if found.is_none()
         && let Err(QuestionError::UnknownName { suggestion, .. }) =
             system::Question::new(mechanism).value(name, "home")
     {
         let parameters = mechanism.parameters().iter();
-        let parameter = nearest(name, parameters.map(|of| of.name.as_str()));
+        let parameter = nearest(name, parameters.map(|of| &*of.name));
         return Err(StudyError::Unknown {
             name: name.into(),
             suggestion: parameter.map(str::to_owned).or(suggestion),
@@ -111,7 +111,7 @@ fn number(
 ) -> Result<f64, StudyError> {
     let number = value.number(mechanism, parameter.measure);
     number.map_err(|error| StudyError::Value {
-        name: parameter.name.clone(),
+        name: parameter.name.to_string(),
         text: value.to_string(),
         why: error.to_string(),
     })

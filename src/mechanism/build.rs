@@ -167,7 +167,7 @@ impl Mechanism {
                 joints: homes,
                 platforms: poses,
             }),
-            dimensions: super::Dimensions::empty(),
+            dimensions: super::Dimensions::empty().into(),
             repeating: Vec::new(),
             rows_that_vary: OnceLock::new(),
             coordinates: description.coordinates.clone().map(Arc::from),

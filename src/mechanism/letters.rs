@@ -52,7 +52,7 @@ impl Letters<'_> {
         let place = symbol as usize;
         let parameters = mechanism.parameters();
         if let Some(parameter) = parameters.get(place) {
-            return parameter.name.clone();
+            return parameter.name.to_string();
         }
         let place = place - parameters.len();
         if let Some(joint) = mechanism.joints().get(place) {

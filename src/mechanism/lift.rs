@@ -1,6 +1,7 @@
 //! From formulas to dimensions over a number type: the only place where this happens.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
@@ -150,7 +151,7 @@ impl Mechanism {
 
     /// The same mechanism with a characteristic length, in m.
     pub(super) fn measured(mut self, length: f64) -> Self {
-        measure(&mut self.dimensions, length, &self.joints);
+        measure(Arc::make_mut(&mut self.dimensions), length, &self.joints);
         self
     }
 

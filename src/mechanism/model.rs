@@ -24,7 +24,7 @@ pub type Formula = Expression<Symbol>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name.
-    pub name: String,
+    pub name: Arc<str>,
     /// Its definition; only parameters occur in it.
     pub definition: Formula,
     /// Its value, in m or rad or without unit.

@@ -188,7 +188,7 @@ impl Measured {
     /// If it stands for nothing.
     pub fn read(mechanism: &Mechanism, name: &str) -> Result<Self, QuantityError> {
         let parameters = mechanism.parameters();
-        if let Some(parameter) = parameters.iter().position(|known| known.name == name) {
+        if let Some(parameter) = parameters.iter().position(|known| *known.name == *name) {
             return Ok(Measured::Parameter(parameter));
         }
         if let Some(joint) = mechanism.joint(name) {
@@ -306,7 +306,7 @@ fn suggestion(mechanism: &Mechanism, name: &str) -> Option<String> {
     let mut known: Vec<String> = mechanism
         .parameters()
         .iter()
-        .map(|p| p.name.clone())
+        .map(|p| p.name.to_string())
         .collect();
     known.push(TRANSMISSION.into());
     known.extend(Figure::ALL.map(|figure| figure.word().to_owned()));

@@ -186,7 +186,9 @@ fn read(
     let expression = Expression::parse(text).map_err(|error| ValueError::Parse(error.kind))?;
     let parameters = mechanism.parameters();
     let resolved = expression.try_resolve(|name, _| {
-        let found = parameters.iter().find(|parameter| parameter.name == *name);
+        let found = parameters
+            .iter()
+            .find(|parameter| *parameter.name == **name);
         found.ok_or_else(|| name.clone())
     });
     match resolved {
@@ -200,7 +202,7 @@ fn read(
         }
         Err(names) => {
             let name = names.into_iter().next().unwrap_or_default();
-            let known = parameters.iter().map(|parameter| parameter.name.as_str());
+            let known = parameters.iter().map(|parameter| &*parameter.name);
             let suggestion = nearest(&name, known).map(str::to_owned);
             Err(ValueError::UnknownName { name, suggestion })
         }

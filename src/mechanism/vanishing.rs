@@ -50,7 +50,7 @@ fn rows_that_vary(dimensions: &Dimensions<f64>) -> Vec<Kept> {
 impl Mechanism {
     pub(super) fn set_dimensions(&mut self, dimensions: Dimensions<f64>) {
         self.rows_that_vary = OnceLock::new();
-        self.dimensions = dimensions;
+        self.dimensions = dimensions.into();
         self.infer_repeating();
     }
 

@@ -43,7 +43,7 @@ pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
     let parameters = mechanism.parameters().iter().zip(&description.parameters);
     let parameters = parameters.map(|(parameter, described)| {
         json!({
-            "name": parameter.name,
+            "name": &*parameter.name,
             "written": described.value.expression.to_string(),
             "value": parameter.value,
             "angle": parameter.measure == Measure::Angle,

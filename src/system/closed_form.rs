@@ -182,9 +182,9 @@ fn platform_is_held(question: &Question, platform: usize) -> bool {
 
 /// A stem for names of angles that no name of the mechanism begins with.
 fn free_stem(mechanism: &Mechanism) -> &'static str {
-    let joints = mechanism.joints().iter().map(|joint| &joint.name);
-    let parameters = (mechanism.parameters().iter()).map(|parameter| &parameter.name);
-    let names: Vec<&String> = joints.chain(parameters).collect();
+    let joints = mechanism.joints().iter().map(|joint| &*joint.name);
+    let parameters = (mechanism.parameters().iter()).map(|parameter| &*parameter.name);
+    let names: Vec<&str> = joints.chain(parameters).collect();
     let stems = ["psi", "chi", "eta", "zeta", "omega", "xi"].into_iter();
     let mut free = stems.filter(|stem| names.iter().all(|name| !name.starts_with(stem)));
     free.next().unwrap_or("angle_")

@@ -132,7 +132,7 @@ impl Mechanism {
 
     /// The names in formulas.
     pub fn names_in_formulas(&self) -> FormulaNames {
-        let parameters = self.parameters().iter().map(|part| part.name.clone());
+        let parameters = self.parameters().iter().map(|part| part.name.to_string());
         let platforms = self.platforms().iter().map(|part| part.name.clone());
         FormulaNames {
             joints: Variable::joints(self),

@@ -655,7 +655,7 @@ fn cognates_trace_the_same_coupler_curve() {
         let traced = Point::read(&other, now).unwrap();
         // Roberts: the links of each are those of the first, scaled by the sides of the coupler triangle
         let length = |name: &str| {
-            let parameter = other.parameters().iter().find(|p| p.name == name);
+            let parameter = other.parameters().iter().find(|p| *p.name == *name);
             parameter.unwrap().value
         };
         let (arm, link, last) = [(arms[0], a, b), (arms[1], b, a)][number];

@@ -268,7 +268,7 @@ fn a_four_bar_has_the_transmission_angle_of_the_cosine_rule() {
     // cos μ = (b² + c² − a² − d² + 2 a d cos θ)/(2 b c), with the lengths of the file
     let mechanism = load("four_bar");
     let length = |name: &str| {
-        let found = mechanism.parameters().iter().find(|p| p.name == name);
+        let found = mechanism.parameters().iter().find(|p| *p.name == *name);
         found.unwrap().value
     };
     let [d, a, b, c] = ["l0", "l1", "l2", "l3"].map(length);
@@ -294,7 +294,7 @@ fn the_second_loop_of_a_six_bar_is_driven_by_the_rocker_of_the_first() {
     // the cosine rule once more, with the angle at which the first loop puts the second crank
     let mechanism = load("watt_six_bar");
     let length = |name: &str| {
-        let found = mechanism.parameters().iter().find(|p| p.name == name);
+        let found = mechanism.parameters().iter().find(|p| *p.name == *name);
         found.unwrap().value
     };
     let rule = |names: [&str; 4], theta: f64| {
@@ -790,7 +790,7 @@ fn a_stretched_arm_loses_a_freedom_and_says_so() {
         mechanism
             .parameters()
             .iter()
-            .find(|p| p.name == name)
+            .find(|p| *p.name == *name)
             .unwrap()
             .value
     };

@@ -558,7 +558,7 @@ fn the_bound_is_that_of_the_dimensions_given() {
     ];
     let general = with("stewart_gough_6sps", &[]);
     let value = |name: &str| {
-        let parameter = general.parameters().iter().find(|p| p.name == name);
+        let parameter = general.parameters().iter().find(|p| *p.name == *name);
         format!("{}", parameter.unwrap().value)
     };
     let values: Vec<(&str, String)> = onto.iter().map(|(b, a)| (*b, value(a))).collect();
@@ -663,7 +663,7 @@ fn out_of_reach_the_closest_approach_keeps_no_gap_that_a_free_joint_closes() {
     let closest = answer(&question, 1).closest.unwrap();
     assert!(closest.local_minimum);
     let value = |name: &str| {
-        let parameter = puma.parameters().iter().find(|p| p.name == name);
+        let parameter = puma.parameters().iter().find(|p| *p.name == *name);
         parameter.unwrap().value
     };
     let arms = value("a2") + value("a3").hypot(value("d4"));

@@ -385,7 +385,7 @@ fn delta_robots() {
     let tutorial = with_parameters("delta", &tutorial);
     let flexpicker = mechanism("delta");
     let parameters = flexpicker.parameters();
-    let up = parameters.iter().find(|p| p.name == "uP").unwrap();
+    let up = parameters.iter().find(|p| &*p.name == "uP").unwrap();
     assert!((up.value - third * 0.076).abs() < 1e-15);
     let names = ["theta1", "theta2", "theta3"];
     for (mechanism, rows) in [

@@ -21,7 +21,7 @@ fn four_bar(angle: f64) -> (Mechanism, Configuration<f64>) {
 fn length(mechanism: &Mechanism, name: &str) -> f64 {
     let mut parameters = mechanism.parameters().iter();
     parameters
-        .find(|parameter| parameter.name == name)
+        .find(|parameter| *parameter.name == *name)
         .unwrap()
         .value
 }

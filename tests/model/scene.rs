@@ -30,7 +30,7 @@ fn joints_of_a_four_bar_are_its_link_lengths_apart() {
     let mechanism = Mechanism::load("mechanisms/four_bar.ron").unwrap();
     let length = |name: &str| {
         let parameters = mechanism.parameters().iter();
-        parameters.clone().find(|p| p.name == name).unwrap().value
+        parameters.clone().find(|p| *p.name == *name).unwrap().value
     };
     let angle = 60_f64.to_radians();
     let scene = scene("four_bar", &[("theta1", angle)]);

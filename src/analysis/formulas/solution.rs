@@ -95,9 +95,9 @@ struct Names {
 
 impl Names {
     fn of(mechanism: &Mechanism) -> Self {
-        let joints = mechanism.joints().iter().map(|joint| &joint.name);
+        let joints = mechanism.joints().iter().map(|joint| &*joint.name);
         let parameters = mechanism.parameters().iter();
-        let all: Vec<&String> = joints.chain(parameters.map(|p| &p.name)).collect();
+        let all: Vec<&str> = joints.chain(parameters.map(|p| &*p.name)).collect();
         let free = |stem: &str| all.iter().all(|name| !name.starts_with(stem));
         let mut letters = [["A", "B", "C"], ["P", "Q", "R"], ["U", "V", "W"]].into_iter();
         let letters = letters.find(|three| three.iter().all(|letter| free(letter)));

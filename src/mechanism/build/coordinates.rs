@@ -97,7 +97,7 @@ impl Mechanism {
     /// The first axis of joint coordinates that is wrong for the values of the parameters.
     pub(in super::super) fn fault_of_axes(&self) -> Option<Problem> {
         let value = |name: &String| {
-            let known = self.parameters.iter().find(|of| of.name == *name);
+            let known = self.parameters.iter().find(|of| *of.name == **name);
             known.map_or(f64::NAN, |of| of.value)
         };
         let mut vector = |entries: &[Entry; 3], _| {

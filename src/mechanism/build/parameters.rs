@@ -38,7 +38,7 @@ impl Builder<'_> {
         parts
             .filter_map(|((named, definition), ((&value, &measure), &bare))| {
                 Some(Parameter {
-                    name: named.name.value.clone(),
+                    name: named.name.value.as_str().into(),
                     definition: definition?,
                     value,
                     measure,
