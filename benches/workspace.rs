@@ -1,14 +1,6 @@
-//! A map of the workspace with lanes on all cores beside the same map with single numbers on one.
-//!
-//! Criterion times the former; the lines beside it give the median quotient of pairs of maps made in
-//! turn. Registers are half as wide without AVX2: `RUSTFLAGS="-C target-cpu=x86-64-v3"` builds with it.
+//! A map of the workspace on all cores; an element is a node in a mode.
 
-// a bench prints its ratios
-#![allow(clippy::print_stdout)]
-
-use std::time::Instant;
-
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use linkwork::analysis::workspace::{WorkspaceSettings, workspace};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
@@ -62,7 +54,6 @@ fn all(criterion: &mut Criterion) {
 }
 
 fn compare(criterion: &mut Criterion, work: &Work) {
-    const PAIRS: usize = 5;
     let mechanism =
         Mechanism::load(format!("mechanisms/{}.ron", work.name)).expect("a shipped file");
     let mut question = Question::new(&mechanism)
@@ -82,14 +73,9 @@ fn compare(criterion: &mut Criterion, work: &Work) {
             to: *to,
         })
         .collect();
-    let one = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("a thread");
-    let map = |side_by_side: bool| {
+    let map = || {
         let settings = WorkspaceSettings {
             nodes: vec![work.nodes; axes.len()],
-            side_by_side,
             // of the map alone: few places are searched for modes, no boundaries followed
             searched: 4,
             starts: 8,
@@ -97,45 +83,12 @@ fn compare(criterion: &mut Criterion, work: &Work) {
             boundaries: false,
             ..WorkspaceSettings::default()
         };
-        let run = || workspace(&question, &axes, (&[], None), &settings, &Watch::none());
-        let report = match side_by_side {
-            true => run(),
-            false => one.install(run),
-        };
+        let report = workspace(&question, &axes, (&[], None), &settings, &Watch::none());
         report.expect("few enough nodes").cells.len()
     };
-    let time = |side_by_side: bool| {
-        let begun = Instant::now();
-        let cells = map(side_by_side);
-        (begun.elapsed().as_secs_f64() / cells as f64, cells)
-    };
-    let mut quotients = Vec::new();
-    let mut fastest = [f64::INFINITY; 2];
-    let mut cells = 0;
-    for _ in 0..PAIRS {
-        let ((alone, count), (beside, again)) = (time(false), time(true));
-        assert_eq!(count, again);
-        cells = count;
-        fastest = [fastest[0].min(alone), fastest[1].min(beside)];
-        quotients.push(alone / beside);
-    }
-    quotients.sort_by(f64::total_cmp);
-    println!(
-        "workspace/{}: {cells} nodes in modes, {:.2} µs each alone, {:.2} µs with lanes on {} threads{}: \
-         {:.2} times as fast (median of {PAIRS})",
-        work.name,
-        fastest[0] * 1e6,
-        fastest[1] * 1e6,
-        rayon::current_num_threads(),
-        if cfg!(target_feature = "avx2") {
-            ""
-        } else {
-            " without AVX2"
-        },
-        quotients[PAIRS / 2]
-    );
     let mut group = criterion.benchmark_group("workspace");
     group.sample_size(10);
-    group.bench_function(work.name, |bencher| bencher.iter(|| map(true)));
+    group.throughput(Throughput::Elements(map() as u64));
+    group.bench_function(work.name, |bencher| bencher.iter(map));
     group.finish();
 }

@@ -26,7 +26,7 @@
 //!
 //! | Module | Contents |
 //! |---|---|
-//! | [`number`] | real, complex, dual and interval numbers, and eight reals side by side |
+//! | [`number`] | real, complex, dual and interval numbers |
 //! | [`linear`] | small dense and sparse linear algebra for least-squares steps |
 //! | [`algebra`] | expressions and trigonometric polynomials |
 //! | [`geometry`] | vectors, rotations, poses, lines |

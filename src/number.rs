@@ -1,5 +1,4 @@
-//! The numbers that run through the one kinematics: reals, complex numbers, duals, intervals and
-//! several reals side by side.
+//! The numbers that run through the one kinematics: reals, complex numbers, duals and intervals.
 //!
 //! A joint enters the algebra only through (cos, sin) or a slide, so chain products, closure
 //! residuals and their Jacobians are written once over [`Number`].
@@ -8,7 +7,6 @@ mod complex;
 mod dual;
 mod folded;
 mod interval;
-mod lanes;
 mod real;
 pub(crate) mod sorting;
 pub(crate) mod trigonometry;
@@ -20,7 +18,6 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 pub use dual::Dual;
 pub(crate) use folded::Folded;
 pub use interval::Interval;
-pub use lanes::{LANES, Lanes};
 pub use num_complex::Complex;
 pub(crate) use widest::widest;
 
@@ -196,37 +193,10 @@ pub(crate) use functions;
 ///
 /// A dual has the size of its value, so that every decision over duals is that over its inner number.
 pub trait Field: Number {
-    /// What sizes are measured by.
-    type Size: Extent;
     /// Complex conjugate; the number itself for reals.
     fn conjugate(self) -> Self;
     /// Squared absolute value |z|².
-    fn norm_squared(self) -> Self::Size;
+    fn norm_squared(self) -> f64;
     /// The direction z/|z|, 1 for zero.
     fn phase(self) -> Self;
-    /// `self` times a real size.
-    fn stretched(self, factor: Self::Size) -> Self;
-}
-
-/// The size of a number: one real, or one for each of several numbers side by side.
-///
-/// Decisions are made once for all of them: what must be large enough goes by the least, what must
-/// be small enough by the greatest.
-pub trait Extent: Number {
-    /// The smallest real.
-    fn least(self) -> f64;
-    /// The largest real, NaN if any is.
-    fn greatest(self) -> f64;
-    /// The larger of two in each place; where one is NaN, either.
-    fn larger(self, other: Self) -> Self;
-}
-
-/// A number that carries several reals side by side, or one.
-pub trait Packed: Field<Size = Self> + Extent {
-    /// How many.
-    const WIDTH: usize;
-    /// The real in one place.
-    fn part(self, place: usize) -> f64;
-    /// The number with these reals.
-    fn of_parts(parts: impl Fn(usize) -> f64) -> Self;
 }

@@ -29,7 +29,7 @@ pub use threads::{Pool, each};
 pub use warm::{Trail, Warm, WarmReport};
 pub use watch::{Observer, Progress, Stage, Watch};
 
-use crate::number::{Extent, Field, Number};
+use crate::number::Field;
 
 /// Equations r(x) = 0 on a manifold, with a least-squares step at a point.
 pub trait Equations {
@@ -67,17 +67,16 @@ impl Size {
     /// The size of the given rows. A NaN anywhere gives an infinite size.
     #[inline]
     pub fn of<T: Field>(rows: &[T]) -> Self {
-        let (mut largest, mut squares) = (T::Size::zero(), T::Size::zero());
+        let (mut largest, mut squares) = (0.0, 0.0f64);
         for row in rows {
             let square = row.norm_squared();
             squares += square;
-            largest = largest.larger(square);
+            largest = square.max(largest);
         }
         // a NaN among the largest may have been passed over, in the sum it is not
-        let squares = squares.greatest();
         if squares.is_finite() {
             Size {
-                largest: largest.greatest().sqrt(),
+                largest: largest.sqrt(),
                 squares,
             }
         } else {

@@ -2,7 +2,7 @@
 //! bounds it.
 //!
 //! Assembled configurations are sought from random starts at some nodes of a grid. From there nodes
-//! are reached one from another by steps of Newton's method, eight side by side, that are short beside
+//! are reached one from another by steps of Newton's method, many side by side, that are short beside
 //! what would lead to another solution; where a step is too long, by shorter ones, and at last by the
 //! sure steps of [`Continuation`](crate::solve::Continuation). What is connected so is a *mode*: a
 //! working mode where coordinates of platforms are mapped, an assembly mode where inputs are. Where a
@@ -26,9 +26,7 @@ pub use map::{
     HeldReport, HomeReport, ModeReport, WorkspaceReport,
 };
 
-use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::number::{Lanes, Packed};
 use crate::solve::{Pool, Watch};
 use crate::system::{Driven, Question};
 use boundary::Boundary;
@@ -50,8 +48,6 @@ pub struct WorkspaceSettings {
     pub probed: usize,
     /// Seed of the random starts.
     pub seed: u64,
-    /// Whether several steps are taken side by side in vector registers. The result is the same.
-    pub side_by_side: bool,
     /// Whether boundaries are located and followed.
     pub boundaries: bool,
     /// Nodes in modes that are kept at most: each takes about [`cell_bytes`].
@@ -66,7 +62,6 @@ impl Default for WorkspaceSettings {
             starts: 30,
             probed: 10_000,
             seed: 1,
-            side_by_side: true,
             boundaries: true,
             most: usize::MAX,
         }
@@ -130,10 +125,8 @@ pub fn workspace(
     let probed = grid.spread(settings.probed);
     let home = home.map(|at| Home::new(fill, at));
     let seeds = (&mode_seeds, home.as_ref());
-    let (reached_set, aspects, outside) = match settings.side_by_side {
-        true => reached_set::<Lanes>(&fill, seeds, (&probed, settings.seed), watch),
-        false => reached_set::<f64>(&fill, seeds, (&probed, settings.seed), watch),
-    }?;
+    let (reached_set, aspects, outside) =
+        reached_set(&fill, seeds, (&probed, settings.seed), watch)?;
     let map = Map::new(&problem, &grid, &reached_set, aspects);
     let boundary = Boundary {
         fill: &fill,
@@ -156,13 +149,17 @@ pub fn workspace(
 }
 
 /// All that is reached, the aspect of each solution, and how many seeds were outside limits.
-fn reached_set<T: Factorable + Packed + Send + Sync>(
+fn reached_set(
     fill: &Flood,
     (mode_seeds, home): (&ModeSeeds, Option<&Home>),
     (probed, seed): (&[usize], u64),
     watch: &Watch,
 ) -> Result<(ReachedSet, Vec<Option<usize>>, usize), TooManyNodes> {
-    let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.problem));
+    let mut steps = Steps::new(fill.problem);
+    if let Some((node, at)) = mode_seeds.seeds.first() {
+        steps = steps.recorded(fill.problem, at, &fill.grid.point(*node));
+    }
+    let steps = Pool::new(steps);
     let mut reached = Spread::new(fill.grid);
     fill.spread(&mut reached, &steps, &mode_seeds.seeds, watch)?;
     let mut more = flood::probe(fill, &reached, &steps, (probed, seed), watch);

@@ -1,5 +1,5 @@
 use super::{DenseOnly, NoFactors, SparseStep};
-use crate::number::{Complex, Dual, Field, Interval, Lanes};
+use crate::number::{Complex, Dual, Field, Interval};
 
 /// A number for which least-squares steps are computed, with its way to do so for large, sparse matrices.
 pub trait Factorable: Field {
@@ -23,9 +23,5 @@ impl<T: Field> Factorable for Dual<T> {
 }
 
 impl Factorable for Interval {
-    type Sparse = DenseOnly;
-}
-
-impl Factorable for Lanes {
     type Sparse = DenseOnly;
 }

@@ -1,4 +1,4 @@
-use crate::number::{Extent, Field};
+use crate::number::Field;
 
 /// Gaussian elimination with row exchanges of a square matrix: three times cheaper than [`Qr`](super::Qr),
 /// but unreliable about rank, so it returns its smallest pivot.
@@ -46,9 +46,9 @@ fn eliminate<T: Field>(n: usize, a: &mut [T], exchanges: &mut [usize]) -> f64 {
     let (a, exchanges) = (&mut a[..n * n], &mut exchanges[..n]);
     let mut smallest = f64::INFINITY;
     for k in 0..n {
-        let (mut best, mut size) = (k, a[k * n + k].norm_squared().least());
+        let (mut best, mut size) = (k, a[k * n + k].norm_squared());
         for i in k + 1..n {
-            let other = a[k * n + i].norm_squared().least();
+            let other = a[k * n + i].norm_squared();
             if other > size {
                 (best, size) = (i, other);
             }

@@ -1,5 +1,5 @@
 use super::RANK_TOLERANCE;
-use crate::number::{Extent, Field, Number};
+use crate::number::Field;
 
 /// Householder factorisation with column pivoting of the first columns of a matrix, the remaining
 /// columns being carried along: Qᴴ·[A | B] = [R | QᴴB].
@@ -13,7 +13,7 @@ pub struct Qr<T: Field> {
     columns: usize,
     entries: Vec<T>,
     heads: Vec<T>,
-    scales: Vec<T::Size>,
+    scales: Vec<f64>,
     order: Vec<usize>,
     rank: usize,
     /// Pivots count as lost that are this small beside the largest.
@@ -29,7 +29,7 @@ impl<T: Field> Qr<T> {
             columns: pivots + carried,
             entries: vec![T::zero(); rows * (pivots + carried)],
             heads: vec![T::zero(); pivots],
-            scales: vec![T::Size::zero(); pivots],
+            scales: vec![0.0; pivots],
             order: (0..pivots).collect(),
             rank: 0,
             tolerance: RANK_TOLERANCE,
@@ -113,11 +113,10 @@ impl<T: Field> Qr<T> {
         for k in 0..pivots.min(rows) {
             let (best, norm_squared) = self.longest_column(rows, pivots, k);
             let norm = norm_squared.sqrt();
-            let least = norm.least();
             if k == 0 {
-                largest = largest.max(least);
+                largest = largest.max(norm);
             }
-            if least <= self.tolerance * largest || least == 0.0 {
+            if norm <= self.tolerance * largest || norm == 0.0 {
                 break;
             }
             if best != k {
@@ -130,20 +129,19 @@ impl<T: Field> Qr<T> {
     }
 
     #[inline(always)]
-    fn longest_column(&self, rows: usize, pivots: usize, k: usize) -> (usize, T::Size) {
-        let (mut best, mut most) = ((k, T::Size::zero()), -1.0);
+    fn longest_column(&self, rows: usize, pivots: usize, k: usize) -> (usize, f64) {
+        let (mut best, mut most) = (k, -1.0);
         for j in k..pivots {
             let column = &self.entries[j * rows..(j + 1) * rows];
-            let mut norm_squared = T::Size::zero();
+            let mut norm_squared = 0.0;
             for x in &column[k..] {
-                norm_squared = norm_squared + x.norm_squared();
+                norm_squared += x.norm_squared();
             }
-            let least = norm_squared.least();
-            if least > most {
-                (best, most) = ((j, norm_squared), least);
+            if norm_squared > most {
+                (best, most) = (j, norm_squared);
             }
         }
-        best
+        (best, most)
     }
 
     fn swap(&mut self, i: usize, j: usize) {
@@ -154,13 +152,13 @@ impl<T: Field> Qr<T> {
 
     /// Reflects column `k` onto its first entry from row `k` and every later column with it.
     #[inline(always)]
-    fn reflect(&mut self, rows: usize, k: usize, norm: T::Size) {
+    fn reflect(&mut self, rows: usize, k: usize, norm: f64) {
         let (left, right) = self.entries[..rows * self.columns].split_at_mut((k + 1) * rows);
         let v = &mut left[k * rows + k..];
         let size = v[0].norm_squared().sqrt();
-        let diagonal = -v[0].phase().stretched(norm);
+        let diagonal = -v[0].phase().scale(norm);
         v[0] = v[0] - diagonal;
-        let scale = T::Size::one() / (norm * (norm + size));
+        let scale = 1.0 / (norm * (norm + size));
         for column in right.chunks_exact_mut(rows) {
             reflect_one(v, scale, &mut column[k..]);
         }
@@ -196,7 +194,7 @@ impl<T: Field> Qr<T> {
             for (v, x) in tail.iter().zip(&*rest) {
                 sum = sum + v.conjugate() * *x;
             }
-            let sum = sum.stretched(scales[k]);
+            let sum = sum.scale(scales[k]);
             *first = *first - sum * heads[k];
             for (v, x) in tail.iter().zip(rest) {
                 *x = *x - sum * *v;
@@ -222,12 +220,12 @@ impl<T: Field> Qr<T> {
 }
 
 #[inline(always)]
-pub(super) fn reflect_one<T: Field>(v: &[T], scale: T::Size, column: &mut [T]) {
+pub(super) fn reflect_one<T: Field>(v: &[T], scale: f64, column: &mut [T]) {
     let mut sum = T::zero();
     for (v, x) in v.iter().zip(&*column) {
         sum = sum + v.conjugate() * *x;
     }
-    let sum = sum.stretched(scale);
+    let sum = sum.scale(scale);
     for (v, x) in v.iter().zip(column) {
         *x = *x - sum * *v;
     }
@@ -261,7 +259,7 @@ mod tests {
             qr.rotate(&mut b);
             qr.back_substitute(&mut b, &mut x);
             for j in 0..3 {
-                let error = (x[j] - solution[j]).norm_squared().greatest();
+                let error = (x[j] - solution[j]).norm_squared();
                 assert!(error < 1e-26, "{x:?}");
             }
         }

@@ -106,7 +106,7 @@ pub fn remove(vector: &mut [f64], basis: &[Vec<f64>]) {
 }
 
 /// Makes vectors of one length orthogonal by rotations of pairs (Hestenes 1958); `turned` is called for each rotation.
-pub(super) fn orthogonalise(
+pub(crate) fn orthogonalise(
     length: usize,
     vectors: &mut [f64],
     mut turned: impl FnMut([usize; 2], f64, f64),
@@ -138,7 +138,7 @@ pub(super) fn orthogonalise(
 }
 
 /// Rotates a pair of vectors.
-pub(super) fn rotate(first: &mut [f64], second: &mut [f64], cosine: f64, sine: f64) {
+pub(crate) fn rotate(first: &mut [f64], second: &mut [f64], cosine: f64, sine: f64) {
     for (x, y) in first.iter_mut().zip(second) {
         (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
     }

@@ -1,5 +1,5 @@
 use crate::geometry::{Pose, Quaternion, Vector3};
-use crate::number::{Lanes, Number};
+use crate::number::Number;
 
 /// The pose of a platform as the solver keeps it: orientation by a unit quaternion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,20 +87,6 @@ impl<T> Configuration<T> {
         ConfigurationRef {
             joints: &self.joints,
             platforms: &self.platforms,
-        }
-    }
-}
-
-impl Configuration<Lanes> {
-    /// Puts a configuration into one lane.
-    pub fn set_lane(&mut self, lane: usize, to: &Configuration<f64>) {
-        for (x, &value) in self.joints.iter_mut().zip(&to.joints) {
-            x.set(lane, value);
-        }
-        for (pose, to) in self.platforms.iter_mut().zip(&to.platforms) {
-            let parts = (pose.orientation.0.iter_mut()).chain(&mut pose.position.0);
-            let values = to.orientation.0.iter().chain(&to.position.0);
-            parts.zip(values).for_each(|(x, &value)| x.set(lane, value));
         }
     }
 }

@@ -46,7 +46,6 @@ impl Number for Complex<f64> {
 }
 
 impl Field for Complex<f64> {
-    type Size = f64;
     #[inline(always)]
     fn conjugate(self) -> Self {
         self.conj()
@@ -61,9 +60,5 @@ impl Field for Complex<f64> {
             0.0 => Complex::new(1.0, 0.0),
             size => Number::scale(self, 1.0 / size),
         }
-    }
-    #[inline(always)]
-    fn stretched(self, factor: f64) -> Self {
-        Number::scale(self, factor)
     }
 }

@@ -1,4 +1,4 @@
-use super::{Extent, Field, Number, functions, operators};
+use super::{Field, Number, functions, operators};
 
 /// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
 ///
@@ -104,24 +104,19 @@ impl<T: Number> Number for Dual<T> {
 }
 
 impl<T: Field> Field for Dual<T> {
-    type Size = T::Size;
     #[inline]
     fn conjugate(self) -> Self {
         dual(self.value.conjugate(), self.slope.conjugate())
     }
     #[inline]
-    fn norm_squared(self) -> T::Size {
+    fn norm_squared(self) -> f64 {
         self.value.norm_squared()
     }
     #[inline]
     fn phase(self) -> Self {
         match self.value.norm_squared() {
-            size if size.least() == 0.0 => Dual::constant(self.value.phase()),
-            size => self.stretched(T::Size::one() / size.sqrt()),
+            0.0 => Dual::constant(self.value.phase()),
+            size => self.scale(1.0 / size.sqrt()),
         }
-    }
-    #[inline]
-    fn stretched(self, factor: T::Size) -> Self {
-        dual(self.value.stretched(factor), self.slope.stretched(factor))
     }
 }

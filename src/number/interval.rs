@@ -218,7 +218,6 @@ impl Number for Interval {
 }
 
 impl Field for Interval {
-    type Size = f64;
     #[inline]
     fn conjugate(self) -> Self {
         self
@@ -235,10 +234,6 @@ impl Field for Interval {
             0.0 => Interval::point(1.0),
             size => self / Interval::point(size).sqrt(),
         }
-    }
-    #[inline]
-    fn stretched(self, factor: f64) -> Self {
-        self * Interval::point(factor)
     }
 }
 

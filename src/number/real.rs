@@ -1,4 +1,4 @@
-use super::{Extent, Field, Number, Packed, functions, trigonometry};
+use super::{Field, Number, functions, trigonometry};
 
 /// Nothing comes from the platform's C library, so that the same input gives the same bytes on every machine.
 impl Number for f64 {
@@ -44,7 +44,6 @@ impl Number for f64 {
 }
 
 impl Field for f64 {
-    type Size = f64;
     #[inline(always)]
     fn conjugate(self) -> Self {
         self
@@ -56,36 +55,5 @@ impl Field for f64 {
     #[inline(always)]
     fn phase(self) -> Self {
         1.0f64.copysign(self)
-    }
-    #[inline(always)]
-    fn stretched(self, factor: f64) -> Self {
-        self * factor
-    }
-}
-
-impl Extent for f64 {
-    #[inline(always)]
-    fn least(self) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn greatest(self) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        self.max(other)
-    }
-}
-
-impl Packed for f64 {
-    const WIDTH: usize = 1;
-    #[inline(always)]
-    fn part(self, _: usize) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn of_parts(parts: impl Fn(usize) -> f64) -> Self {
-        parts(0)
     }
 }

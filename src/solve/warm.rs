@@ -1,5 +1,5 @@
 use super::Equations;
-use crate::number::{Extent, Field, Number};
+use crate::number::{Field, Number};
 
 /// Newton's method for following a motion: each point starts from the ones before it, by extrapolation ([`Trail`]).
 ///
@@ -91,7 +91,7 @@ impl<P, T: Field> Trail<P, T> {
 
     /// Takes in the latest move, and what is left of it.
     fn learn(&mut self, left: Option<&[T]>) {
-        let mut errors = [T::Size::zero(); ORDERS];
+        let mut errors = [0.0; ORDERS];
         let known = self.moved.iter().zip(&mut self.rest);
         let mut left = left.into_iter().flatten();
         for (differences, (&moved, rest)) in self.differences.iter_mut().zip(known) {
@@ -103,7 +103,6 @@ impl<P, T: Field> Trail<P, T> {
                 (*difference, latest) = (latest, latest - *difference);
             }
         }
-        let errors = errors.map(Extent::greatest);
         let better = |best, order| {
             if errors[order] < errors[best] {
                 order
@@ -162,16 +161,16 @@ impl Warm {
         let mut longest_step = LONGEST_STEP;
         let steps = equations.step_mut(work);
         if order > 0 {
-            let mut longest = <E::Number as Field>::Size::zero();
+            let mut longest = 0.0f64;
             let past = trail.differences.iter().zip(&trail.rest);
             let moves = trail.moved.iter_mut().zip(steps);
             for ((moved, step), (differences, &rest)) in moves.zip(past) {
                 let terms = differences[..order].iter();
                 *step = terms.fold(rest, |sum, &d| sum + d);
                 *moved = *step;
-                longest = longest.larger(step.norm_squared());
+                longest = longest.max(step.norm_squared());
             }
-            longest_step = longest_step.min(longest.greatest().sqrt());
+            longest_step = longest_step.min(longest.sqrt());
         } else {
             trail.moved.fill(E::Number::zero());
             steps.fill(E::Number::zero());

@@ -271,7 +271,7 @@ impl<'a> Question<'a> {
         System::reduced(self.mechanism, self.mechanism.dimensions(), &self.held())
     }
 
-    /// The equations over another number, as [`Lanes`](crate::number::Lanes).
+    /// The equations over another number, as [`Recorded`](crate::algebra::Recorded).
     pub fn system_over<T: Factorable>(&self) -> System<T> {
         let dimensions = self.mechanism.dimensions().map(&mut T::from_f64);
         System::reduced(self.mechanism, &dimensions, &self.held().map(T::from_f64))

@@ -126,7 +126,6 @@ impl Number for Recorded {
 }
 
 impl Field for Recorded {
-    type Size = f64;
     fn conjugate(self) -> Self {
         self
     }
@@ -135,9 +134,6 @@ impl Field for Recorded {
     }
     fn phase(self) -> Self {
         Self::from_f64(if self.real() < 0.0 { -1.0 } else { 1.0 })
-    }
-    fn stretched(self, factor: f64) -> Self {
-        self.scale(factor)
     }
 }
 

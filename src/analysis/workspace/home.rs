@@ -26,7 +26,7 @@ impl<'f> Home<'f> {
         let at: Vec<f64> = (0..grid.dimensions())
             .map(|axis| within(problem, grid, axis, home))
             .collect();
-        let indicators = Steps::<f64>::new(problem).indicators(home, &at);
+        let indicators = Steps::new(problem).indicators(home, &at);
         let signs = signs_of(&indicators, problem.allows(&home.joints));
         let mut nodes = Vec::new();
         for node in corners(grid, &at) {

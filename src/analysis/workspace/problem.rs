@@ -6,5 +6,5 @@ mod map_problem;
 mod rates;
 
 pub(super) use grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
-pub(super) use map_problem::{MapProblem, Targets, side_by_side};
-pub(super) use rates::{Indicators, Rates};
+pub(super) use map_problem::{MapProblem, Targets};
+pub(super) use rates::{Indicators, Motions, Rates};

@@ -6,7 +6,6 @@ use crate::geometry::Rotation;
 use crate::linear::{CANCELLED, Factorable, Qr, RANK_TOLERANCE};
 use crate::mechanism::PoseCoordinate;
 use crate::mechanism::{Configuration, Side};
-use crate::number::Extent;
 use crate::solve::Equations;
 
 impl<T: Factorable> System<T> {
@@ -61,6 +60,36 @@ impl<T: Factorable> System<T> {
             row += hold.rows();
         }
         &mut work.residual
+    }
+
+    /// Makes rates of angles, as [`row_rates`](Self::row_rates) finds them, rates of the rows: over numbers that are not
+    /// real these rows are entire, and change cos(pitch) times as fast where they vanish.
+    pub fn stretch_angle_rates(&self, work: &mut Work<T>) {
+        if T::REAL {
+            return;
+        }
+        let mut row = self.hold_rows().start;
+        for hold in &self.holds {
+            if let HoldRow::Coordinate(platform, coordinate, _) = hold
+                && coordinate.is_angle()
+            {
+                let [x, y, _] = work.placement.pose(1 + platform).rotation.0[0].0;
+                work.residual[row] *= (x * x + y * y).sqrt();
+            }
+            row += hold.rows();
+        }
+    }
+
+    /// What is positive where angles that are held by themselves are at their values, and negative half a turn from there,
+    /// where entire rows vanish too.
+    pub fn sides_of_angles(&self, work: &Work<T>) -> Vec<T> {
+        let side = |hold: &HoldRow<T>| match hold {
+            HoldRow::Coordinate(platform, coordinate, value) => {
+                coordinate.along(&work.placement.pose(1 + platform).rotation, *value)
+            }
+            _ => None,
+        };
+        self.holds.iter().filter_map(side).collect()
     }
 
     /// The residual as it stands, to be replaced.
@@ -183,14 +212,14 @@ fn pivots_of<T: Factorable>(rows: usize, columns: usize, dense: &[T]) -> Vec<f64
     let mut qr = Qr::new(rows, columns, 0);
     qr.load(rows, dense);
     qr.factorise(0.0);
-    let size = |k: usize| qr.column(k)[k].norm_squared().greatest().sqrt();
+    let size = |k: usize| qr.column(k)[k].norm_squared().sqrt();
     (0..qr.rank()).map(size).collect()
 }
 
 /// Shortens the vector of every so many of some entries if it is longer than 1, by the factor returned.
 fn shorten<T: Factorable>(entries: &mut [T], first: usize, step: usize) -> f64 {
     let own = entries.iter().skip(first).step_by(step);
-    let squares: f64 = own.map(|x| x.norm_squared().greatest()).sum();
+    let squares: f64 = own.map(|x| x.norm_squared()).sum();
     let factor = 1.0 / squares.max(1.0).sqrt();
     if factor < 1.0 {
         let own = entries.iter_mut().skip(first).step_by(step);

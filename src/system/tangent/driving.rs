@@ -146,6 +146,7 @@ impl Driving {
         work: &mut Work<T>,
         rates: &mut [T],
     ) {
+        system.stretch_angle_rates(work);
         system.step(work);
         for (&place, &step) in self.places.iter().zip(system.step_of(work)) {
             rates[place] = step;

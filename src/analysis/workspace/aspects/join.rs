@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, signs};
 use crate::analysis::workspace::problem::Grid;
-use crate::linear::{Factorable, join, root};
-use crate::number::Packed;
+use crate::linear::{join, root};
 use crate::solve::{Pool, Stage, Watch, each};
 use crate::system::Driven;
 
@@ -22,9 +21,9 @@ pub(crate) fn parts(dimensions: usize) -> usize {
 }
 
 /// For each solution the first of its aspect, small ones joined over a finer grid; and what it joins.
-pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
+pub(crate) fn joined(
     fill: &Flood,
-    steps: &Pool<Steps<T>>,
+    steps: &Pool<Steps>,
     reached_set: &ReachedSet,
     watch: &Watch,
 ) -> (Vec<Option<usize>>, Vec<[usize; 2]>) {
@@ -63,9 +62,9 @@ pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
 }
 
 /// The solutions at nodes that a finer grid around an aspect leads to within it.
-fn reached<T: Factorable + Packed + Send + Sync>(
+fn reached(
     fill: &Flood,
-    steps: &Pool<Steps<T>>,
+    steps: &Pool<Steps>,
     reached_set: &ReachedSet,
     aspect: &[usize],
 ) -> Vec<usize> {

@@ -3,7 +3,6 @@
 use super::configurations::Configurations;
 use crate::analysis::workspace::problem::Indicators;
 use crate::mechanism::{Configuration, ConfigurationRef};
-use crate::number::Packed;
 
 /// A configuration with its motions.
 #[derive(Clone, Copy, Debug)]
@@ -60,41 +59,20 @@ impl Arrivals {
         self.indicators.resize(steps, Indicators::default());
     }
 
-    /// Takes places over for steps from `first` on, and that these of them arrive.
-    pub fn put<T: Packed>(
+    /// What a step arrives at.
+    pub fn put(
         &mut self,
-        first: usize,
-        at: &Configuration<T>,
-        motions: &[T],
-        indicators: &[Option<Indicators>],
+        step: usize,
+        at: &Configuration<f64>,
+        motions: &[f64],
+        indicators: Indicators,
     ) {
         let steps = self.arrived.len();
-        self.at.fill(steps, &at.map(|x| x.part(0)));
+        self.at.put(step, steps, at);
         self.motions.resize(steps * motions.len(), 0.0);
-        for (i, indicators) in (first..).zip(indicators) {
-            if let Some(indicators) = indicators {
-                self.arrived[i] = true;
-                self.indicators[i].clone_from(indicators);
-            }
-        }
-        let places = || (first..).zip(0..indicators.len());
-        for (joint, x) in at.joints.iter().enumerate() {
-            for (i, place) in places() {
-                *self.at.joint_mut(i, joint) = x.part(place);
-            }
-        }
-        for (platform, pose) in at.platforms.iter().enumerate() {
-            for (i, place) in places() {
-                let to = self.at.platform_mut(i, platform);
-                to.orientation.0 = pose.orientation.0.map(|x| x.part(place));
-                to.position.0 = pose.position.0.map(|x| x.part(place));
-            }
-        }
-        for (k, x) in motions.iter().enumerate() {
-            for (i, place) in places() {
-                self.motions[i * motions.len() + k] = x.part(place);
-            }
-        }
+        self.motions[step * motions.len()..][..motions.len()].copy_from_slice(motions);
+        self.arrived[step] = true;
+        self.indicators[step] = indicators;
     }
 
     pub fn reject(&mut self, step: usize) {

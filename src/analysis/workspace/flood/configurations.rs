@@ -24,12 +24,14 @@ impl Configurations {
         self.platforms.extend(at.platforms);
     }
 
-    /// At least so many, of which new ones are this one.
-    pub fn fill(&mut self, count: usize, with: &Configuration<f64>) {
-        let width = with.joints.len() + with.platforms.len();
-        while self.joints.len() + self.platforms.len() < count * width {
-            self.push(with.view());
+    /// Puts a configuration at a place among so many.
+    pub fn put(&mut self, place: usize, count: usize, at: &Configuration<f64>) {
+        let widths = [at.joints.len(), at.platforms.len()];
+        while self.joints.len() + self.platforms.len() < count * (widths[0] + widths[1]) {
+            self.push(at.view());
         }
+        self.joints[place * widths[0]..][..widths[0]].copy_from_slice(&at.joints);
+        self.platforms[place * widths[1]..][..widths[1]].copy_from_slice(&at.platforms);
     }
 
     pub fn get(&self, i: usize) -> ConfigurationRef<'_, f64> {
@@ -38,13 +40,5 @@ impl Configurations {
             joints: &self.joints[i * joints..][..joints],
             platforms: &self.platforms[i * platforms..][..platforms],
         }
-    }
-
-    pub fn joint_mut(&mut self, i: usize, joint: usize) -> &mut f64 {
-        &mut self.joints[i * self.widths[0] + joint]
-    }
-
-    pub fn platform_mut(&mut self, i: usize, platform: usize) -> &mut PlatformPose<f64> {
-        &mut self.platforms[i * self.widths[1] + platform]
     }
 }

@@ -3,19 +3,20 @@
 use super::super::TooManyNodes;
 use super::arrivals::{Arrivals, Moving};
 use super::edge::{Edge, Met};
-use super::neighbour::{Flood, JOB, Step, in_packs, one_each};
+use super::neighbour::{Flood, Step, in_packs, one_each};
 use super::pace::End;
 use super::reached::{Link, Name};
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use super::tile::{Task, Tile};
-use crate::linear::Factorable;
 use crate::mechanism::Configuration;
-use crate::number::Packed;
 use crate::solve::{Pool, Stage, Watch, each};
 
 /// Parts of the grid spread over between two progress reports.
 const PARTS: usize = 64;
+
+/// Solutions looked up by one thread at once.
+const JOB: usize = 128;
 
 impl Flood<'_> {
     /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
@@ -24,10 +25,10 @@ impl Flood<'_> {
     ///
     /// # Errors
     /// If more is reached than may be kept.
-    pub fn spread<T: Factorable + Packed + Send + Sync>(
+    pub fn spread(
         &self,
         spread: &mut Spread,
-        steps: &Pool<Steps<T>>,
+        steps: &Pool<Steps>,
         seeds: &[(usize, Configuration<f64>)],
         watch: &Watch,
     ) -> Result<(), TooManyNodes> {
@@ -86,10 +87,10 @@ impl Flood<'_> {
     }
 
     /// Spreads within each part independently.
-    fn grow<T: Factorable + Packed + Send + Sync>(
+    fn grow(
         &self,
         spread: &mut Spread,
-        steps: &Pool<Steps<T>>,
+        steps: &Pool<Steps>,
         watch: &Watch,
     ) -> Result<(), TooManyNodes> {
         for first in (0..spread.tiles.len()).step_by(PARTS) {
@@ -113,7 +114,7 @@ impl Flood<'_> {
     /// Links steps to known solutions, then chooses one step to each node from each mode; the others
     /// wait for what it finds.
     fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
-        let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
+        let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {
             let near = jobs[i].iter().map(|&task| {
                 let node = spread.ahead(self.grid, task)?;
@@ -139,12 +140,7 @@ impl Flood<'_> {
     }
 
     /// Single steps, where they are sure.
-    fn steps<T: Factorable + Packed + Send + Sync>(
-        &self,
-        spread: &Spread,
-        steps: &Pool<Steps<T>>,
-        tasks: &[Task],
-    ) -> Vec<Arrivals> {
+    fn steps(&self, spread: &Spread, steps: &Pool<Steps>, tasks: &[Task]) -> Vec<Arrivals> {
         in_packs(steps, tasks, |steps, pack| {
             let planned = pack.iter().map(|task| spread.step(self, *task));
             let (mut arrivals, mut storage) = Default::default();
@@ -159,10 +155,10 @@ impl Flood<'_> {
     }
 
     /// Where single steps are too long: by shorter ones, then along the curve, which is far slower.
-    fn ends<T: Factorable + Packed + Send + Sync>(
+    fn ends(
         &self,
         spread: &Spread,
-        steps: &Pool<Steps<T>>,
+        steps: &Pool<Steps>,
         tasks: &[Task],
         watch: &Watch,
     ) -> Vec<End> {

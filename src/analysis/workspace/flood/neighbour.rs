@@ -8,10 +8,10 @@ use super::arrivals::{Arrivals, Moving};
 use super::metric::Metric;
 use super::reached::{Name, NodeSolution, Signs, signs};
 use super::step::{SURE, Start, Steps};
+use crate::algebra::BATCH;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MapProblem};
-use crate::linear::{Factorable, norm};
+use crate::linear::norm;
 use crate::mechanism::Configuration;
-use crate::number::Packed;
 use crate::solve::Pool;
 
 #[derive(Clone, Copy)]
@@ -24,9 +24,6 @@ pub(crate) struct Flood<'a> {
     /// The signs of the one aspect that is to be spread over, if not all are.
     pub only: Option<Signs>,
 }
-
-/// Starts given to one thread at once.
-pub(crate) const JOB: usize = 16;
 
 /// An edge of the grid that is to be gone along.
 #[derive(Clone, Copy, Debug)]
@@ -54,11 +51,7 @@ impl Flood<'_> {
         }
     }
 
-    pub(crate) fn settled<T: Factorable + Packed + Send + Sync>(
-        &self,
-        steps: &Pool<Steps<T>>,
-        starts: &[Start],
-    ) -> Vec<Arrivals> {
+    pub(crate) fn settled(&self, steps: &Pool<Steps>, starts: &[Start]) -> Vec<Arrivals> {
         in_packs(steps, starts, |steps, pack| {
             let mut arrivals = Arrivals::default();
             steps.settle(pack, &mut arrivals);
@@ -105,9 +98,9 @@ impl Flood<'_> {
     }
 
     /// The same for one pack.
-    pub(crate) fn sure<T: Factorable + Packed>(
+    pub(crate) fn sure(
         &self,
-        steps: &mut Steps<T>,
+        steps: &mut Steps,
         planned: &[Step],
         arrivals: &mut Arrivals,
         storage: &mut Vec<f64>,
@@ -152,16 +145,12 @@ pub(crate) fn one_each<S, R: Eq + Hash>(
     (steps.into_iter()).partition(|step| taken.insert(node_and_mode(step)))
 }
 
-/// What comes of items given to as many lanes as there are, in their order.
-pub(crate) fn in_packs<T: Factorable + Packed + Send + Sync, I: Sync, R: Send>(
-    steps: &Pool<Steps<T>>,
+/// What comes of items given to as many places as go side by side, in their order.
+pub(crate) fn in_packs<I: Sync, R: Send>(
+    steps: &Pool<Steps>,
     items: &[I],
-    of: impl Fn(&mut Steps<T>, &[I]) -> R + Sync,
+    of: impl Fn(&mut Steps, &[I]) -> R + Sync,
 ) -> Vec<R> {
-    let jobs: Vec<&[I]> = items.chunks(JOB).collect();
-    let ends = steps.each(jobs.len(), |steps, i| {
-        let packs = jobs[i].chunks(T::WIDTH);
-        packs.map(|pack| of(steps, pack)).collect::<Vec<R>>()
-    });
-    ends.into_iter().flatten().collect()
+    let packs: Vec<&[I]> = items.chunks(BATCH).collect();
+    steps.each(packs.len(), |steps, i| of(steps, packs[i]))
 }

@@ -6,8 +6,7 @@ use super::spread::Spread;
 use super::step::{Start, Steps};
 use super::tile::Task;
 use crate::analysis::workspace::problem::MOST_AXES;
-use crate::linear::{Factorable, norm};
-use crate::number::Packed;
+use crate::linear::norm;
 use crate::solve::Pool;
 
 /// Where the way along an edge ends.
@@ -68,12 +67,7 @@ impl PacedStep {
 
 impl Flood<'_> {
     /// Halves steps until they are certain, then continues.
-    pub(crate) fn paced<T: Factorable + Packed + Send + Sync>(
-        &self,
-        steps: &Pool<Steps<T>>,
-        spread: &Spread,
-        tasks: &[Task],
-    ) -> Vec<End> {
+    pub(crate) fn paced(&self, steps: &Pool<Steps>, spread: &Spread, tasks: &[Task]) -> Vec<End> {
         const ROUNDS: usize = 30;
         /// The shortest step as a part of an edge.
         const SHORTEST: f64 = 1.0 / 256.0;

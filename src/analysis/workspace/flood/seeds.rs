@@ -9,9 +9,7 @@ use super::neighbour::Flood;
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
-use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::number::Packed;
 use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
 use crate::system::{System, Work, random_configuration, sets_of_angles, with_coordinates};
 
@@ -65,7 +63,7 @@ struct Storage {
     targets: Targets,
     system: System<f64>,
     work: Work<f64>,
-    steps: Steps<f64>,
+    steps: Steps,
 }
 
 /// Newton's method from random starts at each of some nodes, and from the given configurations.
@@ -122,7 +120,7 @@ fn take(
     mut at: Configuration<f64>,
     found: &mut Vec<Configuration<f64>>,
 ) {
-    (storage.targets).ask(&mut storage.system, &mut at, |_| values);
+    (storage.targets).ask(&mut storage.system, &mut at, values);
     let mut trial = at.clone();
     let report = Newton::default().solve(&storage.system, &mut at, &mut trial, &mut storage.work);
     if report.stop != Stop::Solved
@@ -156,10 +154,10 @@ fn put_in(problem: &MapProblem, values: &[f64], at: &Configuration<f64>) -> Conf
 pub(crate) const PROBES: usize = 8;
 
 /// What a few random starts at each of many nodes find that is not reached yet: small regions.
-pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
+pub(crate) fn probe(
     fill: &Flood,
     reached: &Spread,
-    steps: &Pool<Steps<T>>,
+    steps: &Pool<Steps>,
     (nodes, seed): (&[usize], u64),
     watch: &Watch,
 ) -> ModeSeeds {
@@ -186,13 +184,11 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         let starts: Vec<Start> = drawn.iter().map(anywhere).collect();
         let mut new: Vec<Configuration<f64>> = Vec::new();
         let mut arrivals = Arrivals::default();
-        for pack in starts.chunks(T::WIDTH) {
-            steps.settle(pack, &mut arrivals);
-            for arrival in arrivals.iter().flatten() {
-                let known = |of: &Configuration<f64>| fill.metric.same(of.view(), arrival.at);
-                if reached.known(fill, node, arrival).is_none() && !new.iter().any(known) {
-                    new.push(arrival.at.owned());
-                }
+        steps.settle(&starts, &mut arrivals);
+        for arrival in arrivals.iter().flatten() {
+            let known = |of: &Configuration<f64>| fill.metric.same(of.view(), arrival.at);
+            if reached.known(fill, node, arrival).is_none() && !new.iter().any(known) {
+                new.push(arrival.at.owned());
             }
         }
         (node, new)

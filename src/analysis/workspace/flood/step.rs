@@ -1,12 +1,12 @@
-//! From a node to its neighbour: several such steps side by side.
+//! From a node to its neighbour.
 
 use super::arrivals::Arrivals;
+use super::side_by_side::{End, SideBySide};
 use crate::analysis::workspace::problem::{
-    Indicators, MOST_AXES, MapProblem, Rates, Targets, side_by_side,
+    Indicators, MOST_AXES, MapProblem, Motions, Rates, Targets,
 };
-use crate::linear::Factorable;
+use crate::linear::norm;
 use crate::mechanism::{Configuration, ConfigurationRef};
-use crate::number::{LANES, Packed};
 use crate::solve::Equations;
 use crate::system::{System, Work};
 
@@ -22,155 +22,178 @@ pub(crate) struct Start<'a> {
     pub values: [f64; MOST_AXES],
 }
 
-/// Newton's method in several places at once. One whose steps are too long stands still from there on.
+/// Newton's method between nodes. It ends where a correction is too long.
 #[derive(Clone, Debug)]
-pub(crate) struct Steps<T: Factorable> {
+pub(crate) struct Steps {
     targets: Targets,
-    system: System<T>,
-    work: Work<T>,
-    point: Configuration<T>,
-    spare: Configuration<T>,
-    /// Starting points and predicted end points of steps.
-    ahead: Vec<T>,
-    rates: Rates<T>,
+    system: System<f64>,
+    work: Work<f64>,
+    point: Configuration<f64>,
+    spare: Configuration<f64>,
+    /// Of a step the tangent to its predicted end.
+    ahead: Vec<f64>,
+    rates: Rates,
+    found: Motions<f64>,
+    together: Option<SideBySide>,
 }
 
 /// Part of a step that its first correction may be, and so on: beyond it others may be as near.
 pub(crate) const SURE: f64 = 0.3;
 
-impl<T: Factorable + Packed> Steps<T> {
+/// How long corrections may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach(f64);
+
+impl Reach {
+    /// Corrections at most: more if the solution may be anywhere.
+    pub fn most(reaches: impl IntoIterator<Item = Reach>) -> usize {
+        let far = reaches.into_iter().any(|reach| reach.0.is_infinite());
+        if far { 20 } else { 8 }
+    }
+
+    /// Whether a correction is short enough; the next one must be shorter.
+    pub fn allows(&mut self, size: f64) -> bool {
+        /// Corrections this small are rounding.
+        const SMALL: f64 = 1e-9;
+        // what is not finite is rejected too
+        let sure = size.is_finite() && size <= self.0.max(SMALL);
+        if self.0.is_finite() {
+            self.0 = SURE * size;
+        }
+        sure
+    }
+}
+
+/// Rows this small are solved.
+pub(super) const TOLERANCE: f64 = 1e-12;
+
+impl Steps {
     pub fn new(problem: &MapProblem) -> Self {
-        let system: System<T> = problem.question.system_over();
+        let system = problem.question.system();
         Steps {
             targets: Targets::new(problem),
             work: system.work(),
-            point: problem.question.start().map(T::from_f64),
-            spare: problem.question.start().map(T::from_f64),
+            point: problem.question.start(),
+            spare: problem.question.start(),
             ahead: Vec::new(),
             rates: Rates::new(problem, &system),
+            found: Motions::default(),
+            together: None,
             system,
         }
     }
 
-    /// The solutions the starts certainly lead to; at most as many starts as lanes.
+    /// Takes several steps side by side from now on, by operations that are recorded at an assembled configuration.
+    pub fn recorded(
+        mut self,
+        problem: &MapProblem,
+        at: &Configuration<f64>,
+        values: &[f64],
+    ) -> Self {
+        let mut at = at.clone();
+        self.targets.put(&mut at, values);
+        self.together = SideBySide::new(problem, (&self.targets, &self.rates), &at, values);
+        self
+    }
+
+    #[cfg(test)]
+    pub fn is_recorded(&self) -> bool {
+        self.together.is_some()
+    }
+
+    /// The solutions the starts certainly lead to; at most as many starts as are taken side by side.
     pub fn settle(&mut self, starts: &[Start], arrivals: &mut Arrivals) {
+        /// Fewer starts are quicker one by one.
+        const FEW: usize = 4;
         arrivals.begin(starts.len());
-        let spoiled = self.together(starts, 0, arrivals);
-        if !spoiled || starts.len() == 1 {
-            return;
-        }
-        for (i, start) in starts.iter().enumerate() {
-            if arrivals.get(i).is_none() {
-                // the same in all places
-                self.together(std::slice::from_ref(start), i, arrivals);
+        let mut together = match starts.len() < FEW {
+            true => None,
+            false => self.together.take(),
+        };
+        let ends = together.as_mut().map(|together| {
+            for (i, start) in starts.iter().enumerate() {
+                self.begin(start);
+                let numbers = self.targets.numbers(&start.values);
+                together.put(i, numbers, &self.point);
             }
+            together.solve(starts.iter().map(|start| Reach(start.reach)))
+        });
+        for (i, start) in starts.iter().enumerate() {
+            let arrives = match (&together, &ends) {
+                (Some(together), Some(ends)) => match ends[i] {
+                    End::Arrived => {
+                        together.get(i, &mut self.point, &mut self.found);
+                        true
+                    }
+                    End::Lost => false,
+                    End::Open => self.solve(start),
+                },
+                _ => self.solve(start),
+            };
+            if arrives {
+                let indicators = self.rates.indicators(&self.point, &self.found);
+                if indicators.regular {
+                    arrivals.put(i, &self.point, &self.found.motions, indicators);
+                }
+            }
+        }
+        if together.is_some() {
+            self.together = together;
         }
     }
 
-    /// The same side by side, the first with this number; whether rank is lost, which spoils them all.
-    fn together(&mut self, starts: &[Start], first: usize, arrivals: &mut Arrivals) -> bool {
-        /// Corrections, and those from anywhere.
-        const STEPS: [usize; 2] = [8, 20];
-        const TOLERANCE: f64 = 1e-12;
-        /// Corrections this small are rounding.
-        const SMALL: f64 = 1e-9;
-        let start = |place: usize| &starts[place.min(starts.len() - 1)];
-        self.begin(&start);
-        (self.targets).ask(&mut self.system, &mut self.point, |p| &start(p).values);
-        let places = 0..T::WIDTH;
-        let mut sure = [true; LANES];
-        let mut solved = [false; LANES];
-        let mut bounds = [0.0; LANES];
-        for place in places.clone() {
-            bounds[place] = start(place).reach;
-        }
-        let far = bounds.iter().any(|bound| bound.is_infinite());
-        let most = STEPS[usize::from(far)];
+    /// Newton's method for one start; whether it certainly arrives.
+    fn solve(&mut self, start: &Start) -> bool {
+        self.begin(start);
+        (self.targets).set(&mut self.system, self.targets.numbers(&start.values));
+        let mut reach = Reach(start.reach);
+        let most = Reach::most([reach]);
         for step in 0..=most {
             self.system.linearise(&self.point, &mut self.work);
-            solved = [true; LANES];
-            for row in self.system.residual_of(&self.work) {
-                for place in places.clone() {
-                    // a NaN is not small
-                    solved[place] &= row.part(place).abs() <= TOLERANCE;
-                }
+            // a NaN is not small
+            let mut rows = self.system.residual_of(&self.work).iter();
+            if rows.all(|row| row.abs() <= TOLERANCE) {
+                self.motions();
+                return true;
             }
-            if step == most || places.clone().all(|p| solved[p] || !sure[p]) {
+            if step == most {
                 break;
             }
             self.system.factorise(0.0, &mut self.work);
             self.system.step(&mut self.work);
-            let steps = self.system.step_mut(&mut self.work);
-            let squares = steps.iter().fold(T::zero(), |sum, x| sum + *x * *x);
-            let sizes = squares.sqrt();
-            let mut moves = [false; LANES];
-            for place in places.clone() {
-                if solved[place] || !sure[place] {
-                    continue;
-                }
-                let (size, bound) = (sizes.part(place), &mut bounds[place]);
-                // values that are not finite are rejected too
-                sure[place] = size.is_finite() && size <= bound.max(SMALL);
-                if bound.is_finite() {
-                    *bound = SURE * size;
-                }
-                moves[place] = sure[place];
-            }
-            if places.clone().any(|place| !moves[place]) {
-                for x in steps.iter_mut() {
-                    let old = *x;
-                    // a selection and not a product, so that values that are not finite are dropped
-                    *x = T::of_parts(|p| if moves[p] { old.part(p) } else { 0.0 });
-                }
+            if !reach.allows(norm(self.system.step_of(&self.work))) {
+                break;
             }
             let (from, to) = (&self.point, &mut self.spare);
             self.system.advance(from, 1.0, &self.work, to);
             std::mem::swap(&mut self.point, &mut self.spare);
         }
-        if !places.clone().any(|place| solved[place] && sure[place]) {
-            return false;
-        }
-        let indicators = (self.rates).at(&self.point, &self.system, &mut self.work);
-        let mut spoiled = false;
-        let mut arrived: [Option<Indicators>; LANES] = Default::default();
-        let places = places.take(starts.len());
-        for place in places.clone().filter(|p| solved[*p] && sure[*p]) {
-            spoiled |= !indicators[place].regular;
-            arrived[place] = indicators[place].regular.then(|| indicators[place].clone());
-        }
-        let motions = self.rates.motions();
-        arrivals.put(first, &self.point, motions, &arrived[..places.len()]);
-        spoiled
+        false
+    }
+
+    fn motions(&mut self) {
+        self.system.factorise(0.0, &mut self.work);
+        (self.rates).motions(&self.point, &self.system, &mut self.work, &mut self.found);
     }
 
     /// The indicators of a configuration that solves the equations for its mapped coordinates.
     pub fn indicators(&mut self, at: &Configuration<f64>, values: &[f64]) -> Indicators {
-        let mut point = at.map(T::from_f64);
-        (self.targets).ask(&mut self.system, &mut point, |_| values);
-        self.system.linearise(&point, &mut self.work);
-        let [indicators, ..] = self.rates.at(&point, &self.system, &mut self.work);
-        indicators
+        self.point.clone_from(at);
+        (self.targets).ask(&mut self.system, &mut self.point, values);
+        self.system.linearise(&self.point, &mut self.work);
+        self.motions();
+        self.rates.indicators(&self.point, &self.found)
     }
 
-    /// Puts the point near where each place is to arrive.
-    fn begin<'s, 'a: 's>(&mut self, start: &impl Fn(usize) -> &'s Start<'a>) {
-        let at = |place: usize| start(place).from;
-        for (joint, to) in self.point.joints.iter_mut().enumerate() {
-            *to = T::of_parts(|place| at(place).joints[joint]);
+    /// Puts the point near where a start is to arrive.
+    fn begin(&mut self, start: &Start) {
+        self.point.joints.copy_from_slice(start.from.joints);
+        self.point.platforms.copy_from_slice(start.from.platforms);
+        if let Some((motion, factor)) = start.along {
+            self.ahead.clear();
+            self.ahead.extend(motion.iter().map(|x| x * factor));
+            self.rates.displace(&mut self.point, &self.ahead);
         }
-        for (platform, to) in self.point.platforms.iter_mut().enumerate() {
-            *to = side_by_side(|place| at(place).platforms[platform]);
-        }
-        if (0..T::WIDTH).all(|place| start(place).along.is_none()) {
-            return;
-        }
-        let part = |place: usize, k: usize| match start(place).along {
-            Some((motion, factor)) => motion[k] * factor,
-            None => 0.0,
-        };
-        let steps = (0..self.rates.unknowns()).map(|k| T::of_parts(|place| part(place, k)));
-        self.ahead.clear();
-        self.ahead.extend(steps);
-        self.rates.displace(&mut self.point, &self.ahead);
+        self.targets.put(&mut self.point, &start.values);
     }
 }

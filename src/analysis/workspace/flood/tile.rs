@@ -4,9 +4,9 @@ use super::arrivals::{Arrivals, Moving};
 use super::neighbour::{Flood, Step, one_each};
 use super::reached::{Link, Name, NodeSolution, NodeSolutions};
 use super::step::Steps;
+use crate::algebra::BATCH;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MOST_DIRECTIONS};
-use crate::linear::{Factorable, join, root};
-use crate::number::Packed;
+use crate::linear::{join, root};
 
 /// How the grid is parted.
 pub(crate) struct Tiling {
@@ -216,7 +216,7 @@ impl Tile {
     }
 
     /// Spreads within the part as far as single steps are certain not to change branch.
-    pub fn grow<T: Factorable + Packed>(&mut self, fill: &Flood, steps: &mut Steps<T>) {
+    pub fn grow(&mut self, fill: &Flood, steps: &mut Steps) {
         let mut storage = Vec::new();
         let mut arrivals = Arrivals::default();
         while self.grows() && self.solutions.all.len() <= fill.most {
@@ -228,7 +228,7 @@ impl Tile {
                     let node = self.ahead(fill.grid, s, d);
                     (node, root(&mut self.roots, s))
                 });
-                for pack in now.chunks(T::WIDTH) {
+                for pack in now.chunks(BATCH) {
                     let planned = pack.iter().map(|&(s, d)| self.step(fill, s, d));
                     let planned: Vec<Step> = planned.collect();
                     fill.sure(steps, &planned, &mut arrivals, &mut storage);

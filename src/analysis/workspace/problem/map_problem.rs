@@ -1,9 +1,8 @@
 //! What a map asks at each of its nodes.
 
-use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
+use crate::geometry::{Pose, Rotation, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
-use crate::number::Packed;
 use crate::system::{
     Coordinate, Driven, HeldPlatform, Lock, Question, System, actuated, coordinate_outputs,
     with_coordinates,
@@ -118,17 +117,7 @@ impl<'m> MapProblem<'m> {
     }
 }
 
-/// A pose in each place.
-pub(crate) fn side_by_side<T: Packed>(
-    pose: impl Fn(usize) -> PlatformPose<f64>,
-) -> PlatformPose<T> {
-    PlatformPose {
-        orientation: Quaternion([0, 1, 2, 3].map(|k| T::of_parts(|p| pose(p).orientation.0[k]))),
-        position: Vector3([0, 1, 2].map(|k| T::of_parts(|p| pose(p).position.0[k]))),
-    }
-}
-
-/// The equations at a node, for one node or for several side by side.
+/// What the equations hold at a node.
 #[derive(Clone, Debug)]
 pub(crate) struct Targets {
     /// Mapped joints with the number of their axis.
@@ -189,42 +178,51 @@ impl Targets {
         targets
     }
 
-    /// Asks for the values of each place.
-    pub fn ask<'v, T: Factorable + Packed>(
-        &self,
-        system: &mut System<T>,
-        at: &mut Configuration<T>,
-        values: impl Fn(usize) -> &'v [f64],
-    ) {
+    /// Puts the values of mapped coordinates into a configuration, as far as it holds them.
+    pub fn put(&self, at: &mut Configuration<f64>, values: &[f64]) {
         for &(joint, axis) in &self.joints {
-            at.joints[joint] = T::of_parts(|place| values(place)[axis]);
+            at.joints[joint] = values[axis];
         }
-        for &(platform, c, axis) in &self.single {
-            system.set_target(platform, c, T::of_parts(|place| values(place)[axis]));
+        for whole in self.whole.iter().filter(|whole| whole.pose) {
+            at.platforms[whole.platform] = PlatformPose::from_pose(&whole.at(values));
         }
-        for whole in &self.whole {
-            let poses: Vec<Pose<f64>> = (0..T::WIDTH)
-                .map(|place| {
-                    let sources = (whole.sources.iter()).map(|&(c, axis, value)| {
-                        (c, axis.map_or(value, |axis| values(place)[axis]))
-                    });
-                    with_coordinates(&Pose::identity(), sources)
-                })
-                .collect();
-            match whole.pose {
-                true => {
-                    let poses: Vec<PlatformPose<f64>> =
-                        poses.iter().map(PlatformPose::from_pose).collect();
-                    at.platforms[whole.platform] = side_by_side(|place| poses[place]);
-                }
-                false => {
-                    let part = |column: usize, row: usize| {
-                        T::of_parts(|place| poses[place].rotation.0[column].0[row])
-                    };
-                    let wanted = [0, 1, 2].map(|c| Vector3([0, 1, 2].map(|r| part(c, r))));
-                    system.set_orientation(whole.platform, Rotation(wanted));
-                }
-            }
+    }
+
+    /// What the equations themselves hold, as [`set`](Self::set) takes it.
+    pub fn numbers(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+        let single = self.single.iter().map(|&(_, _, axis)| values[axis]);
+        let turned = self.turned();
+        let turned = turned.flat_map(|whole| whole.at(values).rotation.0.map(|column| column.0));
+        single.chain(turned.flatten())
+    }
+
+    /// Has the equations hold these numbers.
+    pub fn set<T: Factorable>(&self, system: &mut System<T>, mut numbers: impl Iterator<Item = T>) {
+        let mut next = || numbers.next().expect("as many as there are targets");
+        for &(platform, c, _) in &self.single {
+            system.set_target(platform, c, next());
         }
+        for whole in self.turned() {
+            let wanted = [(); 3].map(|()| Vector3([(); 3].map(|()| next())));
+            system.set_orientation(whole.platform, Rotation(wanted));
+        }
+    }
+
+    /// Both for a node.
+    pub fn ask(&self, system: &mut System<f64>, at: &mut Configuration<f64>, values: &[f64]) {
+        self.put(at, values);
+        self.set(system, self.numbers(values));
+    }
+
+    fn turned(&self) -> impl Iterator<Item = &Whole> {
+        self.whole.iter().filter(|whole| !whole.pose)
+    }
+}
+
+impl Whole {
+    fn at(&self, values: &[f64]) -> Pose<f64> {
+        let sources = (self.sources.iter())
+            .map(|&(c, axis, value)| (c, axis.map_or(value, |axis| values[axis])));
+        with_coordinates(&Pose::identity(), sources)
     }
 }

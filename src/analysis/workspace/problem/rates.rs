@@ -2,10 +2,8 @@
 
 use super::condition::{condition, determinant};
 use super::map_problem::MapProblem;
-use crate::linear::Factorable;
+use crate::linear::{Factorable, dot};
 use crate::mechanism::{Configuration, Role};
-use crate::number::{LANES, Packed};
-use crate::solve::Equations;
 use crate::system::{Coordinate, Driving, Held, System, Unknown, Work};
 
 /// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
@@ -15,9 +13,9 @@ use crate::system::{Coordinate, Driving, Held, System, Unknown, Work};
 /// what is mapped and held; it is defined for redundant rows as well, smooth on a solution, and changes
 /// sign at direct singularities only. With those of outputs it tells the inverse ones.
 #[derive(Clone, Debug)]
-pub(crate) struct Rates<T: Factorable> {
+pub(crate) struct Rates {
     /// The closures with nothing held, which have all unknowns.
-    free: System<T>,
+    free: System<f64>,
     driving: Driving,
     held: Vec<Row>,
     inputs: Vec<Row>,
@@ -26,12 +24,16 @@ pub(crate) struct Rates<T: Factorable> {
     tells_inverse: bool,
     /// Unknowns whose rates are what moves out where there are no outputs.
     moved: Vec<usize>,
-    /// Rates of the held coordinates.
-    given: Vec<T>,
-    motions: Vec<T>,
     /// Rates of what is held, of the inputs, of the outputs and of what moves.
-    rates: [Vec<T>; 4],
-    spare: Vec<T>,
+    rates: [Vec<f64>; 4],
+    spare: Vec<f64>,
+}
+
+/// The columns of N one after another, and the rates at which the rows of the closures open in each.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Motions<T> {
+    pub motions: Vec<T>,
+    pub opening: Vec<T>,
 }
 
 /// A coordinate and the first of the unknowns it depends on.
@@ -53,13 +55,12 @@ pub(crate) struct Indicators {
     pub condition: f64,
 }
 
-impl<T: Factorable + Packed> Rates<T> {
+impl Rates {
     /// `system` is that of the question.
-    pub fn new(problem: &MapProblem, system: &System<T>) -> Self {
+    pub fn new(problem: &MapProblem, system: &System<f64>) -> Self {
         let mechanism = problem.mechanism;
-        let dimensions = mechanism.dimensions().map(&mut T::from_f64);
-        let nothing = Held::nothing(mechanism).map(T::from_f64);
-        let free = System::reduced(mechanism, &dimensions, &nothing);
+        let nothing = Held::nothing(mechanism);
+        let free = System::reduced(mechanism, mechanism.dimensions(), &nothing);
         let place = |unknown: Unknown| (free.place_of(unknown)).expect("nothing is held");
         let row = |of: &Coordinate| Row {
             of: *of,
@@ -77,7 +78,6 @@ impl<T: Factorable + Packed> Rates<T> {
             Unknown::Joint(joint) => whole && mechanism.joints()[joint].role != Role::Actuated,
             Unknown::Twist(..) => true,
         });
-        let unknowns = free.unknowns().len();
         Rates {
             driving: Driving::new(system, &problem.question.held(), &problem.held),
             held: rows(&problem.held),
@@ -85,8 +85,6 @@ impl<T: Factorable + Packed> Rates<T> {
             outputs: rows(&problem.outputs),
             tells_inverse: problem.tells_inverse(),
             moved: moved.map(|(i, _)| i).collect(),
-            given: vec![T::zero(); problem.held.len()],
-            motions: vec![T::zero(); unknowns * problem.held.len()],
             rates: Default::default(),
             spare: Vec::new(),
             free,
@@ -94,132 +92,131 @@ impl<T: Factorable + Packed> Rates<T> {
     }
 
     /// Moves a configuration by steps of all unknowns.
-    pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
+    pub fn displace(&self, at: &mut Configuration<f64>, step: &[f64]) {
         self.free.displace(at, step);
     }
 
-    pub fn unknowns(&self) -> usize {
+    fn unknowns(&self) -> usize {
         self.free.unknowns().len()
     }
 
-    /// Works N out, and what follows from it, where the equations are solved and linearised.
-    pub fn at(
-        &mut self,
+    /// Works N out where the equations are solved, linearised and factorised.
+    pub fn motions<T: Factorable>(
+        &self,
         at: &Configuration<T>,
         system: &System<T>,
         work: &mut Work<T>,
-    ) -> [Indicators; LANES] {
-        system.factorise(0.0, work);
+        found: &mut Motions<T>,
+    ) {
         let (n, unknowns) = (self.held.len(), self.unknowns());
-        // the largest that J N is off
-        let mut gap = [0.0f64; LANES];
         let closures = 0..system.hold_rows().start;
+        found.opening.clear();
+        found.motions.clear();
+        found.motions.resize(n * unknowns, T::zero());
         for i in 0..n {
-            self.given.fill(T::zero());
-            self.given[i] = T::one();
-            let motion = &mut self.motions[i * unknowns..][..unknowns];
-            (self.driving).rates(system, at, &self.given, work, motion);
-            let rows = (self.driving).row_rates(system, at, &self.given, work, motion);
-            let (off, size) = (largest(&rows[closures.clone()]), largest(motion));
-            for (gap, (off, size)) in gap.iter_mut().zip(off.iter().zip(size)) {
-                let relative = off / (1.0 + size);
-                *gap = if relative <= *gap { *gap } else { relative };
-            }
+            let given = (0..n).map(|k| T::from_f64(if k == i { 1.0 } else { 0.0 }));
+            let given: Vec<T> = given.collect();
+            let motion = &mut found.motions[i * unknowns..][..unknowns];
+            (self.driving).rates(system, at, &given, work, motion);
+            let rows = (self.driving).row_rates(system, at, &given, work, motion);
+            found.opening.extend_from_slice(&rows[closures.clone()]);
         }
+    }
+
+    /// What follows from the motions.
+    pub fn indicators(&mut self, at: &Configuration<f64>, found: &Motions<f64>) -> Indicators {
+        let (n, unknowns) = (self.held.len(), self.unknowns());
+        let motions = &found.motions;
         // unit rates come out again if the held coordinates are independent
         let [mut back, mut input, mut output, mut moved] = std::mem::take(&mut self.rates);
-        self.matrix(&self.held, at, &mut back);
-        self.matrix(&self.inputs, at, &mut input);
-        self.matrix(&self.outputs, at, &mut output);
-        let mut of = |matrix: &Vec<T>| {
+        self.matrix(&self.held, at, motions, &mut back);
+        self.matrix(&self.inputs, at, motions, &mut input);
+        self.matrix(&self.outputs, at, motions, &mut output);
+        let mut of = |matrix: &Vec<f64>| {
             self.spare.clone_from(matrix);
             determinant(&mut self.spare, n)
         };
         let (direct, inverse) = (of(&input), of(&output));
-        let any = |rows: &[Row]| !rows.is_empty();
-        let (of_inputs, of_outputs) = (any(&self.inputs), self.tells_inverse);
-        let conditions = match of_inputs {
+        let (of_inputs, of_outputs) = (!self.inputs.is_empty(), self.tells_inverse);
+        let unknown = (false, f64::INFINITY);
+        let (lost, condition_number) = match of_inputs {
             true => {
                 moved.clone_from(&output);
-                if !any(&self.outputs) {
-                    let motions = self.motions.chunks_exact(unknowns.max(1));
+                if self.outputs.is_empty() {
+                    let motions = motions.chunks_exact(unknowns.max(1));
                     moved.extend(motions.flat_map(|one| self.moved.iter().map(|&i| one[i])));
                 }
                 condition(&mut input, &mut moved, n)
             }
-            false => [(false, f64::INFINITY); LANES],
+            false => unknown,
         };
-        let lost = match of_outputs {
+        let (lost_outputs, _) = match of_outputs {
             true => condition(&mut output, &mut [], n),
-            false => [(false, f64::INFINITY); LANES],
+            false => unknown,
         };
         let of = |known: bool, lost: bool, determinant: f64| match (known, lost) {
             (false, _) => 1.0,
             (true, true) => 0.0,
             (true, false) => determinant,
         };
-        let mut regular = [true; LANES];
-        for (k, x) in back.iter().enumerate() {
+        // a NaN is not regular
+        let unit = |(k, x): (usize, &f64)| {
             let unit = f64::from(u8::from(k % n == k / n));
-            for (place, regular) in regular.iter_mut().enumerate().take(T::WIDTH) {
-                // a NaN is not regular
-                *regular &= (x.part(place) - unit).abs() < 1e-6;
-            }
-        }
-        let indicators = std::array::from_fn(|place| match place < T::WIDTH {
-            true => Indicators {
-                regular: regular[place] && gap[place] < 1e-6,
-                direct: of(of_inputs, conditions[place].0, direct.part(place)),
-                inverse: of(of_outputs, lost[place].0, inverse.part(place)),
-                condition: conditions[place].1,
-            },
-            false => Indicators::default(),
-        });
+            (x - unit).abs() < OFF
+        };
+        let opening = found
+            .opening
+            .chunks_exact((found.opening.len() / n.max(1)).max(1));
+        let mut opening = opening.zip(motions.chunks_exact(unknowns.max(1)));
+        let closed = opening.all(|(rows, motion)| largest(rows) < OFF * (1.0 + largest(motion)));
+        let indicators = Indicators {
+            regular: closed && back.iter().enumerate().all(unit),
+            direct: of(of_inputs, lost, direct),
+            inverse: of(of_outputs, lost_outputs, inverse),
+            condition: condition_number,
+        };
         self.rates = [back, input, output, moved];
         indicators
     }
 
-    /// The motions for unit rates of all held coordinates, one after another.
-    pub fn motions(&self) -> &[T] {
-        &self.motions
-    }
-
     /// The rates of coordinates, a column for each held one.
-    fn matrix(&self, rows: &[Row], at: &Configuration<T>, matrix: &mut Vec<T>) {
+    fn matrix(
+        &self,
+        rows: &[Row],
+        at: &Configuration<f64>,
+        motions: &[f64],
+        matrix: &mut Vec<f64>,
+    ) {
         matrix.clear();
-        matrix.resize(rows.len() * self.held.len(), T::zero());
-        let motions = self.motions.chunks_exact(self.unknowns().max(1));
+        matrix.resize(rows.len() * self.held.len(), 0.0);
+        let motions = motions.chunks_exact(self.unknowns().max(1));
         for (i, row) in rows.iter().enumerate() {
             let slope = match row.of {
                 Coordinate::Joint(_) => None,
                 Coordinate::Pose(platform, c) => Some(c.slope(&at.platforms[platform].pose())),
                 Coordinate::Turn(_, axis) => {
-                    let mut slope = [T::zero(); 6];
-                    slope[axis as usize] = T::one();
+                    let mut slope = [0.0; 6];
+                    slope[axis as usize] = 1.0;
                     Some(slope)
                 }
             };
             for (j, motion) in motions.clone().enumerate() {
                 matrix[j * rows.len() + i] = match &slope {
                     None => motion[row.first],
-                    Some(slope) => {
-                        let products = motion[row.first..].iter().zip(slope);
-                        products.fold(T::zero(), |sum, (x, s)| sum + *x * *s)
-                    }
+                    Some(slope) => dot(&motion[row.first..][..6], slope),
                 };
             }
         }
     }
 }
 
-/// The largest of several numbers without their signs, in each place; a NaN is larger than any.
-fn largest<T: Packed>(of: &[T]) -> [f64; LANES] {
-    let mut most = [0.0; LANES];
-    for x in of {
-        for (place, most) in most.iter_mut().enumerate().take(T::WIDTH) {
-            let size = x.part(place).abs();
-            *most = if size <= *most { *most } else { size };
-        }
-    }
-    most
+/// How far unit rates and rows that stay closed may be off.
+const OFF: f64 = 1e-6;
+
+/// The largest of several numbers without their signs; a NaN is larger than any.
+fn largest(of: &[f64]) -> f64 {
+    of.iter().fold(0.0, |most, x| match x.abs() {
+        size if size <= most => most,
+        size => size,
+    })
 }
