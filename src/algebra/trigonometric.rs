@@ -357,10 +357,8 @@ impl Trigonometric {
     /// `None` if undecided: not zero in this form, but it [may be](Self::is_opaque), or it is too long.
     pub fn vanishes(&self, budget: &mut Budget) -> Option<bool> {
         let cleared = self.without_denominators(budget)?;
-        match cleared.is_empty() {
-            true => Some(true),
-            false => (!cleared.is_opaque()).then_some(false),
-        }
+        let zero = cleared.is_empty();
+        (zero || !cleared.is_opaque()).then_some(zero)
     }
 
     /// Multiplied by every denominator P that occurs in it as 1/P; `None` if that is too long.

@@ -1,19 +1,17 @@
 //! The assembled configuration near a guess.
 
+mod report;
 mod singular;
 
-use serde::{Deserialize, Serialize};
-
 use crate::algebra::SiUnit;
-use crate::description::Role;
-use crate::geometry::{Pose, Quaternion, Vector3};
-use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose, turn_near};
+use crate::geometry::Pose;
+use crate::mechanism::{Configuration, Frame, Mechanism, turn_near};
 use crate::solve::{Equations, Newton, Report, Stop, Watch};
 use crate::system::{
-    Attempt, Freedoms, Moved, Neighbourhood, Question, QuestionError, Search, approach,
-    check_count, infinite_if_null, moved,
+    Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count, moved,
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
+pub use report::{AssemblyReport, JointVariable, Left, Outcome};
 
 /// A condition number above this is worth a warning: four digits of the joint values are lost.
 const POOR_CONDITION: f64 = 1e4;
@@ -36,165 +34,6 @@ impl Default for AssemblySettings {
             restarts: 40,
             seed: 1,
         }
-    }
-}
-
-/// Freedoms that nothing held decides.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Left {
-    /// How many.
-    pub freedoms: usize,
-    /// Coordinates that decide them if they are held too.
-    pub hold: Vec<String>,
-    /// How many more are free to first order because the configuration is singular.
-    pub singular: usize,
-}
-
-/// How the search ended. Joints, platforms and closures are given by name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "outcome", rename_all = "snake_case")]
-pub enum Outcome {
-    /// Assembled.
-    Converged,
-    /// Assembled, but some joints are outside their limits.
-    ConvergedOutsideLimits {
-        /// Those joints.
-        #[serde(rename = "outside_limits")]
-        joints: Vec<String>,
-    },
-    /// Assembled at a singular configuration: something moves although all inputs are held.
-    Singular {
-        /// What can move: joints and platforms, the most mobile first.
-        moving: Vec<String>,
-        /// The closure whose equations depend on the others, if the mechanism has closures.
-        #[serde(
-            rename = "dependent_closure",
-            default,
-            skip_serializing_if = "Option::is_none"
-        )]
-        closure: Option<String>,
-        /// The held joints that cannot drive the mechanism there.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        powerless: Vec<String>,
-    },
-    /// No start assembles.
-    CannotBeAssembled {
-        /// The closure with the widest gap at the closest approach.
-        worst: String,
-        /// Whether the closest approach is a true local minimum of the gaps.
-        local_minimum: bool,
-    },
-    /// No start assembles, and none settled either.
-    GaveUp {
-        /// The closure with the widest gap.
-        worst: String,
-    },
-}
-
-/// A joint variable and what the question makes of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JointVariable {
-    /// Its name.
-    pub name: String,
-    /// The unit of its values, rad or m.
-    pub unit: SiUnit,
-    /// Whether it is driven.
-    pub role: Role,
-    /// Whether its value was given; otherwise it was solved for.
-    pub held: bool,
-    /// Lowest and highest value, rad or m, if it has limits.
-    pub limits: Option<(f64, f64)>,
-    /// Whether its value is within them.
-    pub within_limits: bool,
-}
-
-/// Where the search for an assembled configuration ended.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AssemblyReport {
-    /// Name of the mechanism.
-    pub mechanism: String,
-    /// How it ended.
-    #[serde(flatten)]
-    pub outcome: Outcome,
-    /// Newton steps of the start that succeeded.
-    pub steps: usize,
-    /// Random starts made after the guess.
-    pub restarts: usize,
-    /// Seed of the random starts.
-    pub seed: u64,
-    /// The largest closure residual, dimensionless (characteristic lengths and rad).
-    pub residual: f64,
-    /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian, estimated beyond
-    /// [`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT) unknowns; infinite, in JSON `null`, at a singular configuration.
-    #[serde(deserialize_with = "infinite_if_null")]
-    pub condition: f64,
-    /// Whether the condition number is poor.
-    pub near_singular: bool,
-    /// Freedoms of the mechanism, if it assembles near the start.
-    pub mobility: Option<usize>,
-    /// Local (passive) freedoms: a link turns about its own axis.
-    pub idle: usize,
-    /// Freedoms left where they were, if less is held than the mechanism has freedoms: the configuration
-    /// is then the one nearest to the start.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub left: Option<Left>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than rounded, where it assembles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-    /// Names of what is held.
-    pub held: Vec<String>,
-    /// Joint values of the assembled configuration, or of the closest approach, rad or m.
-    pub joints: Named<f64>,
-    /// Poses of the platforms there.
-    pub platforms: Named<PlatformRecord>,
-    /// Tip frames of the chains there; of a file of joint coordinates, of the bodies and points that it names.
-    pub frames: Named<FrameRecord>,
-    /// For each closure how far it is open.
-    pub gaps: Named<Gap>,
-    /// The joint variables.
-    pub variables: Vec<JointVariable>,
-    /// Whether rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
-    /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub squared_lengths: bool,
-    /// What is odd about the file or the answer, one sentence each.
-    pub warnings: Vec<String>,
-    /// Whether the search was stopped before all starts were made.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub interrupted: bool,
-}
-
-impl AssemblyReport {
-    /// The assembled configuration, or the closest approach.
-    pub fn configuration(&self) -> Configuration<f64> {
-        Configuration {
-            joints: self.joints.values().copied().collect(),
-            platforms: (self.platforms.values())
-                .map(|platform| PlatformPose {
-                    orientation: Quaternion(platform.frame.quaternion),
-                    position: Vector3(platform.frame.position),
-                })
-                .collect(),
-        }
-    }
-
-    /// Whether the configuration closes every loop.
-    pub fn is_assembled(&self) -> bool {
-        !matches!(
-            self.outcome,
-            Outcome::CannotBeAssembled { .. } | Outcome::GaveUp { .. }
-        )
-    }
-
-    /// What is worth a warning about the configuration.
-    pub fn warning(&self) -> Option<String> {
-        let singular = matches!(self.outcome, Outcome::Singular { .. });
-        (self.near_singular && !singular).then(|| {
-            format!(
-                "near a singular configuration: the condition number is {:.1e}",
-                self.condition
-            )
-        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! How the inputs of an assembled mechanism drive it: rates, accelerations, Jacobian.
 
 mod accuracy;
+mod centres;
 mod frames;
 mod jacobian;
 mod planar;
@@ -18,11 +19,12 @@ use crate::system::{
     QuestionError, Tangent, Unknown, check_angles, free_outputs, moving,
 };
 
+pub use centres::InstantCentre;
 pub(crate) use frames::Spins;
 pub use jacobian::{Axis, InputOutput};
 pub(crate) use jacobian::{Normalised, Outputs, condition};
+pub use planar::Transmission;
 pub(crate) use planar::TransmissionAngles;
-pub use planar::{InstantCentre, Transmission};
 
 /// How an assembled mechanism moves. Vectors are in ground; angles in rad, lengths in m, time in s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -211,7 +213,7 @@ pub fn velocity(
     let jacobian = determined
         .then(|| Outputs::new(mechanism, &motion, outputs).report(&mut motion, at, &spins));
     let centres = match determined {
-        true => planar::centres(mechanism, &mut motion, at, drive),
+        true => centres::centres(mechanism, &mut motion, at, drive),
         false => Vec::new(),
     };
     let first_order_only = match determined {

@@ -1,5 +1,6 @@
 //! Charts: curves with labelled axes over a map of colours or a mechanism, special points marked.
 
+mod style;
 mod within;
 
 pub(super) use within::{broken, most};
@@ -9,6 +10,7 @@ use super::drawing::{Fit, View, strobe};
 use super::quantity::{number, with_unit};
 use crate::algebra::SiUnit;
 use crate::scene::{Scene, least_and_greatest};
+use style::{SHAPES, shade, stroke};
 
 /// A curve in a chart, or points that are marked alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,17 +69,6 @@ pub struct Chart {
     /// The special points.
     pub marks: Vec<Series>,
 }
-
-/// Colours that people with any colour vision tell apart, from M. Okabe and K. Ito 2008.
-const COLOURS: [Colour; 7] = [
-    Colour(0x0072B2),
-    Colour(0xD55E00),
-    Colour(0x009E73),
-    Colour(0xCC79A7),
-    Colour(0x56B4E9),
-    Colour(0xE69F00),
-    Colour(0x000000),
-];
 
 /// The label of an axis: `theta1 (°)`.
 pub(super) fn label(name: &str, unit: SiUnit) -> String {
@@ -347,57 +338,4 @@ fn scale(shapes: &mut Vec<Shape>, heat: &Heat, at: impl Fn(f64, f64) -> Pixel) -
         shapes.push(Shape::words(number(value), place, SMALL, Anchor::Start));
     }
     SCALE
-}
-
-/// The line of the i-th series: colours first, then dashes and dots.
-fn stroke(i: usize) -> Style {
-    let style = Style::line(COLOURS[i % COLOURS.len()], 1.5);
-    match i / COLOURS.len() % 3 {
-        0 => style,
-        1 => style.dashed(6.0, 4.0),
-        _ => style.dashed(1.5, 3.0),
-    }
-}
-
-/// Shapes of marks in pixels about their point.
-const SHAPES: [&[(f64, f64)]; 5] = [
-    // an octagon is as round as a circle of this size
-    &[
-        (5.0, 2.1),
-        (2.1, 5.0),
-        (-2.1, 5.0),
-        (-5.0, 2.1),
-        (-5.0, -2.1),
-        (-2.1, -5.0),
-        (2.1, -5.0),
-        (5.0, -2.1),
-        (5.0, 2.1),
-    ],
-    &[
-        (4.5, 4.5),
-        (-4.5, 4.5),
-        (-4.5, -4.5),
-        (4.5, -4.5),
-        (4.5, 4.5),
-    ],
-    &[(5.2, 4.0), (-5.2, 4.0), (0.0, -5.0), (5.2, 4.0)],
-    &[(5.5, 0.0), (0.0, 5.5), (-5.5, 0.0), (0.0, -5.5), (5.5, 0.0)],
-    &[
-        (4.5, 4.5),
-        (-4.5, -4.5),
-        (0.0, 0.0),
-        (-4.5, 4.5),
-        (4.5, -4.5),
-    ],
-];
-
-/// Light greys to blue, so that curves of any colour stand out.
-fn shade(value: f64) -> Colour {
-    let mix = |from: f64, to: f64| (from + value.clamp(0.0, 1.0) * (to - from)).round() as u8;
-    Colour(u32::from_be_bytes([
-        0,
-        mix(250.0, 60.0),
-        mix(225.0, 150.0),
-        mix(190.0, 215.0),
-    ]))
 }

@@ -1,0 +1,116 @@
+//! Circuits and branches of a motion.
+
+use serde::{Deserialize, Serialize};
+
+use crate::algebra::SiUnit;
+use crate::analysis::sweep::PathReport;
+use crate::mechanism::{Mechanism, Role};
+
+/// How a joint, or a coordinate of a platform, moves over a circuit or branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointMotion {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// Whole turns it makes while the circuit is gone round once; 0 if it swings.
+    pub turns: i64,
+    /// The lowest value; of a joint that turns where the circuit was begun.
+    pub low: f64,
+    /// The highest value.
+    pub high: f64,
+}
+
+/// What lies between two dead points of the input.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Branch {
+    /// The lowest value of the input, rad or m.
+    pub low: f64,
+    /// The highest value.
+    pub high: f64,
+    /// Whether the input makes whole turns on it.
+    pub turns: bool,
+}
+
+/// What can be reached without taking the mechanism apart, along one curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Circuit {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Whether its curve closes; otherwise it has two ends at limits.
+    pub closed: bool,
+    /// Whether it was followed to its end.
+    pub whole: bool,
+    /// Its length, in rad and characteristic lengths.
+    pub length: f64,
+    /// The joints.
+    pub joints: Vec<JointMotion>,
+    /// The coordinates of platforms that move, where one of them is the input.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub platforms: Vec<JointMotion>,
+    /// Its branches for the input.
+    pub branches: Vec<Branch>,
+    /// Values of all joints, in the order of the file, where it crosses another curve or itself.
+    pub crossings: Vec<Vec<f64>>,
+    /// The circuits it crosses: with them it is one, and which is gone on is decided at the crossing.
+    pub crosses: Vec<usize>,
+    /// How many of the seeds lie on it.
+    pub seeds: usize,
+    /// Values of all joints along it, in the order of the file, so near to one another that a line through them looks
+    /// smooth.
+    #[serde(default)]
+    pub course: Vec<Vec<f64>>,
+}
+
+/// The class of a planar 4-bar, as its circuits show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FourBarClass {
+    /// One of the links on ground turns fully.
+    CrankRocker,
+    /// Both do.
+    DoubleCrank,
+    /// Neither does, but the coupler: two circuits.
+    DoubleRocker,
+    /// No link turns fully beside another: one circuit.
+    TripleRocker,
+    /// Branches cross: all links can lie in one line.
+    ChangePoint,
+    /// It is a 5-bar of which gears couple two links.
+    GearedFiveBar,
+}
+
+/// The circuits of a mechanism.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CircuitsReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joint that is the input, or a coordinate of a platform where no joint moves.
+    pub input: String,
+    /// The circuits in the order of their first seeds.
+    pub circuits: Vec<Circuit>,
+    /// The class of a planar 4-bar.
+    pub class: Option<FourBarClass>,
+    /// Assembled configurations from which curves were followed.
+    pub seeds: usize,
+    /// Seeds where branches cross or that are not assembled; no curve was begun there.
+    pub unusable: usize,
+    /// The characteristic length in m.
+    pub characteristic_length: f64,
+    /// Cusps and double points of the paths of points over all circuits.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub paths: Vec<PathReport>,
+    /// Whether the work was stopped before it was done: circuits may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
+}
+
+impl CircuitsReport {
+    /// The joint that is followed by default: the driven one.
+    pub fn input_of(mechanism: &Mechanism) -> Option<usize> {
+        mechanism
+            .joints()
+            .iter()
+            .position(|joint| joint.role == Role::Actuated)
+    }
+}

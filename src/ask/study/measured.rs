@@ -1,0 +1,99 @@
+//! The quantities of one row of a study.
+
+use crate::analysis::sweep::Pace;
+use crate::ask::modes::NUMBERED;
+use crate::ask::quantities::{Meter, Metered};
+use crate::ask::{AskError, Question, Role, Unmeasured};
+use crate::mechanism::{Measured, Mechanism, Order, Quantity};
+use crate::solve::Watch;
+use crate::system::{self, Driven};
+
+impl Question {
+    /// The same question about another mechanism with the same names.
+    pub(super) fn about(&self, mechanism: Mechanism) -> Question {
+        let mut asked = Question {
+            mechanism: mechanism.into(),
+            hold: Vec::new(),
+            free: Vec::new(),
+            ..self.clone()
+        };
+        asked = self.free.iter().fold(asked, |asked, name| asked.free(name));
+        let held = self.hold.iter();
+        held.fold(asked, |asked, (name, value)| {
+            asked.hold(name, value.clone())
+        })
+    }
+
+    /// The quantities that are asked for where what is held moves at the rates that are given, and how it moves.
+    pub(super) fn measured_by_rates(
+        &self,
+        held: &system::Question,
+    ) -> Result<(Vec<Quantity>, Vec<Driven>), AskError> {
+        let drive = self.drive(held)?;
+        let driven = drive.coordinates.iter().zip(&drive.rates);
+        let inputs = driven.map(|(&coordinate, &rate)| Driven {
+            coordinate,
+            from: 0.0,
+            to: rate,
+        });
+        let inputs: Vec<Driven> = inputs.collect();
+        let quantities = self.quantities(held, !drive.coordinates.is_empty(), &[])?;
+        let at_rest = quantities
+            .iter()
+            .find(|of| !drive.given && of.measured().any(moves));
+        match at_rest {
+            Some(quantity) => Err(AskError::Unmeasured {
+                item: Role::Quantity.item(0),
+                quantity: quantity.name.clone(),
+                error: Unmeasured::NoInput,
+            }),
+            None => Ok((quantities, inputs)),
+        }
+    }
+
+    /// Whether the mechanism assembles, how many ways if that is asked for, and the quantities there.
+    pub(super) fn measured_here(
+        &self,
+        counted: bool,
+        spins: bool,
+    ) -> Result<Vec<Option<f64>>, AskError> {
+        let watch = &Watch::none();
+        let mut held = self.resolved()?;
+        if !spins {
+            held = held.without_spins();
+        }
+        let still = held.clone().with_spins_still();
+        let count = counted.then(|| {
+            let report = self.all(&still, NUMBERED, watch);
+            report.ok().map(|report| report.real as f64)
+        });
+        let start = match self.start(&still, watch) {
+            Ok(start) => start,
+            Err(_) => return Ok([Some(0.0)].into_iter().chain(count).collect()),
+        };
+        let (quantities, inputs) = self.measured_by_rates(&held)?;
+        let metered = Metered {
+            quantities,
+            inputs,
+            pace: Pace::default(),
+            schedule: None,
+            load: self.load_of(&held)?,
+            outputs: self.asked_outputs()?,
+            question: held,
+        };
+        let mut values: Vec<Option<f64>> = [Some(1.0)].into_iter().chain(count).collect();
+        values.extend_from_slice(Meter::new(&metered, &start).read(&start, 0.0));
+        Ok(values)
+    }
+}
+
+/// Whether it depends on how the inputs move.
+fn moves(measured: &Measured) -> bool {
+    match measured {
+        Measured::Joint(_, order) | Measured::Place(_, _, order) | Measured::Size(_, order) => {
+            *order != Order::Value
+        }
+        Measured::Curvature(_) => true,
+        _ => false,
+    }
+}

@@ -1,0 +1,173 @@
+//! One displacement of a chain.
+
+use super::{Need, Slot};
+use crate::geometry::{Pose, Rotation, Vector3};
+use crate::mechanism::dimensions::LinearForm;
+use crate::number::Number;
+
+#[derive(Clone, Debug)]
+pub(super) struct Step<T> {
+    pub parent: Slot,
+    pub fixed: Pose<T>,
+    pub shape: Shape,
+    pub columns: [Column; 3],
+    /// Fixed to ground.
+    pub still: bool,
+    /// Turned about the z axis of ground only, as all of a planar linkage is.
+    pub level: bool,
+    pub need: Need,
+    pub turn: LinearForm<T>,
+    pub slide: LinearForm<T>,
+}
+
+/// What a fixed displacement consists of, so that products with ones and zeros are left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Shape {
+    /// The parent is ground, and the displacement is the pose.
+    Grounded,
+    /// No translation and no rotation.
+    Nothing,
+    /// A translation along x, or none, and any rotation.
+    Along,
+    General,
+}
+
+/// A column of a fixed rotation. After twists of 90° it is a coordinate axis or the reverse of one: then products are
+/// left out, and 0 is added instead, which leaves no −0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Column {
+    Axis(usize, bool),
+    Any,
+}
+
+impl<T: Number> Step<T> {
+    #[inline(always)]
+    pub fn place(&self, parent: &Pose<T>, pose: &mut Pose<T>, joints: &[T]) {
+        let fixed = &self.fixed;
+        match self.shape {
+            Shape::Grounded => {}
+            Shape::Nothing => {
+                pose.position = parent.position;
+                self.carry(&parent.rotation, &mut pose.rotation);
+            }
+            Shape::Along => {
+                let shift = parent.rotation.0[0].times(fixed.position.0[0]);
+                pose.position = shift + parent.position;
+                self.carry(&parent.rotation, &mut pose.rotation);
+            }
+            Shape::General => {
+                pose.position = *parent * fixed.position;
+                self.carry(&parent.rotation, &mut pose.rotation);
+            }
+        }
+        let grounded = self.shape == Shape::Grounded;
+        if !self.slide.0.is_empty() {
+            let from = if grounded {
+                fixed.position
+            } else {
+                pose.position
+            };
+            pose.position = from + pose.rotation.0[2].times(self.slide.at(joints));
+        }
+        // a turn leaves origin and axis where they are
+        if !self.turn.0.is_empty() && self.need == Need::Pose {
+            let [x, y] = match grounded {
+                true => [fixed.rotation.0[0], fixed.rotation.0[1]],
+                false => [pose.rotation.0[0], pose.rotation.0[1]],
+            };
+            let (sin, cos) = self.turn.at(joints).sin_cos();
+            pose.rotation.0[0] = x.times(cos) + y.times(sin);
+            pose.rotation.0[1] = y.times(cos) - x.times(sin);
+        }
+    }
+
+    /// The columns that are needed.
+    #[inline(always)]
+    fn carry(&self, parent: &Rotation<T>, rotation: &mut Rotation<T>) {
+        let column = |i: usize| match self.columns[i] {
+            Column::Axis(number, false) => parent.0[number] + Vector3::zero(),
+            Column::Axis(number, true) => Vector3::zero() - parent.0[number],
+            Column::Any => *parent * self.fixed.rotation.0[i],
+        };
+        if self.need == Need::Pose {
+            rotation.0[0] = column(0);
+            rotation.0[1] = column(1);
+        }
+        if self.need > Need::Position {
+            rotation.0[2] = column(2);
+        }
+    }
+
+    /// x = (c, s, 0), y = (−s, c, 0) and z = (0, 0, 1), of which the constants are there from the beginning.
+    #[inline(always)]
+    pub fn place_level(&self, parent: &Pose<T>, pose: &mut Pose<T>, joints: &[T]) {
+        let fixed = &self.fixed;
+        let direction = |rotation: &Rotation<T>| (rotation.0[0].0[0], rotation.0[0].0[1]);
+        let turned = |(c, s): (T, T), (cos, sin): (T, T)| (c * cos - s * sin, s * cos + c * sin);
+        let mut x = direction(&fixed.rotation);
+        let mut from = fixed.position;
+        if self.shape != Shape::Grounded {
+            let (c, s) = direction(&parent.rotation);
+            let ([a, b, d], [o, p, q]) = (from.0, parent.position.0);
+            from = match self.shape {
+                Shape::Nothing => parent.position,
+                Shape::Along => Vector3([c * a + o, s * a + p, q]),
+                _ => Vector3([(c * a - s * b) + o, (s * a + c * b) + p, d + q]),
+            };
+            pose.position = from;
+            x = match self.columns[0] {
+                Column::Axis(0, false) => (c, s),
+                _ => turned((c, s), x),
+            };
+        }
+        if !self.slide.0.is_empty() {
+            pose.position.0[2] = from.0[2] + self.slide.at(joints);
+        }
+        if self.need == Need::Pose {
+            if !self.turn.0.is_empty() {
+                let (sin, cos) = self.turn.at(joints).sin_cos();
+                x = match (self.shape, self.columns[0]) {
+                    (Shape::Grounded, Column::Axis(0, false)) => (cos, sin),
+                    _ => turned(x, (cos, sin)),
+                };
+            }
+            let (c, s) = x;
+            [pose.rotation.0[0].0[0], pose.rotation.0[0].0[1]] = [c, s];
+            [pose.rotation.0[1].0[0], pose.rotation.0[1].0[1]] = [-s, c];
+        }
+    }
+}
+
+impl Shape {
+    pub fn of<T: Number>(pose: &Pose<T>) -> Self {
+        let shifted = pose.position != Vector3::zero();
+        if !shifted && pose.rotation == Rotation::identity() {
+            Shape::Nothing
+        } else if pose.position.0[1..] == [T::zero(); 2] {
+            Shape::Along
+        } else {
+            Shape::General
+        }
+    }
+}
+
+impl Column {
+    pub fn of<T: Number>(column: &Vector3<T>) -> Self {
+        for number in 0..3 {
+            for reversed in [false, true] {
+                let axis = Vector3::unit(number);
+                if *column == (if reversed { -axis } else { axis }) {
+                    return Column::Axis(number, reversed);
+                }
+            }
+        }
+        Column::Any
+    }
+}
+
+/// Whether a rotation is one about z.
+pub(super) fn is_level<T: Number>(rotation: &Rotation<T>) -> bool {
+    let [x, y, z] = rotation.0;
+    let [c, s, _] = x.0;
+    z == Vector3::unit(2) && x.0[2] == T::zero() && y == Vector3([-s, c, T::zero()])
+}

@@ -1,0 +1,69 @@
+//! A place on a curve of solutions.
+
+use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot};
+
+/// A regular point of a curve with its tangent.
+#[derive(Clone, Debug)]
+pub struct Place<P> {
+    /// The point.
+    pub at: P,
+    /// Unit tangent, in the direction the curve is followed.
+    pub tangent: Vec<f64>,
+    pub(in crate::solve) jacobian: Vec<f64>,
+    pub(in crate::solve) decomposition: Decomposition,
+}
+
+impl<P> Place<P> {
+    /// The smallest singular value of the Jacobian across the tangent: it vanishes where branches cross. Of a large one
+    /// the least pivot, which does too; singular values of long rows of loops are small everywhere.
+    pub fn least(&self) -> f64 {
+        if self.decomposition.groups().is_some() {
+            return self.decomposition.least_pivot();
+        }
+        let values = self.decomposition.singular_values();
+        let across = self.tangent.len().wrapping_sub(2);
+        values.get(across).copied().unwrap_or(1.0)
+    }
+
+    /// The largest singular value of the Jacobian, 1 of a large one.
+    pub fn largest(&self) -> f64 {
+        if self.decomposition.groups().is_some() {
+            return 1.0;
+        }
+        let values = self.decomposition.singular_values();
+        values.first().copied().unwrap_or(1.0)
+    }
+
+    /// Whether branches may cross so near that rounding decides which one this is.
+    pub fn is_beside_a_crossing(&self) -> bool {
+        self.least() < BESIDE_A_CROSSING * self.largest()
+    }
+
+    /// Whether branches cross here, as at the places of a [`BranchPoint`](super::BranchPoint), located to rounding.
+    pub fn is_singular(&self) -> bool {
+        self.least() <= SINGULAR_PLACE * self.largest()
+    }
+
+    /// The same place without its Jacobian, from which steps are made: most of what it takes.
+    pub fn thinned(self) -> Self {
+        Place {
+            jacobian: Vec::new(),
+            decomposition: Decomposition::of(0, 0, &[]),
+            ..self
+        }
+    }
+
+    /// The same place, followed the other way.
+    pub fn reversed(mut self) -> Self {
+        self.tangent.iter_mut().for_each(|x| *x = -*x);
+        self
+    }
+
+    /// The same place, followed so that it advances along a direction.
+    pub fn towards(self, direction: &[f64]) -> Self {
+        match dot(&self.tangent, direction) < 0.0 {
+            true => self.reversed(),
+            false => self,
+        }
+    }
+}
