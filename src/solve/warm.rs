@@ -1,5 +1,4 @@
 use super::Equations;
-use crate::number::{Field, Number};
 
 /// Newton's method for following a motion: each point starts from the ones before it, by extrapolation ([`Trail`]).
 ///
@@ -54,52 +53,52 @@ const STALE: f64 = 1e-2;
 /// by ∇ᵖm. As it multiplies errors, at order 3 up to fifteen times, the step that would still lead from the point to
 /// the solution is kept too: along a fine trajectory extrapolated points then need no correction.
 #[derive(Clone, Debug)]
-pub struct Trail<P, T> {
+pub struct Trail<P> {
     next: P,
     spare: P,
-    moved: Vec<T>,
+    moved: Vec<f64>,
     /// What is left from the latest point to the solution, to first order.
-    rest: Vec<T>,
-    differences: Vec<[T; ORDERS]>,
+    rest: Vec<f64>,
+    differences: Vec<[f64; ORDERS]>,
     order: usize,
     factorised: bool,
 }
 
-impl<P: Clone, T: Field> Trail<P, T> {
+impl<P: Clone> Trail<P> {
     /// A trail without a past. `point` serves as storage.
     pub fn new(point: &P, unknowns: usize) -> Self {
         Trail {
             next: point.clone(),
             spare: point.clone(),
-            moved: vec![T::zero(); unknowns],
-            rest: vec![T::zero(); unknowns],
-            differences: vec![[T::zero(); ORDERS]; unknowns],
+            moved: vec![0.0; unknowns],
+            rest: vec![0.0; unknowns],
+            differences: vec![[0.0; ORDERS]; unknowns],
             order: 0,
             factorised: false,
         }
     }
 }
 
-impl<P, T: Field> Trail<P, T> {
+impl<P> Trail<P> {
     /// Forgets the past, as before a jump.
     pub fn forget(&mut self) {
-        self.differences.fill([T::zero(); ORDERS]);
-        self.rest.fill(T::zero());
+        self.differences.fill([0.0; ORDERS]);
+        self.rest.fill(0.0);
         self.order = 0;
         self.factorised = false;
     }
 
     /// Takes in the latest move, and what is left of it.
-    fn learn(&mut self, left: Option<&[T]>) {
-        let mut errors = [0.0; ORDERS];
+    fn learn(&mut self, left: Option<&[f64]>) {
+        let mut errors = [0.0f64; ORDERS];
         let known = self.moved.iter().zip(&mut self.rest);
         let mut left = left.into_iter().flatten();
         for (differences, (&moved, rest)) in self.differences.iter_mut().zip(known) {
             let before = *rest;
-            *rest = left.next().map_or(T::zero(), |left| *left);
+            *rest = left.next().map_or(0.0, |left| *left);
             let mut latest = moved + (*rest - before);
             for (difference, error) in differences.iter_mut().zip(&mut errors) {
-                *error += latest.norm_squared();
+                *error += latest * latest;
                 (*difference, latest) = (latest, latest - *difference);
             }
         }
@@ -119,11 +118,11 @@ impl Warm {
     ///
     /// On failure `point` is left as it was, a start for [`Newton`](super::Newton), and the past is forgotten.
     #[inline]
-    pub fn solve<E: Equations>(
+    pub fn solve<E: Equations<Number = f64>>(
         &self,
         equations: &E,
         point: &mut E::Point,
-        trail: &mut Trail<E::Point, E::Number>,
+        trail: &mut Trail<E::Point>,
         work: &mut E::Work,
     ) -> WarmReport {
         let order = trail.order.min(self.extrapolation);
@@ -149,12 +148,12 @@ impl Warm {
     }
 
     #[inline]
-    fn attempt<E: Equations>(
+    fn attempt<E: Equations<Number = f64>>(
         &self,
         equations: &E,
         point: &E::Point,
         order: usize,
-        trail: &mut Trail<E::Point, E::Number>,
+        trail: &mut Trail<E::Point>,
         work: &mut E::Work,
     ) -> WarmReport {
         // a guess worth having leaves less to do than it did
@@ -168,12 +167,12 @@ impl Warm {
                 let terms = differences[..order].iter();
                 *step = terms.fold(rest, |sum, &d| sum + d);
                 *moved = *step;
-                longest = longest.max(step.norm_squared());
+                longest = longest.max(step.abs());
             }
-            longest_step = longest_step.min(longest.sqrt());
+            longest_step = longest_step.min(longest);
         } else {
-            trail.moved.fill(E::Number::zero());
-            steps.fill(E::Number::zero());
+            trail.moved.fill(0.0);
+            steps.fill(0.0);
         }
         equations.advance(point, 1.0, work, &mut trail.next);
         let mut report = WarmReport {

@@ -18,7 +18,7 @@ pub struct MotionTracker {
     warm: Warm,
     configuration: Configuration<f64>,
     work: Work<f64>,
-    trail: Trail<Configuration<f64>, f64>,
+    trail: Trail<Configuration<f64>>,
 }
 
 impl MotionTracker {
