@@ -6,7 +6,7 @@ mod singular;
 use crate::algebra::SiUnit;
 use crate::geometry::Pose;
 use crate::mechanism::{Configuration, Frame, Mechanism, turn_near};
-use crate::solve::{Equations, Newton, Report, Stop, Watch};
+use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{
     Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count, moved,
 };
@@ -75,6 +75,10 @@ pub fn assemble(
         Err(error) => return Err(error),
     };
     let mut found = search.go_on(first, settings.restarts, settings.seed, watch);
+    let mut local_minimum = false;
+    if !found.assembles() && !watch.is_stopped() {
+        local_minimum = walk_on(&search, &settings.newton, &mut found.attempt);
+    }
     if left.is_some() && found.assembles() {
         found.attempt.at = nearest(question, &search, found.attempt.at);
     }
@@ -91,8 +95,21 @@ pub fn assemble(
     };
     Ok(match freedoms {
         Some(freedoms) => reporter.assembled(found.attempt, &freedoms),
-        None => reporter.unassembled(found.attempt),
+        None => reporter.unassembled(found.attempt, local_minimum),
     })
+}
+
+/// Goes on from where Newton's method ended to the closest approach, which may be assembled after all. Whether it is a
+/// local minimum of the gaps.
+fn walk_on(search: &Search, newton: &Newton, attempt: &mut Attempt) -> bool {
+    let system = search.system();
+    let (at, local_minimum) = approach(system, &attempt.at);
+    attempt.report.size = system.residual(&at, &mut system.work());
+    attempt.at = at;
+    if attempt.report.size.largest <= newton.tolerance {
+        attempt.report.stop = Stop::Solved;
+    }
+    local_minimum
 }
 
 /// The assembled configuration nearest to the start of a question that leaves freedoms, downhill from
@@ -251,21 +268,8 @@ impl Reporter<'_> {
         }
     }
 
-    fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
+    fn unassembled(&self, attempt: Attempt, local_minimum: bool) -> AssemblyReport {
         let settled = attempt.report.stop == Stop::Minimum;
-        let (at, local_minimum) = match self.interrupted {
-            false => approach(self.search.system(), &attempt.at),
-            true => (attempt.at.clone(), false),
-        };
-        let system = self.search.system();
-        let size = system.residual(&at, &mut system.work());
-        let attempt = Attempt {
-            at,
-            report: Report {
-                size,
-                ..attempt.report
-            },
-        };
         let held = self.search.held();
         let condition = Freedoms::at(self.mechanism.dimensions(), held, &attempt.at).condition();
         let gaps = Gap::of(self.mechanism, &attempt.at);
