@@ -226,6 +226,7 @@ impl AssemblySolver {
         let question = Question {
             mechanism: &self.mechanism,
             coordinates: &self.family.coordinates,
+            by_dimensions: self.family.by_dimensions,
             held,
             asked,
             bound: self.bound.as_ref(),

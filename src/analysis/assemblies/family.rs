@@ -53,6 +53,9 @@ pub(crate) struct Family {
     pub parameters: Vec<C>,
     /// Lengths with factors among the parameters.
     lengths: Vec<Length>,
+    /// Whether the dimensions make the family: there are no inputs, or they only spin links, which carries no solution to
+    /// another.
+    pub by_dimensions: bool,
     pub home: Configuration<f64>,
     /// Number of closure equations that do not vanish everywhere.
     pub varying_equations: usize,
@@ -116,18 +119,19 @@ impl Family {
             held: held.map(C::from_f64),
             parameters: independent.into_iter().map(value).collect(),
             lengths: Vec::new(),
+            by_dimensions: false,
             home: mechanism.home(),
             varying_equations: mechanism.equations_that_vary(),
             mechanism: mechanism.clone(),
             own: None,
         };
-        let unknowns = System::new(mechanism.dimensions(), held).unknowns().len();
-        let is_square = unknowns == family.varying_equations;
-        let is_rigid = || {
-            let near = Mobility::near(mechanism, &family.home);
-            near.is_some_and(|near| near.count() + near.idle() == 0)
-        };
-        if family.coordinates.inputs.is_empty() && is_square && is_rigid() {
+        let system = System::new(mechanism.dimensions(), held);
+        let equations = family.varying_equations + system.hold_rows().len();
+        let is_square = system.unknowns().len() == equations;
+        let is_rigid = is_square
+            && Mobility::near(mechanism, &family.home).is_some_and(|near| near.count() == 0);
+        family.by_dimensions = is_rigid || family.coordinates.inputs.is_empty();
+        if is_rigid {
             family.widen();
         }
         family.own = family.system(&family.parameters);
@@ -213,8 +217,7 @@ impl Family {
     /// A member whose solutions stand for those of all members, but special ones.
     pub fn generic_member(&self, rng: &mut Pcg64) -> Member {
         let inputs = self.random_inputs(rng, 1.0);
-        // without inputs to vary, the dimensions themselves make the family
-        let parameters = match inputs.is_empty() {
+        let parameters = match self.by_dimensions {
             true => self.random_parameters(rng),
             false => self.parameters.clone(),
         };
@@ -238,12 +241,13 @@ impl Family {
         is_angle.then(|| self.coordinates.turns[joint])
     }
 
-    /// Directions that make up all motions of the inputs: lengths and poses together, each angle by itself; without
-    /// inputs the dimensions. `None` if an angle never comes back to the same place.
+    /// Directions that make up all motions of the inputs: lengths and poses together, each angle by itself; the
+    /// dimensions where they make the family. `None` if an angle never comes back to the same place.
     pub fn directions(&self) -> Option<Vec<Direction>> {
         let (mut straight, mut directions) = (Vec::new(), Vec::new());
         let mut places = 0..;
-        for &input in &self.coordinates.inputs {
+        let inputs = self.coordinates.inputs.iter();
+        for &input in inputs.filter(|_| !self.by_dimensions) {
             let turns = match input {
                 Input::Joint(j) => self.turns(j),
                 Input::Target(_, coordinate) => coordinate.is_angle().then_some(Some(1.0)),
@@ -272,7 +276,7 @@ impl Family {
         let mut to = from.clone();
         let inputs = self.random_inputs(rng, 1.0);
         (direction.inputs.iter()).for_each(|&place| to.inputs[place] = inputs[place]);
-        if from.inputs.is_empty() {
+        if self.by_dimensions {
             to.parameters = self.random_parameters(rng);
         }
         to

@@ -300,7 +300,7 @@ impl Search<'_> {
         self.found.loops += 1;
         let mut rng = generator(self.settings.seed, (self.found.loops as u64) << 1);
         // at special dimensions the inputs alone may not exchange all solutions
-        let resize = self.found.loops.is_multiple_of(RESIZED) || self.base.inputs.is_empty();
+        let resize = self.found.loops.is_multiple_of(RESIZED) || self.family.by_dimensions;
         // small loops go round few branch points, and solutions far out meet at inputs far out
         let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.found.loops % 5];
         let mut member = || Member {
