@@ -142,7 +142,7 @@ impl Family {
     /// through it. Independent equations as many as unknowns keep their solutions when anything changes a little; of an
     /// overconstrained mechanism they would be lost.
     fn widen(&mut self) {
-        let other = self.random_parameters(&mut Pcg64::seed_from_u64(1));
+        let other = self.random_parameters(&mut Pcg64::seed_from_u64(1), 1.0);
         let both = (self.dimensions(&self.parameters), self.dimensions(&other));
         let (Some(mut own), Some(mut other)) = both else {
             return;
@@ -165,16 +165,18 @@ impl Family {
         }
     }
 
-    /// Random complex parameters about the mechanism's own. Those that are zero move too.
-    pub fn random_parameters(&self, rng: &mut Pcg64) -> Vec<C> {
+    /// Random complex parameters about the mechanism's own. Those that are zero move too. `reach` says how far out
+    /// factors of lengths go, as for inputs.
+    pub fn random_parameters(&self, rng: &mut Pcg64, reach: f64) -> Vec<C> {
         let typical = self.coordinates.length;
-        let moved = self.parameters.iter().map(|p| {
-            let size = if p.re == 0.0 {
-                0.2 * typical
-            } else {
-                0.4 * p.re.abs()
+        let named = self.parameters.len() - self.lengths.len();
+        let moved = self.parameters.iter().enumerate().map(|(i, p)| {
+            let size = match p.re {
+                0.0 => 0.2 * typical,
+                value => 0.4 * value.abs(),
             };
-            *p + complex(rng) * size
+            let reach = if i < named { 1.0 } else { reach };
+            *p + complex(rng) * (size * reach)
         });
         moved.collect()
     }
@@ -218,7 +220,7 @@ impl Family {
     pub fn generic_member(&self, rng: &mut Pcg64) -> Member {
         let inputs = self.random_inputs(rng, 1.0);
         let parameters = match self.by_dimensions {
-            true => self.random_parameters(rng),
+            true => self.random_parameters(rng, 1.0),
             false => self.parameters.clone(),
         };
         Member { parameters, inputs }
@@ -277,7 +279,7 @@ impl Family {
         let inputs = self.random_inputs(rng, 1.0);
         (direction.inputs.iter()).for_each(|&place| to.inputs[place] = inputs[place]);
         if self.by_dimensions {
-            to.parameters = self.random_parameters(rng);
+            to.parameters = self.random_parameters(rng, 1.0);
         }
         to
     }

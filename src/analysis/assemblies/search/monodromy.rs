@@ -306,7 +306,7 @@ impl Search<'_> {
         let mut member = || Member {
             inputs: self.family.random_inputs(&mut rng, reach),
             parameters: match resize {
-                true => self.family.random_parameters(&mut rng),
+                true => self.family.random_parameters(&mut rng, reach),
                 false => self.base.parameters.clone(),
             },
         };

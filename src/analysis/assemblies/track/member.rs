@@ -167,7 +167,7 @@ mod tests {
         let mut rng = rand_pcg::Pcg64::seed_from_u64(5);
         let from = family.generic_member(&mut rng);
         let to = Member {
-            parameters: family.random_parameters(&mut rng),
+            parameters: family.random_parameters(&mut rng, 1.0),
             inputs: family.random_inputs(&mut rng, 1.0),
         };
         let x = family.random_point(&mut rng, 1.0);
