@@ -215,14 +215,20 @@ impl<'a> Neighbourhood<'a> {
             others.any(|other| apart(place, *other))
         };
         let places = self.frames.places();
-        let turning: Vec<(usize, bool)> = (mechanism.closures().iter())
+        // the axes about which a frame may turn without the other frame of its closure
+        let turning: Vec<(usize, Vec<usize>)> = (mechanism.closures().iter())
             .filter(|closure| !closure.kind.leaves_orientation())
             .flat_map(|closure| closure.frames.map(|frame| (closure, frame)))
             .filter_map(|(closure, frame)| {
                 let place = *places.get(&frame)?;
-                let about_axis = closure.kind.leaves_turn();
-                let turns_as_one = !about_axis && has_line(place, closure.frames);
-                (!turns_as_one).then_some((place, about_axis))
+                let axes: Vec<usize> = match closure.kind.leaves_turn() {
+                    true => (closure.frames.iter())
+                        .filter_map(|frame| places.get(frame).copied())
+                        .collect(),
+                    false => vec![],
+                };
+                let turns_as_one = axes.is_empty() && has_line(place, closure.frames);
+                (!turns_as_one).then_some((place, axes))
             })
             .collect();
         let outside = mechanism.joints_outside_closures();
@@ -254,13 +260,14 @@ impl<'a> Neighbourhood<'a> {
                 let twist = self.frames.twist(i, &placement, motion);
                 moved.extend(twist.velocity.times(scale).0);
             }
-            for &(i, about_axis) in &turning {
-                let omega = self.frames.twist(i, &placement, motion).omega;
-                let seen = match about_axis {
-                    true => omega.cross(&self.frames.axis(i, &placement)),
-                    false => omega,
-                };
-                moved.extend(seen.0);
+            for (i, axes) in &turning {
+                let mut omega = self.frames.twist(*i, &placement, motion).omega;
+                // parallel, or at right angles as those of a universal joint
+                for &k in axes {
+                    let axis = self.frames.axis(k, &placement);
+                    omega = omega - axis.times(omega.dot(&axis));
+                }
+                moved.extend(omega.0);
             }
             for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
                 let idle = match *unknown {
