@@ -148,12 +148,19 @@ impl AssemblySolver {
         let count = bound.as_ref().map(|bound| bound.count);
         let question = question(mechanism, &family);
         let generic = search::search(&family, question, count, settings, watch);
+        let mut generic = generic.ok_or(AssembliesError::NoValue)?;
+        if generic.freedom > 1
+            && let Some(least) = freedoms_beside_home(mechanism, held)
+        {
+            // far out, where the few seeds that close may end, rounding hides equations
+            generic.freedom = generic.freedom.min(least.max(1));
+        }
         Ok(AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
             family,
             bound,
-            generic: generic.ok_or(AssembliesError::NoValue)?,
+            generic,
             interrupted: watch.is_stopped(),
         })
     }
@@ -354,6 +361,14 @@ impl AssemblySolver {
             watch,
         )
     }
+}
+
+/// The fewest freedoms left at assembled configurations beside home.
+fn freedoms_beside_home(mechanism: &Mechanism, held: &Held<f64>) -> Option<usize> {
+    let mut near = Neighbourhood::holding(mechanism, held);
+    let beside = (1..4).filter_map(|k| near.beside(&mechanism.home(), k));
+    let freedoms = beside.map(|tangent| tangent.motions.len() + tangent.idle.len());
+    freedoms.min()
 }
 
 /// The same coordinates held, at the values they have at home.
