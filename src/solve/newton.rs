@@ -14,8 +14,7 @@ pub struct Newton {
 const LONGEST_STEP: f64 = 1.0;
 /// The first damping tried after a failed step.
 const FIRST_DAMPING: f64 = 1e-3;
-/// An undamped step cut to less than this fraction that leaves more than [`STALLED`] of the sum of squares is going nowhere.
-const CUT: f64 = 0.1;
+/// An undamped step that must be cut and leaves more than this of the sum of squares is not made.
 const STALLED: f64 = 0.99;
 /// A minimum is reached when a step lowers the sum of squares by less than this fraction.
 const LEAST_PROGRESS: f64 = 1e-9;
@@ -104,12 +103,13 @@ impl Newton {
                 let fraction = (LONGEST_STEP / longest).min(1.0);
                 equations.advance(point, fraction, work, trial);
                 let next = equations.residual(trial, work);
-                if next.squares < size.squares {
+                // a direction that the equations hardly see takes up the step; damping leaves it out
+                let lost =
+                    *damping == 0.0 && fraction < 1.0 && next.squares > STALLED * size.squares;
+                if next.squares < size.squares && !lost {
                     std::mem::swap(point, trial);
                     let gain = next.squares / size.squares;
                     *damping = match gain {
-                        // a direction that the equations hardly see takes up the step, and damping leaves it out
-                        _ if *damping == 0.0 && fraction < CUT && gain > STALLED => FIRST_DAMPING,
                         _ if *damping < 1e-9 => 0.0,
                         _ if gain < 0.25 => *damping * 0.05,
                         _ if gain < 0.9 => *damping * 0.3,

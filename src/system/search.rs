@@ -100,12 +100,16 @@ impl<'a> Search<'a> {
             true => self.moved_from_home(),
             false => None,
         };
-        match moved.filter(|attempt| self.settles(attempt)) {
-            Some(attempt) => attempt,
-            None => {
-                let guess = self.guess();
-                self.from(guess)
-            }
+        let moved = match moved {
+            Some(attempt) if self.settles(&attempt) => return attempt,
+            moved => moved,
+        };
+        let guess = self.guess();
+        let guessed = self.from(guess);
+        match moved {
+            // outside limits, but assembled
+            Some(moved) if guessed.report.stop != Stop::Solved => moved,
+            _ => guessed,
         }
     }
 
