@@ -176,6 +176,9 @@ impl Search<'_, '_> {
     fn singular(&mut self, own: &[bool], tangent: &Tangent) -> Part {
         /// Most steps, per infinitesimal freedom and [`BRANCH_TRIALS`].
         const LONGEST: usize = 12;
+        if let Some(part) = self.all_but_one(tangent) {
+            return part;
+        }
         let n = tangent.motions.len();
         let watch = self.watch;
         let cone = Cone::of(self.near, tangent);

@@ -1,6 +1,7 @@
 //! Which directions of motion are free: a finite step is possible along them.
 
-use super::{STEP, Search, see};
+use super::walk::MOVED_ON_A_BRANCH;
+use super::{Branch, Part, STEP, Search, see};
 use crate::linear::dot;
 use crate::system::{FiniteStep, Tangent, combination};
 
@@ -53,6 +54,50 @@ impl Search<'_, '_> {
             see(&mut moved, &way, MOVED);
         }
         Ok((moved, Some(gap)))
+    }
+
+    /// The branch of a singular part where all motions but one are free whatever that one does. What is left of the
+    /// equations is then a function of one variable, and if steps either way leave them open it vanishes nowhere nearby.
+    pub(super) fn all_but_one(&mut self, tangent: &Tangent) -> Option<Part> {
+        /// A gap that no rounding makes.
+        const OPEN: f64 = 1e-9;
+        if self.near.system().is_large() {
+            return None;
+        }
+        let directions: Vec<Vec<f64>> = (0..DIRECTIONS)
+            .map(|_| combination(&tangent.motions, &mut self.rng))
+            .collect();
+        let (one, others) = self.near.hindered_alone(tangent, &directions, STEP)?;
+        let is_open = [1.0, -1.0].into_iter().all(|sign| {
+            let direction: Vec<f64> = one.iter().map(|x| sign * x).collect();
+            let step = self.near.free_step(tangent, &direction, STEP);
+            matches!(step, Err(Some(gap)) if gap > OPEN)
+        });
+        let others = Tangent {
+            motions: others,
+            ..tangent.clone()
+        };
+        let all_free = others.motions.is_empty() || self.is_regular(&others, STEP, DIRECTIONS);
+        (is_open && all_free).then(|| {
+            let mut moved = vec![false; tangent.columns()];
+            for motion in &others.motions {
+                see(&mut moved, motion, MOVED_ON_A_BRANCH);
+            }
+            let branch = Branch {
+                freedoms: others.motions.len(),
+                motions: others.motions,
+                moved,
+                ..Branch::default()
+            };
+            Part {
+                branches: Some(branch)
+                    .filter(|branch| branch.freedoms > 0)
+                    .into_iter()
+                    .collect(),
+                regular: false,
+                complete: true,
+            }
+        })
     }
 
     /// Whether all equations of a large mechanism that do not vanish everywhere are independent: by the implicit

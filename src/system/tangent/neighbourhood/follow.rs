@@ -1,7 +1,7 @@
 //! Finite steps from an assembled configuration.
 
 use super::{Neighbourhood, Tangent};
-use crate::linear::{RANK_TOLERANCE, add, dot, norm};
+use crate::linear::{RANK_TOLERANCE, Svd, add, dot, norm};
 use crate::mechanism::Configuration;
 use crate::solve::Equations;
 use crate::system::equations::settle;
@@ -84,6 +84,47 @@ impl Neighbourhood<'_> {
             length *= 0.5;
         }
         Err(None)
+    }
+
+    /// The motions as one and the others, if the size of what is left of the equations after a finite step is a function of
+    /// that one alone: its slopes at finite steps in some random directions are all along it.
+    pub fn hindered_alone(
+        &mut self,
+        from: &Tangent,
+        directions: &[Vec<f64>],
+        distance: f64,
+    ) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+        /// Half the step of the central differences as part of the distance, and what they leave of zero.
+        const PART: f64 = 1e-3;
+        const ZERO: f64 = 1e-4;
+        let motions = &from.motions;
+        let dependencies = from.decomposition.left_null_space();
+        let mut left_at = |place: &[f64], part: f64, motion: &[f64]| {
+            let mut direction = place.to_vec();
+            add(&mut direction, part, motion);
+            self.follow(from, &direction, distance)?;
+            let residual = self.system.residual_of(&self.work);
+            let parts: Vec<f64> = dependencies.iter().map(|w| dot(w, residual)).collect();
+            Some(norm(&parts))
+        };
+        let mut slopes = Vec::new();
+        for motion in motions {
+            for place in directions {
+                slopes.push(left_at(place, PART, motion)? - left_at(place, -PART, motion)?);
+            }
+        }
+        let svd = Svd::of(directions.len(), motions.len(), &slopes);
+        let next = svd.values.get(1);
+        if next.is_some_and(|next| *next > ZERO * svd.values[0]) {
+            return None;
+        }
+        let mut along = svd.right.iter().map(|weights| {
+            let mut sum = vec![0.0; motions[0].len()];
+            let parts = motions.iter().zip(weights);
+            parts.for_each(|(motion, weight)| add(&mut sum, *weight, motion));
+            sum
+        });
+        Some((along.next()?, along.collect()))
     }
 
     /// Whether all motions are finite, tried along one that mixes them: those of a shaky structure are not.
