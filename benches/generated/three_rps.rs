@@ -43,6 +43,8 @@ pub enum Verdict {
 
 pub const INPUTS: usize = 3;
 pub const STATE: usize = 10;
+/// From this number on the state follows from the numbers before it.
+pub const ITERATED: usize = 3;
 pub const UNKNOWNS: usize = 9;
 pub const ROWS: usize = 9;
 pub const FRAMES: usize = 0;
@@ -117,10 +119,12 @@ fn sine_cosine(x: f64) -> (f64, f64) {
     let w: f64 = z * z;
     let s: f64 = r + r * z * (((-0.16666666666666632) + z * 0.00833333333332249) + w * (((-0.0001984126982985795) + z * 2.7557313707070068e-6) + w * ((-2.5050760253406863e-8) + z * 1.58969099521155e-10)));
     let c: f64 = (1.0 - 0.5 * z) + w * ((0.0416666666666666 + z * (-0.001388888888887411)) + w * ((2.480158728947673e-5 + z * (-2.7557314351390663e-7)) + w * (2.087572321298175e-9 + z * (-1.1359647557788195e-11))));
-    let (first, second) = if quarter & 1 == 1 { (c, s) } else { (s, c) };
+    // choices by bits, so that several angles share vector registers
+    let (s, c) = (s.to_bits(), c.to_bits());
+    let exchanged = (s ^ c) & (quarter & 1).wrapping_neg();
     (
-        if quarter & 2 == 2 { -first } else { first },
-        if quarter.wrapping_add(1) & 2 == 2 { -second } else { second },
+        f64::from_bits(s ^ exchanged ^ ((quarter & 2) << 62)),
+        f64::from_bits(c ^ exchanged ^ ((quarter.wrapping_add(1) & 2) << 62)),
     )
 }
 
@@ -430,7 +434,8 @@ fn normalise(x: &mut [f64; STATE]) {
 
 /// Newton's method with the order of elimination chosen beforehand; false, and x as it was, where a
 /// pivot is small or a step does not halve the rows.
-#[inline]
+// it takes a tenth longer within another function
+#[inline(never)]
 fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
     const LEAST_PIVOT: f64 = 1e-4;
     const LONGEST_STEP: f64 = 0.5;
@@ -868,8 +873,8 @@ pub fn solve(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
 pub struct Follower {
     /// The state.
     pub state: [f64; STATE],
-    /// How far it moved.
-    pub moved: [f64; STATE],
+    /// How far the numbers moved that the others follow from.
+    pub moved: [f64; ITERATED],
 }
 
 impl Follower {
@@ -877,31 +882,42 @@ impl Follower {
     pub fn new(state: [f64; STATE]) -> Self {
         Follower {
             state,
-            moved: [0.0; STATE],
+            moved: [0.0; ITERATED],
         }
     }
 
     /// Finds the state for inputs u near where the last move, made once more, leads.
     #[inline]
     pub fn solve(&mut self, u: &[f64; INPUTS]) -> Verdict {
-        let mut x = self.state;
-        for (x, moved) in x.iter_mut().zip(&self.moved) {
+        let mut before = [0.0; ITERATED];
+        before.copy_from_slice(&self.state[..ITERATED]);
+        for (x, moved) in self.state.iter_mut().zip(&self.moved) {
             *x += moved;
         }
-        normalise(&mut x);
-        if !(near(u) && near(&x) && fast(u, &mut x)) {
-            x = self.state;
-            let verdict = solve(u, &mut x);
-            if verdict != Verdict::Solved {
-                *self = Follower::new(x);
-                return verdict;
-            }
+        normalise(&mut self.state);
+        if !(near(u) && near(&self.state[..ITERATED]) && fast(u, &mut self.state)) {
+            self.state[..ITERATED].copy_from_slice(&before);
+            return self.restart(u);
         }
-        for i in 0..STATE {
-            self.moved[i] = x[i] - self.state[i];
+        for i in 0..ITERATED {
+            self.moved[i] = self.state[i] - before[i];
         }
-        self.state = x;
         Verdict::Solved
+    }
+
+    /// The same from the state itself. Apart from the above, whose numbers then stay in registers.
+    #[cold]
+    #[inline(never)]
+    fn restart(&mut self, u: &[f64; INPUTS]) -> Verdict {
+        let before = self.state;
+        let verdict = solve(u, &mut self.state);
+        for i in 0..ITERATED {
+            self.moved[i] = match verdict {
+                Verdict::Solved => self.state[i] - before[i],
+                _ => 0.0,
+            };
+        }
+        verdict
     }
 }
 

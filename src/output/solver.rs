@@ -75,6 +75,7 @@ impl Code {
         let counts = [
             ("@inputs@", solver.inputs.len()),
             ("@state@", solver.state.len()),
+            ("@iterated@", solver.first_following()),
             ("@unknowns@", solver.unknowns),
             ("@rows@", solver.residual.len()),
             ("@frame_count@", solver.frames.len()),

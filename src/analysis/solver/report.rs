@@ -104,3 +104,12 @@ pub struct Solver {
     /// Frames whose poses and twists are wanted.
     pub frames: Vec<FrameProgram>,
 }
+
+impl Solver {
+    /// The number of the state from which on all follow from those before it.
+    pub(crate) fn first_following(&self) -> usize {
+        let follows = |i: &usize| self.placed.iter().any(|(placed, _)| placed == i);
+        let mut numbers = (0..self.state.len()).rev();
+        numbers.find(|i| !follows(i)).map_or(1, |last| last + 1)
+    }
+}

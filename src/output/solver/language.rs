@@ -211,6 +211,8 @@ impl Precision {
             ("@farthest@", "1e5", "1e4"),
             ("@two_over_pi@", "0.6366197723675814", "0.63661975@f@"),
             ("@round@", "6755399441055744.0", "12582912.0"),
+            // from the second bit to that of the sign
+            ("@to_sign@", "62", "30"),
             ("@polynomials@", "fdlibm, Sun 1993", "Cephes, Moshier 1989"),
             ("@root_guess@", guesses[0], guesses[1]),
             ("@root_steps@", "4", "3"),
