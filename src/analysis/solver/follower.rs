@@ -202,52 +202,38 @@ impl<'a> Follower<'a> {
         } = &self.results;
         let square = self.settings.tolerance.powi(2);
         self.program.run(0, registers);
-        predict(past, &mask(going), registers);
-        let (mut open, mut solved) = (*going, [false; BATCH]);
+        let (mut open, mut solved) = (going.map(bits), [0; BATCH]);
+        predict(past, &open, registers);
         let mut last = [f64::INFINITY; BATCH];
         for step in 0..=self.settings.most_steps {
             self.program.run(Section::Rows as usize, registers);
             let size = registers.rows(*size);
-            for i in 0..BATCH {
-                let done = open[i] & (size[i] <= square);
-                solved[i] |= done;
-                // not so either where it is not a number
-                open[i] &= !done & (size[i] < 0.25 * last[i]);
-            }
-            last = *size;
-            if step == self.settings.most_steps || !open.contains(&true) {
+            settle(&mut open, &mut solved, size, &mut last, square);
+            if step == self.settings.most_steps || open == [0; BATCH] {
                 break;
             }
             self.program.run(Section::Step as usize, registers);
-            let doubt = registers.rows(*doubt);
-            for i in 0..BATCH {
-                open[i] &= doubt[i] <= 1.0;
-            }
+            trust(&mut open, registers.rows(*doubt));
             let free = self.free.iter().map(|i| self.changing.len() + i);
             free.zip(moved)
-                .for_each(|(to, &from)| assign(to, from, &mask(&open), registers));
+                .for_each(|(to, &from)| assign(to, from, &open, registers));
         }
         self.program.run(Section::Reached as usize, registers);
-        let doubt = registers.rows(*placing);
-        for i in 0..BATCH {
-            solved[i] &= doubt[i] <= 1.0;
-        }
+        trust(&mut solved, registers.rows(*placing));
         for &(register, negative) in decided {
-            let rows = registers.rows(register);
-            (solved.iter_mut().zip(rows)).for_each(|(solved, x)| *solved &= (*x < 0.0) == negative);
+            agree(&mut solved, registers.rows(register), negative);
         }
-        let reached = mask(&solved);
         for &(i, from) in placed {
-            assign(self.changing.len() + i, from, &reached, registers);
+            assign(self.changing.len() + i, from, &solved, registers);
         }
-        learn(past, &reached, registers);
+        learn(past, &solved, registers);
         for motion in 0..BATCH {
-            if going[motion] && !solved[motion] {
+            if going[motion] && solved[motion] == 0 {
                 past.restore(motion, registers);
                 past.forget(motion, registers);
             }
         }
-        solved
+        solved.map(|of| of != 0)
     }
 
     /// Where the last [`solve`](Self::solve) led: all motions' values of a coordinate, numbered as [`Coordinate::all`]
@@ -287,8 +273,54 @@ widest! {
     fn assign(to: usize, from: usize, motions: &Mask, registers: &mut Registers) runs past::assign
 }
 
-fn mask(motions: &[bool; BATCH]) -> Mask {
-    motions.map(|motion| if motion { u64::MAX } else { 0 })
+widest! {
+    fn settle(open: &mut Mask, solved: &mut Mask, size: &[f64; BATCH], last: &mut [f64; BATCH], square: f64) runs settle_each
+}
+
+widest! {
+    fn trust(motions: &mut Mask, doubt: &[f64; BATCH]) runs trust_each
+}
+
+widest! {
+    fn agree(motions: &mut Mask, numbers: &[f64; BATCH], negative: bool) runs agree_each
+}
+
+#[inline(always)]
+fn bits(all: bool) -> u64 {
+    u64::from(all).wrapping_neg()
+}
+
+/// Open motions whose rows are small are solved; those whose rows have not halved are no longer open.
+#[inline(always)]
+fn settle_each(
+    open: &mut Mask,
+    solved: &mut Mask,
+    size: &[f64; BATCH],
+    last: &mut [f64; BATCH],
+    square: f64,
+) {
+    for i in 0..BATCH {
+        let done = open[i] & bits(size[i] <= square);
+        solved[i] |= done;
+        // not so either where it is not a number
+        open[i] &= !done & bits(size[i] < 0.25 * last[i]);
+    }
+    *last = *size;
+}
+
+#[inline(always)]
+fn trust_each(motions: &mut Mask, doubt: &[f64; BATCH]) {
+    for i in 0..BATCH {
+        motions[i] &= bits(doubt[i] <= 1.0);
+    }
+}
+
+/// Leaves those whose numbers have this sign.
+#[inline(always)]
+fn agree_each(motions: &mut Mask, numbers: &[f64; BATCH], negative: bool) {
+    for i in 0..BATCH {
+        motions[i] &= bits((numbers[i] < 0.0) == negative);
+    }
 }
 
 impl Plan<'_> {
