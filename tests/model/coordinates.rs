@@ -63,7 +63,7 @@ fn shipped_mechanisms_are_the_same_when_written_by_coordinates() {
         }
         let parameters = |m: &Mechanism| -> Vec<(String, f64)> {
             let all = m.parameters().iter();
-            all.map(|p| (p.name.clone(), p.value)).collect()
+            all.map(|p| (p.name.to_string(), p.value)).collect()
         };
         assert_eq!(parameters(&made), parameters(&mechanism), "{path:?}");
         assert_eq!(
