@@ -9,7 +9,6 @@ mod neighbour;
 mod pace;
 mod reached;
 mod seeds;
-mod side_by_side;
 mod spread;
 mod step;
 mod tile;

@@ -9,7 +9,7 @@ use super::neighbour::Flood;
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
-use crate::mechanism::{Configuration, PlatformPose};
+use crate::mechanism::{Configuration, PlatformPose, turn_near};
 use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
 use crate::system::{System, Work, random_configuration, sets_of_angles, with_coordinates};
 
@@ -30,7 +30,11 @@ impl ModeSeeds {
     ) -> Self {
         let (problem, mechanism) = (fill.problem, fill.problem.mechanism);
         let sides = mechanism.sides_of_rings(&mechanism.home());
-        let on_sides = |node: usize, at: Configuration<f64>| {
+        let on_sides = |node: usize, mut at: Configuration<f64>| {
+            // Newton's method may have gone thousands of turns
+            for (angle, _) in at.joints.iter_mut().zip(&problem.turns).filter(|of| *of.1) {
+                *angle = turn_near(*angle, 0.0);
+            }
             let as_home = |set: &Configuration<f64>| {
                 let own = mechanism.sides_of_rings(set);
                 own.iter().zip(&sides).filter(|(a, b)| a == b).count()

@@ -1,7 +1,8 @@
 //! From a node to its neighbour.
 
+mod side_by_side;
+
 use super::arrivals::Arrivals;
-use super::side_by_side::{End, SideBySide};
 use crate::analysis::workspace::problem::{
     Indicators, MOST_AXES, MapProblem, Motions, Rates, Targets,
 };
@@ -9,6 +10,7 @@ use crate::linear::norm;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::solve::Equations;
 use crate::system::{System, Work};
+use side_by_side::{End, SideBySide};
 
 /// Where a step begins.
 #[derive(Clone, Debug)]
@@ -42,7 +44,7 @@ pub(crate) const SURE: f64 = 0.3;
 
 /// How long corrections may be.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reach(f64);
+struct Reach(f64);
 
 impl Reach {
     /// Corrections at most: more if the solution may be anywhere.
@@ -65,7 +67,7 @@ impl Reach {
 }
 
 /// Rows this small are solved.
-pub(super) const TOLERANCE: f64 = 1e-12;
+const TOLERANCE: f64 = 1e-12;
 
 impl Steps {
     pub fn new(problem: &MapProblem) -> Self {

@@ -1,6 +1,6 @@
 //! Many steps side by side, by operations recorded once.
 
-use super::step::{Reach, TOLERANCE};
+use super::{Reach, TOLERANCE};
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
 use crate::analysis::workspace::problem::{MapProblem, Motions, Rates, Targets};
 use crate::geometry::{Quaternion, Vector3};
@@ -269,9 +269,9 @@ fn numbers<T: Copy>(at: &Configuration<T>) -> impl Iterator<Item = T> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::arrivals::Arrivals;
-    use super::super::step::{Start, Steps};
+    use super::super::{Start, Steps};
     use super::*;
+    use crate::analysis::workspace::flood::arrivals::Arrivals;
     use crate::mechanism::Mechanism;
     use crate::solve::{Newton, Watch};
     use crate::system::{Driven, Question, close};
