@@ -36,8 +36,8 @@ pub use rows::Rows;
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
 pub use svd::Svd;
-pub(crate) use vectors::{orthogonalise, rotate};
 pub use vectors::{add, complement, dot, norm, orthonormal, product, remove, without};
+pub(crate) use vectors::{orthogonalise, rotate};
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside the largest one.
 ///

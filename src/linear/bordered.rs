@@ -230,7 +230,10 @@ impl<T: Factorable> Bordered<T> {
                     *sum = *sum + entry * r;
                 }
             }
-            x.copy_from_slice(&sums[..x.len()]);
+            match x {
+                [x, y] => [*x, *y] = sums,
+                last => last[0] = sums[0],
+            }
         }
     }
 

@@ -93,9 +93,9 @@ impl<T: Number> Kinematics<T> {
     }
 
     fn fixed_slot(&mut self, parent: Slot, fixed: Pose<T>) -> Slot {
-        match Shape::of(&fixed) {
-            Shape::Nothing => parent,
-            _ => self.push(parent, fixed, LinearForm(vec![]), LinearForm(vec![])),
+        match fixed == Pose::identity() {
+            true => parent,
+            false => self.push(parent, fixed, LinearForm(vec![]), LinearForm(vec![])),
         }
     }
 

@@ -25,9 +25,9 @@ pub(super) struct Step<T> {
 pub(super) enum Shape {
     /// The parent is ground, and the displacement is the pose.
     Grounded,
-    /// No translation and no rotation.
-    Nothing,
-    /// A translation along x, or none, and any rotation.
+    /// Any rotation, but no translation.
+    Turned,
+    /// A translation along x, and any rotation.
     Along,
     General,
 }
@@ -46,7 +46,7 @@ impl<T: Number> Step<T> {
         let fixed = &self.fixed;
         match self.shape {
             Shape::Grounded => {}
-            Shape::Nothing => {
+            Shape::Turned => {
                 pose.position = parent.position;
                 self.carry(&parent.rotation, &mut pose.rotation);
             }
@@ -110,7 +110,7 @@ impl<T: Number> Step<T> {
             let (c, s) = direction(&parent.rotation);
             let ([a, b, d], [o, p, q]) = (from.0, parent.position.0);
             from = match self.shape {
-                Shape::Nothing => parent.position,
+                Shape::Turned => parent.position,
                 Shape::Along => Vector3([c * a + o, s * a + p, q]),
                 _ => Vector3([(c * a - s * b) + o, (s * a + c * b) + p, d + q]),
             };
@@ -140,9 +140,8 @@ impl<T: Number> Step<T> {
 
 impl Shape {
     pub fn of<T: Number>(pose: &Pose<T>) -> Self {
-        let shifted = pose.position != Vector3::zero();
-        if !shifted && pose.rotation == Rotation::identity() {
-            Shape::Nothing
+        if pose.position == Vector3::zero() {
+            Shape::Turned
         } else if pose.position.0[1..] == [T::zero(); 2] {
             Shape::Along
         } else {
