@@ -39,7 +39,7 @@ impl<P> Place<P> {
         self.least() < BESIDE_A_CROSSING * self.largest()
     }
 
-    /// Whether branches cross here, as at the places of a [`BranchPoint`](super::BranchPoint), located to rounding.
+    /// Whether branches cross here, as at the places of a [`BranchPoint`](crate::solve::BranchPoint), located to rounding.
     pub fn is_singular(&self) -> bool {
         self.least() <= SINGULAR_PLACE * self.largest()
     }
