@@ -282,6 +282,8 @@ fn a_map_has_the_modes_without_the_spin() {
         let report = question.workspace(&settings, &Watch::none()).unwrap();
         // sets of angles of a ball make no modes of their own
         assert_eq!(report.modes.len(), 2, "{model}");
+        // the rod is no output, whose coordinates would part the modes
+        assert_eq!(report.aspects.len(), 2, "{model}");
         assert!(
             report
                 .modes

@@ -5,6 +5,7 @@
 //! ([`coordinate_outputs`]). Inputs are those of [`inputs_of`] or [`actuated`].
 
 use super::Question;
+use super::spins::Still;
 use crate::geometry::Axis;
 use crate::mechanism::{Body, Frame, Mechanism, PoseCoordinate, Role};
 use crate::system::{Coordinate, Held, HeldPlatform, Lock, Mobility};
@@ -115,13 +116,19 @@ pub fn platform_outputs(
 }
 
 /// As many coordinates of platforms as can be outputs of an inverse problem: those that are held where
-/// all of these belong to platforms, else independent ones at home.
-pub fn coordinate_outputs(mechanism: &Mechanism, held: &[Coordinate]) -> Vec<Coordinate> {
+/// all of these belong to platforms, else independent ones at home. A rod that spins about its own line is no output.
+pub fn coordinate_outputs(question: &Question, held: &[Coordinate]) -> Vec<Coordinate> {
     if held.iter().all(|held| held.platform().is_some()) {
         return held.to_vec();
     }
+    let mechanism = question.mechanism();
+    let spins = |platform: usize| {
+        let of_it = |still: &Still| matches!(still, Still::Platform(s) if s.platform == platform);
+        question.still().iter().any(of_it)
+    };
     let all = Coordinate::all(mechanism);
-    let candidates: Vec<Coordinate> = all.filter(|c| c.platform().is_some()).collect();
+    let candidates = all.filter(|c| c.platform().is_some_and(|platform| !spins(platform)));
+    let candidates: Vec<Coordinate> = candidates.collect();
     let mobility = Mobility::near(mechanism, &mechanism.home());
     mobility.map_or_else(Vec::new, |mobility| {
         mobility.independent(mechanism, &candidates)

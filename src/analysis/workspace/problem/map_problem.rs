@@ -45,7 +45,7 @@ impl<'m> MapProblem<'m> {
                     driven => driven,
                 }),
         );
-        let outputs = coordinate_outputs(mechanism, &held);
+        let outputs = coordinate_outputs(question, &held);
         let whole = |set: Vec<Coordinate>| match set.len() == held.len() {
             true => set,
             false => Vec::new(),
