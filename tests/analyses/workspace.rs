@@ -10,6 +10,7 @@ use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
+use linkwork::system::LocusEnd;
 use nalgebra::Matrix3;
 
 fn text(name: &str) -> String {
@@ -638,6 +639,41 @@ fn a_leg_does_not_pass_through_length_zero_from_one_mode_to_another() {
         assert_eq!((signs.len(), report.modes.len()), (8, 8), "{nodes}");
         // the conic of singular poses parts each mode in two
         assert_eq!(report.aspects.len(), 16, "{nodes}");
+    }
+}
+
+/// With legs of one length the platform of a 3-RPS is level, and the rates of its x and y lose two ranks at once: an
+/// isolated point of each slice, where a motion of the platform may be any of a circle while nothing moves on.
+#[test]
+fn an_isolated_singularity_is_a_point_of_the_map_and_no_curve() {
+    let mechanism = written(&text("three_rps"), &[]);
+    let lengths = ["l1", "l2", "l3"].map(|leg| (leg, 0.5, 1.0));
+    let report = asked(
+        &mechanism,
+        &lengths,
+        &[],
+        &WorkspaceSettings {
+            nodes: vec![4; 3],
+            ..WorkspaceSettings::default()
+        },
+    );
+    let inverse = report
+        .points
+        .iter()
+        .filter(|point| point.kind == BoundaryKind::Inverse);
+    let level = inverse.filter(|point| point.at.iter().all(|l| (l - point.at[0]).abs() < 1e-6));
+    assert!(level.count() > 0);
+    let closed = report
+        .curves
+        .iter()
+        .filter(|curve| curve.ends.contains(&LocusEnd::Closed));
+    for curve in closed {
+        let off = |joints: &Vec<f64>| {
+            let pairs = joints.iter().zip(&curve.joints[0]);
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        let extent = curve.joints.iter().map(off).fold(0.0, f64::max);
+        assert!(extent > 1e-3, "{:?} {extent}", curve.points[0]);
     }
 }
 

@@ -223,7 +223,10 @@ impl Boundary<'_> {
             let decomposition = curve.locked().of_rank(at, columns);
             let motion = decomposition.weakest()?.1.to_vec();
             let at = at.clone();
-            settled(curve, Singular { at, motion }, &method)
+            let place = settled(curve, Singular { at, motion }, &method)?;
+            // where two motions are left, the motion would turn and the configuration stand still
+            let unique = curve.locked().decomposition(&place.at.at).rank() + 1 >= columns;
+            unique.then_some(place)
         };
         tracer.all(&mut curve, &region(&held, &problem.axes), crossings, place)
     }
