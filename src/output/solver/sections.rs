@@ -1,13 +1,15 @@
 //! The straight-line parts of a solver.
 
 mod closed;
+mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::language::{bound, larger, operation, variable};
+use super::language::{bound, larger, variable};
 use super::{Code, Language};
 use crate::algebra::{Operation, Place};
 use crate::analysis::solver::{Component, Solver};
+use text::Text;
 
 /// Writes operations in the language of the code.
 pub(super) struct Writer<'a> {
@@ -15,16 +17,6 @@ pub(super) struct Writer<'a> {
     solver: &'a Solver,
     /// For each operation whether it depends on nothing but what is held.
     given: Vec<bool>,
-}
-
-/// The text of one function, with what is already written in it.
-struct Text<'w, 'a> {
-    writer: &'w Writer<'a>,
-    text: String,
-    indent: usize,
-    known: BTreeSet<Place>,
-    /// Whether sines and cosines of the state have names of their own.
-    carries: bool,
 }
 
 impl<'a> Writer<'a> {
@@ -316,94 +308,5 @@ impl<'a> Writer<'a> {
             }
         }
         text.text
-    }
-}
-
-impl Text<'_, '_> {
-    fn line(&mut self, lines: &str) {
-        for line in lines.lines() {
-            self.text += &"    ".repeat(self.indent);
-            self.text += line;
-            self.text.push('\n');
-        }
-    }
-
-    /// The numbers of an array that are used, each under the name of the array and its place.
-    fn numbers(&mut self, used: &BTreeSet<Place>, array: &str) {
-        for &place in used {
-            if let Operation::Input(_) = self.writer.solver.operations[place as usize] {
-                let name = self.writer.name(place, false);
-                if let Some(number) = name.strip_prefix(array) {
-                    self.line(&bound(&name, &format!("{array}[{number}]")));
-                }
-            }
-        }
-    }
-
-    /// Gives up where a pivot that is used is too small.
-    fn pivots(&mut self, used: &BTreeSet<Place>) {
-        let Writer { code, solver, .. } = self.writer;
-        let pivots = solver.pivots.iter();
-        for pivot in pivots.filter(|pivot| used.contains(&pivot.inverse)) {
-            self.operations(self.writer.needed([pivot.place]));
-            let name = self.writer.name(pivot.place, self.carries);
-            let scale = code.precision.literal(pivot.scale, code.language);
-            let small = format!("!(@fabs@({name}) > {scale} * LEAST_PIVOT)");
-            self.line(&code.language.gives_up_if(&small));
-        }
-    }
-
-    /// Operations that are not written yet.
-    fn operations(&mut self, places: impl IntoIterator<Item = Place>) {
-        let places: BTreeSet<Place> = places.into_iter().collect();
-        for &place in &places {
-            if !self.known.insert(place) {
-                continue;
-            }
-            let writer = self.writer;
-            let carries = self.carries;
-            let name = |place: Place| writer.name(place, carries);
-            match writer.solver.operations[place as usize] {
-                Operation::Constant(_) | Operation::Input(_) => {}
-                Operation::Sin(angle) | Operation::Cos(angle) => {
-                    if carries && writer.state_of(angle).is_some() {
-                        continue;
-                    }
-                    self.turned(place, angle);
-                }
-                of => {
-                    let value = match writer.root_under(place) {
-                        Some((x, y)) => {
-                            let inverse = format!("@own@inverse_root({})", name(y));
-                            match writer.solver.operations[x as usize] {
-                                Operation::Constant(1.0) => inverse,
-                                _ => format!("{} * {inverse}", name(x)),
-                            }
-                        }
-                        None => operation(of, &name),
-                    };
-                    let value = match writer.sign_of(place) {
-                        Some(number) => writer.code.language.sign(number, &value),
-                        None => value,
-                    };
-                    self.line(&bound(&name(place), &value));
-                }
-            }
-        }
-    }
-
-    /// Sine and cosine of an angle, of which both are written where either is used.
-    fn turned(&mut self, place: Place, angle: Place) {
-        let writer = self.writer;
-        let all = writer.solver.operations.iter().enumerate();
-        let partner = |wanted: Operation| all.clone().find(|(_, of)| **of == wanted);
-        let place_of = |wanted| partner(wanted).map(|(place, _)| place as Place);
-        let sin = place_of(Operation::Sin(angle)).unwrap_or(place);
-        let cos = place_of(Operation::Cos(angle)).unwrap_or(place);
-        self.known.extend([sin, cos]);
-        let name = |place| writer.name(place, self.carries);
-        let language = writer.code.language;
-        let line = language.turned(&name(sin), &name(cos), &name(angle), false);
-        self.line(&line);
     }
 }
