@@ -853,3 +853,32 @@ fn rounding_beside_large_forces_is_printed_as_zero() {
     // which is not rounding where it is all there is
     assert!(forces(&bucket("1e-9")).contains("e-"));
 }
+
+/// On a terminal, which `script` of util-linux makes.
+#[test]
+fn the_line_of_progress_never_counts_beyond_its_total() {
+    let program = linkwork().get_program().to_owned();
+    let map = "workspace mechanisms/planar_3rpr.ron --grid 150 --hold platform.yaw=0.1 \
+               --map platform.x=-2..3 --map platform.y=-2..3";
+    let watched = format!("{} {map}", program.display());
+    let mut terminal = Command::new("script");
+    terminal
+        .args(["-qec", &watched, "/dev/null"])
+        .env("TERM", "xterm");
+    let Ok(output) = terminal.output() else {
+        eprintln!("skipped: no `script` is here");
+        return;
+    };
+    assert!(output.status.success());
+    let shown = stdout(&output);
+    let number = |text: &str| text.replace(',', "").parse::<u64>().ok();
+    let counts: Vec<(u64, u64)> = (shown.split('\r'))
+        .filter_map(|line| line.split_once(" of ").zip(line.rsplit_once(" left ")))
+        .filter_map(|((before, after), _)| {
+            let done = number(before.rsplit(' ').next()?)?;
+            Some((done, number(after.split(", ").next()?)?))
+        })
+        .collect();
+    assert!(!counts.is_empty(), "{shown}");
+    assert!(counts.iter().all(|(done, of)| done <= of), "{counts:?}");
+}
