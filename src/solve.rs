@@ -71,7 +71,8 @@ impl Size {
         for row in rows {
             let square = row.norm_squared();
             squares += square;
-            largest = square.max(largest);
+            // one instruction, where `max` has six for what is not a number
+            largest = if square > largest { square } else { largest };
         }
         // a NaN among the largest may have been passed over, in the sum it is not
         if squares.is_finite() {

@@ -31,7 +31,7 @@ pub struct Bordered<T: Factorable> {
 }
 
 /// Unknowns that are computed together: products of a matrix and a vector are then made of sums in registers.
-const GROUP: usize = 2;
+const GROUP: usize = 4;
 
 /// Elimination is used if all pivots are this large: without column exchange they do not tell the rank.
 const TRUSTED_PIVOT: f64 = 1e-3;
@@ -230,9 +230,8 @@ impl<T: Factorable> Bordered<T> {
                     *sum = *sum + entry * r;
                 }
             }
-            match x {
-                [x, y] => [*x, *y] = sums,
-                last => last[0] = sums[0],
+            for (x, sum) in x.iter_mut().zip(sums) {
+                *x = sum;
             }
         }
     }

@@ -89,18 +89,18 @@ impl<P> Trail<P> {
     }
 
     /// Takes in the latest move, and what is left of it.
-    fn learn(&mut self, left: Option<&[f64]>) {
-        let mut errors = [0.0f64; ORDERS];
-        let known = self.moved.iter().zip(&mut self.rest);
-        let mut left = left.into_iter().flatten();
-        for (differences, (&moved, rest)) in self.differences.iter_mut().zip(known) {
-            let before = *rest;
-            *rest = left.next().map_or(0.0, |left| *left);
-            let mut latest = moved + (*rest - before);
-            for (difference, error) in differences.iter_mut().zip(&mut errors) {
-                *error += latest * latest;
-                (*difference, latest) = (latest, latest - *difference);
+    fn learn(&mut self, left: &[f64]) {
+        let mut errors = [0.0; ORDERS];
+        let known = self.moved.iter().zip(&mut self.rest).zip(left);
+        for (differences, ((&moved, rest), &left)) in self.differences.iter_mut().zip(known) {
+            let mut latest = [moved + (left - *rest); ORDERS];
+            for i in 1..ORDERS {
+                latest[i] = latest[i - 1] - differences[i - 1];
             }
+            for i in 0..ORDERS {
+                errors[i] += latest[i] * latest[i];
+            }
+            (*rest, *differences) = (left, latest);
         }
         let better = |best, order| {
             if errors[order] < errors[best] {
@@ -140,7 +140,11 @@ impl Warm {
             std::mem::swap(point, &mut trail.next);
             let known = self.extrapolation > 0 && trail.factorised;
             let small = known && equations.step(work) <= LONGEST_STEP;
-            trail.learn(small.then(|| &*equations.step_mut(work)));
+            let left = equations.step_mut(work);
+            if !small {
+                left.fill(0.0);
+            }
+            trail.learn(left);
         } else {
             trail.forget();
         }
@@ -165,9 +169,11 @@ impl Warm {
             let moves = trail.moved.iter_mut().zip(steps);
             for ((moved, step), (differences, &rest)) in moves.zip(past) {
                 let terms = differences[..order].iter();
-                *step = terms.fold(rest, |sum, &d| sum + d);
-                *moved = *step;
-                longest = longest.max(step.abs());
+                let sum = terms.fold(rest, |sum, &d| sum + d);
+                (*step, *moved) = (sum, sum);
+                if sum.abs() > longest {
+                    longest = sum.abs();
+                }
             }
             longest_step = longest_step.min(longest);
         } else {

@@ -44,57 +44,38 @@ impl<T: Number> Step<T> {
     #[inline(always)]
     pub fn place(&self, parent: &Pose<T>, pose: &mut Pose<T>, joints: &[T]) {
         let fixed = &self.fixed;
+        let column = |i: usize| match (self.shape, self.columns[i]) {
+            (Shape::Grounded, _) => fixed.rotation.0[i],
+            (_, Column::Axis(number, false)) => parent.rotation.0[number] + Vector3::zero(),
+            (_, Column::Axis(number, true)) => Vector3::zero() - parent.rotation.0[number],
+            (_, Column::Any) => parent.rotation * fixed.rotation.0[i],
+        };
         match self.shape {
-            Shape::Grounded => {}
-            Shape::Turned => {
-                pose.position = parent.position;
-                self.carry(&parent.rotation, &mut pose.rotation);
-            }
+            Shape::Grounded => pose.position = fixed.position,
+            Shape::Turned => pose.position = parent.position,
             Shape::Along => {
                 let shift = parent.rotation.0[0].times(fixed.position.0[0]);
                 pose.position = shift + parent.position;
-                self.carry(&parent.rotation, &mut pose.rotation);
             }
-            Shape::General => {
-                pose.position = *parent * fixed.position;
-                self.carry(&parent.rotation, &mut pose.rotation);
-            }
-        }
-        let grounded = self.shape == Shape::Grounded;
-        if !self.slide.0.is_empty() {
-            let from = if grounded {
-                fixed.position
-            } else {
-                pose.position
-            };
-            pose.position = from + pose.rotation.0[2].times(self.slide.at(joints));
-        }
-        // a turn leaves origin and axis where they are
-        if !self.turn.0.is_empty() && self.need == Need::Pose {
-            let [x, y] = match grounded {
-                true => [fixed.rotation.0[0], fixed.rotation.0[1]],
-                false => [pose.rotation.0[0], pose.rotation.0[1]],
-            };
-            let (sin, cos) = self.turn.at(joints).sin_cos();
-            pose.rotation.0[0] = x.times(cos) + y.times(sin);
-            pose.rotation.0[1] = y.times(cos) - x.times(sin);
-        }
-    }
-
-    /// The columns that are needed.
-    #[inline(always)]
-    fn carry(&self, parent: &Rotation<T>, rotation: &mut Rotation<T>) {
-        let column = |i: usize| match self.columns[i] {
-            Column::Axis(number, false) => parent.0[number] + Vector3::zero(),
-            Column::Axis(number, true) => Vector3::zero() - parent.0[number],
-            Column::Any => *parent * self.fixed.rotation.0[i],
-        };
-        if self.need == Need::Pose {
-            rotation.0[0] = column(0);
-            rotation.0[1] = column(1);
+            Shape::General => pose.position = *parent * fixed.position,
         }
         if self.need > Need::Position {
-            rotation.0[2] = column(2);
+            pose.rotation.0[2] = column(2);
+            if !self.slide.0.is_empty() {
+                pose.position += pose.rotation.0[2].times(self.slide.at(joints));
+            }
+        }
+        if self.need == Need::Pose {
+            let (x, y) = (column(0), column(1));
+            // a turn leaves origin and axis where they are
+            if self.turn.0.is_empty() {
+                (pose.rotation.0[0], pose.rotation.0[1]) = (x, y);
+            } else {
+                let (sin, cos) = self.turn.at(joints).sin_cos();
+                // y first: compiled so, it is stored in the pieces in which the next step reads it, which need not wait
+                pose.rotation.0[1] = y.times(cos) - x.times(sin);
+                pose.rotation.0[0] = x.times(cos) + y.times(sin);
+            }
         }
     }
 
