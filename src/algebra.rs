@@ -150,10 +150,11 @@ impl<N> Expression<N> {
         let (mut first, mut waiting) = (Some(self), Vec::new());
         std::iter::from_fn(move || {
             while let Some(expression) = first.take().or_else(|| waiting.pop()) {
-                if let Node::Name(name) = &expression.node {
-                    return Some((name, &expression.span));
+                match &expression.node {
+                    Node::Name(name) => return Some((name, &expression.span)),
+                    Node::Number(_) | Node::Quantity(..) | Node::Constant(_) => {}
+                    _ => waiting.extend(expression.operands().rev()),
                 }
-                waiting.extend(expression.operands().rev());
             }
             None
         })

@@ -34,10 +34,12 @@ pub enum EvaluationErrorKind {
 pub const LARGEST: f64 = 1e30;
 
 /// Beyond this a whole exponent gains nothing from repeated multiplication.
-const MAX_WHOLE_EXPONENT: f64 = 1024.0;
+const MAX_WHOLE_EXPONENT: u32 = 1024;
 
 impl<N> Expression<N> {
     /// The value, with `value_of` giving that of each name.
+    // inlined as far as operations, since most expressions are single numbers or names
+    #[inline]
     pub fn evaluate<T: Number>(&self, value_of: &impl Fn(&N) -> T) -> Result<T, EvaluationError> {
         let value = match &self.node {
             Node::Number(value) => T::from_f64(*value),
@@ -45,25 +47,40 @@ impl<N> Expression<N> {
             Node::Constant(constant) => constant.over(),
             Node::Name(name) => value_of(name),
             Node::Negate(x) => -x.evaluate(value_of)?,
-            Node::Binary(operator, x, y) => {
-                let (x, y_value) = (x.evaluate(value_of)?, y.evaluate(value_of)?);
-                if *operator == Operator::Divide && y_value == T::from_f64(0.0) {
-                    let (span, kind) = (y.span.clone(), EvaluationErrorKind::DivisionByZero);
-                    return Err(EvaluationError { span, kind });
-                }
-                let value = combine(*operator, x, y_value);
-                let fault = || fault_of_operator(*operator, x.real(), y_value.real());
-                return self.finite(value, fault);
-            }
-            Node::Call(function, arguments) => {
-                let x = arguments[0].evaluate(value_of)?;
-                let y = arguments.get(1).map_or(Ok(x), |y| y.evaluate(value_of))?;
-                return self.finite(call(*function, x, y), || fault_of_call(*function, x.real()));
-            }
+            Node::Binary(operator, x, y) => return self.combined(*operator, x, y, value_of),
+            Node::Call(function, arguments) => return self.called(*function, arguments, value_of),
         };
         self.finite(value, || EvaluationErrorKind::NotFinite)
     }
 
+    fn combined<T: Number>(
+        &self,
+        operator: Operator,
+        x: &Self,
+        y: &Self,
+        value_of: &impl Fn(&N) -> T,
+    ) -> Result<T, EvaluationError> {
+        let (x, y_value) = (x.evaluate(value_of)?, y.evaluate(value_of)?);
+        if operator == Operator::Divide && y_value == T::from_f64(0.0) {
+            let (span, kind) = (y.span.clone(), EvaluationErrorKind::DivisionByZero);
+            return Err(EvaluationError { span, kind });
+        }
+        let fault = || fault_of_operator(operator, x.real(), y_value.real());
+        self.finite(combine(operator, x, y_value), fault)
+    }
+
+    fn called<T: Number>(
+        &self,
+        function: Function,
+        arguments: &[Self],
+        value_of: &impl Fn(&N) -> T,
+    ) -> Result<T, EvaluationError> {
+        let x = arguments[0].evaluate(value_of)?;
+        let y = arguments.get(1).map_or(Ok(x), |y| y.evaluate(value_of))?;
+        self.finite(call(function, x, y), || fault_of_call(function, x.real()))
+    }
+
+    #[inline]
     fn finite<T: Number>(
         &self,
         value: T,
@@ -86,10 +103,10 @@ fn combine<T: Number>(operator: Operator, x: T, y: T) -> T {
         Operator::Multiply => x * y,
         Operator::Divide => x / y,
         Operator::Power => {
-            let whole = y.real().round();
+            let whole = y.real() as i32;
             // A whole exponent needs no logarithm, so the base may be negative in every kind of number.
-            if y == T::from_f64(whole) && whole.abs() <= MAX_WHOLE_EXPONENT {
-                x.powi(whole as i32)
+            if y == T::from_f64(whole.into()) && whole.unsigned_abs() <= MAX_WHOLE_EXPONENT {
+                x.powi(whole)
             } else {
                 x.powf(y)
             }

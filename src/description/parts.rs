@@ -316,12 +316,12 @@ impl<E> Displacement<E> {
 }
 
 impl<T: Number> Displacement<T> {
-    /// The displacement as a pose.
-    pub fn pose(&self) -> Pose<T> {
+    /// Makes a pose go on by the displacement.
+    pub(crate) fn extend(&self, pose: &mut Pose<T>) {
         match *self {
-            Self::Translate(axis, by) => Pose::translation(Vector3::unit(axis as usize).times(by)),
-            Self::Rotate(axis, by) => Pose::rotation(axis, by),
-            Self::TranslateBy(by) => Pose::translation(Vector3(by)),
+            Self::Translate(axis, by) => pose.shift(axis, by),
+            Self::Rotate(axis, by) => pose.turn(axis, by),
+            Self::TranslateBy(by) => pose.position = *pose * Vector3(by),
         }
     }
 }

@@ -40,6 +40,23 @@ impl<T: Number> Pose<T> {
         }
     }
 
+    /// Goes on along an axis of the frame it leads to, by a length in metres.
+    #[inline]
+    pub(crate) fn shift(&mut self, axis: Axis, length: T) {
+        self.position += self.rotation.column(axis).times(length);
+    }
+
+    /// Goes on by a rotation about an axis of the frame it leads to, by an angle in radians.
+    #[inline]
+    pub(crate) fn turn(&mut self, axis: Axis, angle: T) {
+        let (_, j, k) = axis.cyclic();
+        let (sin, cos) = exact_sin_cos(angle);
+        let (a, b) = (self.rotation.0[j], self.rotation.0[k]);
+        // a sum with 0 leaves no −0
+        self.rotation.0[j] = Vector3::zero() + a.times(cos) + b.times(sin);
+        self.rotation.0[k] = Vector3::zero() + b.times(cos) - a.times(sin);
+    }
+
     /// The inverse displacement: ⁱⱼT⁻¹ = ʲᵢT.
     #[inline(always)]
     pub fn inverse(&self) -> Self {

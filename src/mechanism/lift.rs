@@ -1,6 +1,5 @@
 //! From formulas to dimensions over a number type: the only place where this happens.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::dimensions::{
@@ -10,7 +9,7 @@ use super::model::{FixedStep, Formula, Joint, JointKind, Row, Symbol};
 use super::{Frame, Mechanism};
 use crate::algebra::{Affine, EvaluationError};
 use crate::description::{Convention, Role};
-use crate::geometry::{Axis, Pose, Vector3};
+use crate::geometry::{Axis, Pose};
 use crate::linear::{join, root};
 use crate::number::Number;
 
@@ -19,6 +18,18 @@ pub(super) fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T,
         Symbol::Parameter(i) => parameters[i],
         Symbol::Joint(_) | Symbol::Local(_) => unreachable!("a dimension is resolved in the scope of parameters, where joints and local names are refused"),
     })
+}
+
+/// What all parts give. Collecting results does not know their number, and allocates again as they grow.
+fn each<A, B>(
+    parts: &[A],
+    mut over: impl FnMut(&A) -> Result<B, EvaluationError>,
+) -> Result<Vec<B>, EvaluationError> {
+    let mut all = Vec::with_capacity(parts.len());
+    for part in parts {
+        all.push(over(part)?);
+    }
+    Ok(all)
 }
 
 fn linear_form<T: Number>(
@@ -38,18 +49,16 @@ fn linear_form<T: Number>(
     Ok((value(&affine.constant, parameters)?, LinearForm(terms)))
 }
 
-fn along<T: Number>(axis: Axis, length: T) -> Pose<T> {
-    Pose::translation(Vector3::unit(axis as usize).times(length))
-}
-
 pub(super) fn product<T: Number>(
     steps: &[FixedStep],
     parameters: &[T],
 ) -> Result<Pose<T>, EvaluationError> {
-    (steps.iter()).try_fold(Pose::identity(), |pose, step| {
+    let mut pose = Pose::identity();
+    for step in steps {
         let step = step.try_map(|formula| value(formula, parameters))?;
-        Ok(pose * step.pose())
-    })
+        step.extend(&mut pose);
+    }
+    Ok(pose)
 }
 
 impl Row {
@@ -58,16 +67,19 @@ impl Row {
         convention: Convention,
         parameters: &[T],
     ) -> Result<RowDimensions<T>, EvaluationError> {
-        let alpha = Pose::rotation(Axis::X, value(&self.alpha, parameters)?);
-        let a = along(Axis::X, value(&self.a, parameters)?);
+        let (alpha, a) = (value(&self.alpha, parameters)?, value(&self.a, parameters)?);
         let (theta, turn) = linear_form(&self.theta, parameters)?;
         let (d, slide) = linear_form(&self.d, parameters)?;
-        let joint = Pose::rotation(Axis::Z, theta) * along(Axis::Z, d);
-        // Rz(θ₀) and Tz(d₀) commute with the motion about and along the same z
-        let (before, after) = match convention {
-            Convention::Modified => (alpha * a * joint, Pose::identity()),
-            Convention::Standard => (joint, a * alpha),
+        let (mut before, mut after) = (Pose::identity(), Pose::identity());
+        let link = match convention {
+            Convention::Modified => &mut before,
+            Convention::Standard => &mut after,
         };
+        link.shift(Axis::X, a);
+        link.turn(Axis::X, alpha);
+        // Rz(θ₀) and Tz(d₀) commute with the motion about and along the same z
+        before.turn(Axis::Z, theta);
+        before.shift(Axis::Z, d);
         Ok(RowDimensions {
             before,
             turn,
@@ -89,25 +101,18 @@ impl Mechanism {
         &self,
         parameters: &[T],
     ) -> Result<Dimensions<T>, EvaluationError> {
-        let chains = self.chains.iter().map(|chain| {
-            let rows = chain.rows.iter();
-            let rows = rows.map(|row| row.over(chain.convention, parameters));
+        let chains = each(&self.chains, |chain| {
             Ok(ChainDimensions {
                 on: chain.on,
                 base: product(&chain.base, parameters)?,
-                rows: rows.collect::<Result<_, _>>()?,
+                rows: each(&chain.rows, |row| row.over(chain.convention, parameters))?,
                 tip: product(&chain.tip, parameters)?,
             })
-        });
-        let chains = chains.collect::<Result<_, _>>()?;
-        let platforms = self.platforms.iter().map(|platform| {
-            let frames = platform.frames.iter();
-            frames
-                .map(|(_, steps)| product(steps, parameters))
-                .collect()
-        });
-        let platforms = platforms.collect::<Result<_, _>>()?;
-        let closures = self.closures.iter().map(|closure| {
+        })?;
+        let platforms = each(&self.platforms, |platform| {
+            each(&platform.frames, |(_, steps)| product(steps, parameters))
+        })?;
+        let closures = each(&self.closures, |closure| {
             let (length, extension) = match &closure.length {
                 Some(affine) => linear_form(affine, parameters)?,
                 None => (T::zero(), LinearForm(vec![])),
@@ -118,8 +123,7 @@ impl Mechanism {
                 length,
                 extension,
             })
-        });
-        let closures = closures.collect::<Result<_, _>>()?;
+        })?;
         let mut dimensions = Dimensions {
             characteristic_length: 1.0,
             joint_scales: vec![1.0; self.joints.len()],
@@ -237,22 +241,17 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
             .then_some(closure.frames)?;
         frames.into_iter().find_map(body)
     });
-    let places: Vec<(usize, [f64; 3])> = bases.chain(to_ground.map(|i| (i, [0.0; 3]))).collect();
-    let places = places
-        .into_iter()
-        .map(|(i, place)| (root(&mut roots, i), place));
+    let places = bases.chain(to_ground.map(|i| (i, [0.0; 3])));
+    let places = places.map(|(i, place)| (root(&mut roots, i), place));
     let places: Vec<(usize, [f64; 3])> = places.collect();
-    let mut boxes = BTreeMap::<usize, [[f64; 2]; 3]>::new();
+    let mut boxes = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 3]; roots.len()];
     for (part, place) in &places {
-        let sides = boxes
-            .entry(*part)
-            .or_insert([[f64::INFINITY, f64::NEG_INFINITY]; 3]);
-        for (side, x) in sides.iter_mut().zip(place) {
+        for (side, x) in boxes[*part].iter_mut().zip(place) {
             *side = [side[0].min(*x), side[1].max(*x)];
         }
     }
     places.into_iter().map(move |(part, place)| {
-        let squares = place.iter().zip(boxes[&part]).map(|(x, [low, high])| {
+        let squares = place.iter().zip(boxes[part]).map(|(x, [low, high])| {
             let nearest = low.max(high.min(0.0));
             (x - nearest).powi(2)
         });

@@ -233,7 +233,7 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
             .map(|value| Value::from(value.trim().trim_matches('"')).coordinate(mechanism, wanted))
             .collect::<Result<Vec<f64>, _>>()?;
         let step = Displacement::of_word(word, values).ok_or_else(|| refusal(part))?;
-        pose = pose * step.pose();
+        step.extend(&mut pose);
     }
     Ok(pose)
 }
