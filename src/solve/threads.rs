@@ -78,17 +78,6 @@ impl<S: Clone + Send + Sync> Pool<S> {
         })
     }
 
-    /// `f(storage, item)` for each of several items.
-    pub fn each_of<I: Send>(&self, items: Vec<I>, f: impl Fn(&mut S, I) + Sync) {
-        let items: Vec<Mutex<Option<I>>> = items.into_iter().map(|i| Mutex::new(Some(i))).collect();
-        self.each(items.len(), |storage, i| {
-            let mut item = items[i].lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(item) = item.take() {
-                f(storage, item);
-            }
-        });
-    }
-
     fn spare(&self) -> MutexGuard<'_, Vec<Box<S>>> {
         // a panic elsewhere leaves the list whole
         self.spare.lock().unwrap_or_else(PoisonError::into_inner)

@@ -39,11 +39,11 @@ impl Boundary<'_> {
                 match *link {
                     Link::Fold if limited => wanted.push((s, d, Until::Limit)),
                     Link::Fold => wanted.push((s, d, Until::End)),
-                    Link::To(t) if !self.reached_set.named(t).within => {
+                    Link::To(t) if !self.reached_set.solution(t as usize).within => {
                         wanted.push((s, d, Until::Limit));
                     }
                     Link::To(t) if d % 2 == 1 => {
-                        let t = self.reached_set.number(t);
+                        let t = t as usize;
                         let [a, b] = [s, t].map(|s| &self.reached_set.solution(s).indicators);
                         let mut parted = |x: f64, y: f64, kind: Kind, until| {
                             // the end of the edge that is singular, if one is

@@ -11,12 +11,11 @@ mod reached;
 mod seeds;
 mod spread;
 mod step;
-mod tile;
 
 pub(super) use edge::{Edge, Met, Until};
 pub(super) use metric::Metric;
 pub(super) use neighbour::Flood;
-pub(super) use reached::{Band, Link, ReachedSet, Signs, signs, signs_of};
+pub(super) use reached::{Link, ReachedSet, Signs, signs, signs_of};
 pub(super) use seeds::{ModeSeeds, PROBES, probe, search_modes};
 pub(super) use spread::Spread;
 pub(super) use step::Steps;

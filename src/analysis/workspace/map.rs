@@ -49,7 +49,7 @@ impl<'a> Map<'a> {
         // of each mode the solution at its first node, with the least joints
         let mut first: Vec<Option<usize>> = vec![None; reached_set.len()];
         let order = |a: usize, b: usize| {
-            let node = |s: usize| reached_set.nodes[s];
+            let node = |s: usize| reached_set.solution(s).node;
             let joints = |s: usize| brought(problem, reached_set.configuration(s).joints, true);
             let joint_order = || {
                 let (a, b) = (joints(a), joints(b));
@@ -64,7 +64,7 @@ impl<'a> Map<'a> {
         };
         for s in 0..reached_set.len() {
             let root = reached_set.roots[s];
-            within[root] |= reached_set.within[s];
+            within[root] |= reached_set.solution(s).within;
             match first[root] {
                 Some(known) if order(known, s).is_le() => {}
                 _ => first[root] = Some(s),
@@ -104,7 +104,7 @@ impl<'a> Map<'a> {
             cuts.insert((crossing.solution, crossing.direction), crossing.part);
             let link = self.reached_set.solution(crossing.solution).links[crossing.direction];
             if let Link::To(other) = link {
-                let other = (self.reached_set.number(other), crossing.direction ^ 1);
+                let other = (other as usize, crossing.direction ^ 1);
                 cuts.insert(other, 1.0 - crossing.part);
             }
         }
@@ -114,15 +114,14 @@ impl<'a> Map<'a> {
                 of_modes[*mode].push(s);
             }
         }
-        let node = |s: &usize| self.reached_set.nodes[*s];
-        let whole = |s: &usize| self.reached_set.within[*s];
+        let node = |s: &usize| self.reached_set.solution(*s).node;
+        let whole = |s: &usize| self.reached_set.solution(*s).within;
         let of_mode = |mode: usize| move |s: &usize| self.mode[*s] == Some(mode) && whole(s);
         let all = (0..self.reached_set.len()).filter(whole);
         let reached = Region::new(self.grid, all.map(|s| node(&s)));
-        let unsure = self.reached_set.count(|solution| {
-            let stuck = solution.links.iter().filter(|link| **link == Link::Stuck);
-            if solution.within { stuck.count() } else { 0 }
-        });
+        let inside = self.reached_set.solutions().filter(|(_, of)| of.within);
+        let links = inside.flat_map(|(_, solution)| &solution.links);
+        let unsure = links.filter(|link| **link == Link::Stuck).count();
         let (aspects, numbers) = self.aspects(&cuts);
         let home_report = |home: &Home| {
             let [known, within] = home.solutions(self.reached_set, &self.mode);
@@ -200,7 +199,7 @@ impl<'a> Map<'a> {
                 .iter()
                 .filter(|crossing| !crossing.again)
                 .filter_map(|crossing| {
-                    let node = self.reached_set.nodes[crossing.solution];
+                    let node = self.reached_set.solution(crossing.solution).node;
                     let mut at = self.grid.values(node);
                     let along = crossing.direction / 2;
                     let next = self.grid.neighbour(node, crossing.direction)?;
@@ -286,7 +285,7 @@ impl<'a> Map<'a> {
             let belongs = |s: &usize| self.aspect[*s] == Some(first);
             let region = Region::new(
                 self.grid,
-                solutions.iter().map(|s| self.reached_set.nodes[*s]),
+                solutions.iter().map(|s| self.reached_set.solution(*s).node),
             );
             let finite: Vec<usize> = (solutions.iter().copied())
                 .filter(|s| indicators(*s).condition.is_finite())
@@ -298,7 +297,7 @@ impl<'a> Map<'a> {
                     .iter()
                     .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
                 alike.next().map(|s| Conditioned {
-                    at: self.grid.values(self.reached_set.nodes[*s]),
+                    at: self.grid.values(self.reached_set.solution(*s).node),
                     condition: of(*s),
                 })
             };
@@ -318,7 +317,7 @@ impl<'a> Map<'a> {
         sort_by(&mut all, |a, b| {
             let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
             order.then_with(|| {
-                let node = |first: usize| self.reached_set.nodes[first];
+                let node = |first: usize| self.reached_set.solution(first).node;
                 node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
             })
         });

@@ -114,7 +114,7 @@ fn reached(
     let seeds: Vec<_> = (aspect.iter())
         .map(|s| {
             (
-                same(reached_set.nodes[*s]),
+                same(reached_set.solution(*s).node),
                 reached_set.configuration(*s).owned(),
             )
         })

@@ -12,12 +12,6 @@ pub(crate) struct Configurations {
 }
 
 impl Configurations {
-    /// Room for so many more that are like this one.
-    pub fn reserve(&mut self, more: usize, like: ConfigurationRef<f64>) {
-        self.joints.reserve(more * like.joints.len());
-        self.platforms.reserve(more * like.platforms.len());
-    }
-
     pub fn push(&mut self, at: ConfigurationRef<f64>) {
         self.widths = [at.joints.len(), at.platforms.len()];
         self.joints.extend(at.joints);

@@ -50,83 +50,6 @@ pub(crate) enum Until<'l> {
 }
 
 impl Flood<'_> {
-    /// A curve along an edge with the place where it begins, towards the end.
-    fn begun(
-        &self,
-        edge: &Edge,
-        from: &Configuration<f64>,
-        method: &Continuation,
-        within: bool,
-    ) -> Result<(Curve, Place<Configuration<f64>>), Met> {
-        let problem = self.problem;
-        let moved = edge.moved(problem);
-        let held = problem.at(&edge.values).without(moved.coordinate).held();
-        let mut curve = Curve::along(problem.mechanism, &held, vec![moved]);
-        let mut start = problem.put(from, &edge.values);
-        if within {
-            problem.mechanism.turn_to_limits(&mut start.joints);
-        }
-        let Ok(place) = method.settle(&mut curve, start) else {
-            return Err(Met::Nothing);
-        };
-        if place.is_beside_a_crossing() || !self.metric.same(place.at.view(), from.view()) {
-            return Err(Met::Nothing);
-        }
-        match curve.towards_end(place) {
-            (place, true) => Err(Met::Fold(place.at, 0.0)),
-            (place, false) => Ok((curve, place)),
-        }
-    }
-
-    /// Whether the neighbour is reached or the mode folds back before it, which is not located.
-    pub(crate) fn reach(&self, edge: &Edge, from: &Configuration<f64>) -> Met {
-        const STEPS: usize = 200;
-        /// Part of the edge before which a fold that a parabola predicts is accepted unlocated.
-        const SURELY: f64 = 0.7;
-        /// Shorter steps are only needed where branches cross.
-        const SHORTEST: f64 = 1e-6;
-        let method = Continuation::default();
-        let (mut curve, mut place) = match self.begun(edge, from, &method, false) {
-            Ok(begun) => begun,
-            Err(met) => return met,
-        };
-        let ahead = |curve: &Curve, place: &Place<Configuration<f64>>| {
-            let rate = curve.part_rate(&place.at, &place.tangent);
-            (curve.part(&place.at), rate)
-        };
-        let (mut part, mut rate) = ahead(&curve, &place);
-        let mut length = (0.4 * (1.0 - part) / rate).min(method.longest);
-        for _ in 0..STEPS {
-            if length < SHORTEST {
-                return Met::Nothing;
-            }
-            let Ok((to, changed)) = method.step(&mut curve, &place, length) else {
-                length *= 0.5;
-                continue;
-            };
-            let (next, next_rate) = ahead(&curve, &to);
-            if next_rate <= 0.0 {
-                let top = part + 0.5 * rate * length * rate / (rate - next_rate);
-                return match top < SURELY {
-                    true => Met::Fold(to.at, top),
-                    false => self.walk(edge, from, Until::End),
-                };
-            }
-            if next >= 1.0 {
-                let mut left =
-                    |curve: &mut Curve, p: &Place<Configuration<f64>>| curve.part(&p.at) - 1.0;
-                let end = method.root(&mut curve, &place, &to, &mut left);
-                return Met::Neighbour(end.at);
-            }
-            (place, part, rate) = (to, next, next_rate);
-            length = method
-                .next_length(length, changed, &place)
-                .min(1.2 * (1.0 - part) / rate);
-            length = length.max(2.0 * SHORTEST);
-        }
-        Met::Nothing
-    }
-
     /// What is met first on an edge, located to rounding.
     pub(crate) fn walk(&self, edge: &Edge, from: &Configuration<f64>, until: Until) -> Met {
         const LEGS: usize = 500;
@@ -134,11 +57,22 @@ impl Flood<'_> {
         let mechanism = problem.mechanism;
         let moved = edge.moved(problem);
         let method = Continuation::default();
-        let within = until == Until::Limit;
-        let (mut curve, place) = match self.begun(edge, from, &method, within) {
-            Ok(begun) => begun,
-            Err(met) => return met,
+        let held = problem.at(&edge.values).without(moved.coordinate).held();
+        let mut curve = Curve::along(mechanism, &held, vec![moved]);
+        let mut start = problem.put(from, &edge.values);
+        if until == Until::Limit {
+            mechanism.turn_to_limits(&mut start.joints);
+        }
+        let Ok(place) = method.settle(&mut curve, start) else {
+            return Met::Nothing;
         };
+        if place.is_beside_a_crossing() || !self.metric.same(place.at.view(), from.view()) {
+            return Met::Nothing;
+        }
+        let (place, turns_back) = curve.towards_end(place);
+        if turns_back {
+            return Met::Fold(place.at, 0.0);
+        }
         let monitors: Vec<Monitor> = match until {
             Until::Singular(locks) => {
                 let mut locked = Locked::without_spins(mechanism, &problem.question.held(), locks);

@@ -1,27 +1,24 @@
 //! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
 
+use rustc_hash::FxHashSet;
+
 use super::super::TooManyNodes;
 use super::arrivals::{Arrivals, Moving};
-use super::edge::{Edge, Met};
-use super::neighbour::{Flood, Step, in_packs, one_each};
+use super::edge::{Edge, Met, Until};
+use super::neighbour::{Flood, Step, in_packs};
 use super::pace::End;
-use super::reached::{Link, Name};
-use super::spread::Spread;
+use super::reached::Link;
+use super::spread::{Spread, Task};
 use super::step::{Start, Steps};
-use super::tile::{Task, Tile};
 use crate::mechanism::Configuration;
 use crate::solve::{Pool, Stage, Watch, each};
-
-/// Parts of the grid spread over between two progress reports.
-const PARTS: usize = 64;
 
 /// Solutions looked up by one thread at once.
 const JOB: usize = 128;
 
 impl Flood<'_> {
-    /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
-    /// single steps lead, then over their seams; last, where single steps are too long. What comes
-    /// of several parts is merged in their order, whatever the number of threads.
+    /// Spreads from assembled configurations at nodes: as far as single steps lead, then where these are too long. Steps are
+    /// made side by side and their ends merged in one order, whatever the number of threads.
     ///
     /// # Errors
     /// If more is reached than may be kept.
@@ -46,36 +43,12 @@ impl Flood<'_> {
         }
         loop {
             self.grow(spread, steps, watch)?;
-            if watch.is_stopped() {
-                return Ok(());
-            }
-            let mut seams = spread.taken(|tile| &mut tile.seams);
-            let mut failed = Vec::new();
-            while !seams.is_empty() && !watch.stops(Stage::Reached, spread.len(), None) {
-                let (now, later) = self.chosen(spread, seams);
-                let arrivals = self.steps(spread, steps, &now);
-                let arrivals = arrivals.iter().flat_map(Arrivals::iter);
-                for (task, arrival) in now.iter().zip(arrivals) {
-                    match arrival {
-                        Some(arrival) => self.arrive(spread, *task, arrival),
-                        None => failed.push(*task),
-                    }
-                }
-                seams = later;
-            }
-            spread.keep(failed);
-            if watch.is_stopped() {
-                return Ok(());
-            }
-            if spread.tiles.iter().any(Tile::grows) {
-                continue;
-            }
-            let unsure = spread.taken(|tile| &mut tile.unsure);
+            let unsure = std::mem::take(&mut spread.unsure);
             let (now, later) = self.chosen(spread, unsure);
             if now.is_empty() || watch.stops(Stage::Reached, spread.len(), None) {
                 return Ok(());
             }
-            spread.keep(later);
+            spread.unsure = later;
             for (task, end) in now.iter().zip(self.ends(spread, steps, &now, watch)) {
                 match end {
                     End::Arrived(arrival) => self.arrive(spread, *task, arrival.moving()),
@@ -86,29 +59,37 @@ impl Flood<'_> {
         }
     }
 
-    /// Spreads within each part independently.
+    /// Spreads as far as single steps are certain not to change branch.
     fn grow(
         &self,
         spread: &mut Spread,
         steps: &Pool<Steps>,
         watch: &Watch,
     ) -> Result<(), TooManyNodes> {
-        for first in (0..spread.tiles.len()).step_by(PARTS) {
-            if watch.stops(Stage::Reached, spread.len(), None) {
-                break;
+        loop {
+            let mut waiting = spread.onward(self.grid);
+            if waiting.is_empty() {
+                return Ok(());
             }
-            let here = spread.tiles[first..].iter_mut().take(PARTS);
-            let growing: Vec<&mut Tile> = here.filter(|tile| tile.grows()).collect();
-            if growing.is_empty() {
-                continue;
+            while !waiting.is_empty() {
+                if watch.stops(Stage::Reached, spread.len(), None) {
+                    return Ok(());
+                }
+                let (now, later) = self.chosen(spread, waiting);
+                let arrivals = self.steps(spread, steps, &now);
+                let arrivals = arrivals.iter().flat_map(Arrivals::iter);
+                for (task, arrival) in now.iter().zip(arrivals) {
+                    match arrival {
+                        Some(arrival) => self.arrive(spread, *task, arrival),
+                        None => spread.unsure.push(*task),
+                    }
+                }
+                waiting = later;
             }
-            steps.each_of(growing, |steps, tile| tile.grow(self, steps));
-            let reached = spread.len();
-            if reached > self.most {
+            if spread.len() > self.most {
                 return Err(TooManyNodes { most: self.most });
             }
         }
-        Ok(())
     }
 
     /// Links steps to known solutions, then chooses one step to each node from each mode; the others
@@ -118,11 +99,10 @@ impl Flood<'_> {
         let found = each(jobs.len(), &Vec::new(), |storage, i| {
             let near = jobs[i].iter().map(|&task| {
                 let node = spread.ahead(self.grid, task)?;
-                let tile = &spread.tiles[spread.tiling.of(self.grid, node)];
-                let there = tile.moving_at(self.grid, node);
-                self.near(&spread.step(self, task), there, storage)
+                let there = spread.moving_at(node);
+                self.near(&spread.step(self.grid, task), there, storage)
             });
-            near.collect::<Vec<Option<Name>>>()
+            near.collect::<Vec<Option<usize>>>()
         });
         let mut left = Vec::new();
         for (&(from, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
@@ -132,24 +112,28 @@ impl Flood<'_> {
                 None => left.push((from, d)),
             }
         }
-        one_each(left, |&task| {
-            let node = spread.ahead(self.grid, task);
-            let Name { tile, solution } = task.0;
-            (node, spread.tiles[tile as usize].root(solution as usize))
-        })
+        let mut taken = FxHashSet::with_capacity_and_hasher(left.len(), Default::default());
+        (left.into_iter())
+            .partition(|&task| taken.insert((spread.ahead(self.grid, task), spread.root(task.0))))
     }
 
     /// Single steps, where they are sure.
     fn steps(&self, spread: &Spread, steps: &Pool<Steps>, tasks: &[Task]) -> Vec<Arrivals> {
         in_packs(steps, tasks, |steps, pack| {
-            let planned = pack.iter().map(|task| spread.step(self, *task));
-            let (mut arrivals, mut storage) = Default::default();
-            self.sure(
-                steps,
-                &planned.collect::<Vec<Step>>(),
-                &mut arrivals,
-                &mut storage,
-            );
+            let planned = pack.iter().map(|task| spread.step(self.grid, *task));
+            let planned: Vec<Step> = planned.collect();
+            let starts: Vec<Start> = (planned.iter())
+                .map(|step| self.towards(step.from, step.axis, step.change, step.to))
+                .collect();
+            let (mut arrivals, mut storage) = (Arrivals::default(), Vec::new());
+            steps.settle(&starts, &mut arrivals);
+            for (i, step) in planned.iter().enumerate() {
+                let (_, length) = self.metric.motion(step.from, step.axis, step.change);
+                let alike = |to| self.metric.alike(step.from, to, length, &mut storage);
+                if !arrivals.get(i).is_some_and(alike) {
+                    arrivals.reject(i);
+                }
+            }
             arrivals
         })
     }
@@ -170,13 +154,13 @@ impl Flood<'_> {
             if watch.stops(Stage::Reached, spread.len(), None) {
                 return Met::Nothing;
             }
-            let step = spread.step(self, unsure[i]);
+            let step = spread.step(self.grid, unsure[i]);
             let edge = Edge {
                 axis: step.axis,
                 values: self.grid.values(spread.solution(unsure[i].0).node),
                 to: step.to[step.axis],
             };
-            self.reach(&edge, &step.from.at.owned())
+            self.walk(&edge, &step.from.at.owned(), Until::End)
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
             .filter_map(|(&task, met)| match met {

@@ -2,9 +2,8 @@
 
 use super::arrivals::{Arrival, Arrivals, Moving};
 use super::neighbour::Flood;
-use super::spread::Spread;
+use super::spread::{Spread, Task};
 use super::step::{Start, Steps};
-use super::tile::Task;
 use crate::analysis::workspace::problem::MOST_AXES;
 use crate::linear::norm;
 use crate::solve::Pool;
@@ -78,7 +77,7 @@ impl Flood<'_> {
         let mut ends: Vec<End> = tasks.iter().map(|_| End::Stuck).collect();
         let mut ways: Vec<(usize, PacedStep)> = (tasks.iter().enumerate())
             .map(|(i, task)| {
-                let edge = spread.step(self, *task);
+                let edge = spread.step(self.grid, *task);
                 let way = PacedStep {
                     axis: edge.axis,
                     end: edge.to,

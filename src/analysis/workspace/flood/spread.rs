@@ -1,100 +1,161 @@
-//! What was reached so far, in the parts of the grid.
+//! What was reached so far, in the order in which it was.
 
 use super::arrivals::Moving;
+use super::configurations::Configurations;
 use super::neighbour::{Flood, Step};
-use super::reached::{Link, Name, NodeSolution, ReachedSet};
-use super::tile::{Task, Tile, Tiling};
-use crate::analysis::workspace::problem::Grid;
+use super::reached::{Link, NodeSolution, Number, ReachedSet};
+use crate::analysis::workspace::problem::{Grid, MOST_DIRECTIONS};
+use crate::linear::{join, root};
 use crate::mechanism::ConfigurationRef;
+
+/// A step to be taken: from a solution in a direction.
+pub(crate) type Task = (usize, usize);
 
 /// What was reached so far.
 pub(crate) struct Spread {
-    pub tiling: Tiling,
-    pub tiles: Vec<Tile>,
-    /// Solutions of different parts that are linked.
-    seams: Vec<[Name; 2]>,
+    solutions: Vec<NodeSolution>,
+    at: Configurations,
+    /// The motions of all solutions, one after another.
+    motions: Vec<f64>,
+    /// For each node the last solution there, and for each solution the one before it.
+    last: Vec<Option<Number>>,
+    before: Vec<Option<Number>>,
+    /// For each solution the first, so far as is known, of those connected with it.
+    roots: Vec<usize>,
+    /// Solutions that no steps were made from yet.
+    front: Vec<usize>,
+    /// Steps that are too long to be sure.
+    pub unsure: Vec<Task>,
 }
 
 impl Spread {
     pub fn new(grid: &Grid) -> Self {
-        let tiling = Tiling::new(grid);
         Spread {
-            tiles: tiling.tiles(grid),
-            seams: Vec::new(),
-            tiling,
+            solutions: Vec::new(),
+            at: Configurations::default(),
+            motions: Vec::new(),
+            last: vec![None; grid.len()],
+            before: Vec::new(),
+            roots: Vec::new(),
+            front: Vec::new(),
+            unsure: Vec::new(),
         }
     }
 
-    pub fn solution(&self, name: Name) -> &NodeSolution {
-        &self.tiles[name.tile as usize].solutions.all[name.solution as usize]
+    pub fn len(&self) -> usize {
+        self.solutions.len()
     }
 
-    pub fn link_mut(&mut self, name: Name, direction: usize) -> &mut Link {
-        &mut self.tiles[name.tile as usize].solutions.all[name.solution as usize].links[direction]
+    pub fn solution(&self, number: usize) -> &NodeSolution {
+        &self.solutions[number]
     }
 
-    pub fn link(&mut self, from: Name, direction: usize, to: Name) {
-        if from.tile == to.tile {
-            let tile = &mut self.tiles[from.tile as usize];
-            return tile.link(from.solution as usize, direction, to.solution as usize);
-        }
-        self.seams.push([from, to]);
-        *self.link_mut(from, direction) = Link::To(to);
+    pub fn link_mut(&mut self, number: usize, direction: usize) -> &mut Link {
+        &mut self.solutions[number].links[direction]
+    }
+
+    pub fn link(&mut self, from: usize, direction: usize, to: usize) {
+        *self.link_mut(from, direction) = Link::To(short(to));
         let back = self.link_mut(to, direction ^ 1);
         if *back == Link::Open {
-            *back = Link::To(from);
+            *back = Link::To(short(from));
         }
+        join(&mut self.roots, from, to);
+    }
+
+    /// What stands for all that a solution is connected with, so far as is known.
+    pub fn root(&mut self, number: usize) -> usize {
+        root(&mut self.roots, number)
+    }
+
+    /// A solution with its motions.
+    fn moving(&self, number: usize) -> Moving<'_> {
+        let length = self.motions.len() / self.solutions.len();
+        Moving {
+            at: self.at.get(number),
+            motions: &self.motions[number * length..][..length],
+            indicators: &self.solutions[number].indicators,
+        }
+    }
+
+    /// The solutions at a node with their configurations and motions.
+    pub fn moving_at(&self, node: usize) -> impl Iterator<Item = (usize, Moving<'_>)> {
+        let before = |number: &Number| self.before[*number as usize];
+        let numbers = std::iter::successors(self.last[node], before);
+        numbers.map(|number| (number as usize, self.moving(number as usize)))
     }
 
     /// The solution of a node with this configuration.
-    pub fn known(&self, fill: &Flood, node: usize, at: Moving) -> Option<Name> {
-        let tile = &self.tiles[self.tiling.of(fill.grid, node)];
-        fill.known(tile.moving_at(fill.grid, node), at)
+    pub fn known(&self, fill: &Flood, node: usize, at: Moving) -> Option<usize> {
+        let mut solutions = self.moving_at(node);
+        let known = solutions.find(|(_, known)| fill.metric.meets(*known, at));
+        known.map(|(number, _)| number)
     }
 
     /// Whether a solution of a node has this configuration, whatever its motions.
     pub fn has(&self, fill: &Flood, node: usize, at: ConfigurationRef<f64>) -> bool {
-        let tile = &self.tiles[self.tiling.of(fill.grid, node)];
-        let mut solutions = tile.moving_at(fill.grid, node);
+        let mut solutions = self.moving_at(node);
         solutions.any(|(_, known)| fill.metric.same(known.at, at))
-    }
-
-    pub fn len(&self) -> usize {
-        self.tiles.iter().map(|tile| tile.solutions.all.len()).sum()
     }
 
     /// The node that a step leads to.
     pub fn ahead(&self, grid: &Grid, (from, direction): Task) -> Option<usize> {
-        self.tiles[from.tile as usize].ahead(grid, from.solution as usize, direction)
+        grid.neighbour(self.solutions[from].node, direction)
     }
 
-    /// The way from a solution to its neighbour.
-    pub fn step(&self, fill: &Flood, (from, direction): Task) -> Step<'_> {
-        self.tiles[from.tile as usize].step(fill, from.solution as usize, direction)
-    }
-
-    pub fn reached_set(self, grid: &Grid) -> ReachedSet {
-        let tiles = self.tiles.into_iter().map(Tile::finished);
-        let bands = self.tiling.bands(grid);
-        ReachedSet::new(tiles.collect(), &self.seams, &bands)
+    /// The way from a solution to its neighbour, of zero length if there is none.
+    pub fn step(&self, grid: &Grid, (from, direction): Task) -> Step<'_> {
+        let (node, axis) = (self.solutions[from].node, direction / 2);
+        let next = grid.neighbour(node, direction).unwrap_or(node);
+        let to = grid.point(next);
+        let here = grid.coordinate(axis, grid.place(node, axis));
+        Step {
+            from: self.moving(from),
+            axis,
+            to,
+            change: to[axis] - here,
+        }
     }
 
     /// Adds what was not reached before.
-    pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> Name {
-        let tile = self.tiling.of(fill.grid, node);
-        self.tiles[tile].add(fill, node, arrival)
-    }
-
-    /// Steps of all parts, in their order, which are no longer kept there.
-    pub fn taken(&mut self, of: impl Fn(&mut Tile) -> &mut Vec<Task>) -> Vec<Task> {
-        let tiles = self.tiles.iter_mut();
-        tiles.flat_map(|tile| std::mem::take(of(tile))).collect()
-    }
-
-    /// Defers steps that are not certain.
-    pub fn keep(&mut self, tasks: Vec<Task>) {
-        for task in tasks {
-            self.tiles[task.0.tile as usize].unsure.push(task);
+    pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> usize {
+        let new = self.solutions.len();
+        let solution = NodeSolution {
+            node,
+            within: fill.problem.allows(arrival.at.joints),
+            indicators: arrival.indicators.clone(),
+            links: [Link::Open; MOST_DIRECTIONS],
+        };
+        if fill.goes_on_from(&solution) {
+            self.front.push(new);
         }
+        self.solutions.push(solution);
+        self.at.push(arrival.at);
+        self.motions.extend(arrival.motions);
+        self.before.push(self.last[node].replace(short(new)));
+        self.roots.push(new);
+        new
     }
+
+    /// The steps from all that is new.
+    pub fn onward(&mut self, grid: &Grid) -> Vec<Task> {
+        let directions = 0..2 * grid.dimensions();
+        let front = std::mem::take(&mut self.front).into_iter();
+        let steps = front.flat_map(|new| directions.clone().map(move |d| (new, d)));
+        steps
+            .filter(|step| self.ahead(grid, *step).is_some())
+            .collect()
+    }
+
+    pub fn reached_set(mut self, grid: &Grid) -> ReachedSet {
+        self.motions = Vec::new();
+        for number in 0..self.len() {
+            self.roots[number] = self.root(number);
+        }
+        ReachedSet::new(grid.len(), self.solutions, &self.at, &self.roots)
+    }
+}
+
+fn short(number: usize) -> Number {
+    Number::try_from(number).expect("as many do not fit in memory")
 }

@@ -1,13 +1,17 @@
 //! The nodes of a map as a table.
 
+use std::ops::Range;
+
 use super::cells::{Cells, INDICATORS, Part};
 use super::{Map, bring};
 use crate::algebra::SiUnit;
-use crate::analysis::workspace::flood::Band;
 use crate::mechanism::{PoseCoordinate, Variable};
 use crate::number::sorting::sort_by_key;
 use crate::solve::each;
 use crate::system::Coordinate;
+
+/// Nodes whose rows one thread writes at once.
+const NODES: usize = 4096;
 
 impl Map<'_> {
     /// The table, given for the first solution of each aspect its number.
@@ -18,23 +22,19 @@ impl Map<'_> {
         let axes = self.grid.dimensions();
         let widths = [axes, self.problem.mechanism.joints().len(), following.len()];
         let width = widths.iter().sum::<usize>() + INDICATORS;
-        let bands = &self.reached_set.bands;
+        let nodes = self.grid.len();
+        let bands: Vec<usize> = (0..nodes).step_by(NODES).collect();
         let parts = each(bands.len(), &(), |(), i| {
-            let first = bands[i].numbers.start;
-            let rows = self.rows(&bands[i]);
-            let mut places = vec![None; bands[i].numbers.len()];
-            for (row, (s, mode)) in rows.iter().enumerate() {
-                places[s - first] = Some((row, *mode));
-            }
+            let last = (bands[i] + NODES).min(nodes) - 1;
+            let [first, last] = [bands[i], last].map(|node| self.reached_set.at(node));
+            let rows = self.rows(first.start..last.end);
             let mut part = Part {
                 nodes: vec![0; rows.len()],
                 values: vec![0.0; rows.len() * width],
             };
-            // in the order in which they are kept: reading from everywhere takes longer than writing
-            for (s, solution, at) in self.reached_set.kept(&bands[i]) {
-                let Some((row, mode)) = places[s - first] else {
-                    continue;
-                };
+            for (row, (s, mode)) in rows.into_iter().enumerate() {
+                let solution = self.reached_set.solution(s);
+                let at = self.reached_set.configuration(s);
                 let of = &solution.indicators;
                 let values = &mut part.values[row * width..][..width];
                 let (mapped, values) = values.split_at_mut(axes);
@@ -82,11 +82,10 @@ impl Map<'_> {
         }
     }
 
-    /// The solutions of a band that are in modes, in the order of their nodes and then of modes.
-    fn rows(&self, band: &Band) -> Vec<(usize, usize)> {
-        let all = band.numbers.clone();
+    /// Those of some solutions that are in modes, in the order of their nodes and then of modes.
+    fn rows(&self, all: Range<usize>) -> Vec<(usize, usize)> {
         let mut rows: Vec<(usize, usize)> = all.filter_map(|s| Some((s, self.mode[s]?))).collect();
-        let node = |s: usize| self.reached_set.nodes[s];
+        let node = |s: usize| self.reached_set.solution(s).node;
         for of_node in rows.chunk_by_mut(|(a, _), (b, _)| node(*a) == node(*b)) {
             sort_by_key(of_node, |(s, mode)| (*mode, *s));
         }

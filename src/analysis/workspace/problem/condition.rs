@@ -1,36 +1,6 @@
-//! Determinants and condition numbers of small matrices.
+//! Condition numbers of small matrices.
 
-use crate::linear::{RANK_TOLERANCE, dot, norm, orthogonalise, rotate};
-
-/// The determinant of a square matrix of `n` columns, which is destroyed; 1 if it is not square.
-///
-/// Reflections (Householder 1958) make it triangular; each has the determinant −1.
-pub(crate) fn determinant(columns: &mut [f64], n: usize) -> f64 {
-    if columns.len() != n * n || n == 0 {
-        return 1.0;
-    }
-    let mut product = 1.0;
-    for k in 0..n - 1 {
-        let (done, rest) = columns.split_at_mut((k + 1) * n);
-        let mirror = &mut done[k * n + k..];
-        let (head, norm) = (mirror[0], norm(mirror));
-        // away from the entry, so that nothing cancels
-        let to = -norm.copysign(head);
-        mirror[0] = head - to;
-        // half the square of the mirror's length
-        let half = norm * norm - head * to;
-        let factor = if half == 0.0 { 0.0 } else { 1.0 / half };
-        for column in rest.chunks_exact_mut(n) {
-            let column = &mut column[k..];
-            let along = dot(mirror, column) * factor;
-            for (x, m) in column.iter_mut().zip(mirror.iter()) {
-                *x -= along * *m;
-            }
-        }
-        product *= -to;
-    }
-    product * columns[n * n - 1]
-}
+use crate::linear::{RANK_TOLERANCE, norm, orthogonalise, rotate};
 
 /// Whether `input` loses rank, and the condition number of the matrix that takes its `n` columns to
 /// those of `moved`: infinite if it does.
@@ -98,30 +68,6 @@ mod tests {
                 assert!(!lost);
             }
         }
-    }
-
-    #[test]
-    fn determinants_are_those_of_another_library() {
-        for n in 1..=7usize {
-            for k in 0..8 {
-                let entry = |i: usize, j: usize| {
-                    (2.7 * ((j * n + i) * (j * n + i)) as f64 + 0.31 * k as f64).cos()
-                };
-                let matrix = nalgebra::DMatrix::from_fn(n, n, entry);
-                let found = determinant(&mut matrix.as_slice().to_vec(), n);
-                let exact = matrix.determinant();
-                assert!((found - exact).abs() < 1e-12 * (1.0 + exact.abs()));
-            }
-        }
-    }
-
-    #[test]
-    fn the_determinant_of_dependent_columns_is_zero_and_that_of_none_one() {
-        assert_eq!(determinant(&mut [0.0, 1.0, 0.0, 2.0], 2), 0.0);
-        // rounding of the product of the columns' lengths, 20
-        assert!(determinant(&mut [1.0, 3.0, 2.0, 6.0], 2).abs() < 20.0 * 4.0 * f64::EPSILON);
-        assert_eq!(determinant(&mut [0.0, 1.0, -1.0, 0.0], 2), 1.0);
-        assert_eq!(determinant(&mut [], 0), 1.0);
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! What moves how fast when the mapped and held coordinates do.
 
-use super::condition::{condition, determinant};
+use nalgebra::DMatrix;
+
+use super::condition::condition;
 use super::map_problem::MapProblem;
 use crate::linear::{Factorable, dot};
 use crate::mechanism::{Configuration, Role};
@@ -26,7 +28,6 @@ pub(crate) struct Rates {
     moved: Vec<usize>,
     /// Rates of what is held, of the inputs, of the outputs and of what moves.
     rates: [Vec<f64>; 4],
-    spare: Vec<f64>,
 }
 
 /// The columns of N one after another, and the rates at which the rows of the closures open in each.
@@ -86,7 +87,6 @@ impl Rates {
             tells_inverse: problem.tells_inverse(),
             moved: moved.map(|(i, _)| i).collect(),
             rates: Default::default(),
-            spare: Vec::new(),
             free,
         }
     }
@@ -132,9 +132,10 @@ impl Rates {
         self.matrix(&self.held, at, motions, &mut back);
         self.matrix(&self.inputs, at, motions, &mut input);
         self.matrix(&self.outputs, at, motions, &mut output);
-        let mut of = |matrix: &Vec<f64>| {
-            self.spare.clone_from(matrix);
-            determinant(&mut self.spare, n)
+        // 1 where there are not as many inputs or outputs
+        let of = |matrix: &[f64]| match matrix.len() == n * n {
+            true => DMatrix::from_column_slice(n, n, matrix).determinant(),
+            false => 1.0,
         };
         let (direct, inverse) = (of(&input), of(&output));
         let (of_inputs, of_outputs) = (!self.inputs.is_empty(), self.tells_inverse);
