@@ -20,7 +20,7 @@ mod tangent;
 pub use crate::mechanism::{PointError, Value, ValueError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
-    ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
+    Bound, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
     NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
 pub(crate) use enclosure::Enclosure;

@@ -14,7 +14,7 @@ mod outputs;
 mod projected;
 mod starts;
 
-pub use crate::system::{LocusEnd, default_outputs, inputs_of};
+pub use crate::system::{Bound, LocusEnd, default_outputs, inputs_of};
 pub use along::{AlongEnd, AlongReport, Crossing, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
 pub use locus::{Cusp, Locus, LocusReport, loci};
@@ -23,11 +23,10 @@ pub use projected::Shape;
 
 use serde::{Deserialize, Serialize};
 
-use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, Variable};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Driven, GivenPose, Lock, Question, QuestionError, check_angle,
+    Analysed, Closing, Coordinate, GivenPose, Lock, Question, QuestionError, check_angle,
     check_angles, too_large,
 };
 pub(crate) use classify::Classifier;
@@ -80,30 +79,6 @@ pub struct SingularitiesReport {
     /// How the pose given was closed.
     #[serde(flatten)]
     pub pose: GivenPose,
-}
-
-/// A coordinate and the values between which it moves, or which bound a side of a box.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Bound {
-    /// The coordinate.
-    pub name: String,
-    /// rad or m.
-    pub unit: SiUnit,
-    /// Its first value, the least of a box.
-    pub from: f64,
-    /// Its last value, the greatest of a box.
-    pub to: f64,
-}
-
-impl Bound {
-    fn new(mechanism: &Mechanism, driven: &Driven) -> Self {
-        Bound {
-            name: driven.coordinate.name(mechanism),
-            unit: SiUnit::of_coordinate(driven.coordinate.is_angle(mechanism)),
-            from: driven.from,
-            to: driven.to,
-        }
-    }
 }
 
 fn names(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<String> {

@@ -5,11 +5,11 @@
 //! this leads through, and each is checked to lie between the two it belongs to. So a sweep ends where
 //! its branch ends, or where branches cross, and never goes on elsewhere.
 
+mod begin;
 mod between;
 mod certified;
 mod circuits;
 mod dwell;
-mod follow;
 mod law;
 mod met;
 mod motion;
@@ -27,7 +27,6 @@ pub use circuits::{
 };
 pub use dwell::Dwell;
 pub(crate) use dwell::dwell;
-pub use follow::follow;
 pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
 pub use motion::{
@@ -42,10 +41,10 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Place, Progress, Stage, Watch};
-use crate::system::{Curve, Driven, Event, Held, Walk};
+use crate::system::{Bound, Curve, Driven, Event, Held, Walk};
+use begin::{MOST_STEPS, beginning};
 use met::Record;
 use paths::Trail;
 use rows::{Rows, holding};
@@ -57,7 +56,7 @@ type At = Place<Configuration<f64>>;
 pub struct SweepSettings {
     /// Into how many steps, equal in time, the segment of the inputs is divided: rows are one more.
     pub steps: usize,
-    /// Whether to go round a fold, where the inputs turn back, and straight through a crossing.
+    /// Whether to go round a fold, where the inputs turn back, and straight through a crossing; without inputs always.
     pub follow: bool,
     /// How carefully the curve is followed.
     pub continuation: Continuation,
@@ -131,19 +130,6 @@ pub type Sink<'s> = dyn FnMut(&Row) + 's;
 /// The same inside: it may end the motion.
 type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
-/// An input of a sweep.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct InputReport {
-    /// Its name.
-    pub name: String,
-    /// rad or m.
-    pub unit: SiUnit,
-    /// Its value at the start of the segment.
-    pub from: f64,
-    /// Its value at the end.
-    pub to: f64,
-}
-
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -186,7 +172,7 @@ impl SweepEnd {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepReport {
     /// The inputs; none for a motion that follows its curve.
-    pub inputs: Vec<InputReport>,
+    pub inputs: Vec<Bound>,
     /// How it ended.
     pub ending: SweepEnd,
     /// How many rows there are.
@@ -215,14 +201,11 @@ pub struct SweepReport {
 impl SweepReport {
     /// Of a motion that ended with nothing met and without rows.
     pub(crate) fn of(mechanism: &Mechanism, inputs: &[Driven], ending: SweepEnd) -> Self {
-        let reports = inputs.iter().map(|input| InputReport {
-            name: input.coordinate.name(mechanism),
-            unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
-            from: input.from,
-            to: input.to,
-        });
         SweepReport {
-            inputs: reports.collect(),
+            inputs: inputs
+                .iter()
+                .map(|input| Bound::new(mechanism, input))
+                .collect(),
             ending,
             rows: 0,
             met: Vec::new(),
@@ -237,10 +220,12 @@ impl SweepReport {
     }
 }
 
-/// Moves the inputs from `start`, assembled where their segment begins, to its end.
+/// Moves the inputs from `start`, assembled where their segment begins, to its end. Without inputs the whole curve through
+/// `start` is followed: once round if it closes, otherwise from one end to the other, straight on where branches cross.
 ///
 /// `held` holds everything that stands still, and none of the inputs; with the inputs it must leave
-/// no freedom. Rows go to `sink` as they are found; nothing is kept of them.
+/// no freedom, without any of them one. Rows go to `sink` as they are found; nothing is kept of them. Without inputs
+/// there is one for every step and everything met.
 pub fn sweep(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -254,9 +239,11 @@ pub fn sweep(
         let what = (mechanism, held, inputs);
         return schedule.followed(what, start, settings, sink, watch);
     }
+    let driven = !inputs.is_empty();
+    let follow = settings.follow || !driven;
     let steps = Some(settings.steps);
     let mut reached = 0;
-    let mut certifier = (settings.certify)
+    let mut certifier = (settings.certify && driven)
         .then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start, watch));
     let sink: &mut Flow = &mut |row| {
         if let Some(Ok(certifier)) = &mut certifier {
@@ -264,10 +251,16 @@ pub fn sweep(
         }
         sink(row);
         reached = row.step.unwrap_or(reached);
-        watch.at(Progress {
-            stage: Stage::Motion,
-            done: reached,
-            of: steps,
+        watch.at(match driven {
+            true => Progress {
+                done: reached,
+                of: steps,
+                ..Progress::of(Stage::Motion)
+            },
+            false => Progress {
+                done: row.number + 1,
+                ..Progress::of(Stage::Steps)
+            },
         })
     };
     let interrupted = |report: SweepReport| SweepReport {
@@ -282,7 +275,13 @@ pub fn sweep(
         Ok(place) => place,
         Err(why) => return record.no_start(&mut curve, &start, why, method),
     };
-    let (place, turns_back) = curve.towards_end(place);
+    let (place, turns_back) = match driven {
+        true => curve.towards_end(place),
+        false => (
+            beginning(mechanism, &mut curve, place, method, watch),
+            false,
+        ),
+    };
     let mut rows = Rows::new(mechanism, held, &curve, &place, settings);
     if rows.first(&place, sink).is_break() {
         return interrupted(record.report(SweepEnd::Stopped, 1, 0.0));
@@ -296,10 +295,14 @@ pub fn sweep(
     let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         let done = curve.part(&leg.from.at).clamp(0.0, 1.0) * settings.steps as f64;
-        if watch.stops(Stage::Motion, done as usize, steps) {
+        record.so_far.sure_steps += 1;
+        let stops = match driven {
+            true => watch.stops(Stage::Motion, done as usize, steps),
+            false => record.so_far.sure_steps > MOST_STEPS,
+        };
+        if stops {
             return ControlFlow::Break(SweepEnd::Stopped);
         }
-        record.so_far.sure_steps += 1;
         let stopped = |()| SweepEnd::Stopped;
         let mut from = &leg.from;
         let events = trail.events(curve, leg);
@@ -314,7 +317,7 @@ pub fn sweep(
             from = place;
             length = leg.gone_at(curve, place);
             record.meet(curve, place, event);
-            let special = !matches!(event, Event::Turning(_) | Event::End(_));
+            let special = !driven || !matches!(event, Event::Turning(_) | Event::End(_));
             if special {
                 let row = Row {
                     special: record.latest(),
@@ -326,9 +329,10 @@ pub fn sweep(
                 Event::End(end) if *end => ControlFlow::Break(SweepEnd::Complete),
                 Event::End(_) => ControlFlow::Break(SweepEnd::Returned),
                 Event::Closed => ControlFlow::Break(SweepEnd::Closed),
-                Event::Limit { .. } => ControlFlow::Break(SweepEnd::Limit),
-                Event::Fold if !settings.follow => ControlFlow::Break(SweepEnd::Fold),
-                Event::Branches(_) if !settings.follow => ControlFlow::Break(SweepEnd::Crossing),
+                Event::Limit { .. } if driven => ControlFlow::Break(SweepEnd::Limit),
+                Event::Limit { .. } => ControlFlow::Break(SweepEnd::Limits),
+                Event::Fold if !follow => ControlFlow::Break(SweepEnd::Fold),
+                Event::Branches(_) if !follow => ControlFlow::Break(SweepEnd::Crossing),
                 _ => ControlFlow::Continue(()),
             };
             if flow.is_break() || matches!(event, Event::Root(_)) {
@@ -339,9 +343,15 @@ pub fn sweep(
         trail.reach(&leg.to, None);
         rows.between(curve, from, &leg.to, sink)
             .map_break(stopped)?;
-        if settings.between {
+        let branches = |(_, event): &(_, Event)| matches!(event, Event::Branches(_));
+        let wanted = match driven {
+            true => settings.between,
+            // a crossing has had its row
+            false => !leg.events.iter().any(branches),
+        };
+        if wanted {
             let row = Row {
-                between: true,
+                between: driven,
                 ..Row::of(&leg.to.at)
             };
             rows.sent.send(row, sink).map_break(stopped)?;

@@ -7,7 +7,7 @@ use super::quantities::{Block, Course, Extremes, Meter, Metered, Passage, Seen};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
     Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Paths, Row, Schedule, Sink,
-    Straightness, SweepReport, SweepSettings, dwell, follow, sweep,
+    Straightness, SweepReport, SweepSettings, dwell, sweep,
 };
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Quantity, Variable};
 use crate::solve::Watch;
@@ -247,10 +247,6 @@ impl Motions<'_> {
 
     fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
         let (mechanism, held, inputs) = (self.mechanism, &self.held, self.inputs());
-        let settings = &self.settings;
-        match inputs.is_empty() {
-            true => follow(mechanism, held, start, settings, sink, watch),
-            false => sweep(mechanism, held, inputs, start, settings, sink, watch),
-        }
+        sweep(mechanism, held, inputs, start, &self.settings, sink, watch)
     }
 }

@@ -8,7 +8,7 @@ use super::ranges::still;
 use super::{AskError, Mode, Question, Role};
 use crate::analysis::assemblies::{Assembly, AssemblySolver, Wanted};
 use crate::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, follow,
+    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, sweep,
 };
 use crate::description;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
@@ -148,10 +148,10 @@ impl Question {
         let held = question.with_still(question.held());
         let settings = SweepSettings {
             points: self.named_points()?,
-            follow: true,
             ..SweepSettings::default()
         };
-        Ok(follow(&self.mechanism, &held, at, &settings, sink, watch))
+        let mechanism = &self.mechanism;
+        Ok(sweep(mechanism, &held, &[], at, &settings, sink, watch))
     }
 
     /// All circuits and branches of a mechanism with one freedom, with the cusps and double points of the paths of the

@@ -10,7 +10,10 @@ pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, se
 pub use tracker::MotionTracker;
 pub use walk::{Event, Monitor, Segment, Walk};
 
+use serde::{Deserialize, Serialize};
+
 use super::equations::{System, Work};
+use crate::algebra::SiUnit;
 use crate::linear::Rows;
 use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
@@ -34,6 +37,30 @@ impl Driven {
             0.0 => self.from,
             1.0 => self.to,
             _ => self.from + part * (self.to - self.from),
+        }
+    }
+}
+
+/// What is reported of a coordinate that moves, or of a side of a box.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bound {
+    /// The coordinate.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// Its value at the start of a segment, the least of a box.
+    pub from: f64,
+    /// Its value at the end, the greatest of a box.
+    pub to: f64,
+}
+
+impl Bound {
+    pub(crate) fn new(mechanism: &Mechanism, driven: &Driven) -> Self {
+        Bound {
+            name: driven.coordinate.name(mechanism),
+            unit: SiUnit::of_coordinate(driven.coordinate.is_angle(mechanism)),
+            from: driven.from,
+            to: driven.to,
         }
     }
 }

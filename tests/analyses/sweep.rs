@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::analysis::sweep::{
     CircuitsReport, CircuitsSettings, FourBarClass, MetKind, Row, SweepEnd, SweepReport,
-    SweepSettings, circuits, follow, sweep,
+    SweepSettings, circuits, sweep,
 };
 use linkwork::ask;
 use linkwork::description::Description;
@@ -673,9 +673,10 @@ fn watts_point_lies_on_watts_curve() {
     let mut rows = Vec::new();
     let settings = tracing(&mechanism, 1, "left+-0.5");
     let held = Held::nothing(&mechanism);
-    let report = follow(
+    let report = sweep(
         &mechanism,
         &held,
+        &[],
         &mechanism.home(),
         &settings,
         &mut |row| {
@@ -1233,9 +1234,10 @@ fn the_whole_curve_has_the_dead_points_of_every_joint() {
     let place = method.settle(&mut curve, mechanism.home()).unwrap();
     assert!(!place.is_beside_a_crossing());
     let _ = Walk::new(&mechanism, &curve, place, method);
-    let report = follow(
+    let report = sweep(
         &mechanism,
         &Held::nothing(&mechanism),
+        &[],
         &mechanism.home(),
         &SweepSettings::default(),
         &mut |_| {},

@@ -9,7 +9,7 @@ use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::analysis::compare::{CompareSettings, compare};
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
 use linkwork::analysis::singularities::{SingularitiesSettings, along, inputs_of, loci};
-use linkwork::analysis::sweep::{CircuitsSettings, SweepSettings, circuits, follow, sweep};
+use linkwork::analysis::sweep::{CircuitsSettings, SweepSettings, circuits, sweep};
 use linkwork::analysis::workspace::{WorkspaceSettings, workspace};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::assemblies::completeness;
@@ -147,7 +147,15 @@ fn a_motion_ends_where_it_was_stopped() {
     });
     stopped("follow", &|watch| {
         let settings = SweepSettings::default();
-        let report = follow(&mechanism, &still, &start, &settings, &mut |_| {}, watch);
+        let report = sweep(
+            &mechanism,
+            &still,
+            &[],
+            &start,
+            &settings,
+            &mut |_| {},
+            watch,
+        );
         (report.interrupted, report.rows)
     });
     stopped("circuits", &|watch| {

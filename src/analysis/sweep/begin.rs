@@ -1,95 +1,27 @@
-//! The whole curve of a mechanism with one freedom left.
+//! Where a motion without inputs begins, and in which sense it goes.
 
 use std::ops::ControlFlow;
 
-use super::met::Record;
-use super::paths::Trail;
-use super::rows::Sent;
-use super::{At, Flow, Row, Sink, SweepEnd, SweepReport, SweepSettings};
-use crate::mechanism::{Configuration, Mechanism, Role};
-use crate::solve::{Progress, Stage, Watch};
-use crate::system::{Coordinate, Curve, Event, Held, Walk};
+use super::At;
+use crate::mechanism::{Mechanism, Role};
+use crate::solve::{Continuation, Stage, Watch};
+use crate::system::{Coordinate, Curve, Event, Walk};
 
 /// Steps after which a curve without end is given up.
-const MOST_STEPS: usize = 100_000;
+pub(super) const MOST_STEPS: usize = 100_000;
 
-/// Follows the curve through an assembled configuration: once round if it closes, otherwise from
-/// one end to the other. Where branches cross it goes straight on.
-///
-/// `held` must leave one freedom. A row is sent for every step and everything met.
-pub fn follow(
+/// The place from which the whole curve through another one is followed: an end of it, if it has ends.
+pub(super) fn beginning(
     mechanism: &Mechanism,
-    held: &Held<f64>,
-    start: &Configuration<f64>,
-    settings: &SweepSettings,
-    sink: &mut Sink,
+    curve: &mut Curve,
+    place: At,
+    method: &Continuation,
     watch: &Watch,
-) -> SweepReport {
-    let mut curve = Curve::new(mechanism, held);
-    let mut record = Record::new(mechanism, &[], &settings.points);
-    let mut start = start.clone();
-    let method = &settings.continuation;
-    let mut place = match curve.begin(mechanism, &mut start, method) {
-        Ok(place) => place,
-        Err(why) => return record.no_start(&mut curve, &start, why, method),
-    };
-    place = forwards(mechanism, &curve, place);
-    // if it has ends, it is followed from one of them
+) -> At {
+    let place = forwards(mechanism, curve, place);
     let back = place.clone().reversed();
-    let mut walk = Walk::new(mechanism, &curve, back, method.clone());
-    if let Some(end) = first_end(&mut walk, &mut curve, watch) {
-        place = end.reversed();
-    }
-    let sink: &mut Flow = &mut |row| {
-        sink(row);
-        watch.at(Progress {
-            done: row.number + 1,
-            ..Progress::of(Stage::Steps)
-        })
-    };
-    let mut sent = Sent::new(mechanism, &settings.points);
-    let mut flow = sent.send(Row::of(&place.at), sink);
-    let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    let mut trail = Trail::new(mechanism, &curve, &settings.points, method);
-    let stopped = |()| SweepEnd::Stopped;
-    let mut length = 0.0;
-    let ending = walk.follow(&mut curve, |curve, leg| {
-        flow.map_break(stopped)?;
-        record.so_far.sure_steps += 1;
-        if record.so_far.sure_steps > MOST_STEPS {
-            return ControlFlow::Break(SweepEnd::Stopped);
-        }
-        for (place, event) in &trail.events(curve, leg) {
-            record.meet(curve, place, event);
-            if event.ends() || matches!(event, Event::Root(_)) {
-                trail.reach(place, Some(event));
-            }
-            length = leg.gone_at(curve, place);
-            let row = Row {
-                special: record.latest(),
-                ..Row::of(&place.at)
-            };
-            flow = sent.send(row, sink);
-            match event {
-                Event::Closed => return ControlFlow::Break(SweepEnd::Closed),
-                Event::Limit { .. } => return ControlFlow::Break(SweepEnd::Limits),
-                _ => flow.map_break(stopped)?,
-            }
-        }
-        trail.reach(&leg.to, None);
-        let branches = |(_, event): &(_, Event)| matches!(event, Event::Branches(_));
-        if !leg.events.iter().any(branches) {
-            flow = sent.send(Row::of(&leg.to.at), sink);
-        }
-        length = leg.gone_at(curve, &leg.to);
-        ControlFlow::Continue(())
-    });
-    let ending = ending.unwrap_or(SweepEnd::Lost);
-    SweepReport {
-        interrupted: watch.is_stopped(),
-        paths: trail.reports(&mut curve, ending == SweepEnd::Closed),
-        ..record.report(ending, sent.count, length)
-    }
+    let mut walk = Walk::new(mechanism, curve, back, method.clone());
+    first_end(&mut walk, curve, watch).map_or(place, At::reversed)
 }
 
 /// In the sense in which the first joint that is driven, or else the first that moves, grows; where

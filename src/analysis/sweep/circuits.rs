@@ -14,7 +14,7 @@ pub use report::{Branch, Circuit, CircuitsReport, FourBarClass, JointMotion};
 use std::ops::ControlFlow;
 
 use super::At;
-use super::follow::forwards;
+use super::begin::forwards;
 use super::paths::Tracer;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};

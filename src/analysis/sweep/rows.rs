@@ -68,13 +68,13 @@ impl Rows {
         let mut at = place.at.clone();
         self.put(&mut at, 0.0);
         let row = Row {
-            step: Some(0),
+            step: (!self.inputs.is_empty()).then_some(0),
             ..Row::of(&at)
         };
         self.sent.send(row, sink)
     }
 
-    /// The rows between two places with no fold between them.
+    /// The rows between two places with no fold between them; none without inputs.
     pub fn between(
         &mut self,
         curve: &mut Curve,
@@ -82,6 +82,9 @@ impl Rows {
         to: &At,
         sink: &mut Flow,
     ) -> ControlFlow<()> {
+        if self.inputs.is_empty() {
+            return ControlFlow::Continue(());
+        }
         let (first, last) = (curve.part(&from.at), curve.part(&to.at));
         let forward = last > first;
         if forward != self.forward && (last - first).abs() > self.same {
