@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::linear::{join, root};
 use crate::mechanism::{Body, Frame, Mechanism};
 
 /// A loop, from a body round to the same body.
@@ -40,113 +41,62 @@ enum Link {
 /// joins bodies already joined closes one loop, and no loop is a combination of the others.
 pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
     let bodies = mechanism.bodies();
-    let index = |body: Body| bodies.binary_search(&body).unwrap_or(0);
-    let mut forest = Forest {
-        links: vec![Vec::new(); bodies.len()],
-        joined: (0..bodies.len()).collect(),
-    };
+    let index = |frame: Frame| bodies.binary_search(&mechanism.body(frame)).unwrap_or(0);
+    let mut links: Vec<([usize; 2], Link)> = Vec::new();
     for (chain, part) in mechanism.chains().iter().enumerate() {
-        let mut below = index(mechanism.body(part.on));
+        let mut below = index(part.on);
         for (i, row) in part.rows.iter().enumerate() {
             if !row.joints().is_empty() {
-                let body = index(mechanism.body(Frame::Link { chain, row: i + 1 }));
-                forest.join(below, body, Link::Chain(chain));
+                let body = index(Frame::Link { chain, row: i + 1 });
+                links.push(([below, body], Link::Chain(chain)));
                 below = body;
             }
         }
     }
+    let closures = mechanism.closures().iter().enumerate();
+    links.extend(closures.map(|(i, closure)| (closure.frames.map(index), Link::Closure(i))));
+    let mut trees: Vec<Vec<(usize, Link)>> = vec![Vec::new(); bodies.len()];
+    let mut roots: Vec<usize> = (0..bodies.len()).collect();
     let mut closing = Vec::new();
-    for (i, closure) in mechanism.closures().iter().enumerate() {
-        let [from, to] = closure.frames.map(|frame| index(mechanism.body(frame)));
-        match forest.root(from) == forest.root(to) {
-            true => closing.push((i, from, to)),
-            false => forest.join(from, to, Link::Closure(i)),
+    for ([a, b], link) in links {
+        match (link, root(&mut roots, a) == root(&mut roots, b)) {
+            (Link::Closure(closure), true) => closing.push((closure, [a, b])),
+            _ => {
+                trees[a].push((b, link));
+                trees[b].push((a, link));
+                join(&mut roots, a, b);
+            }
         }
     }
-    let rooted = Rooted::new(&forest.links);
-    let loops = closing.into_iter().map(|(i, from, to)| {
-        let mut way = rooted.way(from, to);
-        way.push((to, Link::Closure(i)));
+    let loops = closing.into_iter().map(|(closure, [from, to])| {
+        let mut around = way(&trees, from, to);
+        around.push((to, Link::Closure(closure)));
         Loop {
-            closed_by: mechanism.closures()[i].name.clone(),
-            steps: named(mechanism, &bodies, way),
+            closed_by: mechanism.closures()[closure].name.clone(),
+            steps: named(mechanism, &bodies, around),
         }
     });
     loops.collect()
 }
 
-/// Bodies with the links that join them to trees.
-struct Forest {
-    links: Vec<Vec<(usize, Link)>>,
-    /// For each body another one of the same tree, or itself.
-    joined: Vec<usize>,
-}
-
-impl Forest {
-    fn root(&mut self, mut body: usize) -> usize {
-        while self.joined[body] != body {
-            self.joined[body] = self.joined[self.joined[body]];
-            body = self.joined[body];
-        }
-        body
-    }
-
-    fn join(&mut self, a: usize, b: usize, link: Link) {
-        self.links[a].push((b, link));
-        self.links[b].push((a, link));
-        let (a, b) = (self.root(a), self.root(b));
-        self.joined[a.max(b)] = a.min(b);
-    }
-}
-
-/// Trees of bodies, each body with its depth and the link to the body above it.
-struct Rooted {
-    depth: Vec<usize>,
-    above: Vec<Option<(usize, Link)>>,
-}
-
-impl Rooted {
-    fn new(tree: &[Vec<(usize, Link)>]) -> Self {
-        let (mut depth, mut above) = (vec![usize::MAX; tree.len()], vec![None; tree.len()]);
-        for root in 0..tree.len() {
-            if depth[root] != usize::MAX {
-                continue;
-            }
-            depth[root] = 0;
-            let mut waiting = vec![root];
-            while let Some(at) = waiting.pop() {
-                for &(next, link) in &tree[at] {
-                    if depth[next] == usize::MAX {
-                        (depth[next], above[next]) = (depth[at] + 1, Some((at, link)));
-                        waiting.push(next);
-                    }
-                }
+/// The way from one body to another of the same tree: each body with what leads on from it.
+fn way(trees: &[Vec<(usize, Link)>], from: usize, to: usize) -> Vec<(usize, Link)> {
+    // for each body the next one on the way to the end
+    let mut ahead: Vec<Option<(usize, Link)>> = vec![None; trees.len()];
+    let mut waiting = vec![to];
+    while let Some(at) = waiting.pop() {
+        for &(next, link) in &trees[at] {
+            if next != to && ahead[next].is_none() {
+                ahead[next] = Some((at, link));
+                waiting.push(next);
             }
         }
-        Rooted { depth, above }
     }
-
-    /// The way from one body to another of the same tree: each body with what leads on from it.
-    fn way(&self, mut from: usize, mut to: usize) -> Vec<(usize, Link)> {
-        let (mut way, mut back) = (Vec::new(), Vec::new());
-        while from != to {
-            let climbs = self.depth[from] >= self.depth[to];
-            let lower = if climbs { from } else { to };
-            let (higher, link) = self.above[lower].expect("only the root has none above it");
-            match climbs {
-                true => {
-                    way.push((from, link));
-                    from = higher;
-                }
-                false => {
-                    back.push((higher, link));
-                    to = higher;
-                }
-            }
-        }
-        way.extend(back.into_iter().rev());
-        way
-    }
+    let first = ahead[from].map(|(next, link)| (from, next, link));
+    let steps = std::iter::successors(first, |&(_, at, _)| {
+        ahead[at].map(|(next, link)| (at, next, link))
+    });
+    steps.map(|(at, _, link)| (at, link)).collect()
 }
 
 /// The names along a loop of bodies with what leads on from them; links between joints of one chain
