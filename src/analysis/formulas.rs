@@ -277,24 +277,29 @@ impl Writer<'_> {
     }
 
     fn finish(mut self) -> FormulasReport {
-        let letters = Letters(self.mechanism);
-        let values = letters.values();
-        for symbol in self.used {
-            let meaning = match letters.joint_of(symbol) {
-                Some(joint) => match self.mechanism.joints()[joint].kind {
-                    JointKind::Revolute => Meaning::Angle,
-                    JointKind::Prismatic => Meaning::Slide,
-                    JointKind::Helical => Meaning::Screw,
-                },
-                None if (symbol as usize) < self.mechanism.parameters().len() => Meaning::Parameter,
-                None => Meaning::Platform,
-            };
-            self.report.letters.push(Letter {
-                name: letters.name(symbol),
-                meaning,
-                value: values[symbol as usize],
-            });
-        }
+        self.report.letters = letters(self.mechanism, |symbol, _| self.used.contains(&symbol));
         self.report
     }
+}
+
+/// The letters of a mechanism that are used, by their symbols or names.
+fn letters(mechanism: &Mechanism, used: impl Fn(u32, &str) -> bool) -> Vec<Letter> {
+    let letters = Letters(mechanism);
+    let parameters = mechanism.parameters().len();
+    let all = (0..).zip(letters.values()).map(|(symbol, value)| Letter {
+        name: letters.name(symbol),
+        meaning: match letters.joint_of(symbol) {
+            Some(joint) => match mechanism.joints()[joint].kind {
+                JointKind::Revolute => Meaning::Angle,
+                JointKind::Prismatic => Meaning::Slide,
+                JointKind::Helical => Meaning::Screw,
+            },
+            None if (symbol as usize) < parameters => Meaning::Parameter,
+            None => Meaning::Platform,
+        },
+        value,
+    });
+    let all = (0..).zip(all);
+    let used = all.filter(|(symbol, letter)| used(*symbol, &letter.name));
+    used.map(|(_, letter)| letter).collect()
 }

@@ -1,11 +1,14 @@
 //! The unknowns of a question in closed form, as formulas that are checked.
 
+use std::collections::BTreeSet;
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::report::{FormulasReport, Letter, Meaning, Remaining, SolutionFormula, StepFormula};
+use super::letters;
+use super::report::{FormulasReport, Remaining, SolutionFormula, StepFormula};
 use crate::algebra::{EvaluationError, Expression, Function, Node, Operator};
-use crate::mechanism::{Configuration, JointKind, Mechanism};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{ClosedSolution, Question, Rule, Step, check_count, random_configuration};
 
 /// Random inputs at which the formulas are checked by substitution into the closure equations.
@@ -51,10 +54,11 @@ pub fn solution(
     if form.is_complete() {
         check(&mut solution, &form, question, at, seed);
     }
+    let used = used(&solution);
     Ok(FormulasReport {
         mechanism: mechanism.name().into(),
         names: mechanism.names_in_formulas(),
-        letters: letters(mechanism, &solution),
+        letters: letters(mechanism, |_, name| used.contains(name)),
         solution: Some(solution),
         simplified: true,
         ..FormulasReport::default()
@@ -192,53 +196,15 @@ fn written(
     }
 }
 
-/// The letters of the mechanism in the formulas.
-fn letters(mechanism: &Mechanism, solution: &SolutionFormula) -> Vec<Letter> {
-    let mut used = std::collections::BTreeSet::new();
+/// The names that stand in the formulas.
+fn used(solution: &SolutionFormula) -> BTreeSet<&str> {
+    let mut used = BTreeSet::new();
     for step in &solution.steps {
         let parts = step.with.iter().map(|(_, part)| part);
         let parts = parts.chain(&step.angle).chain([&step.value]);
-        used.extend(
-            parts
-                .flat_map(Expression::names)
-                .map(|(name, _)| name.as_str()),
-        );
+        let names = parts.flat_map(Expression::names);
+        used.extend(names.map(|(name, _)| name.as_str()));
         used.insert(&step.name);
     }
-    let mut letters = Vec::new();
-    let mut put = |name: &str, meaning, value| {
-        if used.contains(name) {
-            letters.push(Letter {
-                name: name.to_owned(),
-                meaning,
-                value,
-            });
-        }
-    };
-    for parameter in mechanism.parameters() {
-        put(&parameter.name, Meaning::Parameter, parameter.value);
-    }
-    let home = mechanism.home();
-    for (joint, value) in mechanism.joints().iter().zip(&home.joints) {
-        let meaning = match joint.kind {
-            JointKind::Revolute => Meaning::Angle,
-            JointKind::Prismatic => Meaning::Slide,
-            JointKind::Helical => Meaning::Screw,
-        };
-        put(&joint.name, meaning, *value);
-    }
-    for (platform, pose) in mechanism.platforms().iter().zip(&home.platforms) {
-        let pose = pose.pose();
-        let columns = pose.rotation.0.into_iter().chain([pose.position]);
-        for (vector, column) in ["n", "s", "a", "p"].into_iter().zip(columns) {
-            for (axis, value) in ["x", "y", "z"].into_iter().zip(column.0) {
-                put(
-                    &format!("{}.{vector}{axis}", platform.name),
-                    Meaning::Platform,
-                    value,
-                );
-            }
-        }
-    }
-    letters
+    used
 }
