@@ -17,6 +17,7 @@ mod elimination;
 mod factorable;
 mod joined;
 mod lu;
+mod parts;
 mod qr;
 mod rows;
 #[cfg(feature = "sparse")]
@@ -32,7 +33,7 @@ pub use elimination::Elimination;
 pub use factorable::Factorable;
 pub(crate) use joined::{join, root};
 pub use qr::Qr;
-pub use rows::Rows;
+pub use rows::{Rows, dense};
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
 pub use svd::Svd;

@@ -24,7 +24,6 @@ enum Found {
 #[derive(Debug)]
 struct Large {
     elimination: Elimination,
-    null_space: Vec<Vec<f64>>,
     /// Once it is asked for: the largest value and, estimated, the smallest that counts with its vectors.
     spectrum: OnceLock<Svd>,
 }
@@ -34,7 +33,7 @@ impl Large {
         if self.elimination.rank() == 0 {
             return Svd::default();
         }
-        let (smallest, v) = self.elimination.smallest(&self.null_space);
+        let (smallest, v) = self.elimination.smallest();
         let image = self.elimination.product(&v);
         Svd {
             values: vec![self.elimination.largest(), smallest],
@@ -59,7 +58,6 @@ impl Decomposition {
             columns,
             rank: elimination.rank(),
             found: Found::Large(Arc::new(Large {
-                null_space: elimination.null_space(),
                 spectrum: OnceLock::new(),
                 elimination,
             })),
@@ -120,7 +118,7 @@ impl Decomposition {
     /// ‖A⁺(B − A)‖, about, for other entries B of a large matrix A; infinite for one that is not large.
     pub fn relative_change(&self, other: &[Rows]) -> f64 {
         self.large().map_or(f64::INFINITY, |large| {
-            (large.elimination).relative_change(other, &large.null_space)
+            large.elimination.relative_change(other)
         })
     }
 
@@ -140,7 +138,7 @@ impl Decomposition {
     /// A⁺b: of the vectors nearest to a solution of A x = b the shortest.
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         if let Some(large) = self.large() {
-            return large.elimination.solve(b, &large.null_space);
+            return large.elimination.solve(b);
         }
         let mut x = vec![0.0; self.columns];
         let svd = self.spectrum();
@@ -187,7 +185,7 @@ impl Decomposition {
     pub fn null_space(&self) -> Vec<Vec<f64>> {
         match &self.found {
             Found::Spectrum(spectrum) => complement(&spectrum.right, self.columns),
-            Found::Large(large) => large.null_space.clone(),
+            Found::Large(large) => large.elimination.null_space(),
         }
     }
 

@@ -3,7 +3,7 @@
 mod fronts;
 
 use super::rows::{Rows, product, transposed_product};
-use super::{add, dot, lost, norm, orthonormal, remove};
+use super::{add, dot, lost, norm, orthonormal};
 use fronts::Fronts;
 
 /// How often solutions by normal equations are corrected.
@@ -22,6 +22,8 @@ pub struct Elimination {
     columns: usize,
     steps: Vec<Step>,
     free: Vec<usize>,
+    /// An orthonormal basis of the vectors with A x = 0, each a row.
+    null_space: Vec<Rows>,
     largest: f64,
     least_pivot: f64,
 }
@@ -44,6 +46,7 @@ impl Elimination {
             columns,
             steps: Vec::new(),
             free: Vec::new(),
+            null_space: Vec::new(),
             largest: 0.0,
             least_pivot: f64::INFINITY,
         };
@@ -53,6 +56,7 @@ impl Elimination {
         });
         elimination.largest = largest;
         elimination.eliminate(lost(largest));
+        elimination.null_space = elimination.motions();
         elimination
     }
 
@@ -76,8 +80,18 @@ impl Elimination {
         transposed_product(&self.groups, self.columns, y)
     }
 
-    /// Orthonormal basis of the vectors with A x = 0: each free unknown in turn moves, and the others follow.
+    /// Orthonormal basis of the vectors with A x = 0.
     pub fn null_space(&self) -> Vec<Vec<f64>> {
+        let motions = self.null_space.iter().map(|motion| {
+            let mut x = vec![0.0; self.columns];
+            (motion.columns()).for_each(|(&unknown, entry)| x[unknown] = entry[0]);
+            x
+        });
+        motions.collect()
+    }
+
+    /// Each free unknown in turn moves, and the others follow.
+    fn motions(&self) -> Vec<Rows> {
         let motions = self.free.iter().map(|&free| {
             let mut x = vec![0.0; self.columns];
             x[free] = 1.0;
@@ -88,12 +102,24 @@ impl Elimination {
             x.iter_mut().for_each(|x| *x /= size);
             x
         });
-        orthonormal(&motions.collect::<Vec<_>>(), 0.0)
+        let motions = orthonormal(&motions.collect::<Vec<_>>(), 0.0).into_iter();
+        let moving = |motion: Vec<f64>| motion.into_iter().enumerate().filter(|(_, x)| *x != 0.0);
+        motions.map(|motion| Rows::single(moving(motion))).collect()
     }
 
-    /// A⁺b, with the null space of A: RᵀR x = Aᵀb, corrected because normal equations square the condition number
+    /// Takes away what a vector has in the null space.
+    fn remove_motions(&self, x: &mut [f64]) {
+        let along = product(&self.null_space, x);
+        add(
+            x,
+            -1.0,
+            &transposed_product(&self.null_space, self.columns, &along),
+        );
+    }
+
+    /// A⁺b: RᵀR x = Aᵀb, corrected because normal equations square the condition number
     /// (Björck 1987).
-    pub fn solve(&self, b: &[f64], null_space: &[Vec<f64>]) -> Vec<f64> {
+    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.columns];
         for _ in 0..=CORRECTIONS {
             let product = self.product(&x);
@@ -102,17 +128,17 @@ impl Elimination {
             self.solve_normal(&mut step);
             add(&mut x, 1.0, &step);
         }
-        remove(&mut x, null_space);
+        self.remove_motions(&mut x);
         x
     }
 
-    /// (Aᵀ)⁺b, with the null space of A: A (RᵀR)⁻¹ b, corrected as in [`Elimination::solve`].
-    pub fn solve_transposed(&self, b: &[f64], null_space: &[Vec<f64>]) -> Vec<f64> {
+    /// (Aᵀ)⁺b: A (RᵀR)⁻¹ b, corrected as in [`Elimination::solve`].
+    pub fn solve_transposed(&self, b: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.groups.iter().map(|group| group.count).sum()];
         for _ in 0..=CORRECTIONS {
             let product = self.transposed_product(&y);
             let mut left: Vec<f64> = b.iter().zip(product).map(|(b, ay)| b - ay).collect();
-            remove(&mut left, null_space);
+            self.remove_motions(&mut left);
             self.solve_normal(&mut left);
             add(&mut y, 1.0, &self.product(&left));
         }
@@ -121,12 +147,12 @@ impl Elimination {
 
     /// Vectors with yᵀA = 0, without pattern and with components about 1: one that is zero in a few of them is zero in
     /// all.
-    pub fn left_null_vectors(&self, count: usize, null_space: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    pub fn left_null_vectors(&self, count: usize) -> Vec<Vec<f64>> {
         let rows = self.groups.iter().map(|group| group.count).sum();
         let vectors = (0..count).map(|k| {
             let number = |i: usize| (12.9898 * (k * rows + i + 1) as f64).sin() * 43758.5453 % 1.0;
             let any: Vec<f64> = (0..rows).map(number).collect();
-            let seen = self.product(&self.solve(&any, null_space));
+            let seen = self.product(&self.solve(&any));
             any.iter().zip(seen).map(|(y, seen)| y - seen).collect()
         });
         vectors.collect()
@@ -143,17 +169,17 @@ impl Elimination {
     }
 
     /// About the smallest singular value that counts, with its vector.
-    pub fn smallest(&self, null_space: &[Vec<f64>]) -> (f64, Vec<f64>) {
+    pub fn smallest(&self) -> (f64, Vec<f64>) {
         let (_, v) = iterated(self.columns, |v| {
-            remove(v, null_space);
+            self.remove_motions(v);
             self.solve_normal(v);
-            remove(v, null_space);
+            self.remove_motions(v);
         });
         (norm(&self.product(&v)), v)
     }
 
-    /// About ‖A⁺(B − A)‖, with the null space of A, for other entries B.
-    pub fn relative_change(&self, other: &[Rows], null_space: &[Vec<f64>]) -> f64 {
+    /// About ‖A⁺(B − A)‖, for other entries B.
+    pub fn relative_change(&self, other: &[Rows]) -> f64 {
         let changes = self.groups.iter().zip(other).map(|(a, b)| {
             let entries = a.entries.iter().zip(&b.entries);
             Rows {
@@ -163,8 +189,8 @@ impl Elimination {
         });
         let changes: Vec<Rows> = changes.collect();
         let (change, _) = iterated(self.columns, |v| {
-            let image = self.solve(&product(&changes, v), null_space);
-            let back = self.solve_transposed(&image, null_space);
+            let image = self.solve(&product(&changes, v));
+            let back = self.solve_transposed(&image);
             *v = transposed_product(&changes, self.columns, &back);
         });
         change
@@ -266,21 +292,8 @@ impl Step {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Decomposition, numbers, singular_values};
+    use super::super::{Decomposition, dense, numbers, singular_values};
     use super::*;
-
-    fn dense(columns: usize, groups: &[Rows]) -> (usize, Vec<f64>) {
-        let rows = groups.iter().map(|group| group.count).sum();
-        let mut entries = vec![0.0; rows * columns];
-        let mut first = 0;
-        for group in groups {
-            for (&unknown, column) in group.columns() {
-                entries[unknown * rows + first..][..group.count].copy_from_slice(column);
-            }
-            first += group.count;
-        }
-        (rows, entries)
-    }
 
     fn transposed(rows: usize, entries: &[f64]) -> Vec<f64> {
         let row = |i: usize| entries.iter().skip(i).step_by(rows).copied();
@@ -338,7 +351,7 @@ mod tests {
                     assert!((norm(motion) - 1.0).abs() < 1e-12);
                 }
                 let b: Vec<f64> = (0..count).map(|_| next()).collect();
-                let gap: Vec<f64> = (found.solve(&b, &null_space).iter())
+                let gap: Vec<f64> = (found.solve(&b).iter())
                     .zip(expected.solve(&b))
                     .map(|(a, b)| a - b)
                     .collect();
@@ -346,13 +359,13 @@ mod tests {
                 let b: Vec<f64> = (0..columns).map(|_| next()).collect();
                 let turned = transposed(count, &entries);
                 let expected_turned = Decomposition::of(columns, count, &turned).solve(&b);
-                let gap: Vec<f64> = (found.solve_transposed(&b, &null_space).iter())
+                let gap: Vec<f64> = (found.solve_transposed(&b).iter())
                     .zip(expected_turned)
                     .map(|(a, b)| a - b)
                     .collect();
                 assert!(norm(&gap) < 1e-9 * expected.condition(), "{gap:?}");
                 let redundant = expected.left_null_space();
-                for stress in found.left_null_vectors(2, &null_space) {
+                for stress in found.left_null_vectors(2) {
                     assert!(norm(&found.transposed_product(&stress)) < 1e-12 * norm(&stress));
                     // no basis vector is missing in it
                     assert!(
@@ -361,7 +374,7 @@ mod tests {
                             .all(|known| dot(known, &stress).abs() > 1e-6)
                     );
                 }
-                let (largest, smallest) = (found.largest(), found.smallest(&null_space).0);
+                let (largest, smallest) = (found.largest(), found.smallest().0);
                 let values = expected.singular_values();
                 assert!(
                     (largest / values[0] - 1.0).abs() < 0.1,
@@ -399,7 +412,7 @@ mod tests {
             .collect();
         let expected = singular_values(columns, columns, &changes)[0];
         let found = Elimination::of(columns, before);
-        let change = found.relative_change(&after, &found.null_space());
+        let change = found.relative_change(&after);
         assert!((change / expected - 1.0).abs() < 0.1, "{change} {expected}");
     }
 

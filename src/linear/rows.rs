@@ -111,6 +111,20 @@ impl Rows {
     }
 }
 
+/// The number of rows, and the whole matrix of so many columns, column-major.
+pub fn dense(columns: usize, groups: &[Rows]) -> (usize, Vec<f64>) {
+    let rows = groups.iter().map(|group| group.count).sum();
+    let mut entries = vec![0.0; rows * columns];
+    let mut first = 0;
+    for group in groups {
+        for (&unknown, column) in group.columns() {
+            entries[unknown * rows + first..][..group.count].copy_from_slice(column);
+        }
+        first += group.count;
+    }
+    (rows, entries)
+}
+
 /// A x.
 pub(super) fn product(groups: &[Rows], x: &[f64]) -> Vec<f64> {
     let mut product = Vec::new();

@@ -1,5 +1,7 @@
 //! Vectors, and bases of them.
 
+use super::parts::Parts;
+
 /// a·b.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
@@ -26,51 +28,66 @@ pub fn product(entries: &[f64], rows: usize, x: &[f64]) -> Vec<f64> {
 
 /// Orthonormal basis of what vectors span, without those that depend on the others within the tolerance.
 pub fn orthonormal(vectors: &[Vec<f64>], tolerance: f64) -> Vec<Vec<f64>> {
-    let mut left: Vec<Vec<f64>> = vectors.to_vec();
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    while let Some(best) =
-        (0..left.len()).max_by(|&i, &j| norm(&left[i]).total_cmp(&norm(&left[j])))
-    {
-        let mut next = left.swap_remove(best);
-        let before = norm(&next);
+    let size = vectors.first().map_or(0, Vec::len);
+    let parts = Parts::new(size, vectors.iter().map(Vec::as_slice));
+    // each with its length
+    let mut left: Vec<(f64, usize, Vec<f64>)> = (vectors.iter())
+        .filter_map(|vector| parts.within(vector))
+        .map(|(part, vector)| (norm(&vector), part, vector))
+        .collect();
+    let mut bases: Vec<Vec<Vec<f64>>> = vec![Vec::new(); parts.members().len()];
+    let mut order = Vec::new();
+    while let Some(best) = (0..left.len()).max_by(|&i, &j| left[i].0.total_cmp(&left[j].0)) {
+        let (before, part, mut next) = left.swap_remove(best);
         if before <= tolerance {
             break;
         }
         // once more, for what cancellation left of the others
-        remove(&mut next, &basis);
+        remove(&mut next, &bases[part]);
         let length = norm(&next);
         next.iter_mut().for_each(|x| *x /= length);
-        for other in &mut left {
+        for (length, _, other) in left.iter_mut().filter(|(_, of, _)| *of == part) {
             remove(other, std::slice::from_ref(&next));
+            *length = norm(other);
         }
-        basis.push(next);
+        order.push(parts.whole(part, &next));
+        bases[part].push(next);
     }
-    basis
+    order
 }
 
 /// Orthonormal basis of all that is orthogonal to orthonormal vectors of `size` components.
 pub fn complement(basis: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
-    let mut known: Vec<Vec<f64>> = basis.to_vec();
+    let parts = Parts::new(size, basis.iter().map(Vec::as_slice));
+    let mut known: Vec<Vec<Vec<f64>>> = vec![Vec::new(); parts.members().len()];
     // the square of each unit vector's projection on the known ones
     let mut explained = vec![0.0; size];
-    let explain = |explained: &mut [f64], by: &[f64]| {
-        (explained.iter_mut().zip(by)).for_each(|(square, v)| *square += v * v);
+    let explain = |explained: &mut [f64], part: usize, by: &[f64]| {
+        let squares = parts.members()[part].iter().zip(by);
+        squares.for_each(|(&i, v)| explained[i] += v * v);
     };
-    known.iter().for_each(|by| explain(&mut explained, by));
-    for _ in basis.len()..size {
+    for (part, by) in basis.iter().filter_map(|vector| parts.within(vector)) {
+        explain(&mut explained, part, &by);
+        known[part].push(by);
+    }
+    let others = basis.len()..size;
+    let others = others.map(|_| {
         // the unit vector that the known ones explain worst
         let unexplained = |i: usize| 1.0 - explained[i];
         let worst = (0..size).max_by(|&i, &j| unexplained(i).total_cmp(&unexplained(j)));
-        let mut next = vec![0.0; size];
-        next[worst.expect("size > 0")] = 1.0;
-        remove(&mut next, &known);
-        remove(&mut next, &known);
+        let (part, place) = parts.place(worst.expect("size > 0"));
+        let mut next = vec![0.0; parts.members()[part].len()];
+        next[place] = 1.0;
+        remove(&mut next, &known[part]);
+        remove(&mut next, &known[part]);
         let length = norm(&next);
         next.iter_mut().for_each(|x| *x /= length);
-        explain(&mut explained, &next);
-        known.push(next);
-    }
-    known.split_off(basis.len())
+        explain(&mut explained, part, &next);
+        let whole = parts.whole(part, &next);
+        known[part].push(next);
+        whole
+    });
+    others.collect()
 }
 
 /// Combinations of vectors whose weights are orthogonal to given orthonormal ones, and to one another: each reflection
@@ -84,7 +101,8 @@ pub fn without(mut vectors: Vec<Vec<f64>>, mut weights: Vec<Vec<f64>>) -> Vec<Ve
         let scale = 1.0 / (1.0 + normal[pivot].abs());
         normal[pivot] += normal[pivot].signum();
         let mut sum = vec![0.0; vectors[pivot].len()];
-        (vectors.iter().zip(&normal)).for_each(|(vector, n)| add(&mut sum, *n, vector));
+        let parts = (vectors.iter().zip(&normal)).filter(|(_, n)| **n != 0.0);
+        parts.for_each(|(vector, n)| add(&mut sum, *n, vector));
         vectors.swap_remove(pivot);
         for other in &mut weights {
             let along = scale * dot(other, &normal);
@@ -92,7 +110,8 @@ pub fn without(mut vectors: Vec<Vec<f64>>, mut weights: Vec<Vec<f64>>) -> Vec<Ve
             other.swap_remove(pivot);
         }
         normal.swap_remove(pivot);
-        (vectors.iter_mut().zip(&normal)).for_each(|(vector, n)| add(vector, -scale * n, &sum));
+        let parts = (vectors.iter_mut().zip(&normal)).filter(|(_, n)| **n != 0.0);
+        parts.for_each(|(vector, n)| add(vector, -scale * n, &sum));
     }
     vectors
 }

@@ -113,6 +113,38 @@ fn the_freedoms_of_a_long_row_are_those_of_a_short_one() {
     }
 }
 
+/// Together a thousand would cost as much as a thousand million of one, and gigabytes.
+#[test]
+fn the_freedoms_of_loops_that_nothing_joins_are_the_sum_and_a_rod_among_them_spins() {
+    for loops in [3, 120, 1000] {
+        let apart = |mut text: String| {
+            // rockers of their own, but for the last
+            for k in 1..loops {
+                let rocker = format!("rows: [(theta: \"r{k}\")]");
+                text = text.replace(&rocker, &format!("rows: [(theta: \"s{k}\")]"));
+            }
+            let joint = |name: String| format!("\"{name}\": Passive(home: \"60 deg\"),");
+            let own = (1..loops).map(|k| joint(format!("s{k}")));
+            let ball = ["x", "y", "z"].map(|axis| format!("\"{axis}\": Passive(),"));
+            let joints: String = own.chain(ball).collect();
+            let rod = "\"rod\": Chain(rows: [(theta: \"x\"), (alpha: \"90 deg\", theta: \"y\"), (alpha: \"90 deg\", theta: \"z\")], tip: [Tx(\"2\")]),
+                \"post\": Chain(base: [Tx(\"2\")]),";
+            (text.replace("joints: {", &format!("joints: {{ {joints}")))
+                .replace("chains: {", &format!("chains: {{ {rod}"))
+                .replace(
+                    "closures: {",
+                    "closures: { \"ball\": Spherical(\"rod\", \"post\"),",
+                )
+        };
+        let report = mobility_of(&row_with(loops, apart), &[]);
+        assert_eq!((report.mobility, report.rank), (loops, 2 * loops + 2));
+        assert_eq!(report.redundant, 3 * loops + 1);
+        assert_eq!(report.character, Character::Regular);
+        assert_eq!(report.moving_joints.len(), 3 * loops);
+        assert_eq!(report.idle_freedoms.len(), 1);
+    }
+}
+
 /// From loop to loop the motion changes so much that steps of any length are lost in rounding. To look
 /// for branches there would take minutes.
 #[test]

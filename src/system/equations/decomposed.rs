@@ -1,7 +1,7 @@
 //! The Jacobian decomposed: as a whole, or a large one group of rows after another.
 
 use super::{System, Work};
-use crate::linear::{Decomposition, Rows, SPECTRUM_LIMIT, dot};
+use crate::linear::{Decomposition, Rows, SPECTRUM_LIMIT, dense, dot};
 
 impl System<f64> {
     /// Whether there are more unknowns than all singular values are computed for.
@@ -11,11 +11,16 @@ impl System<f64> {
 
     /// The Jacobian last evaluated, decomposed.
     pub fn decomposition(&self, work: &Work<f64>) -> Decomposition {
-        let columns = self.unknowns.len();
-        match self.is_large() {
-            true => Decomposition::of_groups(columns, self.jacobian_rows(work)),
-            false => Decomposition::of(self.rows(), columns, &self.dense_jacobian(work)),
+        self.decomposed(self.unknowns.len(), self.jacobian_rows(work))
+    }
+
+    /// Rows over so many columns, decomposed in the way that suits this system.
+    pub fn decomposed(&self, columns: usize, groups: Vec<Rows>) -> Decomposition {
+        if self.is_large() {
+            return Decomposition::of_groups(columns, groups);
         }
+        let (rows, entries) = dense(columns, &groups);
+        Decomposition::of(rows, columns, &entries)
     }
 
     /// uᵀ J v for the Jacobian last evaluated.

@@ -81,14 +81,13 @@ impl Equilibrium {
     fn of_groups(rows: Vec<Rows>, generalised: Vec<f64>, opposite: &[f64]) -> Self {
         const STRESSES: usize = 3;
         let equations = Elimination::of(generalised.len(), rows);
-        let motions = equations.null_space();
-        let forces = equations.solve_transposed(opposite, &motions);
+        let forces = equations.solve_transposed(opposite);
         let mut left = generalised.clone();
         add(&mut left, 1.0, &equations.transposed_product(&forces));
         Equilibrium {
             rank: equations.rank(),
-            condition: equations.largest() / equations.smallest(&motions).0,
-            stresses: equations.left_null_vectors(STRESSES, &motions),
+            condition: equations.largest() / equations.smallest().0,
+            stresses: equations.left_null_vectors(STRESSES),
             generalised,
             forces,
             left,

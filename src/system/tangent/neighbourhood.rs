@@ -6,9 +6,9 @@ mod lasting;
 use std::collections::HashSet;
 
 use super::STILL;
-use super::twists::FrameTwists;
+use super::twists::{FrameTwists, Twist};
 use crate::description::Role;
-use crate::linear::{Decomposition, Svd, complement, independent, orthonormal, rank_of};
+use crate::linear::{Decomposition, Rows, Svd, add, complement, independent, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::equations::solve;
@@ -89,24 +89,27 @@ impl<'a> Neighbourhood<'a> {
         let decomposition = self.system.decomposition(&self.work);
         let all = decomposition.null_space();
         let moved = self.displacements(&at, &all);
-        let split = Decomposition::of(moved.len() / all.len().max(1), all.len(), &moved);
+        let split = self.system.decomposed(all.len(), moved);
         let combine = |weights: &Vec<f64>| -> Vec<f64> {
-            let along = |i: usize| all.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
-            (0..columns).map(along).collect()
+            let mut sum = vec![0.0; columns];
+            let parts = all
+                .iter()
+                .zip(weights)
+                .filter(|(_, weight)| **weight != 0.0);
+            parts.for_each(|(motion, weight)| add(&mut sum, *weight, motion));
+            sum
         };
         let idle = match split.singular_values().first() {
             // everything is rounding compared with motions of unit norm
             Some(&largest) if largest < STILL => complement(&[], all.len()),
             _ => split.null_space(),
         };
-        let motions = complement(&idle, all.len());
         Tangent {
             idle: idle.iter().map(combine).collect(),
             // without local freedoms the basis stays as sparse as it came
-            motions: if idle.is_empty() {
-                all
-            } else {
-                motions.iter().map(combine).collect()
+            motions: match idle.is_empty() {
+                true => all,
+                false => (complement(&idle, all.len()).iter()).map(combine).collect(),
             },
             at,
             decomposition,
@@ -176,11 +179,12 @@ impl<'a> Neighbourhood<'a> {
     /// Whether motions are local freedoms: links turn about their own axes and nothing else moves.
     pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
         let moved = self.displacements(at, motions);
-        moved.iter().all(|rate| rate.abs() < STILL)
+        let mut rates = moved.iter().flat_map(|rows| &rows.entries);
+        rates.all(|rate| rate.abs() < STILL)
     }
 
-    /// For each motion the rates that vanish in local freedoms, as those of origins, platforms and driven joints.
-    fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
+    /// The rates that vanish in local freedoms, as those of origins, platforms and driven joints, over the motions.
+    fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<Rows> {
         let mechanism = self.mechanism;
         let placement = self.frames.placed(at);
         let scale = 1.0 / mechanism.characteristic_length();
@@ -254,34 +258,53 @@ impl<'a> Neighbourhood<'a> {
         let rods: Vec<usize> = (0..mechanism.platforms().len())
             .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
             .collect();
-        let mut moved = Vec::new();
-        for motion in motions {
-            for &i in of_links {
-                let twist = self.frames.twist(i, &placement, motion);
-                moved.extend(twist.velocity.times(scale).0);
+        let unknowns = self.system.unknowns();
+        // the motions in which each unknown moves
+        let mut moving: Vec<Vec<usize>> = vec![Vec::new(); unknowns.len()];
+        for (number, motion) in motions.iter().enumerate() {
+            let rates = moving.iter_mut().zip(motion).filter(|(_, x)| **x != 0.0);
+            rates.for_each(|(moving, _)| moving.push(number));
+        }
+        let of_frame = |place: usize, rates: &dyn Fn(Twist<f64>) -> [f64; 3]| {
+            let columns = self.frames.columns(place);
+            let mut touched: Vec<usize> = columns.flat_map(|k| &moving[k]).copied().collect();
+            touched.sort_unstable();
+            touched.dedup();
+            let twist = |motion: &usize| self.frames.twist(place, &placement, &motions[*motion]);
+            Rows {
+                count: 3,
+                entries: touched.iter().flat_map(|of| rates(twist(of))).collect(),
+                unknowns: touched,
             }
-            for (i, axes) in &turning {
-                let mut omega = self.frames.twist(*i, &placement, motion).omega;
+        };
+        let velocities =
+            (of_links.iter()).map(|&place| of_frame(place, &|twist| twist.velocity.times(scale).0));
+        let turns = turning.iter().map(|(place, axes)| {
+            of_frame(*place, &|twist| {
+                let mut omega = twist.omega;
                 // parallel, or at right angles as those of a universal joint
                 for &k in axes {
                     let axis = self.frames.axis(k, &placement);
                     omega = omega - axis.times(omega.dot(&axis));
                 }
-                moved.extend(omega.0);
-            }
-            for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
-                let idle = match *unknown {
-                    Unknown::Joint(joint) => {
-                        mechanism.joints()[joint].role == Role::Passive && !outside.contains(&joint)
-                    }
-                    Unknown::Twist(platform, _) => rods.contains(&platform),
-                };
-                if !idle {
-                    moved.push(rate);
+                omega.0
+            })
+        });
+        let counted = unknowns
+            .iter()
+            .enumerate()
+            .filter(|(_, unknown)| match **unknown {
+                Unknown::Joint(joint) => {
+                    mechanism.joints()[joint].role != Role::Passive || outside.contains(&joint)
                 }
-            }
-        }
-        moved
+                Unknown::Twist(platform, _) => !rods.contains(&platform),
+            });
+        let rates = counted.map(|(k, _)| Rows {
+            count: 1,
+            entries: moving[k].iter().map(|&motion| motions[motion][k]).collect(),
+            unknowns: moving[k].clone(),
+        });
+        velocities.chain(turns).chain(rates).collect()
     }
 }
 

@@ -141,6 +141,13 @@ impl<T: Number> FrameTwists<T> {
         self.plans[i].movers.iter().map(|(_, column)| *column)
     }
 
+    /// The columns of all that moves point `i`.
+    pub fn columns(&self, i: usize) -> impl Iterator<Item = usize> {
+        let platform = self.plans[i].platform;
+        let twist = platform.map_or(0..0, |(_, first)| first..first + 6);
+        self.joints(i).chain(twist)
+    }
+
     /// The twist at point `i`. Nothing allocates.
     pub fn twist(&self, i: usize, placement: &Placement<T>, rates: &[T]) -> Twist<T> {
         let Plan {
