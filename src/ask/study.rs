@@ -8,6 +8,7 @@ mod points;
 mod regions;
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub use points::{Points, Spread};
@@ -265,7 +266,7 @@ impl Study {
         if self.counted {
             columns.push(Variable::plain(ASSEMBLIES));
         }
-        let posed = self.at(&self.point(0), mechanism);
+        let posed = self.at(&self.point(0), mechanism.clone());
         let held = posed.resolved()?;
         check_count(&held).map_err(AskError::Question)?;
         let (quantities, _) = posed.measured_by_rates(&held)?;
@@ -283,7 +284,7 @@ impl Study {
         let mut row = vec![Some(index as f64)];
         row.extend(point.iter().map(|x| Some(*x)));
         let found = self.made(&point).and_then(|mechanism| {
-            let asked = self.at(&point, &mechanism);
+            let asked = self.at(&point, mechanism);
             asked.measured_here(self.counted, self.spins).ok()
         });
         match found {
@@ -299,18 +300,22 @@ impl Study {
     }
 
     /// The mechanism with the parameters of a point.
-    fn made(&self, point: &[f64]) -> Option<Mechanism> {
+    fn made(&self, point: &[f64]) -> Option<Arc<Mechanism>> {
         let named = self.varied.iter().zip(point);
         let given = named.filter_map(|(of, value)| Some((of.parameter?, *value)));
         let given: Vec<(usize, f64)> = given.collect();
-        self.question.mechanism().with_values(&given).ok()
+        let mechanism = self.question.mechanism();
+        match given.is_empty() {
+            true => Some(mechanism.clone()),
+            false => mechanism.with_values(&given).ok().map(Arc::new),
+        }
     }
 
     /// The question at a point.
-    fn at(&self, point: &[f64], mechanism: &Mechanism) -> Question {
+    fn at(&self, point: &[f64], mechanism: Arc<Mechanism>) -> Question {
         let named = self.varied.iter().zip(point);
         let coordinates = named.filter(|(of, _)| of.parameter.is_none());
-        let asked = self.question.about(mechanism.clone());
+        let asked = self.question.about(mechanism);
         coordinates.fold(asked, |asked, (of, value)| {
             asked.let_go(&of.name).hold(&of.name, *value)
         })

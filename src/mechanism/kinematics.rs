@@ -83,6 +83,31 @@ impl<T: Number> Kinematics<T> {
         plan
     }
 
+    /// The same plan over another number, for which constants are what they are for this one.
+    pub(super) fn map<U>(&self, lift: impl Fn(T) -> U + Copy) -> Kinematics<U> {
+        let form = |form: &LinearForm<T>| {
+            let terms = form.0.iter().map(|&(joint, factor)| (joint, lift(factor)));
+            LinearForm(terms.collect())
+        };
+        let steps = self.steps.iter().map(|step| Step {
+            fixed: step.fixed.map(lift),
+            turn: form(&step.turn),
+            slide: form(&step.slide),
+            parent: step.parent,
+            shape: step.shape,
+            columns: step.columns,
+            still: step.still,
+            level: step.level,
+            need: step.need,
+        });
+        Kinematics {
+            platforms: self.platforms,
+            steps: steps.collect(),
+            frames: self.frames.clone(),
+            moving: self.moving.clone(),
+        }
+    }
+
     /// Ground from a frame of the plan; `None` for any other.
     pub fn pose<'a>(&self, frame: Frame, placement: &'a Placement<T>) -> Option<&'a Pose<T>> {
         Some(placement.pose(self.slot(frame)?))

@@ -16,15 +16,17 @@ use crate::number::{Folded, Number};
 /// across the plane of a planar loop, those of the centre of a spherical one and the angles between bodies that are only
 /// shifted come out as zero. No rank is computed: a row that vanishes for another reason is kept.
 fn rows_that_vary(dimensions: &Dimensions<f64>) -> Vec<Kept> {
-    let folded = dimensions.map(|x| Folded(Some(x)));
-    let frames = folded.closures.iter();
+    let constant = |x| Folded(Some(x));
+    let frames = dimensions.closures.iter();
     let frames = frames.flat_map(|closure| {
         closure
             .frames
             .into_iter()
             .zip(needs(closure.kind, &EVERY_ROW))
     });
-    let kinematics = Kinematics::needing(&folded, frames);
+    // constants are multiplied out as such, which is done sooner
+    let kinematics = Kinematics::needing(dimensions, frames).map(constant);
+    let folded = dimensions.map(constant);
     let varies = Folded(None);
     let at = Configuration {
         joints: vec![varies; dimensions.joint_scales.len()],

@@ -8,6 +8,7 @@ use crate::system::{
 };
 
 /// For each frame of a mechanism the axes about which its link spins in local freedoms.
+#[derive(Default)]
 pub(crate) struct Spins {
     lines: Vec<(Frame, Vec<Vector3<f64>>)>,
 }

@@ -88,6 +88,8 @@ impl TransmissionAngles {
         let found = loops(near, at).into_iter();
         let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &rods)));
         let found: Vec<HingedLoop> = found.collect();
+        let mut placement = kinematics.placement();
+        kinematics.place(at, &mut placement);
         let joints = 0..mechanism.joints().len();
         let mut known = Known {
             joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
@@ -102,7 +104,8 @@ impl TransmissionAngles {
         while let Some(i) =
             (0..found.len()).find(|&i| dyads[i].is_none() && dyad(&found[i], &known))
         {
-            dyads[i] = Some(dyads_of(mechanism, &found[i], &known, at, kinematics));
+            let placed = (kinematics, &placement);
+            dyads[i] = Some(dyads_of(mechanism, &found[i], &known, placed));
             for part in &found[i].all.parts {
                 part.joints
                     .iter()
@@ -283,8 +286,7 @@ fn dyads_of(
     mechanism: &Mechanism,
     found: &HingedLoop,
     known: &Known,
-    at: &Configuration<f64>,
-    kinematics: &Kinematics<f64>,
+    (kinematics, placement): (&Kinematics<f64>, &Placement<f64>),
 ) -> Vec<Dyad> {
     let given = known.parts(found);
     let HingedLoop {
@@ -306,10 +308,8 @@ fn dyads_of(
         let slot = kinematics.slot(frame);
         slot.expect("the frames of all bodies are placed")
     };
-    let in_frame = |frame: Frame, v: Vector3<f64>| {
-        let pose = mechanism.poses([frame], at)[0];
-        pose.rotation.inverse_rotate(&v)
-    };
+    let pose = |frame: Frame| placement.pose(slot(frame));
+    let in_frame = |frame: Frame, v: Vector3<f64>| pose(frame).rotation.inverse_rotate(&v);
     let pivot = |k: usize| {
         let (omega, velocity) = split(&hinges[k % count]?);
         let speed = omega.dot(&omega);
@@ -318,7 +318,7 @@ fn dyads_of(
         }
         let place = omega.cross(&velocity).times(length / speed);
         let frame = parts[k % count].bodies.iter().find_map(frame)?;
-        let offset = in_frame(frame, place - mechanism.poses([frame], at)[0].position).0;
+        let offset = in_frame(frame, place - pose(frame).position).0;
         Some((slot(frame), Point { frame, offset }))
     };
     let post = |k: usize| match (pivot(k), parts[k].bodies.iter().find_map(frame)) {

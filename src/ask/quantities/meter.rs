@@ -16,7 +16,7 @@ use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
 };
 use crate::linear::DENSE_LIMIT;
-use crate::mechanism::{Configuration, Figure, Frame, Measured, Point, Quantity};
+use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
 use crate::number::Number;
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
 pub(in super::super) use block::Block;
@@ -69,7 +69,7 @@ pub(in super::super) struct Meter<'q> {
     failed: usize,
     spinning: Spinning<'q>,
     /// With the distances that are asked for.
-    distances: Option<(Classifier<'q>, Vec<Figure>)>,
+    distances: Option<Box<(Classifier<'q>, Vec<Figure>)>>,
     wants: Wants,
     /// Rates, then accelerations of the held coordinates.
     driven: [Vec<f64>; 2],
@@ -124,12 +124,20 @@ impl<'q> Meter<'q> {
         });
         let programs: Vec<Expression<usize>> = programs.collect();
         let coordinates = question.driven_coordinates();
-        let mut held = Neighbourhood::holding(mechanism, &question.held());
-        let rest = held.tangent(start.clone());
-        let spins = Spins::of(&held, &rest);
-        let outputs = match wants.jacobian {
-            true => outputs(mechanism, &coordinates, &held, &rest),
-            false => Vec::new(),
+        // about which lines links spin matters to a Jacobian and to rates of points alone
+        let matters = wants.jacobian || wants.order > Order::Value && !points.is_empty();
+        let near = matters.then(|| {
+            let mut held = Neighbourhood::holding(mechanism, &question.held());
+            let rest = held.tangent(start.clone());
+            (Spins::of(&held, &rest), held, rest)
+        });
+        let (spins, held, outputs) = match near {
+            Some((spins, held, rest)) if wants.jacobian => {
+                let outputs = outputs(mechanism, &coordinates, &held, &rest);
+                (spins, Some(held), outputs)
+            }
+            Some((spins, ..)) => (spins, None, Vec::new()),
+            None => (Spins::default(), None, Vec::new()),
         };
         let mut frames: Vec<Frame> = points.iter().map(|point| point.frame).collect();
         let loose = frames
@@ -186,9 +194,9 @@ impl<'q> Meter<'q> {
         Meter {
             ways: coordinates.iter().map(way).collect(),
             turns: of.quantities.iter().map(turns).collect(),
-            spinning: match spins.is_empty() || !wants.jacobian {
-                true => Spinning::Nothing(spins),
-                false => Spinning::Something(Box::new(held)),
+            spinning: match held {
+                Some(held) if !spins.is_empty() => Spinning::Something(Box::new(held)),
+                _ => Spinning::Nothing(spins),
             },
             loose,
             distances: wants.distances.then(|| {
@@ -201,7 +209,7 @@ impl<'q> Meter<'q> {
                     outputs => outputs.to_vec(),
                 };
                 let classifier = Classifier::new(mechanism, &inputs, &outputs, start);
-                (classifier, distances.collect())
+                Box::new((classifier, distances.collect()))
             }),
             driven: [(); 2].map(|()| vec![0.0; coordinates.len()]),
             coordinates,
@@ -351,7 +359,7 @@ impl<'q> Meter<'q> {
             false => None,
         };
         let mut figures = figures.unwrap_or_default();
-        if let Some((classifier, distances)) = &mut self.distances {
+        if let Some((classifier, distances)) = self.distances.as_deref_mut() {
             let of = |figure: &Figure| (*figure, classifier.distance(*figure, at));
             figures.extend(distances.iter().map(of));
         }

@@ -1,5 +1,7 @@
 //! The quantities of one row of a study.
 
+use std::sync::Arc;
+
 use crate::analysis::sweep::Pace;
 use crate::ask::modes::NUMBERED;
 use crate::ask::quantities::{Meter, Metered};
@@ -10,9 +12,9 @@ use crate::system::{self, Driven};
 
 impl Question {
     /// The same question about another mechanism with the same names.
-    pub(super) fn about(&self, mechanism: Mechanism) -> Question {
+    pub(super) fn about(&self, mechanism: Arc<Mechanism>) -> Question {
         let mut asked = Question {
-            mechanism: mechanism.into(),
+            mechanism,
             hold: Vec::new(),
             free: Vec::new(),
             ..self.clone()

@@ -93,7 +93,7 @@ impl Meter<'_> {
                 rates.for_each(&mut put);
             }
         }
-        if let Some((classifier, figures)) = &mut self.distances {
+        if let Some((classifier, figures)) = self.distances.as_deref_mut() {
             for figure in figures {
                 put(classifier.distance(*figure, at).unwrap_or(f64::NAN));
             }
@@ -161,7 +161,7 @@ impl Meter<'_> {
             return None;
         }
         let mut distances = Vec::new();
-        if let Some((_, wanted)) = &self.distances {
+        if let Some((_, wanted)) = self.distances.as_deref() {
             distances.extend(wanted.iter().map(|figure| (*figure, Some(next()))));
         }
         let (mut figures, entries) = match self.figures_of(&found.jacobian) {
