@@ -165,7 +165,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(answer) => {
             say(&answer.remarks);
             match write(&answer.data) {
-                Ok(()) if watched::interruptions() > 0 => {
+                Ok(()) if watched::was_cut_short() => {
                     say("note: interrupted: the answer has what was found until then\n");
                     1
                 }
@@ -178,7 +178,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
         Err(Refusal(problems)) => {
             say(&problems);
-            if watched::interruptions() > 0 { 1 } else { 2 }
+            if watched::was_cut_short() { 1 } else { 2 }
         }
     }
 }

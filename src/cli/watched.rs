@@ -10,6 +10,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use linkwork::solve::{Progress, Stage, Watch};
 
 static INTERRUPTIONS: AtomicUsize = AtomicUsize::new(0);
+/// Set when Ctrl-C ended work that was not done.
+static CUT_SHORT: AtomicBool = AtomicBool::new(false);
 /// Set when nobody reads the rows any more.
 static UNREAD: AtomicBool = AtomicBool::new(false);
 
@@ -45,7 +47,7 @@ pub fn watched<R>(work: impl FnOnce(&Watch) -> R) -> R {
             *shown = (spent, Some(now.stage));
             show(&bar, now);
         }
-        match interruptions() > 0 || UNREAD.load(Ordering::Relaxed) {
+        match cuts_short(0) || UNREAD.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -58,6 +60,20 @@ pub fn watched<R>(work: impl FnOnce(&Watch) -> R) -> R {
 /// How often Ctrl-C was pressed since the first long work began.
 pub fn interruptions() -> usize {
     INTERRUPTIONS.load(Ordering::Relaxed)
+}
+
+/// Whether work that is not done ends, as Ctrl-C was pressed more than so many times.
+pub fn cuts_short(before: usize) -> bool {
+    let pressed = interruptions() > before;
+    if pressed {
+        CUT_SHORT.store(true, Ordering::Relaxed);
+    }
+    pressed
+}
+
+/// Whether any work ended so: where Ctrl-C came later the answer is whole.
+pub fn was_cut_short() -> bool {
+    CUT_SHORT.load(Ordering::Relaxed)
 }
 
 /// Ends the work whose rows nobody reads any more.

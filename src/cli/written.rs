@@ -8,7 +8,7 @@ use linkwork::output::Rows;
 use linkwork::output::csv::Csv;
 
 use super::Refusal;
-use super::watched::{interruptions, read_no_more};
+use super::watched::{cuts_short, interruptions, read_no_more};
 
 /// Whole lines to stdout, as they come.
 pub struct Lines {
@@ -76,18 +76,20 @@ pub fn unwritten(error: io::Error) -> Refusal {
     Refusal::error(format!("the rows cannot be written: {error}"))
 }
 
-/// All rows to stdout; whether nobody interrupted meanwhile.
+/// All rows to stdout; whether nobody interrupted before the last.
 pub fn rows(all: Rows) -> Result<bool, Refusal> {
     let before = interruptions();
     let mut csv = Csv::new(Lines::new(true), all.columns).map_err(unwritten)?;
+    let mut whole = true;
     for row in all.rows {
-        if !csv.target().open() || interruptions() > before {
+        whole = !cuts_short(before);
+        if !whole || !csv.target().open() {
             break;
         }
         csv.row(row).map_err(unwritten)?;
     }
     csv.finish().map_err(unwritten)?.finish()?;
-    Ok(interruptions() == before)
+    Ok(whole)
 }
 
 /// A file beside another, of this process alone.

@@ -1032,6 +1032,37 @@ fn an_interrupted_map_leaves_whole_rows_and_says_so() {
     assert!(lines.all(|line| line.split(',').count() == columns));
 }
 
+/// More than a pipe holds, all of it worked out before the first byte is written.
+#[cfg(unix)]
+#[test]
+fn an_answer_that_was_whole_when_it_was_interrupted_says_nothing_of_it() {
+    use std::io::Read;
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .args(["study", "mechanisms/four_bar.ron", "--vary", "l2=3..5"])
+        .args(["--samples", "4000", "--quantity", "phi1"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut written = vec![0; 100];
+    let mut stdout = child.stdout.take().unwrap();
+    stdout.read_exact(&mut written).unwrap();
+    let told = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(told.unwrap().success());
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    stdout.read_to_end(&mut written).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let remark = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), &*remark), (Some(0), ""));
+    assert!(written.len() > 1 << 17, "{} bytes", written.len());
+    let lines = written.iter().filter(|byte| **byte == b'\n').count();
+    assert_eq!(lines, 4001);
+}
+
 /// Home of the five-bar with a hand by its elbows: ψ₁ < 0 < ψ₂ in one working mode alone, and P above the middle of
 /// the motors where the circles of the couplers about the elbows meet.
 #[test]
