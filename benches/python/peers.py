@@ -38,7 +38,8 @@ class Work:
 
     def __init__(self, title: str, file: str, amplitude: float, watched: list[str]) -> None:
         self.title = title
-        self.m = linkwork.load(SHIPPED / file)
+        self.file = SHIPPED / file
+        self.m = linkwork.load(self.file)
         self.driven = [name for name, joint in self.m.joints.items() if joint.driven]
         self.home = np.array([self.m.joints[name].home for name in self.driven])
         if title == "3-RPS":

@@ -38,6 +38,19 @@ pub struct Many {
     pub interrupted: bool,
 }
 
+/// In how many steps a distance is gone to values; none if they are too far away or no numbers.
+fn steps_of(distance: f64, finite: bool) -> usize {
+    let steps = match distance <= LONGEST {
+        // as most are
+        true => 1.0,
+        false => (distance / LONGEST).ceil(),
+    };
+    match finite && steps <= FARTHEST {
+        true => (steps as usize).max(1),
+        false => 0,
+    }
+}
+
 /// What follows rows.
 struct Rows<'a> {
     question: &'a system::Question<'a>,
@@ -132,7 +145,8 @@ impl Question {
         // blocks of the same size, for cores to share
         let block = rows.div_ceil(rows.div_ceil(most).max(1)).max(1);
         let width = all.columns.len();
-        let (mut found, mut reached) = (vec![f64::NAN; rows * width], vec![false; rows]);
+        // not filled with what is hardly ever left: pages of so many are had where rows are written
+        let (mut found, mut reached) = (vec![0.0; rows * width], vec![false; rows]);
         let blocks = (found.chunks_mut(block * width)).zip(reached.chunks_mut(block));
         let blocks = blocks.enumerate().map(|(number, (values, reached))| {
             Mutex::new(Block {
@@ -157,6 +171,7 @@ impl Question {
                     None => all.one_by_one(block),
                 }
             }
+            block.rest();
         });
         drop(blocks);
         let mut many = Many {
@@ -193,6 +208,13 @@ impl Block<'_> {
         let values = self.values[row * width..(row + 1) * width].iter_mut();
         values.zip(found).for_each(|(value, found)| *value = found);
         self.reached[row] = true;
+    }
+
+    /// The values of rows that are not reached are no numbers.
+    fn rest(&mut self) {
+        let values = self.values.chunks_mut(self.columns.len().max(1));
+        let rest = values.zip(&*self.reached).filter(|(_, reached)| !**reached);
+        rest.for_each(|(values, _)| values.fill(f64::NAN));
     }
 
     fn put_at(&mut self, row: usize, at: &Configuration<f64>) {
@@ -233,13 +255,24 @@ impl Rows<'_> {
         })
     }
 
-    /// In how many steps values are reached from others; none if they are too far away or no numbers.
+    /// In how many steps values are reached from others.
     fn steps(&self, from: &[f64], to: &[f64]) -> usize {
-        let steps = (self.distance(from, to) / LONGEST).ceil();
-        match to.iter().all(|x| x.is_finite()) && steps <= FARTHEST {
-            true => (steps as usize).max(1),
-            false => 0,
+        let finite = to.iter().all(|x| x.is_finite());
+        steps_of(self.distance(from, to), finite)
+    }
+
+    /// The same for motions side by side, coordinate by coordinate.
+    fn steps_of_each(&self, from: &[[f64; BATCH]], to: &[[f64; BATCH]]) -> [usize; BATCH] {
+        let (mut farthest, mut finite) = ([0.0; BATCH], [true; BATCH]);
+        for ((from, to), scale) in from.iter().zip(to).zip(&self.scales) {
+            for i in 0..BATCH {
+                farthest[i] = f64::max(farthest[i], (to[i] - from[i]).abs() / scale);
+                finite[i] &= to[i].is_finite();
+            }
         }
+        let mut steps = [0; BATCH];
+        (0..BATCH).for_each(|i| steps[i] = steps_of(farthest[i], finite[i]));
+        steps
     }
 
     fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
@@ -248,68 +281,69 @@ impl Rows<'_> {
 
     /// The rows of a block in as many paths as there are motions side by side.
     fn side_by_side(&self, follower: &Follower, block: &mut Block) {
-        let rows = block.reached.len();
+        let (first, rows) = (block.first, block.reached.len());
         let length = rows.div_ceil(BATCH);
         let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
         let mut motions = follower.motions(&self.start);
-        let mut here = vec![self.values(&self.start); BATCH];
-        let mut next = here.clone();
+        // what is held of each motion, coordinate by coordinate
+        let begin = self.values(&self.start);
+        let mut here: Vec<[f64; BATCH]> = begin.iter().map(|value| [*value; BATCH]).collect();
+        let mut wanted = here.clone();
         for k in 0..length {
             let row = |motion: usize| Some(motion * length + k).filter(|row| *row < rows);
-            let first = block.first;
-            let to = |motion: usize| row(motion).map(|row| self.row(first + row));
-            let steps: [usize; BATCH] = std::array::from_fn(|motion| {
-                to(motion).map_or(0, |to| self.steps(&here[motion], to))
-            });
+            for motion in 0..BATCH {
+                match row(motion).map(|row| self.row(first + row)) {
+                    Some(to) => (wanted.iter_mut().zip(to)).for_each(|(of, to)| of[motion] = *to),
+                    None => wanted.iter_mut().for_each(|of| of[motion] = f64::NAN),
+                }
+            }
+            let steps = self.steps_of_each(&here, &wanted);
             let mut arrived = [false; BATCH];
-            let mut standing = steps.map(|steps| steps > 0);
+            let mut standing = [true; BATCH];
             for step in 1..=steps.into_iter().max().unwrap_or(0) {
-                let going: [bool; BATCH] =
-                    std::array::from_fn(|motion| standing[motion] && step <= steps[motion]);
-                for motion in (0..BATCH).filter(|motion| going[*motion]) {
-                    let Some(to) = to(motion) else { continue };
-                    let part = 1.0 / (steps[motion] - step + 1) as f64;
-                    for (i, &to) in to.iter().enumerate() {
-                        let from = here[motion][i];
-                        let value = if part == 1.0 {
-                            to
-                        } else {
-                            from + part * (to - from)
+                let mut going = [false; BATCH];
+                (0..BATCH).for_each(|i| going[i] = standing[i] && step <= steps[i]);
+                for (i, (here, wanted)) in here.iter().zip(&wanted).enumerate() {
+                    let values = follower.values(&mut motions, i);
+                    for motion in (0..BATCH).filter(|motion| going[*motion]) {
+                        let (from, to) = (here[motion], wanted[motion]);
+                        values[motion] = match steps[motion] - step {
+                            0 => to,
+                            left => from + 1.0 / (left + 1) as f64 * (to - from),
                         };
-                        next[motion][i] = value;
-                        follower.values(&mut motions, i)[motion] = value;
                     }
                 }
                 let solved = follower.solve(&mut motions, &going);
+                for (i, here) in here.iter_mut().enumerate() {
+                    let values = follower.values(&mut motions, i);
+                    for motion in (0..BATCH).filter(|motion| going[*motion] && solved[*motion]) {
+                        here[motion] = values[motion];
+                    }
+                }
                 for motion in (0..BATCH).filter(|motion| going[*motion]) {
                     standing[motion] = solved[motion];
-                    if !solved[motion] {
-                        continue;
-                    }
-                    here[motion].copy_from_slice(&next[motion]);
-                    if let (true, Some(row)) = (step == steps[motion], row(motion)) {
-                        arrived[motion] = true;
-                        let value = |i: usize| follower.column(&motions, i)[motion];
-                        block.put(row, (0..self.columns.len()).map(value));
+                    arrived[motion] = solved[motion] && step == steps[motion];
+                    if let (true, Some(row)) = (arrived[motion], row(motion)) {
+                        let columns = follower.columns(&motions);
+                        block.put(row, columns.map(|column| column[motion]));
                     }
                 }
             }
             for motion in (0..BATCH).filter(|motion| steps[*motion] > 0 && !arrived[*motion]) {
-                let (Some(row), Some(to)) = (row(motion), to(motion)) else {
-                    continue;
-                };
+                let Some(row) = row(motion) else { continue };
+                let values: Vec<f64> = here.iter().map(|of| of[motion]).collect();
                 let mut place = Place {
-                    at: follower.configuration(&motions, motion, &here[motion]),
-                    values: here[motion].clone(),
+                    at: follower.configuration(&motions, motion, &values),
+                    values,
                 };
-                if self.goes_or_begins(&mut single, &mut place, to) {
+                if self.goes_or_begins(&mut single, &mut place, self.row(first + row)) {
                     block.put_at(row, &place.at);
                 }
                 follower.put(&mut motions, motion, &place.at);
                 for (i, &value) in place.values.iter().enumerate() {
                     follower.values(&mut motions, i)[motion] = value;
+                    here[i][motion] = value;
                 }
-                here[motion] = place.values;
             }
         }
     }

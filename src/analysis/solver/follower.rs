@@ -236,10 +236,11 @@ impl<'a> Follower<'a> {
         solved.map(|of| of != 0)
     }
 
-    /// Where the last [`solve`](Self::solve) led: all motions' values of a coordinate, numbered as [`Coordinate::all`]
-    /// lists them, in rad and m.
-    pub fn column<'m>(&self, motions: &'m Motions, coordinate: usize) -> &'m [f64; BATCH] {
-        motions.registers.rows(self.results.columns[coordinate])
+    /// Where the last [`solve`](Self::solve) led: all motions' values of each coordinate, in the order of
+    /// [`Coordinate::all`], in rad and m.
+    pub fn columns<'m>(&self, motions: &'m Motions) -> impl Iterator<Item = &'m [f64; BATCH]> {
+        let columns = self.results.columns.iter();
+        columns.map(|&register| motions.registers.rows(register))
     }
 
     /// The latest solution of a motion, found for these values of the coordinates that change.
