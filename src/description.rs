@@ -159,13 +159,18 @@ fn may_hide(kind: &ProblemKind) -> Vec<Noun> {
     }
 }
 
+/// A value, unless there are problems.
+pub(crate) fn unless<P, T>(problems: Vec<P>, value: T) -> Result<T, Vec<P>> {
+    match problems.is_empty() {
+        true => Ok(value),
+        false => Err(problems),
+    }
+}
+
 impl Description {
     /// Reads the text of a mechanism file, or returns its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
         let draft = Draft::read(text)?;
-        match draft.problems.is_empty() {
-            true => Ok(draft.description),
-            false => Err(draft.problems),
-        }
+        unless(draft.problems, draft.description)
     }
 }

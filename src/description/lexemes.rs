@@ -56,14 +56,9 @@ impl Iterator for Lexemes<'_> {
     }
 }
 
-/// An element of a list or tuple, or an entry of a map or structure with its key.
-pub(super) struct Part<'a> {
-    pub key: Option<&'a str>,
-    pub value: &'a str,
-}
-
-/// The parts of a well-formed value in brackets.
-pub(super) fn parts(value: &str) -> Vec<Part<'_>> {
+/// The parts of a well-formed value in brackets: elements of a list or tuple, entries of a map or structure with their
+/// keys before them.
+pub(super) fn parts(value: &str) -> Vec<(Option<&str>, &str)> {
     let mut parts = Vec::new();
     let mut depth = 0;
     let (mut key, mut begin, mut end) = (None, None, 0);
@@ -74,10 +69,8 @@ pub(super) fn parts(value: &str) -> Vec<Part<'_>> {
         match (depth, sign) {
             (1, b':') => key = begin.take().map(|begin| &value[begin..end]),
             (1, b',') | (0, b')' | b']' | b'}') => {
-                parts.extend(begin.take().map(|begin| Part {
-                    key: key.take(),
-                    value: &value[begin..end],
-                }));
+                let part = begin.take().map(|begin| (key.take(), &value[begin..end]));
+                parts.extend(part);
             }
             (0, _) => {}
             _ => {
@@ -117,17 +110,9 @@ fn word_end(text: &str, start: usize) -> usize {
     length.map_or(text.len(), |length| start + length)
 }
 
-/// An opening bracket that is not closed before another kind of bracket, or the text, ends.
-#[derive(Debug, PartialEq)]
-pub(super) struct Unclosed {
-    /// The opening bracket.
-    pub open: Range<usize>,
-    /// Where its closing bracket is missing.
-    pub missed_at: usize,
-}
-
-/// The first unclosed bracket of `text`, outside strings and comments.
-pub(super) fn unclosed(text: &str) -> Option<Unclosed> {
+/// The first bracket of `text`, outside strings and comments, that is not closed before another kind of bracket, or the
+/// text, ends: where it is, and where its closing bracket is missing.
+pub(super) fn unclosed(text: &str) -> Option<(Range<usize>, usize)> {
     let bytes = text.as_bytes();
     let mut open: Vec<Range<usize>> = Vec::new();
     let mut lexemes = Lexemes::new(text);
@@ -137,20 +122,14 @@ pub(super) fn unclosed(text: &str) -> Option<Unclosed> {
             closing @ (b')' | b']' | b'}') => {
                 let last = open.pop()?;
                 if partner(bytes[last.start]) != closing {
-                    return Some(Unclosed {
-                        open: last,
-                        missed_at: place.start,
-                    });
+                    return Some((last, place.start));
                 }
             }
             _ => {}
         }
     }
     let open = open.pop().filter(|_| !lexemes.unterminated())?;
-    Some(Unclosed {
-        open,
-        missed_at: text.len(),
-    })
+    Some((open, text.len()))
 }
 
 fn partner(open: u8) -> u8 {
@@ -211,7 +190,7 @@ mod tests {
     use super::*;
 
     fn at(text: &str) -> Option<(usize, usize)> {
-        unclosed(text).map(|found| (found.open.start, found.missed_at))
+        unclosed(text).map(|(open, missed_at)| (open.start, missed_at))
     }
 
     #[test]

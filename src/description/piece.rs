@@ -155,22 +155,21 @@ impl<'a> Piece<'a> {
 
     /// The values of a list or a tuple.
     pub fn elements(&self) -> Vec<Piece<'a>> {
-        let values = parts(self.text).into_iter().map(|part| part.value);
-        values.map(|value| self.part(value)).collect()
+        let values = parts(self.text).into_iter();
+        values.map(|(_, value)| self.part(value)).collect()
     }
 
     /// The keys and values of a map.
     pub fn pairs(&self) -> Vec<(Piece<'a>, Piece<'a>)> {
         let pairs = parts(self.text).into_iter();
-        let pairs = pairs.filter_map(|part| Some((self.part(part.key?), self.part(part.value))));
+        let pairs = pairs.filter_map(|(key, value)| Some((self.part(key?), self.part(value))));
         pairs.collect()
     }
 
     /// The names and values of named fields in parentheses.
     pub fn fields(&self) -> Vec<(Spanned<&'a str>, Piece<'a>)> {
-        let fields = parts(self.text).into_iter().filter_map(|part| {
-            let name = part.key?;
-            let value = self.part(part.value);
+        let fields = parts(self.text).into_iter().filter_map(|(name, value)| {
+            let (name, value) = (name?, self.part(value));
             Some((Spanned::new(word(name)?.0, self.place(name)), value))
         });
         fields.collect()

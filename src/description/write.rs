@@ -7,15 +7,6 @@ use serde::ser::{
 
 use super::*;
 
-/// Writes the fields that are given.
-macro_rules! fields {
-    ($start:expr, $($name:tt: $value:expr, if $given:expr;)+) => {{
-        let mut fields = $start?;
-        $(if $given { fields.serialize_field($name, $value)?; })+
-        fields.end()
-    }};
-}
-
 impl Description {
     /// The text of an equivalent mechanism file. Comments are not kept.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
@@ -33,62 +24,124 @@ impl AxesDescription {
     }
 }
 
-impl Serialize for AxesDescription {
+/// The value of a field, which is left out unless it is given.
+trait Field {
+    fn is_given(&self) -> bool;
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
+}
+
+macro_rules! field {
+    ($($type:ty $(where $parameter:ident)?: |$value:ident| $given:expr, $written:expr;)+) => {$(
+        impl$(<$parameter: Serialize>)? Field for $type {
+            #[allow(unused_variables)]
+            fn is_given(&self) -> bool {
+                let $value = self;
+                $given
+            }
+
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let $value = self;
+                $written.serialize(serializer)
+            }
+        }
+    )+};
+}
+
+field! {
+    u32: |number| true, number;
+    Spanned<String>: |text| true, text;
+    Entry: |entry| !entry.expression.is_zero(), entry;
+    Vec<Displacement>: |steps| !steps.is_empty(), steps;
+    Vec<Row>: |rows| !rows.is_empty(), rows;
+    Vec<Spanned<String>>: |names| !names.is_empty(), names;
+    Vec<(Spanned<MatrixEntry>, Entry)>: |entries| !entries.is_empty(), Entries(entries);
+    Vec<Named<T>> where T: |named| !named.is_empty(), Map(named);
+    Option<T> where T: |value| value.is_some(), Bare(value);
+}
+
+struct Written<'a, F>(&'a F);
+
+impl<F: Field> Serialize for Written<'_, F> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct_variant("File", 0, "Axes", 13),
-            "version": &VERSION, if true;
-            "name": &self.name, if true;
-            "source": &Bare(&self.source), if self.source.is_some();
-            "convention": &Bare(&self.convention), if self.convention.is_some();
-            "parameters": &Map(&self.parameters), if !self.parameters.is_empty();
-            "joints": &Map(&self.joints), if true;
-            "bodies": &Bodies(&self.bodies), if !self.bodies.is_empty();
-            "points": &Map(&self.points), if !self.points.is_empty();
-            "base": &Bare(&self.base), if self.base.is_some();
-            "tool": &Bare(&self.tool), if self.tool.is_some();
-            "cut": &self.cut, if !self.cut.is_empty();
-            "closed_forms": &Map(&self.closed_forms), if !self.closed_forms.is_empty();
-            "outputs": &Map(&self.outputs), if !self.outputs.is_empty();
-        )
+        self.0.write(serializer)
     }
 }
 
-/// The frames of bodies, as a map in the same order.
-struct Bodies<'a>(&'a [Named<AxisPlace>]);
+/// Fields in parentheses. A variant is named in every layout, a structure is not.
+macro_rules! started {
+    ($serializer:ident, $part:ident, $word:expr) => {
+        $serializer.serialize_struct_variant(stringify!($part), 0, $word, 1)
+    };
+    ($serializer:ident, $part:ident) => {
+        $serializer.serialize_struct(stringify!($part), 1)
+    };
+}
 
-impl Serialize for Bodies<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        struct Body<'a>(&'a AxisPlace);
-        impl Serialize for Body<'_> {
+/// Writes what is given of the fields of each part, behind a word if it has one.
+macro_rules! written {
+    ($($part:ident |$of:ident| $(as $word:expr,)? { $($name:literal: $value:expr),+ $(,)? })+) => {$(
+        impl Serialize for $part {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let (origin, frame) = self.0.point_or_frame();
-                fields!(serializer.serialize_struct("Body", 2),
-                    "origin": &Bare(&origin), if origin.is_some();
-                    "frame": &Bare(&frame), if frame.is_some();
-                )
+                let $of = self;
+                let mut fields = started!(serializer, $part $(, $word)?)?;
+                $(if $value.is_given() { fields.serialize_field($name, &Written(&$value))?; })+
+                fields.end()
             }
         }
-        let bodies = self.0.iter();
-        serializer.collect_map(bodies.map(|named| (&named.name, Body(&named.value))))
+    )+};
+}
+
+written! {
+    Description |file| as "Mechanism", {
+        "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
+        "parameters": file.parameters, "joints": file.joints, "chains": file.chains, "platforms": file.platforms,
+        "closures": file.closures, "closed_forms": file.closed_forms, "outputs": file.outputs,
+    }
+    JointDescription |joint| as joint.role.word(), { "home": joint.home, "limits": joint.limits }
+    ChainDescription |chain| as "Chain", {
+        "on": chain.on, "convention": chain.convention, "base": chain.base, "rows": chain.rows, "tip": chain.tip,
+    }
+    Row |row| { "alpha": row.alpha, "a": row.a, "d": row.d, "theta": row.theta }
+    PlatformDescription |platform| as "Platform", { "home": platform.home, "frames": platform.frames }
+    ClosedFormDescription |form| as "ClosedForm", {
+        "of": form.of, "in": form.relative_to, "where": form.locals, "source": form.source,
+        "position": form.position, "rotation": form.rotation, "transform": form.transform,
+        "entries": form.entries, "identity": form.identity, "identities": form.identities,
+    }
+    AxesDescription |file| as "Axes", {
+        "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
+        "parameters": file.parameters, "joints": Some(Map(&file.joints)), "bodies": bodies(&file.bodies),
+        "points": file.points, "base": file.base, "tool": file.tool, "cut": file.cut,
+        "closed_forms": file.closed_forms, "outputs": file.outputs,
+    }
+}
+
+fn bodies(bodies: &[Named<AxisPlace>]) -> Vec<Named<Place<'_>>> {
+    let bodies = bodies.iter();
+    bodies
+        .map(|body| Named::new(&body.name.value, Place("Body", "origin", &body.value)))
+        .collect()
+}
+
+/// Where something is, with the name of that and of the field of a point.
+struct Place<'a>(&'static str, &'static str, &'a AxisPlace);
+
+impl Serialize for Place<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct(self.0, 1)?;
+        for (name, value) in self.2.fields(self.1) {
+            fields.serialize_field(name, &value)?;
+        }
+        fields.end()
     }
 }
 
 impl Serialize for PointDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (at, frame) = self.place.point_or_frame();
-        fields!(serializer.serialize_struct("Point", 3),
-            "body": &self.body, if true;
-            "at": &Bare(&at), if at.is_some();
-            "frame": &Bare(&frame), if frame.is_some();
-        )
-    }
-}
-
-/// The place of a joint on its second body.
-impl Serialize for AxisPlace {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_struct("Place", 1)?;
-        for (name, value) in self.fields() {
+        let mut fields = serializer.serialize_struct("Point", 2)?;
+        fields.serialize_field("body", &self.body)?;
+        for (name, value) in self.place.fields("at") {
             fields.serialize_field(name, &value)?;
         }
         fields.end()
@@ -96,85 +149,58 @@ impl Serialize for AxisPlace {
 }
 
 /// The value of a field that places something.
+#[derive(serde::Serialize)]
+#[serde(untagged)]
 enum Placed<'a> {
     Vector(&'a [Entry; 3]),
     Pair(&'a [Entry; 3], &'a [Entry; 3]),
     Frame(&'a [Displacement]),
 }
 
-impl Serialize for Placed<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Placed::Vector(vector) => vector.serialize(serializer),
-            Placed::Pair(first, second) => (first, second).serialize(serializer),
-            Placed::Frame(steps) => steps.serialize(serializer),
-        }
-    }
-}
-
 impl AxisPlace {
-    /// The fields that say it, in their order.
-    fn fields(&self) -> Vec<(&'static str, Placed<'_>)> {
+    /// The fields that say it, in their order; that of a point has different names.
+    fn fields(&self, point_name: &'static str) -> Vec<(&'static str, Placed<'_>)> {
+        let at = |point| (point_name, Placed::Vector(point));
         match self {
             AxisPlace::Along(point, direction) => {
-                let point = point.as_ref().map(|point| ("point", Placed::Vector(point)));
                 let direction = ("direction", Placed::Vector(direction));
-                point.into_iter().chain([direction]).collect()
+                point.iter().map(at).chain([direction]).collect()
             }
             AxisPlace::Through(first, second) => vec![("through", Placed::Pair(first, second))],
-            AxisPlace::Cross(point, [first, second]) => vec![
-                ("point", Placed::Vector(point)),
-                ("directions", Placed::Pair(first, second)),
-            ],
-            AxisPlace::Centre(point) => vec![("point", Placed::Vector(point))],
+            AxisPlace::Cross(point, [first, second]) => {
+                vec![at(point), ("directions", Placed::Pair(first, second))]
+            }
+            AxisPlace::Centre(point) => vec![at(point)],
             AxisPlace::Frame(steps) => vec![("frame", Placed::Frame(steps))],
         }
-    }
-
-    fn point_or_frame(&self) -> (Option<&[Entry; 3]>, Option<&Vec<Displacement>>) {
-        match self {
-            AxisPlace::Centre(point) => (Some(point), None),
-            AxisPlace::Frame(steps) => (None, Some(steps)),
-            _ => (None, None),
-        }
-    }
-}
-
-/// A word without anything behind it.
-struct Word(&'static str);
-
-impl Serialize for Word {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_unit_variant("Word", 0, self.0)
     }
 }
 
 impl Serialize for AxisDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let role = self.role.map(|role| Word(role.word()));
         let by = match self.kind {
             AxisKind::Distance => "length",
             _ => "value",
         };
+        let mut fields = serializer.serialize_struct_variant("Axis", 0, self.kind.word(), 1)?;
         // a fixed joint may be anywhere
-        let anywhere = self.kind == AxisKind::Fixed && self.place == AxisPlace::Frame(Vec::new());
-        let name = self.kind.word();
-        let mut fields = serializer.serialize_struct_variant("Axis", 0, name, 12)?;
-        for (name, value) in self.place.fields() {
-            if !anywhere {
+        if self.kind != AxisKind::Fixed || self.place != AxisPlace::Frame(Vec::new()) {
+            for (name, value) in self.place.fields("point") {
                 fields.serialize_field(name, &value)?;
             }
         }
-        fields!(Ok::<_, S::Error>(fields),
-            "second": &Bare(&self.second), if self.second.is_some();
-            "pitch": &Bare(&self.pitch), if self.pitch.is_some();
-            by: &Bare(&self.value), if self.value.is_some();
-            "home": &Bare(&self.home), if self.home.is_some();
-            "drawn": &Bare(&self.drawn), if self.drawn.is_some();
-            "limits": &Bare(&self.limits), if self.limits.is_some();
-            "role": &Bare(&role), if role.is_some();
-            "between": &Bare(&self.between), if self.between.is_some();
-        )
+        macro_rules! given {
+            ($($name:expr => $value:expr),+) => {
+                $(if $value.is_some() { fields.serialize_field($name, &Bare(&$value))?; })+
+            };
+        }
+        let second = self
+            .second
+            .as_ref()
+            .map(|place| Place("Place", "point", place));
+        given!("second" => second, "pitch" => self.pitch, by => self.value, "home" => self.home);
+        given!("drawn" => self.drawn, "limits" => self.limits, "role" => self.role, "between" => self.between);
+        fields.end()
     }
 }
 
@@ -184,6 +210,16 @@ struct Map<'a, T>(&'a [Named<T>]);
 impl<T: Serialize> Serialize for Map<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|named| (&named.name, &named.value)))
+    }
+}
+
+/// Single entries of a pose, as a map in the same order.
+struct Entries<'a>(&'a [(Spanned<MatrixEntry>, Entry)]);
+
+impl Serialize for Entries<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let entries = self.0.iter();
+        serializer.collect_map(entries.map(|(place, entry)| (place.value.to_string(), entry)))
     }
 }
 
@@ -199,104 +235,14 @@ impl<T: Serialize> Serialize for Bare<'_, T> {
     }
 }
 
-impl Serialize for Description {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // A variant is named in every layout, a structure is not.
-        fields!(serializer.serialize_struct_variant("File", 0, "Mechanism", 11),
-            "version": &VERSION, if true;
-            "name": &self.name, if true;
-            "source": &Bare(&self.source), if self.source.is_some();
-            "convention": &Bare(&self.convention), if self.convention.is_some();
-            "parameters": &Map(&self.parameters), if !self.parameters.is_empty();
-            "joints": &Map(&self.joints), if !self.joints.is_empty();
-            "chains": &Map(&self.chains), if !self.chains.is_empty();
-            "platforms": &Map(&self.platforms), if !self.platforms.is_empty();
-            "closures": &Map(&self.closures), if !self.closures.is_empty();
-            "closed_forms": &Map(&self.closed_forms), if !self.closed_forms.is_empty();
-            "outputs": &Map(&self.outputs), if !self.outputs.is_empty();
-        )
-    }
-}
-
-impl Serialize for JointDescription {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct_variant("Joint", self.role as u32, self.role.word(), 2),
-            "home": &self.home, if !self.home.expression.is_zero();
-            "limits": &Bare(&self.limits), if self.limits.is_some();
-        )
-    }
-}
-
-impl Serialize for ChainDescription {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct_variant("Body", 0, "Chain", 5),
-            "on": &Bare(&self.on), if self.on.is_some();
-            "convention": &Bare(&self.convention), if self.convention.is_some();
-            "base": &self.base, if !self.base.is_empty();
-            "rows": &self.rows, if !self.rows.is_empty();
-            "tip": &self.tip, if !self.tip.is_empty();
-        )
-    }
-}
-
-impl Serialize for Row {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct("Row", 4),
-            "alpha": &self.alpha, if !self.alpha.expression.is_zero();
-            "a": &self.a, if !self.a.expression.is_zero();
-            "d": &self.d, if !self.d.expression.is_zero();
-            "theta": &self.theta, if !self.theta.expression.is_zero();
-        )
-    }
-}
-
-impl Serialize for PlatformDescription {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct_variant("Body", 1, "Platform", 2),
-            "home": &self.home, if !self.home.is_empty();
-            "frames": &Map(&self.frames), if !self.frames.is_empty();
-        )
-    }
-}
-
-impl Serialize for ClosedFormDescription {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct_variant("Formula", 0, "ClosedForm", 10),
-            "of": &Bare(&self.of), if self.of.is_some();
-            "in": &Bare(&self.relative_to), if self.relative_to.is_some();
-            "where": &Map(&self.locals), if !self.locals.is_empty();
-            "source": &Bare(&self.source), if self.source.is_some();
-            "position": &Bare(&self.position), if self.position.is_some();
-            "rotation": &Bare(&self.rotation), if self.rotation.is_some();
-            "transform": &Bare(&self.transform), if self.transform.is_some();
-            "entries": &Entries(&self.entries), if !self.entries.is_empty();
-            "identity": &Bare(&self.identity), if self.identity.is_some();
-            "identities": &Map(&self.identities), if !self.identities.is_empty();
-        )
-    }
-}
-
-/// Single entries of a pose, as a map in the same order.
-struct Entries<'a>(&'a [(Spanned<MatrixEntry>, Entry)]);
-
-impl Serialize for Entries<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(
-            self.0
-                .iter()
-                .map(|(place, entry)| (place.value.to_string(), entry)),
-        )
-    }
-}
-
 impl Serialize for Displacement {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let entries = self.entries();
         let mut tuple =
-            serializer.serialize_tuple_variant("Displacement", 0, self.word(), entries.len())?;
-        entries
-            .iter()
-            .try_for_each(|entry| tuple.serialize_field(entry))?;
+            serializer.serialize_tuple_variant("Step", 0, self.word(), entries.len())?;
+        for entry in entries {
+            tuple.serialize_field(entry)?;
+        }
         tuple.end()
     }
 }
@@ -304,15 +250,14 @@ impl Serialize for Displacement {
 impl Serialize for ClosureDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let length = 2 + usize::from(self.length.is_some());
-        let kind = self.kind;
         let mut tuple =
-            serializer.serialize_tuple_variant("Closure", kind as u32, kind.word(), length)?;
-        self.frames
-            .iter()
-            .try_for_each(|frame| tuple.serialize_field(frame))?;
-        self.length
-            .iter()
-            .try_for_each(|length| tuple.serialize_field(length))?;
+            serializer.serialize_tuple_variant("Closure", 0, self.kind.word(), length)?;
+        for frame in &self.frames {
+            tuple.serialize_field(frame)?;
+        }
+        if let Some(length) = &self.length {
+            tuple.serialize_field(length)?;
+        }
         tuple.end()
     }
 }

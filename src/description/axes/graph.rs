@@ -5,6 +5,7 @@ use std::collections::{BTreeSet, VecDeque};
 use super::{AxesDescription, AxisDescription, AxisKind};
 use crate::description::{
     AxesProblem, GROUND, Named, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
+    unless,
 };
 use crate::number::sorting::sort_by_key;
 
@@ -63,10 +64,7 @@ impl Graph {
         if problems.is_empty() {
             problems.extend(graph.disconnected(axes));
         }
-        match problems.is_empty() {
-            true => Ok(graph),
-            false => Err(problems),
-        }
+        unless(problems, graph)
     }
 
     fn disconnected(&self, axes: &AxesDescription) -> Option<Problem> {
@@ -184,10 +182,7 @@ impl AxesDescription {
             let joint = self.joints[joint].name.value.clone();
             problems.push(AxesProblem::StillClosed { joint }.at(&self.cut[0].span));
         }
-        match problems.is_empty() {
-            true => Ok(cuts),
-            false => Err(problems),
-        }
+        unless(problems, cuts)
     }
 
     /// The joints to cut: joints that must keep their variables stay, then those with limits, those drawn in place, those
@@ -233,10 +228,7 @@ impl AxesDescription {
                 problems.push(AxesProblem::NothingToCut.at(&self.joints[joint].name.span));
             }
         }
-        match problems.is_empty() {
-            true => Ok(cuts),
-            false => Err(problems),
-        }
+        unless(problems, cuts)
     }
 
     /// What cut joints lose with their variables.

@@ -3,7 +3,7 @@
 use super::AxesDescription;
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{signed_sum, zero};
-use crate::description::{AxesProblem, AxisKind, Entry, Problem, ProblemKind, place_of};
+use crate::description::{AxesProblem, AxisKind, Entry, Problem, ProblemKind, place_of, unless};
 
 impl AxesDescription {
     /// For each joint the change of its value against the drawing, over variables; an error if values are given by one
@@ -44,10 +44,7 @@ impl AxesDescription {
                 }),
             );
         }
-        match problems.is_empty() {
-            true => Ok(moved),
-            false => Err(problems),
-        }
+        unless(problems, moved)
     }
 }
 

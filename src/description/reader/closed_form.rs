@@ -16,24 +16,24 @@ impl Reader {
             (false, false) => self.note(ProblemKind::EmptyClosedForm, fields.head()),
             _ => {}
         }
+        let f = &mut fields;
+        let position = f.take("position");
         Some(ClosedFormDescription {
-            of: self.optional_text(&mut fields, "of", Expected::Frame),
-            relative_to: self.optional_text(&mut fields, "in", Expected::Frame),
-            locals: self.named(&mut fields, "where", Noun::LocalName, Self::entry),
-            source: self.optional_text(&mut fields, "source", Expected::Text),
-            position: fields
-                .take("position")
-                .and_then(|piece| self.vector(piece, Expected::Vector)),
-            rotation: fields.take("rotation").and_then(|piece| {
+            of: self.optional_text(f, "of", Expected::Frame),
+            relative_to: self.optional_text(f, "in", Expected::Frame),
+            locals: self.named(f, "where", Noun::LocalName, Self::entry),
+            source: self.optional_text(f, "source", Expected::Text),
+            position: position.and_then(|piece| self.vector(piece, Expected::Vector)),
+            rotation: f.take("rotation").and_then(|piece| {
                 let rows = self.tuple(piece, Expected::RotationRows)?;
                 self.matrix(rows, Expected::RotationRow)
             }),
-            transform: fields
+            transform: f
                 .take("transform")
                 .and_then(|piece| self.homogeneous(piece)),
-            entries: self.matrix_entries(&mut fields),
-            identity: fields.take("identity").and_then(|piece| self.entry(piece)),
-            identities: self.named(&mut fields, "identities", Noun::Identity, Self::entry),
+            entries: self.matrix_entries(f),
+            identity: f.take("identity").and_then(|piece| self.entry(piece)),
+            identities: self.named(f, "identities", Noun::Identity, Self::entry),
         })
     }
 

@@ -55,8 +55,8 @@ fn problem(text: &str, offset: usize, error: Error) -> Problem {
     }
     .at(span);
     match unclosed(text) {
-        Some(bracket) if bracket.missed_at >= offset.min(end) && bracket.open.start < offset => {
-            problem.with(bracket.open, Note::StillOpen)
+        Some((open, missed_at)) if missed_at >= offset.min(end) && open.start < offset => {
+            problem.with(open, Note::StillOpen)
         }
         _ => problem,
     }

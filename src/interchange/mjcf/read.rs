@@ -14,6 +14,7 @@ use roxmltree::Node;
 use super::check::{AXIS, is_irrelevant, look};
 use super::constraints;
 use super::part::{Parts, pose};
+use crate::description::unless;
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::interchange::page::{Problems, direction, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
@@ -51,10 +52,7 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
     let (mut tree, parts) =
         bodies(&model, root, &mut remarks).map_err(|kind| vec![kind.anywhere()])?;
     constraints::read(root, &model, &mut tree, &parts, &mut problems, &mut remarks);
-    match problems.0.is_empty() {
-        true => Ok((tree, remarks)),
-        false => Err(problems.0),
-    }
+    unless(problems.0, (tree, remarks))
 }
 
 /// The text without some ranges, which may be nested.

@@ -11,6 +11,7 @@ use roxmltree::Node;
 
 use super::loops;
 use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
+use crate::description::unless;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, child, children, direction, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
@@ -143,10 +144,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             body.home = body.floats().then_some(pose);
         }
         tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
-        match self.problems.0.is_empty() {
-            true => Ok((tree, self.remarks)),
-            false => Err(self.problems.0),
-        }
+        unless(self.problems.0, (tree, self.remarks))
     }
 
     /// The origin of a joint, turned by `rpy` or `quat_xyzw`.
