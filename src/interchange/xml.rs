@@ -11,15 +11,14 @@ use crate::geometry::{Pose, Quaternion, Vector3};
 #[derive(Default)]
 pub(super) struct Xml(Vec<Event<'static>>);
 
-/// Names and values; one whose text is empty is left out.
-pub(super) type Attributes<'a> = &'a [(&'a str, &'a dyn Display)];
-
-fn start(tag: &'static str, attributes: Attributes) -> BytesStart<'static> {
-    let mut start = BytesStart::new(tag);
-    for (name, value) in attributes {
+/// The names of an element and of its attributes, which have these values; one whose text is empty is left out.
+fn start(names: &str, values: &[&dyn Display]) -> BytesStart<'static> {
+    let mut names = names.split(' ');
+    let mut start = BytesStart::new(names.next().unwrap_or_default().to_owned());
+    for (name, value) in names.zip(values) {
         let value = value.to_string();
         if !value.is_empty() {
-            start.push_attribute((*name, value.as_str()));
+            start.push_attribute((name, value.as_str()));
         }
     }
     start
@@ -31,12 +30,13 @@ impl Xml {
         self.0.push(Event::Comment(BytesText::from_escaped(text)));
     }
 
-    pub fn open(&mut self, tag: &'static str, attributes: Attributes) {
-        self.0.push(Event::Start(start(tag, attributes)));
+    /// Opens an element: `open("joint name type", &[&name, &kind])`.
+    pub fn open(&mut self, names: &str, values: &[&dyn Display]) {
+        self.0.push(Event::Start(start(names, values)));
     }
 
-    pub fn leaf(&mut self, tag: &'static str, attributes: Attributes) {
-        self.0.push(Event::Empty(start(tag, attributes)));
+    pub fn leaf(&mut self, names: &str, values: &[&dyn Display]) {
+        self.0.push(Event::Empty(start(names, values)));
     }
 
     pub fn close(&mut self, tag: &'static str) {

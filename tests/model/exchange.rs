@@ -496,7 +496,7 @@ fn mjcf_of_others_is_read_as_mujoco_reads_it() {
 fn complaints(text: &str) -> Vec<String> {
     match import("file", text, &no_files, None, &ImportSettings::default()) {
         Ok(_) => panic!("{text} was read"),
-        Err(wrong) => linkwork::interchange::ImportError::Wrong(wrong).lines(),
+        Err(wrong) => wrong.lines(),
     }
 }
 
@@ -762,7 +762,7 @@ fn reads_or_refuses(text: &str) -> Result<bool, TestCaseError> {
     match import("file", text, &no_files, None, &settings) {
         Err(wrong) => {
             prop_assert!(!wrong.problems.is_empty());
-            let lines = linkwork::interchange::ImportError::Wrong(wrong).lines();
+            let lines = wrong.lines();
             prop_assert!(lines.iter().all(|line| line.starts_with("file:")));
             Ok(false)
         }

@@ -31,7 +31,7 @@ fn includes_stay_in_the_folder_of_the_model() {
     let said = |include: &str, settings: &ImportSettings| {
         load(&model(&models, include), None, settings)
             .map(|_| ())
-            .map_err(|e| e.lines().join("\n"))
+            .map_err(|e| e.to_string())
     };
     assert_eq!(said("parts/part.xml", &settings), Ok(()));
     assert_eq!(said("parts/../parts/part.xml", &settings), Ok(()));

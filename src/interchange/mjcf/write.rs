@@ -16,7 +16,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Extent, Joint, Loop, Motion, Tree};
-use crate::interchange::xml::{Attributes, Xml, numbers, place, vector};
+use crate::interchange::xml::{Xml, numbers, place, vector};
 
 /// The text of an MJCF file, with remarks on what it expresses differently from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
@@ -33,21 +33,21 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     for coupling in &tree.couplings {
         let polynomial = [coupling.offset, coupling.factor, 0.0, 0.0, 0.0];
         page.equalities.leaf(
-            "joint",
+            "joint name joint1 joint2 polycoef",
             &[
-                ("name", &coupling.joint),
-                ("joint1", &coupling.joint),
-                ("joint2", &coupling.leader),
-                ("polycoef", &numbers(polynomial)),
+                &coupling.joint,
+                &coupling.joint,
+                &coupling.leader,
+                &numbers(polynomial),
             ],
         );
     }
     let mut xml = Xml::default();
-    xml.open("mujoco", &[("model", &tree.name)]);
+    xml.open("mujoco model", &[&tree.name]);
     for remark in known.iter().chain(&remarks) {
         xml.comment(&remark.to_string());
     }
-    xml.leaf("compiler", &[("angle", &"radian"), ("autolimits", &"true")]);
+    xml.leaf("compiler angle autolimits", &[&"radian", &"true"]);
     xml.block("default", defaults(tree.size));
     xml.open("worldbody", &[]);
     let order = page.bodies(&mut xml);
@@ -86,9 +86,9 @@ impl Page<'_> {
     }
 
     /// A constraint between two sites.
-    fn join(&mut self, tag: &'static str, name: &str, [a, b]: &[Site; 2]) {
-        let sites: Attributes = &[("name", &name), ("site1", &a.0), ("site2", &b.0)];
-        self.equalities.leaf(tag, sites);
+    fn join(&mut self, tag: &str, name: &str, [a, b]: &[Site; 2]) {
+        let sites = format!("{tag} name site1 site2");
+        self.equalities.leaf(&sites, &[&name, &a.0, &b.0]);
     }
 
     fn closure(&mut self, of: &Loop) -> Option<Remark> {
@@ -140,30 +140,30 @@ impl Page<'_> {
         let terms = length.terms.iter();
         let home = terms.fold(length.constant, |sum, (joint, c)| sum + c * value(joint));
         let sign = if home < 0.0 { -1.0 } else { 1.0 };
-        self.tendons.open("spatial", &[("name", &name)]);
+        self.tendons.open("spatial name", &[&name]);
         for (site, ..) in sites {
-            self.tendons.leaf("site", &[("site", site)]);
+            self.tendons.leaf("site site", &[site]);
         }
         self.tendons.close("spatial");
         let (mut second, mut factor) = (String::new(), 0.0);
         if !length.terms.is_empty() {
             (second, factor) = (format!("{name}.length"), 1.0);
-            self.tendons.open("fixed", &[("name", &second)]);
+            self.tendons.open("fixed name", &[&second]);
             for (joint, c) in &length.terms {
                 let coefficient = numbers([sign * c]);
-                let term: Attributes = &[("joint", joint), ("coef", &coefficient)];
-                self.tendons.leaf("joint", term);
+                self.tendons
+                    .leaf("joint joint coef", &[joint, &coefficient]);
             }
             self.tendons.close("fixed");
         }
         let constant = sign * length.constant - at_zero;
         self.equalities.leaf(
-            "tendon",
+            "tendon name tendon1 tendon2 polycoef",
             &[
-                ("name", &name),
-                ("tendon1", &name),
-                ("tendon2", &second),
-                ("polycoef", &numbers([constant, factor, 0.0, 0.0, 0.0])),
+                &name,
+                &name,
+                &second,
+                &numbers([constant, factor, 0.0, 0.0, 0.0]),
             ],
         );
     }
@@ -193,15 +193,9 @@ impl Page<'_> {
         let body = &self.tree.bodies[index];
         if index != 0 {
             let [pos, quat] = place(&body.pose);
-            xml.open(
-                "body",
-                &[("name", &body.name), ("pos", &pos), ("quat", &quat)],
-            );
+            xml.open("body name pos quat", &[&body.name, &pos, &quat]);
             let inertia = numbers([rounded(1e-3 * self.tree.size * self.tree.size); 3]);
-            xml.leaf(
-                "inertial",
-                &[("pos", &"0 0 0"), ("mass", &0.1), ("diaginertia", &inertia)],
-            );
+            xml.leaf("inertial pos mass diaginertia", &[&"0 0 0", &0.1, &inertia]);
         }
         for joint in &body.joints {
             write_joint(xml, joint);
@@ -211,10 +205,10 @@ impl Page<'_> {
         self.shapes(xml, body, ends, index == 0);
         for (name, pose) in &body.frames {
             let [pos, quat] = place(pose);
-            xml.leaf("site", &[("name", name), ("pos", &pos), ("quat", &quat)]);
+            xml.leaf("site name pos quat", &[name, &pos, &quat]);
         }
         for (name, point) in &self.marks[index] {
-            xml.leaf("site", &[("name", name), ("pos", &vector(point))]);
+            xml.leaf("site name pos", &[name, &vector(point)]);
         }
     }
 
@@ -237,30 +231,30 @@ impl Page<'_> {
             }
         }
         if !ground || drawn.is_empty() {
-            xml.leaf("geom", &[("type", &"sphere"), ("size", &rounded(least))]);
+            xml.leaf("geom type size", &[&"sphere", &rounded(least)]);
         }
         for end in drawn {
             let ends = numbers([0.0; 3].into_iter().chain(end.0.map(rounded)));
-            xml.leaf("geom", &[("type", &"capsule"), ("fromto", &ends)]);
+            xml.leaf("geom type fromto", &[&"capsule", &ends]);
         }
     }
 }
 
 fn write_joint(xml: &mut Xml, joint: &Joint) {
     let kind = match joint.motion {
-        Motion::Free => return xml.leaf("freejoint", &[("name", &joint.name)]),
+        Motion::Free => return xml.leaf("freejoint name", &[&joint.name]),
         Motion::Turn => "hinge",
         Motion::Slide => "slide",
         Motion::Ball => "ball",
     };
     let range = joint.limits.map(|(low, high)| numbers([low, high]));
     xml.leaf(
-        "joint",
+        "joint name type axis range",
         &[
-            ("name", &joint.name),
-            ("type", &kind),
-            ("axis", &vector(&joint.axis)),
-            ("range", &range.unwrap_or_default()),
+            &joint.name,
+            &kind,
+            &vector(&joint.axis),
+            &range.unwrap_or_default(),
         ],
     );
 }
@@ -268,18 +262,13 @@ fn write_joint(xml: &mut Xml, joint: &Joint) {
 /// How joints and shapes are displayed in a mechanism of that size.
 fn defaults(size: f64) -> Xml {
     let mut xml = Xml::default();
-    xml.leaf("joint", &[("armature", &0.01), ("damping", &0.1)]);
+    xml.leaf("joint armature damping", &[&0.01, &0.1]);
     xml.leaf(
-        "geom",
-        &[
-            ("contype", &0),
-            ("conaffinity", &0),
-            ("size", &rounded(0.015 * size)),
-            ("rgba", &"0.5 0.6 0.7 1"),
-        ],
+        "geom contype conaffinity size rgba",
+        &[&0, &0, &rounded(0.015 * size), &"0.5 0.6 0.7 1"],
     );
-    xml.leaf("site", &[("size", &rounded(0.02 * size)), ("group", &3)]);
-    xml.leaf("tendon", &[("width", &rounded(0.008 * size))]);
+    xml.leaf("site size group", &[&rounded(0.02 * size), &3]);
+    xml.leaf("tendon width", &[&rounded(0.008 * size)]);
     xml
 }
 
@@ -295,13 +284,8 @@ fn servos(tree: &Tree) -> Xml {
             _ => rounded(100.0 * tree.size * tree.size),
         };
         xml.leaf(
-            "position",
-            &[
-                ("name", &joint.name),
-                ("joint", &joint.name),
-                ("kp", &stiffness),
-                ("dampratio", &1),
-            ],
+            "position name joint kp dampratio",
+            &[&joint.name, &joint.name, &stiffness, &1],
         );
     }
     xml
@@ -323,14 +307,7 @@ fn keyframe(tree: &Tree, order: &[usize]) -> Xml {
     let mut xml = Xml::default();
     if !values.is_empty() {
         let inputs = numbers(actuated(tree).map(|joint| joint.home));
-        xml.leaf(
-            "key",
-            &[
-                ("name", &"home"),
-                ("qpos", &numbers(values)),
-                ("ctrl", &inputs),
-            ],
-        );
+        xml.leaf("key name qpos ctrl", &[&"home", &numbers(values), &inputs]);
     }
     xml
 }

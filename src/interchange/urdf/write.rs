@@ -39,7 +39,7 @@ pub fn write(tree: &Tree) -> (String, Vec<Remark>) {
     }
     remarks.push(Remark::MassesInvented);
     let mut xml = Xml::default();
-    xml.open("robot", &[("name", &tree.name)]);
+    xml.open("robot name", &[&tree.name]);
     xml.append(writer.links);
     xml.append(writer.joints);
     xml.close("robot");
@@ -154,7 +154,7 @@ impl UrdfWriter<'_> {
             let joint = format!("{} to {name}", body.name);
             self.open_joint(&joint, "fixed", [&body.name, name], pose);
             // readers want an axis and a limit of joints that do not move too
-            self.joints.leaf("axis", &[("xyz", &"1 0 0")]);
+            self.joints.leaf("axis xyz", &[&"1 0 0"]);
             self.limit(Some((0.0, 0.0)), 0.0, 0.0);
             self.joints.close("joint");
             self.link(name, false);
@@ -184,15 +184,15 @@ impl UrdfWriter<'_> {
             self.away.push(joint.name.clone());
         }
         self.open_joint(&joint.name, kind.unwrap_or(own), links, origin);
-        self.joints.leaf("axis", &[("xyz", &vector(&joint.axis))]);
+        self.joints.leaf("axis xyz", &[&vector(&joint.axis)]);
         self.limit(limits, if joint.actuated { FAR } else { 0.0 }, FAR);
         if let Some(coupling) = coupling {
             self.joints.leaf(
-                "mimic",
+                "mimic joint multiplier offset",
                 &[
-                    ("joint", &coupling.leader),
-                    ("multiplier", &numbers([coupling.factor])),
-                    ("offset", &numbers([coupling.offset])),
+                    &coupling.leader,
+                    &numbers([coupling.factor]),
+                    &numbers([coupling.offset]),
                 ],
             );
         }
@@ -200,24 +200,18 @@ impl UrdfWriter<'_> {
     }
 
     fn open_joint(&mut self, name: &str, kind: &str, links: [&str; 2], origin: &Pose<f64>) {
-        self.joints
-            .open("joint", &[("name", &name), ("type", &kind)]);
+        self.joints.open("joint name type", &[&name, &kind]);
         write_origin(&mut self.joints, origin);
-        self.joints.leaf("parent", &[("link", &links[0])]);
-        self.joints.leaf("child", &[("link", &links[1])]);
+        self.joints.leaf("parent link", &[&links[0]]);
+        self.joints.leaf("child link", &[&links[1]]);
     }
 
     fn limit(&mut self, limits: Option<(f64, f64)>, effort: f64, velocity: f64) {
         let limits = limits.map(|(low, high)| [low, high].map(|end| numbers([end])));
         let [low, high] = limits.unwrap_or_default();
         self.joints.leaf(
-            "limit",
-            &[
-                ("lower", &low),
-                ("upper", &high),
-                ("effort", &effort),
-                ("velocity", &velocity),
-            ],
+            "limit lower upper effort velocity",
+            &[&low, &high, &effort, &velocity],
         );
     }
 
@@ -229,27 +223,20 @@ impl UrdfWriter<'_> {
             false => (0.0, 0.0),
         };
         let xml = &mut self.links;
-        xml.open("link", &[("name", &name)]);
+        xml.open("link name", &[&name]);
         xml.open("inertial", &[]);
         write_origin(xml, &Pose::identity());
-        xml.leaf("mass", &[("value", &mass)]);
+        xml.leaf("mass value", &[&mass]);
         xml.leaf(
-            "inertia",
-            &[
-                ("ixx", &inertia),
-                ("ixy", &0),
-                ("ixz", &0),
-                ("iyy", &inertia),
-                ("iyz", &0),
-                ("izz", &inertia),
-            ],
+            "inertia ixx ixy ixz iyy iyz izz",
+            &[&inertia, &0, &0, &inertia, &0, &inertia],
         );
         xml.close("inertial");
         if moves {
             xml.open("visual", &[]);
             write_origin(xml, &Pose::identity());
             xml.open("geometry", &[]);
-            xml.leaf("sphere", &[("radius", &(0.02 * size))]);
+            xml.leaf("sphere radius", &[&(0.02 * size)]);
             xml.close("geometry");
             xml.close("visual");
         }
@@ -288,5 +275,5 @@ impl UrdfWriter<'_> {
 fn write_origin(xml: &mut Xml, pose: &Pose<f64>) {
     let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(&pose.rotation);
     let rpy = numbers([roll, pitch, yaw]);
-    xml.leaf("origin", &[("xyz", &vector(&pose.position)), ("rpy", &rpy)]);
+    xml.leaf("origin xyz rpy", &[&vector(&pose.position), &rpy]);
 }
