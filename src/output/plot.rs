@@ -21,6 +21,16 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Series {
+    pub(super) fn new(
+        label: impl Into<String>,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let (label, points) = (label.into(), points.into_iter().collect());
+        Series { label, points }
+    }
+}
+
 /// Values from 0 on a grid, as colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heat {
@@ -232,20 +242,21 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
         at(LEFT + across * width, ABOVE + (1.0 - up) * height)
     };
     let (grid, axis) = (Style::line(Colour(0xe1e1e1), 0.8), Style::line(INK, 1.0));
+    let mut ticks = |value: f64, ends: [(f64, f64); 2], out: Pixel, words: Pixel, anchor| {
+        let [from, to] = ends.map(place);
+        let beyond = |by: Pixel| (from.0 + by.0, from.1 + by.1);
+        shapes.push(Shape::line([from, to], grid));
+        shapes.push(Shape::line([from, beyond(out)], axis));
+        shapes.push(Shape::words(number(value), beyond(words), SMALL, anchor));
+    };
     let degrees = [&chart.x, &chart.y].map(|label| label.ends_with("(°)"));
-    for value in labels(x, width / 60.0, degrees[0]) {
-        let (from, to) = (place((value, y.0)), place((value, y.1)));
-        shapes.push(Shape::line([from, to], grid));
-        shapes.push(Shape::line([from, (from.0, from.1 + 5.0)], axis));
-        let below = (from.0, from.1 + 18.0);
-        shapes.push(Shape::words(number(value), below, SMALL, Anchor::Middle));
+    for at in labels(x, width / 60.0, degrees[0]) {
+        let ends = [(at, y.0), (at, y.1)];
+        ticks(at, ends, (0.0, 5.0), (0.0, 18.0), Anchor::Middle);
     }
-    for value in labels(y, height / 50.0, degrees[1]) {
-        let (from, to) = (place((x.0, value)), place((x.1, value)));
-        shapes.push(Shape::line([from, to], grid));
-        shapes.push(Shape::line([from, (from.0 - 5.0, from.1)], axis));
-        let beside = (from.0 - 9.0, from.1 + 4.0);
-        shapes.push(Shape::words(number(value), beside, SMALL, Anchor::End));
+    for at in labels(y, height / 50.0, degrees[1]) {
+        let ends = [(x.0, at), (x.1, at)];
+        ticks(at, ends, (-5.0, 0.0), (-9.0, 4.0), Anchor::End);
     }
     shapes.push(Shape::rectangle(place((x.0, y.1)), place((x.1, y.0)), axis));
     let below = at(LEFT + width / 2.0, ABOVE + height + 0.7 * BELOW);

@@ -17,18 +17,15 @@ pub fn svg(report: &LocusReport) -> String {
         let loci = report.loci.iter().enumerate();
         loci.filter(move |(_, locus)| locus.shape == shape)
     };
-    let series = of(Shape::Curve).map(|(i, locus)| Series {
-        label: format!("{} {}", kind(locus), i + 1),
-        points: locus.points.iter().map(point).collect(),
+    let series = of(Shape::Curve).map(|(i, locus)| {
+        let label = format!("{} {}", kind(locus), i + 1);
+        Series::new(label, locus.points.iter().map(point))
     });
     let single = ["direct", "inverse"].map(|wanted| {
         let points = of(Shape::Point).filter(|(_, locus)| kind(locus) == wanted);
         let numbers = points.clone().map(|(i, _)| (i + 1).to_string());
         let points = points.flat_map(|(_, locus)| &locus.points);
-        Series {
-            label: format!("{wanted} {}", listed(numbers)),
-            points: points.map(point).collect(),
-        }
+        Series::new(format!("{wanted} {}", listed(numbers)), points.map(point))
     });
     let crossings = report.loci.iter().flat_map(|locus| &locus.crossings);
     let corner = |k: usize| {
@@ -43,26 +40,16 @@ pub fn svg(report: &LocusReport) -> String {
         (left, high),
         (left, low),
     ];
-    let border = Series {
-        label: "box".into(),
-        points: corners.to_vec(),
-    };
-    let crossings = Series {
-        label: "loci cross".into(),
-        points: crossings.map(point).collect(),
-    };
+    let crossings = Series::new("loci cross", crossings.map(point));
     let cusps = report.loci.iter().flat_map(|locus| &locus.cusps);
-    let cusps = Series {
-        label: "cusps".into(),
-        points: cusps.map(|cusp| point(&cusp.point)).collect(),
-    };
+    let cusps = Series::new("cusps", cusps.map(|cusp| point(&cusp.point)));
     let marks = single.into_iter().chain([crossings, cusps]);
     plot::stacked(&[Chart {
         title: format!("{}: singularities", report.mechanism),
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
-        series: series.chain([border]).collect(),
+        series: series.chain([Series::new("box", corners)]).collect(),
         marks: marks.filter(|marks| !marks.points.is_empty()).collect(),
         ..Chart::default()
     }])

@@ -118,10 +118,7 @@ fn picture(
             let points = points.map(|p| (shown(x, p[0]), shown(y, p[1])));
             points.chain([(f64::NAN, f64::NAN)])
         });
-        Series {
-            label: (*name).into(),
-            points: points.collect(),
-        }
+        Series::new(*name, points)
     });
     let at = slice.map_or(String::new(), |(z, _)| {
         let value = third.unwrap_or(0.0);
@@ -168,10 +165,7 @@ fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
             before = Some(cell.node);
             points.push((shown(axis, cell.at[0]), quality(cell.condition)));
         }
-        Series {
-            label: format!("mode {}", mode.mode),
-            points,
-        }
+        Series::new(format!("mode {}", mode.mode), points)
     });
     Chart {
         title: format!("{}: conditioning", report.mechanism),

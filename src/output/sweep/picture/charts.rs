@@ -57,18 +57,13 @@ impl Picture {
         let mut marks: Vec<Series> = Vec::new();
         for drawn in &self.motions {
             for (name, at) in curves {
-                series.push(Series {
-                    label: self.label(name, drawn.mode),
-                    points: drawn.rows.kept.iter().map(|row| at(row)).collect(),
-                });
+                let points = drawn.rows.kept.iter().map(|row| at(row));
+                series.push(Series::new(self.label(name, drawn.mode), points));
                 for (label, values) in &drawn.marks {
                     let point = at(values);
                     match marks.iter_mut().find(|marks| marks.label == *label) {
                         Some(known) => known.points.push(point),
-                        None => marks.push(Series {
-                            label: (*label).to_owned(),
-                            points: vec![point],
-                        }),
+                        None => marks.push(Series::new(*label, [point])),
                     }
                 }
             }
@@ -155,10 +150,8 @@ impl Picture {
             .collect();
         let (series, mut marks) = self.chart(&curves);
         if !self.double_points.is_empty() {
-            marks.push(Series {
-                label: "double points".into(),
-                points: self.double_points.iter().map(|point| seen(point)).collect(),
-            });
+            let points = self.double_points.iter().map(|point| seen(point));
+            marks.push(Series::new("double points", points));
         }
         let points: Vec<Triple> = scenes.iter().flat_map(Scene::points).collect();
         let bounds = camera.bounds(&points);
