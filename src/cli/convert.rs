@@ -9,7 +9,7 @@ use linkwork::mechanism::NamedPoint;
 use linkwork::output::complaint::{Complaint, Part};
 use linkwork::output::{Report, conversion};
 
-use super::format::{Format, Tables, with_file};
+use super::format::{Format, with_file};
 use super::source::{Assignment, Loaded, Source};
 use super::words::question::no_point;
 use super::{Answer, Refusal, lines, style};
@@ -26,7 +26,7 @@ pub struct Convert {
     source: Source,
     /// The convention of all chains
     #[arg(long, value_enum)]
-    convention: Option<Tables>,
+    convention: Option<Convention>,
     /// Break the mechanism at this joint; a closure of its loop becomes rows with variables of its own
     #[arg(long, value_name = "JOINT")]
     cut: Option<String>,
@@ -61,7 +61,7 @@ impl Convert {
             return Err(said.into());
         }
         let settings = ConvertSettings {
-            convention: self.convention.map(Convention::from),
+            convention: self.convention,
             cut: self.cut.clone(),
         };
         let (mechanism, description) = (&loaded.mechanism, &loaded.description);

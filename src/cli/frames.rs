@@ -10,7 +10,7 @@ use linkwork::description::{AxesDescription, Convention, LoadError, is_mechanism
 use linkwork::mechanism::Mechanism;
 use linkwork::output::frames as output;
 
-use super::format::{Format, Tables, with_file};
+use super::format::{Format, with_file};
 use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
@@ -32,7 +32,7 @@ pub struct Frames {
     file: PathBuf,
     /// The convention of the tables; that of the file, or else modified
     #[arg(long, value_enum)]
-    convention: Option<Tables>,
+    convention: Option<Convention>,
     /// Report the 14 steps of the Denavit–Hartenberg algorithm one by one
     #[arg(long)]
     steps: bool,
@@ -60,7 +60,7 @@ impl Frames {
 
     fn settings(&self) -> FramesSettings {
         FramesSettings {
-            convention: self.convention.map(Convention::from),
+            convention: self.convention,
         }
     }
 

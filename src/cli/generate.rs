@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::solver::NoSolver;
 use linkwork::output::complaint::Complaint;
 use linkwork::output::solver::{Code, Language, Precision};
@@ -26,10 +26,10 @@ pub struct Generate {
     source: Source,
     /// The language
     #[arg(long, value_enum)]
-    lang: Lang,
+    lang: Language,
     /// The floating-point numbers
     #[arg(long, value_enum, default_value = "double")]
-    precision: Numbers,
+    precision: Precision,
     /// Add the pose of a frame and its twists for unit rates of the inputs, e.g. --frame top.S1
     #[arg(long, value_name = "FRAME")]
     frame: Vec<String>,
@@ -47,22 +47,6 @@ pub struct Generate {
     mode: Option<usize>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Lang {
-    /// C99, a header of static functions.
-    C,
-    /// Rust, a module that needs no standard library.
-    Rust,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Numbers {
-    /// 32 bits.
-    Single,
-    /// 64 bits.
-    Double,
-}
-
 impl Generate {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
@@ -74,14 +58,8 @@ impl Generate {
         let solver = posed.ask(|question, watch| question.solver_program(&frames, watch))?;
         let solver = solver.map_err(|none| Refusal::from(complaint(&none)))?;
         let code = Code {
-            language: match self.lang {
-                Lang::C => Language::C,
-                Lang::Rust => Language::Rust,
-            },
-            precision: match self.precision {
-                Numbers::Single => Precision::Single,
-                Numbers::Double => Precision::Double,
-            },
+            language: self.lang,
+            precision: self.precision,
             name: identifier(self.output.as_ref().unwrap_or(&self.source.beside(""))),
         };
         if let (Some(count), Some(path)) = (self.with_test, &self.output) {

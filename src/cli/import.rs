@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::description::{self, LoadError, ProblemKind};
+use linkwork::description::{self, Convention, LoadError, ProblemKind};
 use linkwork::interchange::{ImportError, ImportSettings, load};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
 
 use super::export::remarks;
-use super::format::Tables;
 use super::written::written;
 use super::{Answer, Refusal, style};
 
@@ -35,8 +34,8 @@ pub struct Import {
     #[arg(long, value_name = "DIR")]
     include_from: Vec<PathBuf>,
     /// The convention of the tables
-    #[arg(long, value_enum, default_value_t = Tables::Modified)]
-    convention: Tables,
+    #[arg(long, value_enum, default_value_t = Convention::Modified)]
+    convention: Convention,
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -46,7 +45,7 @@ impl Import {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loops = self.loops.as_ref().map(description::load).transpose()?;
         let settings = ImportSettings {
-            convention: self.convention.into(),
+            convention: self.convention,
             frames: self.frame.clone(),
             all_frames: self.frame.iter().any(|name| name == "all"),
             include_from: self.include_from.clone(),

@@ -66,11 +66,15 @@ pub struct Description {
 }
 
 words! {
-    /// The convention by which frames are attached in a Denavit–Hartenberg table.
+    /// The convention by which frames are attached in a Denavit–Hartenberg table: a row is T = Rx(alpha) Tx(a) Rz(theta)
+    /// Tz(d) in the modified one, T = Rz(theta) Tz(d) Tx(a) Rx(alpha) in the standard one.
+    #[derive(Default)]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
     Convention {
-        /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
+        /// Rows (α(i−1), a(i−1), d(i), θ(i)), z of frame i along joint i (Craig)
+        #[default]
         Modified = "Modified",
-        /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
+        /// Rows (θ(i), d(i), a(i), α(i)), z of frame i−1 along joint i (Denavit and Hartenberg)
         Standard = "Standard",
     }
 

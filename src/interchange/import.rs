@@ -14,7 +14,7 @@ use super::urdf;
 use crate::description::{Convention, Description, LoadError, load_text, nearest};
 
 /// How a file is read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportSettings {
     /// The convention of the tables.
     pub convention: Convention,
@@ -24,17 +24,6 @@ pub struct ImportSettings {
     pub all_frames: bool,
     /// Folders beside that of the model from which included files may be read.
     pub include_from: Vec<PathBuf>,
-}
-
-impl Default for ImportSettings {
-    fn default() -> Self {
-        ImportSettings {
-            convention: Convention::Modified,
-            frames: Vec::new(),
-            all_frames: false,
-            include_from: Vec::new(),
-        }
-    }
 }
 
 /// A description made from a file of another program.
@@ -57,16 +46,6 @@ pub enum ImportError {
     /// The file has problems.
     #[error(transparent)]
     Wrong(WrongFile),
-}
-
-impl ImportError {
-    /// All problems, one line each: `file:line:column: problem (hint)`.
-    pub fn lines(&self) -> Vec<String> {
-        match self {
-            ImportError::Unreadable(error) => vec![error.to_string()],
-            ImportError::Wrong(wrong) => wrong.lines(),
-        }
-    }
 }
 
 /// Reads a URDF or MJCF file; MJCF with the files it includes, which lie in its folder or in those of

@@ -25,24 +25,19 @@ impl Code {
     pub fn solver(&self, solver: &Solver) -> String {
         let language = self.language;
         let writer = Writer::new(self, solver);
+        let values = |of: &[Component]| self.numbers(of.iter().map(|component| component.value));
         let sections = [
             ("heading", self.heading(solver)),
-            (
-                "start_inputs",
-                self.numbers(solver.inputs.iter().map(|component| component.value)),
-            ),
-            (
-                "start_state",
-                self.numbers(solver.state.iter().map(|component| component.value)),
-            ),
+            ("start_inputs", values(&solver.inputs)),
+            ("start_state", values(&solver.state)),
             ("fast", writer.fast()),
             ("linearise", writer.linearise()),
             ("move", writer.moved()),
             ("normalise", writer.normalise()),
             ("frames", writer.frames()),
-            ("sine", self.precision.sine(language)),
+            ("sine", self.sine()),
             ("closed", writer.closed()),
-            ("arctangent", self.precision.arctangent(language)),
+            ("arctangent", self.arctangent()),
         ];
         let left_out = match solver.closed {
             Some(_) => "iteration",
@@ -72,6 +67,7 @@ impl Code {
 
     /// The names and counts put in.
     fn named(&self, text: String, solver: &Solver) -> String {
+        let signs = solver.closed.as_ref();
         let counts = [
             ("@inputs@", solver.inputs.len()),
             ("@state@", solver.state.len()),
@@ -79,26 +75,20 @@ impl Code {
             ("@unknowns@", solver.unknowns),
             ("@rows@", solver.residual.len()),
             ("@frame_count@", solver.frames.len()),
-            (
-                "@signs@",
-                solver
-                    .closed
-                    .as_ref()
-                    .map_or(0, |closed| closed.signs.len()),
-            ),
+            ("@signs@", signs.map_or(0, |closed| closed.signs.len())),
         ];
         let text = counts.into_iter().fold(text, |text, (name, count)| {
             text.replace(name, &count.to_string())
         });
         let text = text.replace("@least_pivot@", &format!("{LEAST_PIVOT:e}"));
-        let words = self.precision.words(self.language);
+        let words = self.words();
         let text = words.fold(text, |text, (name, word)| text.replace(name, word));
         text.replace("@NAME@", &self.name.to_uppercase())
             .replace("@name@", &self.name)
     }
 
     fn numbers(&self, numbers: impl Iterator<Item = f64>) -> String {
-        let numbers = numbers.map(|x| self.precision.literal(x, self.language));
+        let numbers = numbers.map(|x| self.literal(x));
         let numbers: Vec<String> = numbers.collect();
         let lines = numbers
             .chunks(4)

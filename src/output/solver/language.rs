@@ -1,9 +1,11 @@
 //! What differs between the languages.
 
+use super::Code;
 use crate::algebra::{Operation, Place};
 
 /// The language of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Language {
     /// C99, a header of static functions.
     C,
@@ -13,6 +15,7 @@ pub enum Language {
 
 /// The numbers of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Precision {
     /// 32 bits.
     Single,
@@ -164,22 +167,22 @@ pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String
 
 type Series = &'static [f64];
 
-impl Precision {
+impl Code {
     /// A constant.
-    pub(super) fn literal(self, x: f64, language: Language) -> String {
-        let digits = match self {
+    pub(super) fn literal(&self, x: f64) -> String {
+        let digits = match self.precision {
             Precision::Double => format!("{x:?}"),
             Precision::Single => format!("{:?}", x as f32),
         };
-        match (self, language) {
+        match (self.precision, self.language) {
             (Precision::Single, Language::C) => digits + "f",
             _ => digits,
         }
     }
 
     /// The same as an operand.
-    pub(super) fn operand(self, x: f64, language: Language) -> String {
-        let literal = self.literal(x, language);
+    pub(super) fn operand(&self, x: f64) -> String {
+        let literal = self.literal(x);
         match x < 0.0 {
             true => format!("({literal})"),
             false => literal,
@@ -187,11 +190,9 @@ impl Precision {
     }
 
     /// All words to be replaced, in order: some stand in what replaces others.
-    pub(super) fn words(
-        self,
-        language: Language,
-    ) -> impl Iterator<Item = (&'static str, &'static str)> {
-        let (real, suffix) = match (self, language) {
+    pub(super) fn words(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let precision = self.precision;
+        let (real, suffix) = match (self.precision, self.language) {
             (Precision::Double, Language::C) => ("double", ""),
             (Precision::Single, Language::C) => ("float", "f"),
             (Precision::Double, Language::Rust) => ("f64", ""),
@@ -217,17 +218,17 @@ impl Precision {
             ("@root_guess@", guesses[0], guesses[1]),
             ("@root_steps@", "4", "3"),
         ];
-        let words = words.map(|(word, double, single)| match self {
+        let words = words.map(move |(word, double, single)| match precision {
             Precision::Double => (word, double),
             Precision::Single => (word, single),
         });
-        let words = language.words().into_iter().chain(words);
+        let words = self.language.words().into_iter().chain(words);
         words.chain([("@real@", real), ("@f@", suffix)])
     }
 
     /// Σ cₖ zᵏ in pairs, by w = z²: more at once than one after the other.
-    fn series(self, of: Series, language: Language) -> String {
-        let number = |x: f64| self.operand(x, language);
+    fn series(&self, of: Series) -> String {
+        let number = |x: f64| self.operand(x);
         let pairs = of.chunks(2).map(|pair| match pair {
             [x, y] => format!("({} + z * {})", number(*x), number(*y)),
             rest => number(rest[0]),
@@ -239,9 +240,9 @@ impl Precision {
     }
 
     /// The angle a of a tangent t, |t| ≤ √2 − 1.
-    pub(super) fn arctangent(self, language: Language) -> String {
+    pub(super) fn arctangent(&self) -> String {
         // (atan t − t)/t³ by powers of t²
-        let series: Series = match self {
+        let series: Series = match self.precision {
             Precision::Double => &[
                 -3.333_333_333_333_293e-1,
                 1.999_999_999_987_648_3e-1,
@@ -262,17 +263,17 @@ impl Precision {
                 8.053_744_495_38e-2,
             ],
         };
-        let sum = format!("t + t * z * {}", self.series(series, language));
+        let sum = format!("t + t * z * {}", self.series(series));
         [bound("z", "t * t"), bound("w", "z * z"), bound("a", &sum)]
             .map(|line| format!("    {line}"))
             .concat()
     }
 
     /// Sine s and cosine c of the rest r of an angle x beyond k quarter turns, |r| ≤ π/4.
-    pub(super) fn sine(self, language: Language) -> String {
+    pub(super) fn sine(&self) -> String {
         // π/2 in three parts, the first two with zeros in their last bits, so that products with k are exact; then
         // (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ by powers of r²
-        let (parts, sine, cosine): ([f64; 3], Series, Series) = match self {
+        let (parts, sine, cosine): ([f64; 3], Series, Series) = match self.precision {
             Precision::Double => (
                 [
                     1.570_796_326_734_125_6,
@@ -310,11 +311,11 @@ impl Precision {
                 ],
             ),
         };
-        let number = |x: f64| self.operand(x, language);
-        let series = |of: Series| self.series(of, language);
+        let number = |x: f64| self.operand(x);
+        let series = |of: Series| self.series(of);
         let [p, q, s] = parts.map(number);
-        let half = self.literal(0.5, language);
-        let one = self.literal(1.0, language);
+        let half = self.literal(0.5);
+        let one = self.literal(1.0);
         [
             bound("r", &format!("((x - k * {p}) - k * {q}) - k * {s}")),
             bound("z", "r * r"),

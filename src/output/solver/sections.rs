@@ -49,7 +49,7 @@ impl<'a> Writer<'a> {
     fn name(&self, place: Place, carries: bool) -> String {
         let (given, kept) = (self.solver.inputs.len(), self.solver.state.len());
         match self.solver.operations[place as usize] {
-            Operation::Constant(x) => self.code.precision.operand(x, self.code.language),
+            Operation::Constant(x) => self.code.operand(x),
             Operation::Input(i) => match i as usize {
                 i if i < given => format!("u{i}"),
                 i if i < given + kept => format!("x{}", i - given),
@@ -114,21 +114,14 @@ impl<'a> Writer<'a> {
 
     /// Newton's method where every step is a good one.
     pub fn fast(&self) -> String {
-        let Solver {
-            iterated,
-            step,
-            moved,
-            placed,
-            state,
-            ..
-        } = self.solver;
+        let solver = self.solver;
         let language = self.code.language;
-        let zero = self.code.precision.literal(0.0, language);
-        let steps = || step.iter().map(|(_, place)| *place);
-        let rows = || iterated.iter().map(|(row, _)| *row);
+        let zero = self.code.literal(0.0);
+        let steps = || solver.step.iter().map(|(_, place)| *place);
+        let rows = || solver.iterated.iter().map(|(row, _)| *row);
         let used = self.needed(rows().chain(steps()));
-        let follows: BTreeMap<usize, Place> = placed.iter().copied().collect();
-        let free: Vec<usize> = (0..state.len())
+        let follows: BTreeMap<usize, Place> = solver.placed.iter().copied().collect();
+        let free: Vec<usize> = (0..solver.state.len())
             .filter(|i| !follows.contains_key(i))
             .collect();
         let angles = self.angles(&used);
@@ -154,9 +147,9 @@ impl<'a> Writer<'a> {
         text.indent = 2;
         text.operations(self.needed(rows()));
         text.line(&variable("size", &zero));
-        for &(row, factor) in iterated {
+        for &(row, factor) in &solver.iterated {
             let name = self.name(row, true);
-            let factor = (factor != 1.0).then(|| self.code.precision.literal(factor, language));
+            let factor = (factor != 1.0).then(|| self.code.literal(factor));
             let row = factor.map_or(name.clone(), |factor| format!("{factor} * {name}"));
             text.line(&larger("size", &row));
         }
@@ -180,7 +173,7 @@ impl<'a> Writer<'a> {
         }
         text.operations(of_placed.iter().copied());
         text.pivots(&of_placed);
-        for i in 0..state.len() {
+        for i in 0..solver.state.len() {
             let value = follows.get(&i).map(|&place| self.name(place, true));
             let value = value.unwrap_or_else(|| format!("x{i}"));
             text.line(&format!("x[{i}] = {value};\n"));
@@ -194,22 +187,22 @@ impl<'a> Writer<'a> {
         text.line("last = size;\n");
         text.operations(self.needed(steps()));
         text.pivots(&used);
-        for (i, part) in step {
+        for (i, part) in &solver.step {
             text.line(&bound(&format!("d{i}"), &self.name(*part, true)));
         }
         text.line(&variable("longest", &zero));
-        for (i, _) in step {
+        for (i, _) in &solver.step {
             text.line(&larger("longest", &format!("d{i}")));
         }
         text.line(&language.gives_up_if("!(longest <= LONGEST_STEP)"));
-        text.operations(self.needed(free.iter().map(|i| moved[*i])));
+        text.operations(self.needed(free.iter().map(|i| solver.moved[*i])));
         for &i in &angles {
             let by = self.change(i);
             text.line(&language.turned_on(&format!("s{i}"), &format!("c{i}"), &by));
         }
         // all at once: one may depend on another
         for i in &free {
-            text.line(&bound(&format!("y{i}"), &self.name(moved[*i], true)));
+            text.line(&bound(&format!("y{i}"), &self.name(solver.moved[*i], true)));
         }
         for i in &free {
             text.line(&format!("x{i} = y{i};\n"));
@@ -230,9 +223,7 @@ impl<'a> Writer<'a> {
 
     /// Rows and Jacobian into arrays.
     pub fn linearise(&self) -> String {
-        let Solver {
-            residual, jacobian, ..
-        } = self.solver;
+        let (residual, jacobian) = (&self.solver.residual, &self.solver.jacobian);
         let used = self.needed(residual.iter().chain(jacobian.iter().flatten()).copied());
         let mut text = self.text(1, false);
         text.numbers(&used, "u");
@@ -251,13 +242,11 @@ impl<'a> Writer<'a> {
 
     /// The state moved by a step.
     pub fn moved(&self) -> String {
-        let Solver {
-            moved, unknowns, ..
-        } = self.solver;
+        let moved = &self.solver.moved;
         let used = self.needed(moved.iter().copied());
         let mut text = self.text(1, false);
         text.numbers(&used, "x");
-        for i in 0..*unknowns {
+        for i in 0..self.solver.unknowns {
             let read = format!("d[{i}]");
             text.line(&bound(&format!("d{i}"), &read));
         }
@@ -276,7 +265,7 @@ impl<'a> Writer<'a> {
             |&(i, component): &(usize, &Component)| component.name.ends_with(".qw") && !placed(i);
         for (i, _) in self.solver.state.iter().enumerate().filter(first) {
             let squares: Vec<String> = (i..i + 4).map(|i| format!("x[{i}] * x[{i}]")).collect();
-            let of = |x: f64| self.code.precision.literal(x, self.code.language);
+            let of = |x: f64| self.code.literal(x);
             let factor = format!("{} - {} * ({})", of(1.5), of(0.5), squares.join(" + "));
             text.line(&bound(&format!("f{i}"), &factor));
             (i..i + 4).for_each(|k| text.line(&format!("x[{k}] *= f{i};\n")));

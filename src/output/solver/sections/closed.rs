@@ -33,7 +33,7 @@ impl Writer<'_> {
             ));
         }
         for &(place, least) in &closed.divisors {
-            let least = self.code.precision.literal(least, language);
+            let least = self.code.literal(least);
             let zero = format!("!(@fabs@({}) > {least})", self.name(place, false));
             text.line(&language.returns_if("@undetermined@", &zero));
         }

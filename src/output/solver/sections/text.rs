@@ -44,7 +44,7 @@ impl Text<'_, '_> {
         for pivot in pivots.filter(|pivot| used.contains(&pivot.inverse)) {
             self.operations(self.writer.needed([pivot.place]));
             let name = self.writer.name(pivot.place, self.carries);
-            let scale = code.precision.literal(pivot.scale, code.language);
+            let scale = code.literal(pivot.scale);
             let small = format!("!(@fabs@({name}) > {scale} * LEAST_PIVOT)");
             self.line(&code.language.gives_up_if(&small));
         }
