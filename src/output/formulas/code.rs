@@ -127,6 +127,19 @@ struct Writer<'r> {
 type Angles = BTreeMap<String, (usize, bool, bool)>;
 
 impl Writer<'_> {
+    /// The arguments that expressions use, beside what is found on the way.
+    fn given<'e>(
+        &self,
+        expressions: impl Iterator<Item = &'e Expression>,
+        found: &BTreeSet<String>,
+    ) -> Vec<String> {
+        let names = expressions.flat_map(|e| e.names()).map(|(name, _)| name);
+        let used: BTreeSet<&String> = names.filter(|name| !found.contains(*name)).collect();
+        let given = self.arguments.iter();
+        let given = given.filter(|(letter, _)| used.iter().any(|used| used.as_str() == *letter));
+        given.map(|(_, name)| format!("{name}: f64")).collect()
+    }
+
     fn function(
         &mut self,
         name: &str,
@@ -135,14 +148,7 @@ impl Writer<'_> {
         rows: &[Vec<&Expression>],
     ) -> String {
         let name = unique(&identifier(name), &mut self.functions);
-        let all = || rows.iter().flatten();
-        let used: BTreeSet<&str> = all()
-            .flat_map(|e| e.names())
-            .map(|(name, _)| name.as_str())
-            .collect();
-        let given = self.arguments.iter();
-        let given = given.filter(|(letter, _)| used.contains(letter));
-        let given: Vec<String> = given.map(|(_, name)| format!("{name}: f64")).collect();
+        let given = self.given(rows.iter().flatten().copied(), &BTreeSet::new());
         let mut angles = Angles::new();
         let rows = rows.iter().map(|row| {
             let entries = row.iter().map(|e| spaced(&self.code(e, &mut angles)));
@@ -199,20 +205,8 @@ impl Writer<'_> {
         };
         let found: BTreeSet<String> = steps.iter().flat_map(parts).map(|(name, _)| name).collect();
         let all: Vec<(String, Expression)> = steps.iter().flat_map(parts).collect();
-        let used: BTreeSet<&String> = (all.iter())
-            .flat_map(|(_, value)| value.names())
-            .map(|(name, _)| name)
-            .filter(|name| !found.contains(*name))
-            .collect();
-        let signs = solution.signs.iter();
-        let given = self
-            .arguments
-            .iter()
-            .filter(|(letter, _)| used.contains(&(*letter).to_owned()));
-        let given = given.map(|(_, name)| format!("{name}: f64"));
-        let given: Vec<String> = given
-            .chain(signs.map(|sign| format!("{sign}: f64")))
-            .collect();
+        let mut given = self.given(all.iter().map(|(_, value)| value), &found);
+        given.extend(solution.signs.iter().map(|sign| format!("{sign}: f64")));
         let (mut angles, mut lines) = (Angles::new(), String::new());
         for step in steps {
             for (name, value) in parts(step) {

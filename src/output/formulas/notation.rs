@@ -205,11 +205,15 @@ impl Notation {
         }
     }
 
-    fn minus(&self) -> &'static str {
+    fn pick<'t>(&self, unicode: &'t str, latex: &'t str) -> &'t str {
         match self.script {
-            Script::Unicode => "−",
-            Script::Latex => "-",
+            Script::Unicode => unicode,
+            Script::Latex => latex,
         }
+    }
+
+    fn minus(&self) -> &'static str {
+        self.pick("−", "-")
     }
 
     fn printed(&self, expression: &Expression) -> Printed {
@@ -224,10 +228,7 @@ impl Notation {
                     (word, Script::Latex) => format!("{value}\\,\\mathrm{{{word}}}"),
                 })
             }
-            Node::Constant(Constant::Pi) => match self.script {
-                Script::Unicode => operand("π".into()).compact(true),
-                Script::Latex => operand("\\pi".into()).compact(true),
-            },
+            Node::Constant(Constant::Pi) => operand(self.pick("π", "\\pi").into()).compact(true),
             Node::Constant(other) => operand(other.word().into()),
             Node::Name(name) => operand(self.name(name)).compact(self.is_compact(name)),
             Node::Negate(x) => {
@@ -248,10 +249,8 @@ impl Notation {
     }
 
     fn enclosed(&self, text: &str) -> String {
-        match self.script {
-            Script::Unicode => format!("({text})"),
-            Script::Latex => format!("\\left({text}\\right)"),
-        }
+        let [open, shut] = [self.pick("(", "\\left("), self.pick(")", "\\right)")];
+        format!("{open}{text}{shut}")
     }
 
     fn operation(
@@ -325,13 +324,9 @@ impl Notation {
                 false => printed.text,
             };
             if i > 0 && !(compact && (printed.compact || enclosed)) {
-                text += if self.script == Script::Latex {
-                    " \\, "
-                } else {
-                    " "
-                };
-            } else if i > 0 && self.script == Script::Latex {
-                text.push(' ');
+                text += self.pick(" ", " \\, ");
+            } else if i > 0 {
+                text += self.pick("", " ");
             }
             text += &own;
             compact = printed.compact

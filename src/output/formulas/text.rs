@@ -157,21 +157,16 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
 }
 
 fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
-    let ClosureFormula {
-        name,
-        kind,
-        between: [a, b],
-        equations,
-        identically_zero,
-        distance,
-        same_axes,
-        admits_flipped,
-    } = closure;
-    let mut text = format!("{name}: {} between {a} and {b}\n", kind.word());
-    for equation in equations {
+    let [a, b] = &closure.between;
+    let mut text = format!(
+        "{}: {} between {a} and {b}\n",
+        closure.name,
+        closure.kind.word()
+    );
+    for equation in &closure.equations {
         text += &format!("  {} = 0\n", notation.print(equation));
     }
-    if let Some((gap, length)) = distance {
+    if let Some((gap, length)) = &closure.distance {
         for (axis, component) in ["x", "y", "z"].into_iter().zip(gap) {
             text += &format!("  g{axis} = {}\n", notation.print(component));
         }
@@ -182,15 +177,18 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         };
         text += &format!("  gx² + gy² + gz² = {length}\n");
     }
-    if *identically_zero > 0 {
-        let hold = form(*identically_zero, "holds", "hold");
-        let more = format!("{} {hold}", count(*identically_zero, "more equation"));
+    if closure.identically_zero > 0 {
+        let hold = form(closure.identically_zero, "holds", "hold");
+        let more = format!(
+            "{} {hold}",
+            count(closure.identically_zero, "more equation")
+        );
         text += &format!("  {more} at all joint values\n");
     }
-    if *same_axes {
+    if closure.same_axes {
         text += &format!("  and the axes n, s, a of {a} are those of {b}\n");
     }
-    if *admits_flipped && equations.len() > 3 {
+    if closure.admits_flipped && closure.equations.len() > 3 {
         text += "  and the axes point the same way: these equations hold for opposite ones too\n";
     }
     text
