@@ -2,7 +2,6 @@
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use linkwork::description::Convention;
 use linkwork::output::{Document, JsonReport, Report, html, json, markdown, text};
 
 use super::written::rows;
@@ -27,21 +26,30 @@ pub enum Format {
 
 impl Format {
     /// The whole report in this format; nothing in one that consists of rows, or of a file.
-    pub fn shown(self, report: &impl JsonReport) -> String {
+    pub fn shown(self, report: &impl JsonReport, document: &Document) -> String {
         match self {
-            Format::Text => text::render(&report.document()),
+            Format::Text => text::render(document),
             Format::Json => json::render(report),
-            Format::Markdown => markdown::render(&report.document()),
-            Format::Html => html::render(&report.document()),
+            Format::Markdown => markdown::render(document),
+            Format::Html => html::render(document),
             Format::Csv | Format::Ron => String::new(),
         }
     }
 
     pub fn answer(self, report: &impl JsonReport) -> Result<Answer, Refusal> {
+        self.answer_by(report, report.document())
+    }
+
+    /// The same with another document.
+    pub fn answer_by(
+        self,
+        report: &impl JsonReport,
+        document: Document,
+    ) -> Result<Answer, Refusal> {
         let mut answer = Answer {
-            data: self.shown(report),
-            remarks: lines("warning", report.warnings()),
-            yes: report.is_yes(),
+            data: self.shown(report, &document),
+            remarks: lines("warning", document.warnings),
+            yes: !document.no,
         };
         match (self, report.rows(), report.file()) {
             (Format::Csv, Some(all), _) => {
@@ -74,9 +82,10 @@ pub fn beside_rows(report: &impl Report, whole: bool) -> String {
         answer,
         notes,
         method,
+        no,
         ..
     } = report.document();
-    let answer = (!report.is_yes()).then_some(answer);
+    let answer = no.then_some(answer);
     lines("note", answer.into_iter().chain(notes).chain(method))
 }
 
@@ -97,22 +106,4 @@ fn all_but(without: &[Format]) -> impl TypedValueParser<Value = Format> + use<> 
     let formats = formats.filter(|format| !without.contains(format));
     PossibleValuesParser::new(formats.filter_map(ValueEnum::to_possible_value))
         .try_map(|name| Format::from_str(&name, false))
-}
-
-/// A convention of Denavit–Hartenberg tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Tables {
-    /// Rows (α(i−1), a(i−1), d(i), θ(i)), z of frame i along joint i (Craig)
-    Modified,
-    /// Rows (θ(i), d(i), a(i), α(i)), z of frame i−1 along joint i (Denavit and Hartenberg)
-    Standard,
-}
-
-impl From<Tables> for Convention {
-    fn from(tables: Tables) -> Self {
-        match tables {
-            Tables::Modified => Convention::Modified,
-            Tables::Standard => Convention::Standard,
-        }
-    }
 }

@@ -65,10 +65,8 @@ impl Frames {
     }
 
     fn tables(&self, report: &FramesReport) -> Result<Answer, Refusal> {
-        match self.steps {
-            true => self.format.answer(&output::WithSteps(report)),
-            false => self.format.answer(report),
-        }
+        let document = output::document(report, self.steps);
+        self.format.answer_by(report, document)
     }
 
     /// From tables to axes, and from these to other tables if they are asked for.

@@ -247,10 +247,11 @@ impl Sweep {
         });
         let rows_alone = report.motions.iter().filter(|_| self.format == Format::Csv);
         let certified = rows_alone.flat_map(|motion| certified(&motion.sweep));
+        let document = report.document();
         Ok(Answer {
-            data: self.format.shown(&report),
+            data: self.format.shown(&report, &document),
             remarks: posed.loaded.warnings() + &lines("note", unfinished.chain(certified)),
-            yes: report.is_yes(),
+            yes: !document.no,
         })
     }
 }

@@ -19,18 +19,17 @@ use completeness::accounting;
 use tables::{Pose, are_posed, by_pose, complex, joints, met, overview, platforms, poses, reasons};
 
 impl Report for AssembliesReport {
-    fn remarks(&self) -> Remarks {
-        Remarks {
-            complete: Some(completeness(self)),
-            ..Remarks::default()
-        }
-    }
-
     fn document(&self) -> Document {
         let nearest = self.closest.iter().map(|closest| nearest(self, closest));
         let proved = self.proof.iter().map(|of| proof::sentence(of, self.real));
         let answer: Vec<String> = [sentence(self)].into_iter().chain(proved).collect();
+        let remarks = Remarks {
+            complete: Some(completeness(self)),
+            ..Remarks::default()
+        };
         let document = Document::new(&self.mechanism, answer.join(" "))
+            .yes_if(self.real > 0 && !self.may_lack_some())
+            .remarks(remarks)
             .interrupted(self.interrupted, "")
             .notes(meeting(self))
             .notes(self.proof.iter().flat_map(proof::notes))
@@ -44,10 +43,6 @@ impl Report for AssembliesReport {
         accounting(self)
             .into_iter()
             .fold(document, Document::method)
-    }
-
-    fn is_yes(&self) -> bool {
-        self.real > 0 && !self.may_lack_some()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::quantity::{clause, degrees, if_any, metres, quantity};
-use super::report::{Remarks, Report, Rows};
+use super::report::{Report, Rows};
 use crate::linear::SPECTRUM_LIMIT;
 use crate::system::{Analysed, GivenPose, Moved, NotClosed, TooLarge};
 
@@ -40,9 +40,16 @@ pub(super) fn given(pose: &GivenPose) -> Option<String> {
 
 /// Whether an answer is about the values that the file holds: those of a rounded pose may change a
 /// little, but a file that cannot be assembled was answered for another mechanism.
-pub fn is_about_the_file(pose: &GivenPose, length: f64) -> bool {
+fn is_about_the_file(pose: &GivenPose, length: f64) -> bool {
     let given = pose.given_gap.as_ref();
     pose.kept || given.is_none_or(|given| !given.is_wide(length))
+}
+
+/// A document on one configuration of a mechanism of that length.
+pub(super) fn document(mechanism: &str, answer: String, at: &GivenPose, length: f64) -> Document {
+    Document::new(mechanism, after_moving(at.moved.as_ref(), answer))
+        .yes_if(is_about_the_file(at, length))
+        .warnings(outside_limits(&at.outside_limits))
 }
 
 /// The answer, which begins with how far the pose given had to move if that is more than rounding.
@@ -94,18 +101,6 @@ impl<R: Report> Report for Analysed<R> {
         report(self).document()
     }
 
-    fn is_yes(&self) -> bool {
-        report(self).is_yes()
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        report(self).warnings()
-    }
-
-    fn remarks(&self) -> Remarks {
-        report(self).remarks()
-    }
-
     fn rows(&self) -> Option<Rows<'_>> {
         report(self).rows()
     }
@@ -126,11 +121,7 @@ impl Report for TooLarge {
              {SPECTRUM_LIMIT}. Analyse a part of it.",
             self.unknowns
         );
-        Document::new(&self.mechanism, answer)
-    }
-
-    fn is_yes(&self) -> bool {
-        false
+        Document::new(&self.mechanism, answer).yes_if(false)
     }
 }
 
@@ -146,10 +137,7 @@ impl Report for NotClosed {
              values, start elsewhere, or free a joint that is held; `linkwork solve` says more.",
             left.unwrap_or_default()
         );
-        Document::new(&self.mechanism, answer).interrupted(self.interrupted, "")
-    }
-
-    fn is_yes(&self) -> bool {
-        false
+        let document = Document::new(&self.mechanism, answer).yes_if(false);
+        document.interrupted(self.interrupted, "")
     }
 }

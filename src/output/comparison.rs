@@ -29,15 +29,12 @@ impl Report for CompareReport {
         });
         let title = "Closed forms compared with the chains";
         Document::new(&self.mechanism, sentence(self) + &proved(self))
+            .yes_if(self.agree)
             .interrupted(self.interrupted, "samples and proofs")
             .notes(home)
             .section(Section::new(title).table(table(self)).text(units(self)))
             .section(Section::new("Differences").list(remarks))
             .notes(not_assembled)
-    }
-
-    fn is_yes(&self) -> bool {
-        self.agree
     }
 }
 
@@ -205,16 +202,10 @@ fn why(reason: Reason) -> &'static str {
 
 /// The remarks on a component that does not simply agree; none on others.
 fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport) -> Vec<String> {
-    let ComponentReport {
-        name,
-        quantity,
-        samples,
-        without_value,
-        max_difference,
-        ..
-    } = component;
+    let (name, quantity) = (&component.name, component.quantity);
+    let (samples, without_value) = (component.samples, component.without_value);
     let form = &form.name;
-    if *samples == 0 {
+    if samples == 0 {
         return vec![match without_value {
             0 => format!("{form}, {name}: not tried, as no assembled configuration was found."),
             _ => format!("{form}, {name}: has no value at any of {without_value} samples."),
@@ -222,7 +213,7 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
     }
     let mut lines = Vec::new();
     if let Some(worst) = component.worst.as_ref().filter(|_| !component.agree) {
-        let six = |value: f64| with_unit(&format!("{value:.6}"), unit(*quantity));
+        let six = |value: f64| with_unit(&format!("{value:.6}"), unit(quantity));
         let (own, theirs) = (six(worst.closed_form), six(worst.chains));
         let values = match quantity {
             Quantity::Identity => format!("it is {own}, not zero,"),
@@ -231,11 +222,11 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
         let joints = values_of(&report.names.joints, worst.joints.values());
         lines.push(format!(
             "{form}, {name}: differs by up to {}: {values} at {}.",
-            self::quantity(*max_difference, unit(*quantity)),
+            self::quantity(component.max_difference, unit(quantity)),
             joints.join(", ")
         ));
     }
-    if *without_value > 0 {
+    if without_value > 0 {
         let of = samples + without_value;
         lines.push(format!(
             "{form}, {name}: has no value at {without_value} of {of} samples."

@@ -39,9 +39,6 @@ impl<W: Write> Csv<W> {
                 Cell::Text(text) => self.writer.write_field(text)?,
                 Cell::Count(count) => self.number(format_args!("{count}"))?,
                 Cell::Number { value, .. } => self.value(value)?,
-                Cell::Vector { components, .. } => {
-                    components.into_iter().try_for_each(|x| self.value(x))?;
-                }
                 Cell::Empty => self.writer.write_field("")?,
             }
         }

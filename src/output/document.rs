@@ -6,9 +6,11 @@
 
 mod cell;
 mod inline;
+mod remarks;
 
-pub use cell::{Cell, Digits};
+pub use cell::Cell;
 pub(super) use inline::{Piece, one_line, pieces};
+pub use remarks::Remarks;
 
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +36,15 @@ pub struct Document {
     pub sections: Vec<Section>,
     /// How the answer was found, a line each: shown last.
     pub method: Vec<String>,
+    /// Whether the answer is no.
+    #[serde(skip)]
+    pub no: bool,
+    /// What a reader must not overlook, a line each: said beside the document.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+    /// What JSON says in words beside the answer.
+    #[serde(skip)]
+    pub remarks: Remarks,
 }
 
 /// A part of a document under a title.
@@ -56,7 +67,12 @@ pub enum Block {
     /// A table.
     Table(Table),
     /// Text whose spaces and line breaks matter: a formula, a file, a program.
-    Code(Code),
+    Code {
+        /// The language, as Markdown names it: `ron`, `latex`; may be empty.
+        language: String,
+        /// The lines.
+        text: String,
+    },
     /// A part under a title of its own.
     Section(Section),
 }
@@ -92,28 +108,6 @@ pub enum Align {
     Left,
     /// Numbers, which are easier to compare when they end at the same place.
     Right,
-}
-
-/// A matrix with named rows and columns.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Matrix {
-    /// What the rows are: the title of the column of their names.
-    pub rows_are: String,
-    /// Names of the rows, with units where they have any.
-    pub rows: Vec<String>,
-    /// Names of the columns, with units where they have any.
-    pub columns: Vec<String>,
-    /// Row by row.
-    pub entries: Vec<Vec<f64>>,
-}
-
-/// Text to be shown letter by letter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Code {
-    /// The language, as Markdown names it: `ron`, `latex`; may be empty.
-    pub language: String,
-    /// The lines.
-    pub text: String,
 }
 
 impl Document {
@@ -152,6 +146,26 @@ impl Document {
         self.notes(note)
     }
 
+    /// The answer is no unless this holds too.
+    #[must_use]
+    pub fn yes_if(mut self, yes: bool) -> Self {
+        self.no |= !yes;
+        self
+    }
+
+    /// With what a reader must not overlook.
+    #[must_use]
+    pub fn warnings(mut self, warnings: impl IntoIterator<Item = String>) -> Self {
+        self.warnings.extend(warnings);
+        self
+    }
+
+    /// With what JSON says in words.
+    #[must_use]
+    pub fn remarks(self, remarks: Remarks) -> Self {
+        Document { remarks, ..self }
+    }
+
     /// With a line on how the answer was found.
     #[must_use]
     pub fn method(mut self, line: impl Into<String>) -> Self {
@@ -181,11 +195,9 @@ impl Document {
     }
 
     /// What to read, in order: the sections, then how the answer was found.
-    pub(super) fn parts(&self) -> impl Iterator<Item = std::borrow::Cow<'_, Section>> {
-        use std::borrow::Cow;
+    pub(super) fn parts(&self) -> Vec<Section> {
         let method = Section::new("How it was found").list(self.method.clone());
-        let method = (!self.method.is_empty()).then_some(Cow::Owned(method));
-        self.sections.iter().map(Cow::Borrowed).chain(method)
+        self.clone().section(method).sections
     }
 }
 
@@ -242,19 +254,11 @@ impl Section {
         }
     }
 
-    /// With a matrix.
-    #[must_use]
-    pub fn matrix(self, matrix: Matrix) -> Self {
-        self.block(Block::Table(matrix.table()))
-    }
-
     /// With text whose spaces and line breaks matter.
     #[must_use]
     pub fn code(self, language: &str, text: impl Into<String>) -> Self {
-        self.block(Block::Code(Code {
-            language: language.into(),
-            text: text.into(),
-        }))
+        let (language, text) = (language.into(), text.into());
+        self.block(Block::Code { language, text })
     }
 
     /// With a section inside; one without contents is left out.
@@ -337,19 +341,6 @@ impl<T> From<TableOf<T>> for Table {
     }
 }
 
-impl Matrix {
-    /// The same as a table.
-    fn table(&self) -> Table {
-        let rows = Table::of(self.rows.iter().zip(&self.entries));
-        let named = rows.words(&self.rows_are, |(name, _)| name);
-        let columns = self.columns.iter().enumerate();
-        let table = columns.fold(named, |table, (i, name)| {
-            table.numbers(name, |(_, row)| row[i])
-        });
-        table.into()
-    }
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
@@ -358,26 +349,23 @@ pub(super) mod tests {
     pub fn sample() -> Document {
         let rows = [
             cells!["a|b", -0.5, Cell::quantity(0.5, SiUnit::RADIAN)],
-            cells!["<script>", Cell::from(10.0).starred(true), Cell::Empty],
+            cells!["<script>", "10*", Cell::Empty],
         ];
         let table = Table::of(&rows)
             .words("on|<b>", |row| row[0].clone())
             .numbers("Fx", |row| row[1].clone())
             .in_unit(SiUnit::NEWTON)
             .numbers("angle", |row| row[2].clone());
-        let matrix = Matrix {
-            rows_are: "output".into(),
-            rows: vec!["x (m/s)".into()],
-            columns: vec!["l1 (m/s)".into()],
-            entries: vec![vec![2.0]],
-        };
+        let matrix = Table::of([2.0])
+            .words("output", |_| "x (m/s)")
+            .numbers("l1 (m/s)", |x| x);
         Document::new("4-bar <1>", "It moves: `a<b` drives *it*.")
             .note("near a limit")
             .section(Section::new("Forces").text("in ground").table(table))
             .section(Section::new("Nothing"))
             .section(
                 Section::new("More")
-                    .matrix(matrix)
+                    .table(matrix)
                     .code("ron", "a: \"```\",\n  <b>\n")
                     .section(Section::new("Inner").list(["- one".into(), "two".into()])),
             )

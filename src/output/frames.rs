@@ -3,7 +3,6 @@
 mod steps;
 
 use super::report::Report;
-use serde::Serialize;
 
 use super::complaint::Complaint;
 use super::coordinates;
@@ -30,39 +29,17 @@ impl Report for FramesReport {
         document(self, false)
     }
 
-    fn warnings(&self) -> Vec<String> {
-        let problems = self.warnings.iter();
-        problems.map(|problem| problem.kind.title()).collect()
-    }
-
     fn file(&self) -> Option<Result<String, ron::Error>> {
         Some(self.description.to_ron())
     }
 }
 
-/// Frames with the steps by which they were placed.
-#[derive(Serialize)]
-#[serde(transparent)]
-pub struct WithSteps<'r>(pub &'r FramesReport);
-
-impl Report for WithSteps<'_> {
-    fn document(&self) -> Document {
-        document(self.0, true)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.0.warnings()
-    }
-
-    fn file(&self) -> Option<Result<String, ron::Error>> {
-        self.0.file()
-    }
-}
-
-fn document(report: &FramesReport, steps: bool) -> Document {
+/// Frames, with the steps by which they were placed if these are wanted.
+pub fn document(report: &FramesReport, steps: bool) -> Document {
     // the file that was made is a valid mechanism
     let overview = Mechanism::new(&report.description).map(|mechanism| overview(&mechanism));
-    let mut document = Document::new(&report.mechanism, accuracy(report));
+    let warnings = report.warnings.iter().map(|problem| problem.kind.title());
+    let mut document = Document::new(&report.mechanism, accuracy(report)).warnings(warnings);
     let Ok(overview) = overview else {
         return document;
     };

@@ -53,11 +53,9 @@ fn section(section: &Section, level: usize, page: &mut String) {
             Block::Text(text) => *page += &format!("<p>{}</p>\n", lines(text)),
             Block::List(lines) => *page += &list("lines", lines),
             Block::Table(rows) => *page += &table(rows, &section.title),
-            Block::Code(code) => {
-                *page += &format!(
-                    "<pre tabindex=\"0\"><code>{}</code></pre>\n",
-                    escaped(&code.text)
-                );
+            Block::Code { text, .. } => {
+                let text = escaped(text);
+                *page += &format!("<pre tabindex=\"0\"><code>{text}</code></pre>\n");
             }
             Block::Section(inner) => self::section(inner, level + 1, page),
         }

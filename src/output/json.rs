@@ -40,7 +40,7 @@ impl Envelope {
             linkwork: env!("CARGO_PKG_VERSION").into(),
             mechanism: document.title,
             sentence: document.answer,
-            remarks: report.remarks(),
+            remarks: document.remarks,
         }
     }
 }

@@ -32,7 +32,7 @@ fn section(section: &Section, level: usize, parts: &mut Vec<String>) {
             Block::Text(text) => parts.push(paragraph(text)),
             Block::List(lines) => parts.push(list(lines)),
             Block::Table(rows) => parts.push(table(rows)),
-            Block::Code(code) => parts.push(fenced(&code.language, &code.text)),
+            Block::Code { language, text } => parts.push(fenced(language, text)),
             Block::Section(inner) => self::section(inner, level + 1, parts),
         }
     }

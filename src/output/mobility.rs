@@ -14,24 +14,25 @@ use crate::description::{count, listed};
 const SHOWN: usize = 8;
 
 impl Report for MobilityReport {
-    fn is_yes(&self) -> bool {
-        closing::is_about_the_file(&self.pose, self.length)
-    }
-
     fn document(&self) -> Document {
         let idle = self.idle_freedoms.iter().map(words::idle);
         let elsewhere = self.elsewhere.iter();
         let elsewhere = elsewhere.map(|other| words::elsewhere(self, other));
-        let redundant = self.redundancies.iter().map(words::redundancy);
+        let redundant: Vec<String> = self.redundancies.iter().map(words::redundancy).collect();
+        let remarks = Remarks {
+            explanation: Some(words::explanation(self)),
+            redundant_constraints: Some(redundant.clone()),
+            ..Remarks::default()
+        };
         let twists: &[_] = if self.branches.is_empty() {
             &self.twists
         } else {
             &[]
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
-        let answer = closing::after_moving(self.pose.moved.as_ref(), words::mobility(self));
         let elimination = words::elimination(self);
-        Document::new(&self.mechanism, answer)
+        closing::document(&self.mechanism, words::mobility(self), &self.pose, self.length)
+            .remarks(remarks)
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
             .notes(idle.map(|idle| format!("not counted: {idle}")))
@@ -54,19 +55,6 @@ impl Report for MobilityReport {
                 size(self.condition),
                 metres(self.length)
             ))
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
-    }
-
-    fn remarks(&self) -> Remarks {
-        let redundant = self.redundancies.iter().map(words::redundancy);
-        Remarks {
-            explanation: Some(words::explanation(self)),
-            redundant_constraints: Some(redundant.collect()),
-            ..Remarks::default()
-        }
     }
 }
 

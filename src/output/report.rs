@@ -1,7 +1,6 @@
 //! What every report can do to be shown.
 
-use serde::{Deserialize, Deserializer, Serialize};
-
+pub use super::document::Remarks;
 use super::document::{Cell, Document};
 
 /// A report that can be shown. Commands print it as a [`Document`], as JSON or as rows.
@@ -11,17 +10,12 @@ pub trait Report {
 
     /// Whether the answer is yes, or at least not no.
     fn is_yes(&self) -> bool {
-        true
+        !self.document().no
     }
 
     /// What a reader must not overlook, a line each.
     fn warnings(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// What JSON says in words beside the answer.
-    fn remarks(&self) -> Remarks {
-        Remarks::default()
+        self.document().warnings
     }
 
     /// The report as rows for programs, if it has any.
@@ -33,32 +27,6 @@ pub trait Report {
     fn file(&self) -> Option<Result<String, ron::Error>> {
         None
     }
-}
-
-/// What is said beside the answer; each is absent where the question is another one.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Remarks {
-    /// Why the mobility is not that of Kutzbach's count.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub explanation: Option<String>,
-    /// How sure it is that no assembly is missing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub complete: Option<String>,
-    /// How sure it is that no singularity or mode is missing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub completeness: Option<String>,
-    /// What outputs that are full poses may hide; `null` if nothing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[serde(deserialize_with = "present")]
-    pub note: Option<Option<String>>,
-    /// What repeats what other closures hold already.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub redundant_constraints: Option<Vec<String>>,
-}
-
-/// A field that is there, though it may be `null`.
-fn present<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Option<String>>, D::Error> {
-    Option::deserialize(from).map(Some)
 }
 
 /// The values of a row. Only their values are written: numbers with all their digits, nothing for what is not finite.

@@ -23,31 +23,16 @@ impl Report for SingularitiesReport {
     fn document(&self) -> Document {
         let singularity = &self.singularity;
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
-        let answer = closing::after_moving(self.pose.moved.as_ref(), answer);
         let at = values(&self.variables, &self.joints);
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
-        Document::new(&self.mechanism, answer)
+        closing::document(&self.mechanism, answer, &self.pose, self.normalising_length)
+            .remarks(Remarks::note(&note(&self.coupled)))
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
             .notes(closing::notes(&self.pose))
             .notes(at)
             .sections(details(singularity))
             .section(distances(&singularity.distances, self.normalising_length))
-    }
-
-    fn is_yes(&self) -> bool {
-        closing::is_about_the_file(&self.pose, self.normalising_length)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
-    }
-
-    fn remarks(&self) -> Remarks {
-        Remarks {
-            note: Some(note(&self.coupled)),
-            ..Remarks::default()
-        }
     }
 }
 

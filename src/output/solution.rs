@@ -14,6 +14,8 @@ impl Report for AssemblyReport {
         let platforms = platforms.map(|(name, platform)| pose(name, platform));
         let gaps = (!self.is_assembled()).then(|| Section::new("Gaps").table(gaps(self)));
         Document::new(&self.mechanism, sentence(self))
+            .yes_if(self.outcome == Outcome::Converged)
+            .warnings(self.warning())
             .notes(self.moved.as_ref().map(closing::from_start))
             .interrupted(self.interrupted, "other starts")
             .notes(left(self))
@@ -24,14 +26,6 @@ impl Report for AssemblyReport {
             .table("Frames", tips(self))
             .sections(gaps)
             .method(found(self))
-    }
-
-    fn is_yes(&self) -> bool {
-        self.outcome == Outcome::Converged
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.warning().into_iter().collect()
     }
 }
 

@@ -1,8 +1,8 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
-use super::document::{Cell, Digits, Document, Table, TableOf};
-use super::quantity::{metres, size};
+use super::document::{Cell, Document, Table, TableOf};
+use super::quantity::{metres, number, shown, size, with_unit};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::statics::{AppliedWrench, Force, Reaction, StaticsReport};
@@ -12,8 +12,8 @@ impl Report for StaticsReport {
     fn document(&self) -> Document {
         let length = self.normalising_length;
         let rounding = rounding(self);
-        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
-        Document::new(&self.mechanism, answer)
+        closing::document(&self.mechanism, sentence(self), &self.pose, length)
+            .yes_if(self.unbalanced.is_empty())
             .note(format!(
                 "without weight and friction; condition number {}, forces multiplied by {} for comparison with moments",
                 size(self.condition),
@@ -31,15 +31,6 @@ impl Report for StaticsReport {
                 "Joints: components in ground axes, moments about the given point, the origin of the frame after the joint",
                 reactions(&self.joints, length, rounding),
             )
-    }
-
-    fn is_yes(&self) -> bool {
-        self.unbalanced.is_empty()
-            && closing::is_about_the_file(&self.pose, self.normalising_length)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
     }
 }
 
@@ -93,6 +84,14 @@ fn without_rounding(value: f64, rounding: f64) -> f64 {
     if value.abs() < rounding { 0.0 } else { value }
 }
 
+/// A value with a `*` behind it where it is not unique.
+fn starred(value: f64, unit: SiUnit, star: bool) -> Cell {
+    match star {
+        true => with_unit(&(number(shown(value, unit)) + "*"), unit).into(),
+        false => Cell::quantity(value, unit),
+    }
+}
+
 /// With columns of a force and a moment; a `*` follows components that are not unique.
 fn components<T: Copy>(
     table: TableOf<T>,
@@ -104,7 +103,8 @@ fn components<T: Copy>(
         let component = |row| {
             let (force, moment, unique) = of(row);
             let value = if i < 3 { force[i] } else { moment[i - 3] };
-            Cell::from(without_rounding(value, rounding[i / 3])).starred(!unique[i])
+            let value = without_rounding(value, rounding[i / 3]);
+            starred(value, SiUnit::ONE, !unique[i])
         };
         table
             .numbers(name, component)
@@ -125,7 +125,7 @@ fn forces(forces: &[Force], rounding: [f64; 2]) -> TableOf<&Force> {
     let table = Table::of(forces)
         .words("name", |force| &force.name)
         .numbers("force", move |force| {
-            Cell::quantity(clean(force), force.unit).starred(!force.unique)
+            starred(clean(force), force.unit, !force.unique)
         });
     // a slide is a cylinder, a coordinate of a platform is none
     let slides = |force: &Force| force.unit == SiUnit::NEWTON && !force.name.contains('.');
@@ -149,7 +149,8 @@ fn reactions(reactions: &[Reaction], length: f64, rounding: [f64; 2]) -> TableOf
         .words("from", |of| &of.from)
         .words("on", |of| &of.on)
         .words("at", |of| {
-            Cell::vector(of.point.map(|x| without_rounding(x, 1e-9 * length))).with(Digits::Six)
+            let point = of.point.map(|x| without_rounding(x, 1e-9 * length));
+            format!("({})", point.map(number).join(", "))
         })
         .in_unit(SiUnit::METRE);
     components(table, rounding, |of| (of.force, of.moment, of.unique))

@@ -22,7 +22,12 @@ use crate::mechanism::Variable;
 impl Report for MotionsReport {
     fn document(&self) -> Document {
         let interrupted = self.motions.iter().any(|motion| motion.sweep.interrupted);
-        match &self.motions[..] {
+        let certified = |sweep: &SweepReport| {
+            let certificate = sweep.certificate.as_ref();
+            certificate.is_none_or(Certificate::is_whole)
+        };
+        let yes = (self.motions.iter()).all(|m| m.sweep.ending.is_whole() && certified(&m.sweep));
+        let document = match &self.motions[..] {
             [one] => {
                 let moved = self.moved.as_ref();
                 let answer = closing::after_moving(moved, mode(one) + &sentence(&one.sweep));
@@ -48,15 +53,8 @@ impl Report for MotionsReport {
                 let document = Document::new(&self.mechanism, answer);
                 document.interrupted(interrupted, "").sections(sections)
             }
-        }
-    }
-
-    fn is_yes(&self) -> bool {
-        let certified = |sweep: &SweepReport| {
-            let certificate = sweep.certificate.as_ref();
-            certificate.is_none_or(Certificate::is_whole)
         };
-        (self.motions.iter()).all(|m| m.sweep.ending.is_whole() && certified(&m.sweep))
+        document.yes_if(yes)
     }
 }
 

@@ -36,7 +36,7 @@ fn block(block: &Block) -> String {
         Block::Text(text) => format!("{text}\n"),
         Block::List(lines) => lines.iter().map(|line| format!("{line}\n")).collect(),
         Block::Table(rows) => table(rows),
-        Block::Code(code) => format!("{}\n", code.text.trim_end_matches('\n')),
+        Block::Code { text, .. } => format!("{}\n", text.trim_end_matches('\n')),
         Block::Section(inner) => section(inner),
     }
 }

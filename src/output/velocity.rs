@@ -1,7 +1,7 @@
 //! How an assembled mechanism moves, as a document.
 
 use super::closing;
-use super::document::{Cell, Document, Matrix, Section, Table, TableOf};
+use super::document::{Cell, Document, Section, Table, TableOf};
 use super::quantity::{metres, number, size, triple};
 use super::report::Report;
 use crate::algebra::SiUnit;
@@ -14,22 +14,19 @@ use crate::description::{count, listed};
 impl Report for VelocityReport {
     fn document(&self) -> Document {
         let jacobian = self.jacobian.as_ref();
-        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
-        Document::new(&self.mechanism, answer)
-            .notes(closing::notes(&self.pose))
-            .table("Joints", joints(self))
-            .sections(self.frames.iter().map(frame))
-            .sections(jacobian.map(|j| matrix(j, self.normalising_length)))
-            .table("Transmission", transmission(&self.transmission))
-            .table("Instant centres", centres(&self.centres))
-    }
-
-    fn is_yes(&self) -> bool {
-        self.is_determined() && closing::is_about_the_file(&self.pose, self.normalising_length)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        Vec::from_iter(closing::outside_limits(&self.pose.outside_limits))
+        closing::document(
+            &self.mechanism,
+            sentence(self),
+            &self.pose,
+            self.normalising_length,
+        )
+        .yes_if(self.is_determined())
+        .notes(closing::notes(&self.pose))
+        .table("Joints", joints(self))
+        .sections(self.frames.iter().map(frame))
+        .sections(jacobian.map(|j| matrix(j, self.normalising_length)))
+        .table("Transmission", transmission(&self.transmission))
+        .table("Instant centres", centres(&self.centres))
     }
 }
 
@@ -192,12 +189,13 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
     if jacobian.rows.is_empty() || jacobian.columns.is_empty() {
         return section.text("nothing held drives an output");
     }
-    let named = |axes: &[Axis]| {
-        let names = axes.iter();
-        names
-            .map(|axis| format!("{} ({})", axis.name, axis.unit))
-            .collect()
-    };
+    let named = |axis: &Axis| format!("{} ({})", axis.name, axis.unit);
+    let rows = Table::of(jacobian.rows.iter().zip(&jacobian.entries));
+    let rows = rows.words("output", |(axis, _)| named(axis));
+    let columns = jacobian.columns.iter().enumerate();
+    let matrix = columns.fold(rows, |table, (i, axis)| {
+        table.numbers(named(axis), |(_, row)| row[i])
+    });
     let condition = match jacobian.condition {
         Some(condition) => size(condition),
         None => format!("infinite: {} lost", count(jacobian.loss, "freedom")),
@@ -207,19 +205,12 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
         rows if rows == jacobian.rows.len() => "",
         _ => "without the points followed: ",
     };
-    section
-        .matrix(Matrix {
-            rows_are: "output".into(),
-            rows: named(&jacobian.rows),
-            columns: named(&jacobian.columns),
-            entries: jacobian.entries.clone(),
-        })
-        .text(format!(
-            "{without}rank {}, condition number {condition}, manipulability {}, with lengths divided by {}",
-            jacobian.rank,
-            number(jacobian.manipulability),
-            metres(length)
-        ))
+    section.table(matrix).text(format!(
+        "{without}rank {}, condition number {condition}, manipulability {}, with lengths divided by {}",
+        jacobian.rank,
+        number(jacobian.manipulability),
+        metres(length)
+    ))
 }
 
 fn transmission(angles: &[Transmission]) -> TableOf<&Transmission> {
@@ -237,8 +228,8 @@ fn transmission(angles: &[Transmission]) -> TableOf<&Transmission> {
 
 fn centres(centres: &[InstantCentre]) -> TableOf<&InstantCentre> {
     let place = |centre: &InstantCentre| match (&centre.point, &centre.at_infinity) {
-        (Some(point), _) => Cell::vector(*point).in_unit(SiUnit::METRE),
-        (None, Some(towards)) => format!("at infinity along {}", triple(towards)).into(),
+        (Some(point), _) => format!("{} m", triple(point)),
+        (None, Some(towards)) => format!("at infinity along {}", triple(towards)),
         (None, None) => "none".into(),
     };
     Table::of(centres)

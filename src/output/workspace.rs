@@ -22,7 +22,13 @@ const MOST: usize = 20;
 
 impl Report for WorkspaceReport {
     fn document(&self) -> Document {
+        let remarks = Remarks {
+            completeness: Some(completeness(self)),
+            ..Remarks::default()
+        };
         Document::new(&self.mechanism, sentence(self))
+            .yes_if(self.reached > 0)
+            .remarks(remarks)
             .note(words::question(self))
             .note(words::home(self))
             .interrupted(self.interrupted, "nodes, modes and boundaries")
@@ -30,17 +36,6 @@ impl Report for WorkspaceReport {
             .section(aspects(self))
             .section(boundary(self))
             .method(completeness(self))
-    }
-
-    fn is_yes(&self) -> bool {
-        self.reached > 0
-    }
-
-    fn remarks(&self) -> Remarks {
-        Remarks {
-            completeness: Some(completeness(self)),
-            ..Remarks::default()
-        }
     }
 
     /// The nodes, in SI units and rad. An aspect is missing for a node outside limits or on a singularity.

@@ -156,7 +156,14 @@ fn too_few_boxes_prove_nothing_and_the_answer_is_no() {
         answer.ends_with("It is not proved that these are all real assemblies."),
         "{answer}"
     );
-    assert!(!report.remarks().complete.unwrap().contains("proved"));
+    assert!(
+        !report
+            .document()
+            .remarks
+            .complete
+            .unwrap()
+            .contains("proved")
+    );
 }
 
 /// With the coupler stretched or folded two assemblies meet: neither is claimed to be isolated.

@@ -32,7 +32,7 @@ fn loops_end_where_the_trace_test_holds() {
             assert_eq!((report.generic, report.bound), (count, None), "{name}");
             assert_eq!(report.traced, Some(Traced::Inputs), "{name}, seed {seed}");
             assert!(report.quiet_loops < 20 && !report.may_lack_some());
-            let said = report.remarks().complete.unwrap();
+            let said = report.document().remarks.complete.unwrap();
             let held = "the trace test holds: no loop of the inputs leads from these to others";
             assert!(said.ends_with(held), "{said}");
         }

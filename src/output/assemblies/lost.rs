@@ -10,7 +10,7 @@ use crate::output::report::Report;
 
 impl Report for LostMode {
     fn document(&self) -> Document {
-        let document = Document::new(&self.mechanism, sentence(self));
+        let document = Document::new(&self.mechanism, sentence(self)).yes_if(false);
         let (LostReason::Ceases(fold) | LostReason::MeetsOthers(fold)) = &self.reason else {
             return document;
         };
@@ -20,10 +20,6 @@ impl Report for LostMode {
         document
             .section(Section::new("Inputs there").list(inputs))
             .section(Section::new("Joints there").list(joints))
-    }
-
-    fn is_yes(&self) -> bool {
-        false
     }
 }
 

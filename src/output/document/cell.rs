@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::output::quantity::{number, short, shown, size, with_unit};
+use crate::output::quantity::{quantity, size};
 
 /// What stands in a cell of a table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -22,55 +22,13 @@ pub enum Cell {
         value: f64,
         /// Its unit; [`SiUnit::ONE`] if it has none or its column says it.
         unit: SiUnit,
-        /// How much of it is shown.
-        digits: Digits,
-        /// Whether a `*` behind it refers to a remark.
-        starred: bool,
     },
-    /// A point or direction.
-    Vector {
-        /// Its components.
-        components: Vec<f64>,
-        /// The unit of all of them.
-        unit: SiUnit,
-        /// How much of them is shown.
-        digits: Digits,
-    },
-}
-
-/// How much of a number is shown to readers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Digits {
-    /// Six decimals, without noughts at the end.
-    #[default]
-    Six,
-    /// Four decimals, for components of points and directions.
-    Four,
-    /// About two digits, of numbers whose size alone matters.
-    Two,
-}
-
-impl Digits {
-    /// The number with that many digits.
-    pub fn of(self, value: f64) -> String {
-        match self {
-            Digits::Six => number(value),
-            Digits::Four => short(value),
-            Digits::Two => size(value),
-        }
-    }
 }
 
 impl Cell {
     /// A number with its unit. Angles, given in rad, are shown in degrees; infinite or unknown values in words.
     pub fn quantity(value: f64, unit: SiUnit) -> Self {
-        Cell::Number {
-            value,
-            unit,
-            digits: Digits::Six,
-            starred: false,
-        }
+        Cell::Number { value, unit }
     }
 
     /// A length.
@@ -83,45 +41,12 @@ impl Cell {
         Cell::quantity(angle, SiUnit::RADIAN)
     }
 
-    /// A number whose size alone matters, such as a condition number.
+    /// A number whose size alone matters, such as a condition number: about two digits of it.
     pub fn size(value: f64) -> Self {
-        Cell::from(value).with(Digits::Two)
-    }
-
-    /// A point or direction, with four decimals.
-    pub fn vector(components: impl IntoIterator<Item = f64>) -> Self {
-        Cell::Vector {
-            components: components.into_iter().collect(),
-            unit: SiUnit::ONE,
-            digits: Digits::Four,
+        match value.is_nan() {
+            true => Cell::from(value),
+            false => Cell::Text(size(value)),
         }
-    }
-
-    /// With a unit.
-    #[must_use]
-    pub fn in_unit(mut self, wanted: SiUnit) -> Self {
-        if let Cell::Number { unit, .. } | Cell::Vector { unit, .. } = &mut self {
-            *unit = wanted;
-        }
-        self
-    }
-
-    /// With that many digits.
-    #[must_use]
-    pub fn with(mut self, wanted: Digits) -> Self {
-        if let Cell::Number { digits, .. } | Cell::Vector { digits, .. } = &mut self {
-            *digits = wanted;
-        }
-        self
-    }
-
-    /// With a `*` behind it.
-    #[must_use]
-    pub fn starred(mut self, wanted: bool) -> Self {
-        if let Cell::Number { starred, .. } = &mut self {
-            *starred = wanted;
-        }
-        self
     }
 
     /// What is shown.
@@ -132,23 +57,7 @@ impl Cell {
             Cell::Count(count) => count.to_string(),
             Cell::Number { value, .. } if value.is_nan() => "not known".into(),
             Cell::Number { value, .. } if value.is_infinite() => "infinite".into(),
-            Cell::Number {
-                value,
-                unit,
-                digits,
-                starred,
-            } => {
-                let star = if *starred { "*" } else { "" };
-                with_unit(&(digits.of(shown(*value, *unit)) + star), *unit)
-            }
-            Cell::Vector {
-                components,
-                unit,
-                digits,
-            } => {
-                let components: Vec<String> = components.iter().map(|&x| digits.of(x)).collect();
-                with_unit(&format!("({})", components.join(", ")), *unit)
-            }
+            Cell::Number { value, unit } => quantity(*value, *unit),
         }
     }
 }
@@ -195,16 +104,8 @@ mod tests {
             Cell::quantity(0.25, SiUnit::RADIAN.per_second()).shown(),
             "0.25 rad/s"
         );
-        assert_eq!(
-            Cell::quantity(2.0, SiUnit::NEWTON).starred(true).shown(),
-            "2* N"
-        );
         assert_eq!(Cell::size(1e9).shown(), "1.0e9");
         assert_eq!(Cell::size(f64::INFINITY).shown(), "infinite");
-        assert_eq!(
-            Cell::vector([0.0, 1.0 / 3.0, 2.0]).shown(),
-            "(0, 0.3333, 2)"
-        );
         assert_eq!(Cell::from(None::<f64>).shown(), "");
     }
 }

@@ -68,11 +68,7 @@ fn freedoms(number: usize) -> String {
 }
 
 pub(super) fn mobility(report: &MobilityReport) -> String {
-    let MobilityReport {
-        mobility,
-        infinitesimal,
-        ..
-    } = report;
+    let (mobility, infinitesimal) = (report.mobility, report.infinitesimal);
     // `With a locked `, where something is
     let with = if_any(&report.locked, |locked| format!("With {locked} locked "));
     let the_mechanism = match with.is_empty() {
@@ -86,14 +82,14 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         Character::Structure => "A structure: nothing can move, not even infinitesimally.".into(),
         Character::Regular if report.counted_beside => format!(
             "{the_mechanism} has {}, counted beside this configuration.",
-            freedoms(*mobility)
+            freedoms(mobility)
         ),
         Character::Regular => match report.singular_at {
-            None => format!("{the_mechanism} has {}.", freedoms(*mobility)),
+            None => format!("{the_mechanism} has {}.", freedoms(mobility)),
             Some(distance) => format!(
                 "{the_mechanism} has {}; the configuration is regular, but only about {} (in rad, and \
                  lengths divided by {}) away from a singular one.",
-                freedoms(*mobility),
+                freedoms(mobility),
                 coarse(distance),
                 metres(report.length)
             ),
@@ -107,7 +103,7 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 true => "Infinitesimally flexible (shaky): it".into(),
                 false => format!("{the_mechanism} is infinitesimally flexible (shaky): it"),
             };
-            let freedoms = freedoms(*infinitesimal);
+            let freedoms = freedoms(infinitesimal);
             format!(
                 "{shaky} has {freedoms} to first order, none of them finite ({gap}), so it cannot move."
             )
@@ -115,8 +111,8 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         Character::Singular => format!(
             "{the_mechanism} has {} at this singular configuration, where {infinitesimal} {} \
              infinitesimal{}.",
-            freedoms(*mobility),
-            form(*infinitesimal, "is", "are"),
+            freedoms(mobility),
+            form(infinitesimal, "is", "are"),
             match report.branches_complete {
                 true => "",
                 false => "; at least the one branch shown passes through it",
@@ -131,7 +127,7 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             },
             at_least(report),
             report.branch_count,
-            freedoms(*mobility)
+            freedoms(mobility)
         ),
         Character::Kinematotropic => {
             let branches = report.branches.iter();
@@ -164,14 +160,8 @@ fn at_least(report: &MobilityReport) -> &'static str {
 }
 
 pub(super) fn counted(report: &MobilityReport) -> String {
-    let MobilityReport {
-        kutzbach,
-        unknowns,
-        equations,
-        rank,
-        ..
-    } = report;
-    if *equations == 0 {
+    let (unknowns, equations, rank) = (report.unknowns, report.equations, report.rank);
+    if equations == 0 {
         let not_locked = match report.locked.is_empty() {
             true => "",
             false => " that are not locked",
@@ -202,7 +192,7 @@ pub(super) fn counted(report: &MobilityReport) -> String {
     format!(
         "Kutzbach counts {unknowns} − {equations} = {}; {equations_said} rank \
          {rank}{independent}.",
-        signed(*kutzbach)
+        signed(report.kutzbach)
     )
 }
 

@@ -14,23 +14,14 @@ impl Report for AlongReport {
             let details = details(&crossing.singularity).into_iter();
             details.fold(Section::new(title).text(text), Section::section)
         });
+        use AlongEnd::{Closed, Complete, Returned};
         Document::new(&self.mechanism, words::ending(self))
+            .yes_if(matches!(self.ending, Complete | Returned | Closed))
+            .remarks(Remarks::note(&note(&self.coupled)))
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
             .interrupted(self.interrupted, "singularities")
             .sections(crossings)
-    }
-
-    fn is_yes(&self) -> bool {
-        use AlongEnd::{Closed, Complete, Returned};
-        matches!(self.ending, Complete | Returned | Closed)
-    }
-
-    fn remarks(&self) -> Remarks {
-        Remarks {
-            note: Some(note(&self.coupled)),
-            ..Remarks::default()
-        }
     }
 
     /// The singularities on the way, in SI units and rad.

@@ -10,7 +10,13 @@ use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for LocusReport {
     fn document(&self) -> Document {
+        let remarks = Remarks {
+            completeness: Some(words::completeness(self)),
+            ..Remarks::note(&note(&self.coupled))
+        };
         Document::new(&self.mechanism, words::loci(self))
+            .yes_if(!self.loci.is_empty())
+            .remarks(remarks)
             .note(words::split(&self.inputs, &self.outputs))
             .notes(words::pinned(self))
             .notes(note(&self.coupled))
@@ -18,18 +24,6 @@ impl Report for LocusReport {
             .section(curves(self))
             .sections(cusps(self))
             .method(words::completeness(self))
-    }
-
-    fn is_yes(&self) -> bool {
-        !self.loci.is_empty()
-    }
-
-    fn remarks(&self) -> Remarks {
-        Remarks {
-            completeness: Some(words::completeness(self)),
-            note: Some(note(&self.coupled)),
-            ..Remarks::default()
-        }
     }
 
     /// The points of the loci, then their cusps, in SI units and rad.

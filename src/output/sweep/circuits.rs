@@ -20,15 +20,13 @@ impl Report for CircuitsReport {
                 n => format!("; {n} of them outside limits or singular"),
             }
         );
+        let whole = self.circuits.iter().all(|circuit| circuit.whole);
         Document::new(&self.mechanism, sentence(self))
+            .yes_if(whole && !self.circuits.is_empty())
             .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .sections(paths::sections(&self.paths, true))
             .method(seeds)
-    }
-
-    fn is_yes(&self) -> bool {
-        !self.circuits.is_empty() && self.circuits.iter().all(|circuit| circuit.whole)
     }
 }
 
