@@ -56,28 +56,29 @@ struct Arguments {
 const EXIT_CODES: &str = "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.\n\
      Answers go to stdout, as text or JSON; with exit code 2 there is none, and stderr says why, always as text.";
 
-#[derive(Subcommand)]
-enum Command {
-    Check(check::Check),
-    Solve(solve::Solve),
-    Assemblies(assemblies::Assemblies),
-    Compare(compare::Compare),
-    Convert(convert::Convert),
-    Draw(draw::Draw),
-    Frames(frames::Frames),
-    Export(export::Export),
-    Import(import::Import),
-    Formulas(formulas::Formulas),
-    Generate(generate::Generate),
-    Mobility(mobility::Mobility),
-    Velocity(velocity::Velocity),
-    View(view::View),
-    Statics(statics::Statics),
-    Sweep(sweep::Sweep),
-    Singularities(singularities::Singularities),
-    Workspace(workspace::Workspace),
-    Study(study::Study),
-    Merge(merge::Merge),
+/// Each command is the type of that name in its module.
+macro_rules! commands {
+    ($($module:ident: $Command:ident),+ $(,)?) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $($Command($module::$Command),)+
+        }
+
+        impl Command {
+            fn run(&self) -> Result<Answer, Refusal> {
+                match self {
+                    $(Command::$Command(command) => command.run(),)+
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    check: Check, solve: Solve, assemblies: Assemblies, compare: Compare, convert: Convert, draw: Draw, frames: Frames,
+    export: Export, import: Import, formulas: Formulas, generate: Generate, mobility: Mobility, velocity: Velocity,
+    view: View, statics: Statics, sweep: Sweep, singularities: Singularities, workspace: Workspace, study: Study,
+    merge: Merge,
 }
 
 /// What a command has to say.
@@ -139,29 +140,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return error.exit_code() as u8;
         }
     };
-    let answer = match &arguments.command {
-        Command::Check(check) => check.run(),
-        Command::Solve(solve) => solve.run(),
-        Command::Assemblies(assemblies) => assemblies.run(),
-        Command::Compare(compare) => compare.run(),
-        Command::Convert(convert) => convert.run(),
-        Command::Draw(draw) => draw.run(),
-        Command::Frames(frames) => frames.run(),
-        Command::Export(export) => export.run(),
-        Command::Import(import) => import.run(),
-        Command::Formulas(formulas) => formulas.run(),
-        Command::Generate(generate) => generate.run(),
-        Command::Mobility(mobility) => mobility.run(),
-        Command::Velocity(velocity) => velocity.run(),
-        Command::View(view) => view.run(),
-        Command::Statics(statics) => statics.run(),
-        Command::Sweep(sweep) => sweep.run(),
-        Command::Singularities(singularities) => singularities.run(),
-        Command::Workspace(workspace) => workspace.run(),
-        Command::Study(study) => study.run(),
-        Command::Merge(merge) => merge.run(),
-    };
-    match answer {
+    match arguments.command.run() {
         Ok(answer) => {
             say(&answer.remarks);
             match write(&answer.data) {
