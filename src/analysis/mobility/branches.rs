@@ -114,7 +114,7 @@ impl Search<'_, '_> {
         let owns = independent_parts(self.near.mechanism(), self.near.system().unknowns());
         let one = owns.len() == 1;
         let parts = owns.iter().filter_map(|own| {
-            let tangent = tangent.clone().within(own);
+            let tangent = tangent.within(own);
             (!tangent.motions.is_empty()).then(|| self.part(own, &tangent, one))
         });
         let parts: Vec<Part> = parts.collect();

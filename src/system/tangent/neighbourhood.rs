@@ -310,21 +310,26 @@ impl<'a> Neighbourhood<'a> {
 
 impl Tangent {
     /// The motions of an independent part of the mechanism alone.
-    pub fn within(self, own: &[bool]) -> Tangent {
+    pub fn within(&self, own: &[bool]) -> Tangent {
         if own.iter().all(|own| *own) {
-            return self;
+            return self.clone();
         }
+        let places: Vec<usize> = (0..own.len()).filter(|&i| own[i]).collect();
         let parts = |motions: &[Vec<f64>]| {
-            let part = |motion: &Vec<f64>| -> Vec<f64> {
-                let all = motion.iter().zip(own);
-                all.map(|(x, own)| if *own { *x } else { 0.0 }).collect()
+            let touches = |motion: &&Vec<f64>| places.iter().any(|&i| motion[i] != 0.0);
+            let part = |motion: &Vec<f64>| {
+                let mut part = vec![0.0; own.len()];
+                places.iter().for_each(|&i| part[i] = motion[i]);
+                part
             };
-            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), STILL)
+            let touching = motions.iter().filter(touches).map(part);
+            orthonormal(&touching.collect::<Vec<_>>(), STILL)
         };
         Tangent {
+            at: self.at.clone(),
+            decomposition: self.decomposition.clone(),
             motions: parts(&self.motions),
             idle: parts(&self.idle),
-            ..self
         }
     }
 

@@ -87,7 +87,7 @@ impl Question<'_> {
         let rng = &mut Pcg64Mcg::seed_from_u64(1);
         let parts = independent_parts(self.mechanism, near.system().unknowns());
         let dimensions = parts.iter().map(|own| {
-            let part = tangent.clone().within(own);
+            let part = tangent.within(own);
             if part.motions.is_empty() || near.is_regular(&part.at, own) {
                 return Some(part.motions.len());
             }
