@@ -5,7 +5,7 @@
     python benches/python/paired.py target/release/deps/many-<hash>
 
 Prints the least time on the processor of many calls, and in brackets the least time that passed, which only a quiet
-machine tells. Build both with the same flags to compare the calls alone: `rustc-args` of pyproject.toml are the wheel's.
+machine tells. The wheel is built with the `rustc-args` of pyproject.toml, the bench with those of a release.
 """
 
 from __future__ import annotations
