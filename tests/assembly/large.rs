@@ -125,7 +125,8 @@ fn the_freedoms_of_loops_that_nothing_joins_are_the_sum_and_a_rod_among_them_spi
             }
             let joint = |name: String| format!("\"{name}\": Passive(home: \"60 deg\"),");
             let own = (1..loops).map(|k| joint(format!("s{k}")));
-            let ball = ["x", "y", "z"].map(|axis| format!("\"{axis}\": Passive(home: \"90 deg\"),"));
+            let ball =
+                ["x", "y", "z"].map(|axis| format!("\"{axis}\": Passive(home: \"90 deg\"),"));
             let joints: String = own.chain(ball).collect();
             let rod = "\"rod\": Chain(rows: [(theta: \"x\"), (alpha: \"90 deg\", theta: \"y\"), (alpha: \"90 deg\", theta: \"z\")], tip: [Tx(\"2\")]),
                 \"post\": Chain(base: [Tx(\"2\")]),";
