@@ -1,0 +1,284 @@
+//! What follows rows of held values, singly or side by side.
+
+use crate::algebra::BATCH;
+use crate::analysis::solver::Follower;
+use crate::mechanism::Configuration;
+use crate::system::{self, Coordinate, MotionTracker, System};
+
+/// The longest step of what is held, in rad or characteristic lengths.
+const LONGEST: f64 = 0.2;
+
+/// The shortest step that is tried, over the longest.
+const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Steps beyond which a row is too far away.
+const FARTHEST: f64 = 10_000.0;
+
+/// In how many steps a distance is gone to values; none if they are too far away or no numbers.
+fn steps_of(distance: f64, finite: bool) -> usize {
+    let steps = match distance <= LONGEST {
+        // as most are
+        true => 1.0,
+        false => (distance / LONGEST).ceil(),
+    };
+    match finite && steps <= FARTHEST {
+        true => (steps as usize).max(1),
+        false => 0,
+    }
+}
+
+/// What follows rows.
+pub(super) struct Rows<'a> {
+    pub question: &'a system::Question<'a>,
+    pub coordinates: &'a [Coordinate],
+    pub columns: Vec<Coordinate>,
+    pub system: System<f64>,
+    /// Whether the system takes the values of all coordinates.
+    pub by_value: bool,
+    pub start: Configuration<f64>,
+    pub values: &'a [f64],
+    /// The rows in the order in which they are followed; empty for the order in which they are given.
+    pub order: Vec<u32>,
+    /// What makes each coordinate dimensionless.
+    pub scales: Vec<f64>,
+}
+
+/// Rows that are followed from the start.
+pub(super) struct Block<'a> {
+    /// The place of the first.
+    pub first: usize,
+    pub columns: &'a [Coordinate],
+    pub values: &'a mut [f64],
+    pub reached: &'a mut [bool],
+}
+
+impl Block<'_> {
+    fn put(&mut self, row: usize, found: impl Iterator<Item = f64>) {
+        let width = self.columns.len();
+        let values = self.values[row * width..(row + 1) * width].iter_mut();
+        values.zip(found).for_each(|(value, found)| *value = found);
+        self.reached[row] = true;
+    }
+
+    /// The values of rows that are not reached are no numbers.
+    pub fn rest(&mut self) {
+        let values = self.values.chunks_mut(self.columns.len().max(1));
+        let rest = values.zip(&*self.reached).filter(|(_, reached)| !**reached);
+        rest.for_each(|(values, _)| values.fill(f64::NAN));
+    }
+
+    fn put_at(&mut self, row: usize, at: &Configuration<f64>) {
+        let columns = self.columns;
+        self.put(row, columns.iter().map(|column| column.of(at)));
+    }
+}
+
+impl Rows<'_> {
+    /// The values of the row that is followed at a place.
+    fn row(&self, place: usize) -> &[f64] {
+        let row = (self.order.get(place)).map_or(place, |row| *row as usize);
+        let width = self.coordinates.len();
+        &self.values[row * width..(row + 1) * width]
+    }
+
+    /// The order of the values of one coordinate, where most rows are far from the one before; else that of the rows. In
+    /// several coordinates rows beside each other may lie on two sides of a fold, and no order is better than another.
+    pub fn order(&self, rows: usize) -> Vec<u32> {
+        let far = |row: &usize| self.distance(self.row(row - 1), self.row(*row)) > LONGEST;
+        let (1, Ok(count)) = (self.coordinates.len(), u32::try_from(rows)) else {
+            return Vec::new();
+        };
+        if 2 * (1..rows).filter(far).count() <= rows {
+            return Vec::new();
+        }
+        let mut order: Vec<u32> = (0..count).collect();
+        let value = |row: u32| self.values[row as usize];
+        order.sort_by(|a, b| value(*a).total_cmp(&value(*b)));
+        order
+    }
+
+    /// How far it is from one row of values to another, in rad or characteristic lengths.
+    fn distance(&self, from: &[f64], to: &[f64]) -> f64 {
+        let ways = from.iter().zip(to).zip(&self.scales);
+        ways.fold(0.0, |most, ((a, b), scale)| {
+            f64::max(most, (b - a).abs() / scale)
+        })
+    }
+
+    /// In how many steps values are reached from others.
+    fn steps(&self, from: &[f64], to: &[f64]) -> usize {
+        let finite = to.iter().all(|x| x.is_finite());
+        steps_of(self.distance(from, to), finite)
+    }
+
+    /// The same for motions side by side, coordinate by coordinate.
+    fn steps_of_each(&self, from: &[[f64; BATCH]], to: &[[f64; BATCH]]) -> [usize; BATCH] {
+        let (mut farthest, mut finite) = ([0.0; BATCH], [true; BATCH]);
+        for ((from, to), scale) in from.iter().zip(to).zip(&self.scales) {
+            for i in 0..BATCH {
+                farthest[i] = f64::max(farthest[i], (to[i] - from[i]).abs() / scale);
+                finite[i] &= to[i].is_finite();
+            }
+        }
+        let mut steps = [0; BATCH];
+        (0..BATCH).for_each(|i| steps[i] = steps_of(farthest[i], finite[i]));
+        steps
+    }
+
+    fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
+        self.coordinates.iter().map(|of| of.of(at)).collect()
+    }
+
+    /// The rows of a block in as many paths as there are motions side by side.
+    pub fn side_by_side(&self, follower: &Follower, block: &mut Block) {
+        let (first, rows) = (block.first, block.reached.len());
+        let length = rows.div_ceil(BATCH);
+        let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
+        let mut motions = follower.motions(&self.start);
+        // what is held of each motion, coordinate by coordinate
+        let begin = self.values(&self.start);
+        let mut here: Vec<[f64; BATCH]> = begin.iter().map(|value| [*value; BATCH]).collect();
+        let mut wanted = here.clone();
+        for k in 0..length {
+            let row = |motion: usize| Some(motion * length + k).filter(|row| *row < rows);
+            for motion in 0..BATCH {
+                match row(motion).map(|row| self.row(first + row)) {
+                    Some(to) => (wanted.iter_mut().zip(to)).for_each(|(of, to)| of[motion] = *to),
+                    None => wanted.iter_mut().for_each(|of| of[motion] = f64::NAN),
+                }
+            }
+            let steps = self.steps_of_each(&here, &wanted);
+            let mut arrived = [false; BATCH];
+            let mut standing = [true; BATCH];
+            for step in 1..=steps.into_iter().max().unwrap_or(0) {
+                let mut going = [false; BATCH];
+                (0..BATCH).for_each(|i| going[i] = standing[i] && step <= steps[i]);
+                for (i, (here, wanted)) in here.iter().zip(&wanted).enumerate() {
+                    let values = follower.values(&mut motions, i);
+                    for motion in (0..BATCH).filter(|motion| going[*motion]) {
+                        let (from, to) = (here[motion], wanted[motion]);
+                        values[motion] = match steps[motion] - step {
+                            0 => to,
+                            left => from + 1.0 / (left + 1) as f64 * (to - from),
+                        };
+                    }
+                }
+                let solved = follower.solve(&mut motions, &going);
+                for (i, here) in here.iter_mut().enumerate() {
+                    let values = follower.values(&mut motions, i);
+                    for motion in (0..BATCH).filter(|motion| going[*motion] && solved[*motion]) {
+                        here[motion] = values[motion];
+                    }
+                }
+                for motion in (0..BATCH).filter(|motion| going[*motion]) {
+                    standing[motion] = solved[motion];
+                    arrived[motion] = solved[motion] && step == steps[motion];
+                    if let (true, Some(row)) = (arrived[motion], row(motion)) {
+                        let columns = follower.columns(&motions);
+                        block.put(row, columns.map(|column| column[motion]));
+                    }
+                }
+            }
+            for motion in (0..BATCH).filter(|motion| steps[*motion] > 0 && !arrived[*motion]) {
+                let Some(row) = row(motion) else { continue };
+                let values: Vec<f64> = here.iter().map(|of| of[motion]).collect();
+                let mut place = Place {
+                    at: follower.configuration(&motions, motion, &values),
+                    values,
+                };
+                if self.goes_or_begins(&mut single, &mut place, self.row(first + row)) {
+                    block.put_at(row, &place.at);
+                }
+                follower.put(&mut motions, motion, &place.at);
+                for (i, &value) in place.values.iter().enumerate() {
+                    follower.values(&mut motions, i)[motion] = value;
+                    here[i][motion] = value;
+                }
+            }
+        }
+    }
+
+    /// The rows of a block in one path.
+    pub fn one_by_one(&self, block: &mut Block) {
+        let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
+        let mut place = self.begin();
+        for row in 0..block.reached.len() {
+            if self.goes_or_begins(&mut tracker, &mut place, self.row(block.first + row)) {
+                block.put_at(row, &place.at);
+            }
+        }
+    }
+
+    fn begin(&self) -> Place {
+        Place {
+            values: self.values(&self.start),
+            at: self.start.clone(),
+        }
+    }
+
+    /// Goes to held values from a place, or else from the beginning; stays there if neither leads to them.
+    fn goes_or_begins(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
+        let mut begin = self.begin();
+        self.goes(tracker, place, to)
+            || self.goes(tracker, &mut begin, to) && {
+                *place = begin;
+                true
+            }
+    }
+
+    /// Follows the straight path from a place to held values; stays there if it cannot be followed.
+    fn goes(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
+        let steps = self.steps(&place.values, to);
+        if steps == 0 {
+            return false;
+        }
+        if *tracker.configuration() != place.at {
+            tracker.restart(&place.at);
+        }
+        let begin = &place.values;
+        let longest = 1.0 / steps as f64;
+        let (mut gone, mut step) = (0.0, longest);
+        while gone < 1.0 {
+            let next = f64::min(gone + step, 1.0);
+            let value = |i: usize| match next {
+                1.0 => to[i],
+                _ => begin[i] + next * (to[i] - begin[i]),
+            };
+            let before = tracker.configuration().clone();
+            if self.solve(tracker, value) {
+                gone = next;
+                step = (2.0 * step).min(longest);
+                continue;
+            }
+            tracker.restart(&before);
+            step *= 0.5;
+            if step < SHORTEST * longest {
+                return false;
+            }
+        }
+        place.at.clone_from(tracker.configuration());
+        place.values.copy_from_slice(to);
+        true
+    }
+
+    /// Solves for other held values near by.
+    fn solve(&self, tracker: &mut MotionTracker, value: impl Fn(usize) -> f64) -> bool {
+        let held = self.coordinates.iter().copied();
+        if self.by_value {
+            return tracker.solve_at(held, value).solved;
+        }
+        let values = held
+            .enumerate()
+            .map(|(i, coordinate)| (coordinate, value(i)));
+        let near = self.question.clone().near(tracker.configuration());
+        let question = near.at_values(values);
+        *tracker = MotionTracker::new(question.system(), question.start());
+        tracker.solve(|_| ()).solved
+    }
+}
+
+/// A configuration, and the held values it was found for.
+struct Place {
+    at: Configuration<f64>,
+    values: Vec<f64>,
+}
