@@ -996,71 +996,56 @@ fn the_command_writes_whole_rows_of_numbers() {
     assert_eq!(code, 1);
 }
 
-/// As in a sweep: rows end with a whole one, and the status says that the answer did not.
+/// Interrupts a command once it has written its first bytes: its exit status, and what it wrote to stdout and stderr. It
+/// must write more than a pipe holds, which waits to be read.
 #[cfg(unix)]
-#[test]
-fn an_interrupted_map_leaves_whole_rows_and_says_so() {
+fn interrupted(arguments: &[&str]) -> (Option<i32>, String, String) {
     use std::io::Read;
     use std::process::{Command, Stdio};
     let mut child = Command::new(env!("CARGO_BIN_EXE_linkwork"))
-        .args(["workspace", "mechanisms/planar_2r.ron", "--grid", "50"])
-        .args(["--map", "hand.x=-2..2", "--map", "hand.y=-2..2"])
-        .args(["--format", "csv"])
+        .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // more rows than a pipe holds: they wait to be read
     let mut written = vec![0; 100];
     let mut stdout = child.stdout.take().unwrap();
     stdout.read_exact(&mut written).unwrap();
-    let told = Command::new("kill")
+    let signalled = Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status();
-    assert!(told.unwrap().success());
+    assert!(signalled.unwrap().success());
     std::thread::sleep(std::time::Duration::from_millis(300));
     stdout.read_to_end(&mut written).unwrap();
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    let remark = String::from_utf8(output.stderr).unwrap();
+    let [written, remark] = [written, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    (output.status.code(), written, remark)
+}
+
+/// As in a sweep: rows end with a whole one, and the status says that the answer did not.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_map_leaves_whole_rows_and_says_so() {
+    let map = "workspace mechanisms/planar_2r.ron --grid 50 --map hand.x=-2..2 --map hand.y=-2..2 --format csv";
+    let (status, written, remark) = interrupted(&map.split(' ').collect::<Vec<_>>());
+    assert_eq!(status, Some(1));
     assert!(remark.contains("note: interrupted"), "{remark}");
-    let written = String::from_utf8(written).unwrap();
     assert!(written.ends_with('\n'));
     let columns = written.lines().next().unwrap().split(',').count();
     let mut lines = written.lines();
     assert!(lines.all(|line| line.split(',').count() == columns));
 }
 
-/// More than a pipe holds, all of it worked out before the first byte is written.
+/// All of it is worked out before the first byte is written.
 #[cfg(unix)]
 #[test]
 fn an_answer_that_was_whole_when_it_was_interrupted_says_nothing_of_it() {
-    use std::io::Read;
-    use std::process::{Command, Stdio};
-    let mut child = Command::new(env!("CARGO_BIN_EXE_linkwork"))
-        .args(["study", "mechanisms/four_bar.ron", "--vary", "l2=3..5"])
-        .args(["--samples", "4000", "--quantity", "phi1"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut written = vec![0; 100];
-    let mut stdout = child.stdout.take().unwrap();
-    stdout.read_exact(&mut written).unwrap();
-    let told = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(told.unwrap().success());
-    std::thread::sleep(std::time::Duration::from_millis(300));
-    stdout.read_to_end(&mut written).unwrap();
-    let output = child.wait_with_output().unwrap();
-    let remark = String::from_utf8(output.stderr).unwrap();
-    assert_eq!((output.status.code(), &*remark), (Some(0), ""));
+    let study = "study mechanisms/four_bar.ron --vary l2=3..5 --samples 4000 --quantity phi1";
+    let (status, written, remark) = interrupted(&study.split(' ').collect::<Vec<_>>());
+    assert_eq!((status, &*remark), (Some(0), ""));
     assert!(written.len() > 1 << 17, "{} bytes", written.len());
-    let lines = written.iter().filter(|byte| **byte == b'\n').count();
-    assert_eq!(lines, 4001);
+    assert_eq!(written.lines().count(), 4001);
 }
 
 /// Home of the five-bar with a hand by its elbows: ψ₁ < 0 < ψ₂ in one working mode alone, and P above the middle of

@@ -136,8 +136,7 @@ impl<'q> Meter<'q> {
                 let outputs = outputs(mechanism, &coordinates, &held, &rest);
                 (spins, Some(held), outputs)
             }
-            Some((spins, ..)) => (spins, None, Vec::new()),
-            None => (Spins::default(), None, Vec::new()),
+            near => (near.map(|near| near.0).unwrap_or_default(), None, vec![]),
         };
         let mut frames: Vec<Frame> = points.iter().map(|point| point.frame).collect();
         let loose = frames
