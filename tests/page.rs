@@ -56,14 +56,28 @@ fn the_page_works_in_a_browser() {
     }
 }
 
-/// What is answered to a request with such a host.
-fn asked(address: &str, path: &str, host: &str) -> String {
+/// What is answered to a request.
+fn answered(address: &str, request: &str) -> String {
     let mut stream = TcpStream::connect(address).unwrap();
-    let request = format!("GET {path} HTTP/1.1\r\nHost: {host}\r\n\r\n");
-    stream.write_all(request.as_bytes()).unwrap();
+    stream
+        .write_all(format!("{request}\r\n\r\n").as_bytes())
+        .unwrap();
     let mut answer = String::new();
     stream.read_to_string(&mut answer).unwrap();
     answer
+}
+
+/// The same with such a host.
+fn asked(address: &str, path: &str, host: &str) -> String {
+    answered(address, &format!("GET {path} HTTP/1.1\r\nHost: {host}"))
+}
+
+/// Whether the other end has not closed it yet.
+fn is_open(stream: &TcpStream) -> bool {
+    stream.set_nonblocking(true).unwrap();
+    stream
+        .peek(&mut [0])
+        .is_err_and(|error| error.kind() == std::io::ErrorKind::WouldBlock)
 }
 
 #[test]
@@ -92,6 +106,14 @@ fn a_watched_page_is_served_to_this_machine_alone_and_follows_its_file() {
     let page = asked(address, "/", address);
     assert!(page.starts_with("HTTP/1.1 200 OK") && page.contains("connect-src 'self'"));
     assert!(page.contains("4-bar, broken at joint 3"));
+    let local = address.replace("127.0.0.1", "localhost");
+    assert!(asked(address, "/", &local).starts_with("HTTP/1.1 200 OK"));
+    // who is connected and says nothing keeps nobody waiting
+    let idle: Vec<TcpStream> = (0..100)
+        .map(|_| TcpStream::connect(address).unwrap())
+        .collect();
+    assert!(asked(address, "/", address).starts_with("HTTP/1.1 200 OK"));
+    assert!(idle.iter().any(is_open));
     // a file with problems is shown with them
     std::fs::write(&file, text.replace("4-bar, broken", "changed")).unwrap();
     assert!(asked(address, "/file", address).contains("changed at joint 3"));
@@ -106,6 +128,37 @@ fn a_watched_page_is_served_to_this_machine_alone_and_follows_its_file() {
             asked(address, path, host).starts_with("HTTP/1.1 404"),
             "{path} {host}"
         );
+    }
+    let local = address.replace("127.0.0.1", "LocalHost");
+    for request in [
+        format!("GET / HTTP/1.1\r\nAccept: a:b\r\nhOST:{local}"),
+        format!("GET http://{address}/ HTTP/1.1\r\nHost: {address}"),
+        format!("GET HTTP://{local} HTTP/1.1\r\nHost: {address}"),
+    ] {
+        let answer = answered(address, &request);
+        assert!(answer.starts_with("HTTP/1.1 200 OK"), "{request}");
+    }
+    // a foreign host wherever it stands, and what may be read in two ways
+    let own = format!("Host: {address}");
+    for request in [
+        "GET / HTTP/1.1".into(),
+        "GET / HTTP/1.1\r\nhost: elsewhere.example".into(),
+        format!("GET / HTTP/1.1\r\n{own}\r\nHost: elsewhere.example"),
+        format!("GET / HTTP/1.1\r\nHOST: elsewhere.example\r\n{own}"),
+        format!("GET / HTTP/1.1\r\n{own}\r\n{own}"),
+        format!("GET / HTTP/1.1\r\nHost : elsewhere.example\r\n{own}"),
+        format!("GET / HTTP/1.1\r\n{own}\r\n Host: elsewhere.example"),
+        format!("GET / HTTP/1.1\r\n{own}\nHost: elsewhere.example"),
+        format!("GET / HTTP/1.1\r\nAccept: text/html\r\n\r\n{own}"),
+        format!("GET / HTTP/1.1\r\n{own}.elsewhere.example"),
+        format!("GET / HTTP/1.1\r\n{own}1"),
+        format!("GET http://elsewhere.example/ HTTP/1.1\r\n{own}"),
+        format!("GET http://elsewhere.example@{address}/ HTTP/1.1\r\n{own}"),
+        format!("POST / HTTP/1.1\r\n{own}"),
+    ] {
+        let answer = answered(address, &request);
+        assert!(answer.starts_with("HTTP/1.1 404"), "{request}");
+        assert!(!answer.contains("4-bar"), "{request}");
     }
     server.kill().unwrap();
     server.wait().unwrap();

@@ -2,14 +2,15 @@
 
 use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
-use std::time::Duration;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use linkwork::output::view::{Viewed, page};
 
 use super::source::Source;
 use super::{Answer, Refusal, write};
 
-/// A request is a line and some headers; who sends more, or nothing for so long, is not answered.
+/// A request is a line and some headers; who sends more, or takes longer, is not answered.
 const MOST_BYTES: usize = 1 << 14;
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -19,44 +20,61 @@ pub fn serve(source: &Source) -> Result<Answer, Refusal> {
     // says so at once if the file cannot be read; one with problems is shown with them
     source.viewed()?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(refused)?;
-    let host = listener.local_addr().map_err(refused)?.to_string();
-    let said = format!("http://{host}/ shows the file and follows it until Ctrl-C.\n");
+    let port = listener.local_addr().map_err(refused)?.port();
+    let hosts = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}"));
+    let said = format!(
+        "http://{}/ shows the file and follows it until Ctrl-C.\n",
+        hosts[0]
+    );
     write(&said).map_err(refused)?;
-    for stream in listener.incoming().flatten() {
-        // a reader who goes away is no reason to end
-        let _ = answer(stream, &host, source);
-    }
+    thread::scope(|scope| {
+        for stream in listener.incoming() {
+            // who is connected and silent keeps nobody else waiting, and a reader who goes away is no reason to end
+            let answered = stream.and_then(|stream| {
+                let answer = || answer(stream, &hosts, source);
+                thread::Builder::new().spawn_scoped(scope, answer)
+            });
+            if answered.is_err() {
+                // too many at a time: some have gone soon
+                thread::sleep(Duration::from_millis(20));
+            }
+        }
+    });
     unreachable!("a listener never runs out of readers")
 }
 
-fn answer(mut stream: TcpStream, host: &str, source: &Source) -> io::Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
+fn answer(mut stream: TcpStream, hosts: &[String], source: &Source) -> io::Result<()> {
+    let until = Instant::now() + PATIENCE;
     stream.set_write_timeout(Some(PATIENCE))?;
     let mut request = Vec::new();
     let mut part = [0; 1024];
-    while !request.windows(4).any(|end| end == b"\r\n\r\n") {
+    let end = loop {
+        let end = request.windows(4).position(|end| end == b"\r\n\r\n");
+        if let Some(end) = end {
+            break end;
+        }
+        let left = until.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Ok(());
+        }
+        stream.set_read_timeout(Some(left))?;
         let bytes = stream.read(&mut part)?;
         if bytes == 0 || request.len() + bytes > MOST_BYTES {
             return Ok(());
         }
         request.extend_from_slice(&part[..bytes]);
-    }
-    let request = String::from_utf8_lossy(&request);
-    let mut lines = request.lines();
-    let path = lines.next();
-    let path = path.and_then(|line| line.strip_prefix("GET ")?.split(' ').next());
-    // a page from elsewhere whose name was made to lead here has another host
-    let mut headers = lines.filter_map(|line| line.split_once(':'));
-    let own =
-        headers.any(|(name, value)| name.eq_ignore_ascii_case("host") && value.trim() == host);
-    let viewed = source.viewed().map(|viewed| Viewed {
-        watch: true,
-        ..viewed
+    };
+    let path = std::str::from_utf8(&request[..end]).ok();
+    let path = path.and_then(|request| wanted(request, hosts));
+    let viewed = path.and_then(|path| Some((path, source.viewed().ok()?)));
+    let viewed = viewed.map(|(path, viewed)| {
+        let watch = true;
+        (path, Viewed { watch, ..viewed })
     });
     let nothing = "There is nothing here.\n";
-    let (status, kind, content) = match (path, viewed) {
-        (Some("/"), Ok(viewed)) if own => ("200 OK", "text/html", page(&viewed)),
-        (Some("/file"), Ok(viewed)) if own => ("200 OK", "application/json", viewed.json()),
+    let (status, kind, content) = match viewed {
+        Some(("/", viewed)) => ("200 OK", "text/html", page(&viewed)),
+        Some(("/file", viewed)) => ("200 OK", "application/json", viewed.json()),
         _ => ("404 Not Found", "text/plain", nothing.into()),
     };
     let head = format!(
@@ -66,4 +84,38 @@ fn answer(mut stream: TcpStream, host: &str, source: &Source) -> io::Result<()> 
     );
     stream.write_all(head.as_bytes())?;
     stream.write_all(content.as_bytes())
+}
+
+/// The path that a request wants of this host, one of these names: a page from elsewhere whose name was made to lead here
+/// has another, in its header or in its address. What is not plainly a request, as of two hosts, wants nothing
+/// (RFC 9112, 3.2 and 5.1).
+fn wanted<'r>(request: &'r str, hosts: &[String]) -> Option<&'r str> {
+    let own = |host: &str| hosts.iter().any(|own| own.eq_ignore_ascii_case(host));
+    let mut lines = request.split("\r\n");
+    let mut words = lines.next()?.strip_prefix("GET ")?.split(' ');
+    let (target, version) = (words.next()?, words.next()?);
+    if words.next().is_some() || !version.starts_with("HTTP/1.") {
+        return None;
+    }
+    let mut named = 0;
+    for line in lines {
+        let (name, value) = line.split_once(':')?;
+        if name.is_empty() || name.contains(|c: char| c.is_whitespace() || c.is_control()) {
+            return None;
+        }
+        if name.eq_ignore_ascii_case("host") {
+            named += 1;
+            if !own(value.trim_matches([' ', '\t'])) {
+                return None;
+            }
+        }
+    }
+    let path = match target.split_at_checked(7) {
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("http://") => {
+            let (host, path) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
+            own(host).then_some(if path.is_empty() { "/" } else { path })?
+        }
+        _ => target,
+    };
+    (named == 1).then_some(path)
 }
