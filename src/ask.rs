@@ -48,7 +48,7 @@ pub use remedy::Holdable;
 pub use schedule::{TableError, TableErrorKind};
 pub use solver::Example;
 pub use steering::Steering;
-pub use study::{Points, Spread, Study, StudyRows, regions};
+pub use study::{Points, Spread, Study, StudyRows, part_of, regions};
 pub use study_error::StudyError;
 pub use workspace::MOST_BYTES;
 

@@ -7,6 +7,7 @@ mod complex;
 mod dual;
 mod folded;
 mod interval;
+mod mark;
 mod real;
 pub(crate) mod sorting;
 pub(crate) mod trigonometry;
@@ -18,6 +19,7 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 pub use dual::Dual;
 pub(crate) use folded::Folded;
 pub use interval::Interval;
+pub(crate) use mark::mark;
 pub use num_complex::Complex;
 pub(crate) use widest::widest;
 

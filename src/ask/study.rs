@@ -59,6 +59,19 @@ pub struct StudyRows {
     pub interrupted: bool,
 }
 
+/// The rows of a shard, from 1, of so many of so many rows: all have the same number but for one.
+///
+/// # Errors
+/// If there is no such shard.
+pub fn part_of(rows: usize, shard: usize, of: usize) -> Result<Range<usize>, StudyError> {
+    if shard == 0 || shard > of {
+        return Err(StudyError::Shard(shard, of));
+    }
+    // in 128 bits, where the product of two counts has room
+    let end = |shard: usize| (rows as u128 * shard as u128 / of as u128) as usize;
+    Ok(end(shard - 1)..end(shard))
+}
+
 impl Varied {
     fn parameter(index: usize, of: &Parameter) -> Self {
         Varied {
@@ -226,12 +239,17 @@ impl Study {
     /// # Errors
     /// If there is no such shard.
     pub fn shard(&self, shard: usize, of: usize) -> Result<Range<usize>, StudyError> {
-        if shard == 0 || shard > of {
-            return Err(StudyError::Shard(shard, of));
-        }
-        // in 128 bits, where the product of two counts has room
-        let end = |shard: usize| (self.count() as u128 * shard as u128 / of as u128) as usize;
-        Ok(end(shard - 1)..end(shard))
+        part_of(self.count(), shard, of)
+    }
+
+    /// What decides its rows beside the mechanism, as one text.
+    pub fn identity(&self) -> String {
+        let of = &self.question;
+        let held = (&of.hold, &of.free, &of.guess, &of.near, &of.mode, of.seed);
+        let asked = (&of.reports, &of.rates, &of.wrenches, &of.loads);
+        let varied: Vec<&str> = self.varied.iter().map(|of| &*of.name).collect();
+        let points = (&self.points, varied, &self.ranges, self.counted);
+        format!("{held:?} {asked:?} {points:?}")
     }
 
     /// The rows of these numbers, on all cores.

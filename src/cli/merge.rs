@@ -9,8 +9,9 @@ use super::{Answer, Refusal};
 
 /// Join the shards of a study.
 ///
-/// Files may be given in any order; a shard given twice counts once. The output is that of `study` without --shard, byte
-/// for byte; --regions adds a column.
+/// Files may be given in any order; a shard given twice counts once. Shards of another mechanism, question or set of points are
+/// refused, as each says in its first line what it is. The output is that of `study` without --shard, byte for byte; --regions
+/// adds a column.
 #[derive(Args)]
 #[command(after_help = "Example: linkwork merge part-*.csv > study.csv")]
 pub struct Merge {
@@ -40,13 +41,19 @@ impl Merge {
             }
         });
         let files: Vec<(String, String)> = read.collect::<Result<_, _>>()?;
-        let mut merged = merge(&files).map_err(Refusal::error)?;
+        let merged = merge(&files).map_err(Refusal::error)?;
+        let twice = merged.twice.iter().map(|(shard, files)| {
+            let files = files.join(" and ");
+            format!("note: {files} are both shard {shard}, which counts once\n")
+        });
+        let remarks: String = twice.collect();
+        let mut merged = merged.rows;
         if !self.regions.is_empty() {
             merged = mapped(&merged, &self.regions).map_err(Refusal::error)?;
         }
         if self.spread {
             merged = spread(&merged).map_err(Refusal::error)?;
         }
-        Ok(Answer::yes(merged, String::new()))
+        Ok(Answer::yes(merged, remarks))
     }
 }

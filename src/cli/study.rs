@@ -1,16 +1,18 @@
 //! `linkwork study`
 
-use std::path::PathBuf;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use linkwork::ask::{self, Points, Question, Role};
-use linkwork::output::study::{csv, spread};
+use linkwork::output::study::{Label, csv, spread};
 use linkwork::system::Value;
 
 use super::asked::{Asked, Forces};
 use super::search::Search;
 use super::source::{Assignment, Source, once};
-use super::watched::watched;
+use super::watched::{cut_short_is_said, watched};
 use super::words::Ranged;
 use super::written::save;
 use super::{Answer, Refusal, lines};
@@ -72,7 +74,7 @@ pub struct Study {
     /// Write mean, standard deviation and extremes of each column instead of the rows
     #[arg(long, conflicts_with = "shard")]
     spread: bool,
-    /// Write to a file, which appears only when it is complete
+    /// Write to a file. Where the work is interrupted it has the rows that are finished, and the same command goes on from there
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -113,25 +115,75 @@ impl Study {
         };
         let study = posed.ask(|question, _| ask::Study::new(question, &vary, &deviate, points))?;
         let (part, of) = self.shard;
-        let range = study.shard(part, of).map_err(Refusal::error)?;
-        let rows = watched(|watch| study.rows(range, watch));
+        let mut range = study.shard(part, of).map_err(Refusal::error)?;
+        let written = posed.loaded.description.to_ron().map_err(Refusal::error)?;
+        let label = Label::new(&written, &study, self.shard);
+        // what an interrupted run left
+        let begun = self.output.as_deref().filter(|_| !self.spread);
+        let begun = begun.and_then(|path| unfinished(path, label, &range));
+        let mut remarks = posed.loaded.warnings();
+        if let (Some((rows, _)), Some(path)) = (&begun, &self.output) {
+            range.start += rows;
+            let path = path.display();
+            remarks += &format!(
+                "note: {path} has rows up to {}: going on from there\n",
+                range.start
+            );
+        }
+        let rows = watched(|watch| study.rows(range.clone(), watch));
         let whole = !rows.interrupted;
-        let note = (!whole).then(|| "interrupted: rows are missing at the end".to_owned());
+        let done = range.start + rows.rows.len();
         let mut data = csv(&study, &rows);
+        if let Some((_, known)) = begun {
+            let new = data.split_once('\n').map_or("", |(_, rows)| rows);
+            data = known + new;
+        }
         if self.spread {
             data = spread(&data).map_err(Refusal::error)?;
+        } else if of > 1 || !whole && self.output.is_some() {
+            data = format!("{label}{data}");
         }
-        if let Some(path) = &self.output {
-            // a part of a shard is none
-            if whole {
-                save(path, data.as_bytes())?;
-            }
-            data.clear();
+        let Some(path) = &self.output else {
+            let note = (!whole).then(|| "interrupted: rows are missing at the end".to_owned());
+            return Ok(Answer {
+                data,
+                remarks: remarks + &lines("note", note),
+                yes: whole,
+            });
+        };
+        let first = study.shard(part, of).map_err(Refusal::error)?.start;
+        let worth = whole || !self.spread && done > first;
+        if worth {
+            save(path, data.as_bytes())?;
+        }
+        if !whole {
+            let (path, count) = (path.display(), study.count());
+            let said = match worth {
+                true => format!(
+                    "{path} has rows {first} to {} of {count}; the same command goes on from there",
+                    done - 1
+                ),
+                false => format!("nothing is written to {path}"),
+            };
+            remarks += &format!("note: interrupted: {said}\n");
+            cut_short_is_said();
         }
         Ok(Answer {
-            data,
-            remarks: posed.loaded.warnings() + &lines("note", note),
+            data: String::new(),
+            remarks,
             yes: whole,
         })
     }
+}
+
+/// How many rows a file has of a shard that was interrupted, and they with their header.
+fn unfinished(path: &Path, label: Label, of: &Range<usize>) -> Option<(usize, String)> {
+    // what is no file may never end
+    let text = path.is_file().then(|| fs::read_to_string(path).ok())??;
+    let (known, rows) = Label::of(&text);
+    let lines = rows.lines().skip(1).zip(of.start..);
+    let lines = lines.take_while(|(line, row)| line.split(',').next() == Some(&row.to_string()));
+    let count = lines.count();
+    let whole = rows.ends_with('\n') && rows.lines().count() == count + 1;
+    (known == Some(label) && whole && count < of.len()).then(|| (count, rows.to_owned()))
 }

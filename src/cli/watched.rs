@@ -76,6 +76,11 @@ pub fn was_cut_short() -> bool {
     CUT_SHORT.load(Ordering::Relaxed)
 }
 
+/// The answer says itself that work ended so.
+pub fn cut_short_is_said() {
+    CUT_SHORT.store(false, Ordering::Relaxed);
+}
+
 /// Ends the work whose rows nobody reads any more.
 pub fn read_no_more() {
     UNREAD.store(true, Ordering::Relaxed);

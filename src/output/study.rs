@@ -1,12 +1,13 @@
 //! Rows of studies, and shards put together.
 
-use std::iter;
+use std::{fmt, iter};
 
 use super::csv::render;
 use super::document::Cell;
 use super::report::Rows;
-use crate::ask::{Study, StudyRows, regions};
+use crate::ask::{Study, StudyRows, part_of, regions};
 use crate::mechanism::Variable;
+use crate::number::mark;
 
 /// What the first column is called: with the number of all rows, so that a missing shard is noticed.
 const ROW: &str = "row of ";
@@ -61,26 +62,92 @@ pub fn spread(rows: &str) -> std::io::Result<String> {
     Ok(render(Rows::new(titles.map(str::to_owned), rows)))
 }
 
+/// What a shard says of itself in a line that readers of comma-separated values skip as a comment:
+/// `# shard 3 of 200 of study 4c1f0e8d2b7a9635`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// Its number, from 1.
+    pub part: usize,
+    /// How many there are.
+    pub of: usize,
+    /// The mark of the study: of the mechanism, of all that is asked of it, and of the points.
+    pub mark: u64,
+}
+
+impl Label {
+    /// The shard of a study of a mechanism that this text describes.
+    pub fn new(mechanism: &str, study: &Study, (part, of): (usize, usize)) -> Self {
+        let version = env!("CARGO_PKG_VERSION");
+        let mark = mark(&format!("{version} {} {mechanism}", study.identity()));
+        Label { part, of, mark }
+    }
+
+    /// What is before the first row, and the rows.
+    pub fn of(text: &str) -> (Option<Label>, &str) {
+        let Some((line, rest)) = text.split_once('\n').filter(|_| text.starts_with('#')) else {
+            return (None, text);
+        };
+        let words: Vec<&str> = line.split(' ').collect();
+        let label = match words[..] {
+            ["#", "shard", part, "of", of, "of", "study", mark] => (|| {
+                Some(Label {
+                    part: part.parse().ok()?,
+                    of: of.parse().ok()?,
+                    mark: u64::from_str_radix(mark, 16).ok()?,
+                })
+            })(),
+            _ => None,
+        };
+        (label, rest)
+    }
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Label { part, of, mark } = self;
+        writeln!(f, "# shard {part} of {of} of study {mark:016x}")
+    }
+}
+
 /// Why files are not the shards of one study.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MergeError {
     /// A file that is no shard.
-    #[error("{0} is not a shard of a study: its first line does not begin with `row of`")]
+    #[error("{0} is not a shard of a study: it has no line that begins with `row of`")]
     NoShard(String),
-    /// A file of another study.
+    /// A file with other columns.
     #[error("{0} has other columns than {1}: they are of two studies")]
     Other(String, String),
+    /// A file of another study with the same columns.
+    #[error(
+        "{0} and {1} are shards of two studies: the mechanism, what is asked of it, the points or the version of linkwork \
+         are not the same"
+    )]
+    OtherStudy(String, String),
+    /// A file that does not say of which study it is.
+    #[error("{0} does not say of which study it is a shard: compute it with --shard")]
+    Unlabelled(String),
     /// A file and its line, from 1, that does not begin with the number of a row.
     #[error("{0}:{1} does not begin with the number of a row")]
     NoRow(String, usize),
     /// Two rows of one number that differ.
-    #[error("row {0} is not the same in {files}: they are of two studies", files = .1.join(" and "))]
+    #[error("row {0} is not the same in {files}: one of them was changed", files = .1.join(" and "))]
     Differ(usize, [String; 2]),
     /// So many rows are no grid of these nodes along each coordinate.
     #[error("{0} rows are not a grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
     Grid(usize, Vec<usize>),
+    /// Shards that are not there, of so many.
+    #[error("shard{plural} {listed} of {of} {are} missing", plural = if shards.len() == 1 { "" } else { "s" },
+            listed = runs(shards), are = if shards.len() == 1 { "is" } else { "are" })]
+    MissingShards {
+        /// Their numbers.
+        shards: Vec<usize>,
+        /// How many there are in all.
+        of: usize,
+    },
     /// Missing rows.
-    #[error("rows {first} to {last} of {of} are missing: compute their shard")]
+    #[error("rows {first} to {last} of {of} are missing{}", file.as_ref().map_or(": compute their shard".into(),
+            |file| format!(" in {file}, which was interrupted: the command that began it goes on there")))]
     Missing {
         /// The first.
         first: usize,
@@ -88,7 +155,18 @@ pub enum MergeError {
         last: usize,
         /// How many there are in all.
         of: usize,
+        /// The file that should have them.
+        file: Option<String>,
     },
+}
+
+/// Numbers in their order, those that follow on one another from the first to the last: `2, 5 to 9`.
+fn runs(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [one] => one.to_string(),
+        run => format!("{} to {}", run[0], run[run.len() - 1]),
+    });
+    runs.collect::<Vec<_>>().join(", ")
 }
 
 /// The rows of a whole grid with the number of the region to which each belongs: nodes beside each other where the mechanism
@@ -117,42 +195,65 @@ pub fn mapped(rows: &str, grid: &[usize]) -> Result<String, MergeError> {
     Ok(text)
 }
 
+/// A study whose shards were put together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// All rows, as the whole study has them.
+    pub rows: String,
+    /// Files that are one shard, with its number; it counts once.
+    pub twice: Vec<(usize, [String; 2])>,
+}
+
 /// The study of which files are all the shards, in any order; a shard that was worked out twice counts once.
 ///
 /// # Errors
 /// If they are not those of one study, or rows are missing.
-pub fn merge(files: &[(String, String)]) -> Result<String, MergeError> {
+pub fn merge(files: &[(String, String)]) -> Result<Merged, MergeError> {
     let number = |line: &str| line.split(',').next()?.parse::<usize>().ok();
-    let mut header: Option<(&str, &str)> = None;
+    let mut before: Option<(&str, Option<Label>, &str)> = None;
+    let mut labels: Vec<(Label, &str)> = Vec::new();
+    let mut twice = Vec::new();
     let mut rows: Vec<(usize, &str, &str)> = Vec::new();
     let mut all = 0;
     for (file, text) in files {
+        let (label, text) = Label::of(text);
         let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
         let count = first.strip_prefix(ROW).and_then(number);
         all = count.ok_or_else(|| MergeError::NoShard(file.clone()))?;
-        match header {
-            Some((known, of)) if known != first => {
-                return Err(MergeError::Other(file.clone(), of.into()));
+        if let Some((known, other, of)) = before {
+            let two = || (file.clone(), of.to_owned());
+            let unlabelled = |file: &str| Err(MergeError::Unlabelled(file.into()));
+            match (label, other) {
+                _ if known != first => return Err(MergeError::Other(two().0, two().1)),
+                (None, _) => return unlabelled(file),
+                (_, None) => return unlabelled(of),
+                (Some(one), Some(other)) if one.mark != other.mark => {
+                    return Err(MergeError::OtherStudy(two().0, two().1));
+                }
+                _ => {}
             }
-            _ => header = Some((first, file)),
         }
+        before = Some((first, label, file));
+        if let Some(label) = label {
+            if let Some((_, other)) = labels.iter().find(|(known, _)| *known == label) {
+                twice.push((label.part, [(*other).to_owned(), file.clone()]));
+            }
+            labels.push((label, file));
+        }
+        let above = 2 + usize::from(label.is_some());
         for (i, line) in rest.lines().enumerate() {
-            let number = number(line).ok_or_else(|| MergeError::NoRow(file.clone(), i + 2))?;
-            rows.push((number, line, file));
+            let line_number = || MergeError::NoRow(file.clone(), i + above);
+            rows.push((number(line).ok_or_else(line_number)?, line, file));
         }
     }
     // stable: the order of files decides nothing, as equal rows are the same
     rows.sort_by_key(|(number, ..)| *number);
-    let mut merged = format!("{}\n", header.map_or("", |(first, _)| first));
+    let mut merged = format!("{}\n", before.map_or("", |(first, ..)| first));
     let mut next = 0;
-    let mut before: Option<(usize, &str, &str)> = None;
-    let missing = |first, end: usize| MergeError::Missing {
-        first,
-        last: end - 1,
-        of: all,
-    };
+    let mut last: Option<(usize, &str, &str)> = None;
+    let missing = |first, end: usize| missing(&labels, first, end, all);
     for (number, line, file) in rows {
-        match before {
+        match last {
             Some((known, text, other)) if known == number => {
                 if text != line {
                     let files = [other.to_owned(), file.to_owned()];
@@ -166,11 +267,37 @@ pub fn merge(files: &[(String, String)]) -> Result<String, MergeError> {
         merged += line;
         merged.push('\n');
         next = number + 1;
-        before = Some((number, line, file));
+        last = Some((number, line, file));
     }
     match next < all {
         true => Err(missing(next, all)),
-        false => Ok(merged),
+        false => Ok(Merged {
+            rows: merged,
+            twice,
+        }),
+    }
+}
+
+/// What is missing where rows are: the file that was interrupted, or the shards that are not there, or the rows.
+fn missing(labels: &[(Label, &str)], first: usize, end: usize, of: usize) -> MergeError {
+    let has = |label: &Label| part_of(of, label.part, label.of).is_ok_and(|r| r.contains(&first));
+    let file = labels.iter().find(|(label, _)| has(label));
+    let shards = labels.first().map_or(0, |(label, _)| label.of);
+    let divided = shards > 0 && labels.iter().all(|(label, _)| label.of == shards);
+    match file {
+        None if divided => {
+            let there = |part: &usize| labels.iter().any(|(label, _)| label.part == *part);
+            MergeError::MissingShards {
+                shards: (1..=shards).filter(|part| !there(part)).collect(),
+                of: shards,
+            }
+        }
+        file => MergeError::Missing {
+            first,
+            last: end - 1,
+            of,
+            file: file.map(|(_, file)| (*file).to_owned()),
+        },
     }
 }
 
@@ -179,7 +306,10 @@ mod tests {
     use super::*;
 
     fn file(name: &str, rows: &[&str]) -> (String, String) {
-        let text = format!("row of 4,l2 (m),assembled\n{}\n", rows.join("\n"));
+        let (part, of) = (if name == "a" { 1 } else { 2 }, 2);
+        let label = Label { part, of, mark: 7 };
+        let rows = rows.join("\n");
+        let text = format!("{label}row of 4,l2 (m),assembled\n{rows}\n");
         (name.into(), text)
     }
 
@@ -192,8 +322,28 @@ mod tests {
         let whole = "row of 4,l2 (m),assembled\n0,1,1\n1,2,1\n2,3,1\n3,4,0\n";
         for order in [vec![&a, &b], vec![&b, &a], vec![&b, &a, &b]] {
             let files: Vec<_> = order.into_iter().cloned().collect();
-            assert_eq!(merge(&files).as_deref(), Ok(whole));
+            let merged = merge(&files).expect("a whole study");
+            assert_eq!(merged.rows, whole);
+            let twice = (files.len() > 2).then(|| (2, ["b".to_owned(), "b".to_owned()]));
+            assert_eq!(merged.twice, Vec::from_iter(twice));
         }
+        // a whole study is one of itself, with and without a line that says so
+        let alone = merge(&[("w".into(), whole.into())]);
+        assert_eq!(alone.expect("a whole study").rows, whole);
+    }
+
+    #[test]
+    fn a_label_is_read_as_it_is_written() {
+        let (part, of, mark) = (3, 200, 0x0c1f_0e8d_2b7a_9635);
+        let label = Label { part, of, mark };
+        let text = format!("{label}row of 9\n");
+        assert!(text.starts_with("# shard 3 of 200 of study 0c1f0e8d2b7a9635\n"));
+        assert_eq!(Label::of(&text), (Some(label), "row of 9\n"));
+        assert_eq!(Label::of("row of 9\n"), (None, "row of 9\n"));
+        assert_eq!(
+            Label::of("# said by hand\nrow of 9\n"),
+            (None, "row of 9\n")
+        );
     }
 
     /// The sample standard deviation of 2, 4, 4, 4, 5, 5, 7, 9 is √(32/7).
@@ -218,7 +368,7 @@ mod tests {
             file("a", &["0,1,1", "1,2,0"]),
             file("b", &["2,1,1", "3,2,1"]),
         ];
-        let whole = merge(&shards).expect("a whole study");
+        let whole = merge(&shards).expect("a whole study").rows;
         let expected = "row of 4,l2 (m),assembled,region\n0,1,1,1\n1,2,0,\n2,1,1,1\n3,2,1,1\n";
         assert_eq!(mapped(&whole, &[2, 2]).as_deref(), Ok(expected));
         let row = "row of 4,l2 (m),assembled,region\n0,1,1,1\n1,2,0,\n2,1,1,2\n3,2,1,2\n";
@@ -229,19 +379,41 @@ mod tests {
 
     #[test]
     fn what_is_missing_or_foreign_is_named() {
-        let (a, b) = (file("a", &["0,1,1"]), file("b", &["2,3,1", "3,4,0"]));
-        let missing = |first, last| MergeError::Missing { first, last, of: 4 };
-        assert_eq!(merge(&[a.clone(), b.clone()]), Err(missing(1, 1)));
-        assert_eq!(merge(&[b]), Err(missing(0, 1)));
-        assert_eq!(merge(std::slice::from_ref(&a)), Err(missing(1, 3)));
-        let other = ("c".to_owned(), a.1.replace("l2", "l3"));
-        let refused = Err(MergeError::Other("c".into(), "a".into()));
-        assert_eq!(merge(&[a.clone(), other]), refused);
+        let (a, b) = (
+            file("a", &["0,1,1", "1,2,1"]),
+            file("b", &["2,3,1", "3,4,0"]),
+        );
+        let shard = |number| MergeError::MissingShards {
+            shards: vec![number],
+            of: 2,
+        };
+        assert_eq!(merge(std::slice::from_ref(&a)), Err(shard(2)));
+        assert_eq!(merge(std::slice::from_ref(&b)), Err(shard(1)));
+        // a shard that was interrupted
+        let begun = file("a", &["0,1,1"]);
+        let refused = MergeError::Missing {
+            first: 1,
+            last: 1,
+            of: 4,
+            file: Some("a".into()),
+        };
+        assert_eq!(merge(&[begun, b.clone()]), Err(refused));
+        let named = |name: &str, from: &str, to: &str| (name.to_owned(), b.1.replace(from, to));
+        let two = || ("c".to_owned(), "a".to_owned());
+        let other = merge(&[a.clone(), named("c", "l2", "l3")]);
+        assert_eq!(other, Err(MergeError::Other(two().0, two().1)));
+        let other = merge(&[a.clone(), named("c", "study 0000", "study 0001")]);
+        assert_eq!(other, Err(MergeError::OtherStudy(two().0, two().1)));
+        let other = merge(&[
+            a.clone(),
+            named("c", "# shard 2 of 2 of study 0000000000000007\n", ""),
+        ]);
+        assert_eq!(other, Err(MergeError::Unlabelled("c".into())));
         let changed = ("c".to_owned(), a.1.replace("0,1,1", "0,1,0"));
         let files = ["a".to_owned(), "c".to_owned()];
-        let refused = Err(MergeError::Differ(0, files));
-        assert_eq!(merge(&[a, changed]), refused);
+        assert_eq!(merge(&[a, changed]), Err(MergeError::Differ(0, files)));
         let text = ("d".to_owned(), "theta1\n1\n".to_owned());
         assert_eq!(merge(&[text]), Err(MergeError::NoShard("d".into())));
+        assert_eq!(runs(&[2, 5, 6, 7, 9]), "2, 5 to 7, 9");
     }
 }

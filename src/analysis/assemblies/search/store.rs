@@ -7,7 +7,7 @@
 use super::solutions::GenericSolutions;
 use crate::analysis::assemblies::family::{C, Family, size};
 use crate::mechanism::Mechanism;
-use crate::number::Number;
+use crate::number::{Number, mark};
 
 const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
@@ -73,11 +73,7 @@ pub(crate) fn question(mechanism: &Mechanism, family: &Family) -> String {
         mechanism.parameters(),
         family.coordinates.inputs,
     );
-    // FNV-1a (Fowler, Noll and Vo 1991)
-    let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
-        (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{} {mark:016x}", mechanism.name())
+    format!("{} {:016x}", mechanism.name(), mark(&all))
 }
 
 fn title(stored: &GenericSolutions, body: &str) -> String {
