@@ -2,13 +2,13 @@
 
 mod rows;
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Mutex, PoisonError};
 
 use super::{AskError, Question, Role};
 use crate::algebra::BATCH;
 use crate::analysis::solver::{Follower, Following};
-use crate::solve::{Progress, Stage, Watch, each};
+use crate::solve::{Watch, each};
 use crate::system::{self, Coordinate, HeldPlatform, check_count};
 use rows::{Block, Rows};
 
@@ -27,7 +27,7 @@ pub struct Many {
     pub values: Vec<f64>,
     /// Whether each row was reached.
     pub reached: Vec<bool>,
-    /// Whether the work was stopped before it was done.
+    /// Whether the work was stopped before it was done; then rows are missing at the end, of unsorted values all.
     pub interrupted: bool,
 }
 
@@ -92,6 +92,8 @@ impl Question {
             values,
             order: Vec::new(),
             scales: coordinates.iter().map(|c| c.scale(mechanism)).collect(),
+            watch,
+            done: AtomicUsize::new(0),
         };
         let rows = match names.len() {
             0 => 0,
@@ -121,28 +123,34 @@ impl Question {
             })
         });
         let blocks: Vec<Mutex<Block>> = blocks.collect();
-        let done = AtomicUsize::new(0);
-        each(blocks.len(), &(), |(), number| {
+        let followed = each(blocks.len(), &(), |(), number| {
             let block = &mut *blocks[number]
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner);
-            let done = done.fetch_add(block.reached.len(), Ordering::Relaxed);
-            let of = Some(rows);
-            let stage = Stage::Motion;
-            if watch.at(Progress { stage, done, of }).is_continue() {
-                match &follower {
-                    Some(follower) => all.side_by_side(follower, block),
-                    None => all.one_by_one(block),
-                }
-            }
-            block.rest();
+            let followed = match &follower {
+                Some(follower) => all.side_by_side(follower, block),
+                None => all.one_by_one(block),
+            };
+            followed.then(|| block.rest())
         });
         drop(blocks);
+        let interrupted = followed.iter().any(Option::is_none);
+        if interrupted {
+            let before = followed.iter().take_while(|block| block.is_some()).count();
+            let left = if all.order.is_empty() {
+                (before * block).min(rows)
+            } else {
+                0
+            };
+            all.order.clear();
+            found.truncate(left * width);
+            reached.truncate(left);
+        }
         let mut many = Many {
             names: all.columns.iter().map(|of| of.name(mechanism)).collect(),
             values: found,
             reached,
-            interrupted: watch.is_stopped(),
+            interrupted,
         };
         if !all.order.is_empty() {
             let (values, reached) = (many.values.clone(), many.reached.clone());

@@ -187,6 +187,40 @@ fn a_motion_ends_where_it_was_stopped() {
     });
 }
 
+/// Rows that are left are those of the whole; of values in no order, which are followed sorted, none are.
+#[test]
+fn rows_of_held_values_are_stopped_between_rows() {
+    let question = linkwork::ask::Question::new(mechanism("four_bar"));
+    let names = ["theta1".to_owned()];
+    let ordered = |i: usize| 0.5 + 0.4 * (i as f64 / 3000.0);
+    let unordered = |i: usize| 0.5 + (i * 7919 % 3000) as f64 / 1000.0;
+    for (name, rows, value) in [
+        ("one by one", 300, &ordered as &dyn Fn(usize) -> f64),
+        ("side by side", 3000, &ordered),
+        ("sorted", 3000, &unordered),
+    ] {
+        let values: Vec<f64> = (0..rows).map(value).collect();
+        let whole = (question.solve_many(&names, &values, &Watch::none())).unwrap();
+        stopped(name, &|watch| {
+            let many = question.solve_many(&names, &values, watch).unwrap();
+            assert_eq!(many.values[..], whole.values[..many.values.len()]);
+            assert_eq!(many.reached[..], whole.reached[..many.reached.len()]);
+            (many.interrupted, many.reached.len())
+        });
+    }
+}
+
+/// One row ten thousand steps away is stopped on its way.
+#[test]
+fn a_row_that_is_far_away_is_stopped_on_its_way() {
+    let question = linkwork::ask::Question::new(mechanism("four_bar"));
+    stopped("far", &|watch| {
+        let many = question.solve_many(&["theta1".into()], &[1900.0], watch);
+        let many = many.unwrap();
+        (many.interrupted, many.reached.len())
+    });
+}
+
 #[test]
 fn loci_and_maps_have_what_was_found() {
     let mechanism = mechanism("five_bar");

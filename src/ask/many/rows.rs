@@ -1,8 +1,11 @@
 //! What follows rows of held values, singly or side by side.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use crate::algebra::BATCH;
 use crate::analysis::solver::Follower;
 use crate::mechanism::Configuration;
+use crate::solve::{Progress, Stage, Watch};
 use crate::system::{self, Coordinate, MotionTracker, System};
 
 /// The longest step of what is held, in rad or characteristic lengths.
@@ -41,6 +44,9 @@ pub(super) struct Rows<'a> {
     pub order: Vec<u32>,
     /// What makes each coordinate dimensionless.
     pub scales: Vec<f64>,
+    pub watch: &'a Watch<'a>,
+    /// How many rows are done.
+    pub done: AtomicUsize,
 }
 
 /// Rows that are followed from the start.
@@ -129,8 +135,19 @@ impl Rows<'_> {
         self.coordinates.iter().map(|of| of.of(at)).collect()
     }
 
-    /// The rows of a block in as many paths as there are motions side by side.
-    pub fn side_by_side(&self, follower: &Follower, block: &mut Block) {
+    /// Whether the work goes on after so many rows more. Asked at every step: a row may be ten thousand steps away.
+    fn goes_on(&self, rows: usize) -> bool {
+        let done = self.done.fetch_add(rows, Ordering::Relaxed) + rows;
+        let now = Progress {
+            stage: Stage::Motion,
+            done,
+            of: Some(self.values.len() / self.coordinates.len()),
+        };
+        self.watch.at(now).is_continue()
+    }
+
+    /// The rows of a block in as many paths as there are motions side by side; whether all were followed.
+    pub fn side_by_side(&self, follower: &Follower, block: &mut Block) -> bool {
         let (first, rows) = (block.first, block.reached.len());
         let length = rows.div_ceil(BATCH);
         let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
@@ -151,6 +168,9 @@ impl Rows<'_> {
             let mut arrived = [false; BATCH];
             let mut standing = [true; BATCH];
             for step in 1..=steps.into_iter().max().unwrap_or(0) {
+                if !self.goes_on(0) {
+                    return false;
+                }
                 let mut going = [false; BATCH];
                 (0..BATCH).for_each(|i| going[i] = standing[i] && step <= steps[i]);
                 for (i, (here, wanted)) in here.iter().zip(&wanted).enumerate() {
@@ -195,18 +215,26 @@ impl Rows<'_> {
                     here[i][motion] = value;
                 }
             }
+            if !self.goes_on((0..BATCH).filter(|i| row(*i).is_some()).count()) {
+                return false;
+            }
         }
+        true
     }
 
-    /// The rows of a block in one path.
-    pub fn one_by_one(&self, block: &mut Block) {
+    /// The rows of a block in one path; whether all were followed.
+    pub fn one_by_one(&self, block: &mut Block) -> bool {
         let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
         let mut place = self.begin();
         for row in 0..block.reached.len() {
             if self.goes_or_begins(&mut tracker, &mut place, self.row(block.first + row)) {
                 block.put_at(row, &place.at);
             }
+            if !self.goes_on(1) {
+                return false;
+            }
         }
+        true
     }
 
     fn begin(&self) -> Place {
@@ -239,6 +267,9 @@ impl Rows<'_> {
         let longest = 1.0 / steps as f64;
         let (mut gone, mut step) = (0.0, longest);
         while gone < 1.0 {
+            if !self.goes_on(0) {
+                return false;
+            }
             let next = f64::min(gone + step, 1.0);
             let value = |i: usize| match next {
                 1.0 => to[i],
