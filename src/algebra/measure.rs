@@ -41,6 +41,9 @@ pub enum MeasureErrorKind {
     /// A number in rad that is more than two turns, and nothing says that rad is meant.
     #[error("{_0} without a unit is in rad, which is {:.1} turns", (_0 / std::f64::consts::TAU).abs())]
     BareAngle(f64),
+    /// The same of the rate of an angle, in rad/s.
+    #[error("{_0} without a unit is in rad/s, which is {:.1} turns per second", (_0 / std::f64::consts::TAU).abs())]
+    BareRate(f64),
 }
 
 /// The largest angle, in rad, that a number without a unit may be: larger ones are mostly meant in degrees.

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 
 use super::Mechanism;
 use crate::algebra::{
-    EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind,
+    EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind, Unit,
 };
 use crate::description::{Displacement, ProblemKind, Scope, nearest};
 use crate::geometry::Pose;
@@ -41,6 +41,26 @@ impl Value {
         let (value, bare) = self.read(mechanism, wanted)?;
         match bare {
             Some(error) if wanted == Measure::Angle => Err(ValueError::Unit(error)),
+            _ => Ok(value),
+        }
+    }
+
+    /// The number of a rate (`order` 1) or an acceleration (2), whose unit may be written with that of time, `360 deg/s`,
+    /// or without: an angle of more than two turns per second has its unit.
+    pub(crate) fn per_time(
+        &self,
+        mechanism: &Mechanism,
+        wanted: Measure,
+        order: usize,
+    ) -> Result<f64, ValueError> {
+        let (value, bare) = match self {
+            Value::Text(text) => read(mechanism, before_time(mechanism, text, order), wanted)?,
+            value => value.read(mechanism, wanted)?,
+        };
+        match bare {
+            Some(MeasureErrorKind::BareAngle(value)) if wanted == Measure::Angle && order == 1 => {
+                Err(ValueError::Unit(MeasureErrorKind::BareRate(value)))
+            }
             _ => Ok(value),
         }
     }
@@ -207,6 +227,28 @@ fn read(
             Err(ValueError::UnknownName { name, suggestion })
         }
     }
+}
+
+/// A rate or an acceleration without `/s` or `/s^2` at its end. A parameter `s` divides what does not end with a unit.
+fn before_time<'t>(mechanism: &Mechanism, text: &'t str, order: usize) -> &'t str {
+    let times: &[&str] = match order {
+        1 => &["s"],
+        _ => &["s^2", "s²"],
+    };
+    let text = text.trim_end();
+    let mut before = times.iter().filter_map(|time| {
+        let before = text.strip_suffix(time)?.trim_end().strip_suffix('/')?;
+        Some(before.trim_end())
+    });
+    let divides = mechanism.parameters().iter().any(|of| &*of.name == "s");
+    let is_unit = |before: &&str| {
+        let word = before.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
+        !divides
+            || Unit::ALL
+                .iter()
+                .any(|unit| unit.word() == &before[word.len()..])
+    };
+    before.find(is_unit).unwrap_or(text)
 }
 
 /// The pose of a list such as `[Tz(0.5), Rx(10 deg)]`, read left to right as in a file.

@@ -169,3 +169,71 @@ fn a_slide_in_a_file_of_axes_has_lengths_for_home_and_limits() {
     ));
     assert!(Description::read("Axes()").is_err());
 }
+
+/// 360 rad/s are 57 turns in a second; who means degrees says so. A unit of time may be written or not, and only that of a
+/// rate.
+#[test]
+fn rates_are_read_with_their_units_and_a_bare_rate_of_many_turns_is_refused() {
+    let driven = |rate: &str| {
+        let report = four_bar().rate("theta1", rate).velocity(&Watch::none());
+        report.map(|report| report.closed().unwrap().joints[0].rate.unwrap())
+    };
+    let turn = std::f64::consts::TAU;
+    for (rate, expected) in [
+        ("360 deg/s", turn),
+        ("360deg / s", turn),
+        ("2*180 deg/s", turn),
+        ("360 deg", turn),
+        ("360 rad/s", 360.0),
+        ("360 rad", 360.0),
+        ("12.5", 12.5),
+        ("1/s", 1.0),
+        ("-2*pi", -turn),
+    ] {
+        assert!(
+            (driven(rate).unwrap() - expected).abs() < 1e-12 * expected.abs(),
+            "{rate}"
+        );
+    }
+    for rate in ["360", "-360", "360/s", "6*60"] {
+        let error = driven(rate).unwrap_err().to_string();
+        assert!(error.contains("without a unit is in rad/s"), "{error}");
+    }
+    for rate in ["360 deg/s^2", "360 m/s", "360 deg*s", "s", "/s", "360 s"] {
+        assert!(driven(rate).is_err(), "{rate}");
+    }
+    let accelerated = |value: &str| {
+        let question = four_bar().rate("theta1", "1").acceleration("theta1", value);
+        question.velocity(&Watch::none()).is_ok()
+    };
+    assert!(
+        ["90 deg/s^2", "90 deg/s²", "90 deg", "90"]
+            .map(accelerated)
+            .iter()
+            .all(|ok| *ok)
+    );
+    assert!(
+        !["90 deg/s", "90 m/s^2"]
+            .map(accelerated)
+            .iter()
+            .any(|ok| *ok)
+    );
+}
+
+/// A parameter `s` still divides: only behind a unit is it a second.
+#[test]
+fn a_parameter_s_divides_a_rate() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/four_bar.ron");
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.replacen("parameters: {", "parameters: { \"s\": 4,", 1);
+    let mechanism = Mechanism::new(&linkwork::description::Description::read(&text).unwrap());
+    let question = Question::new(mechanism.unwrap());
+    let rate = |rate: &str| {
+        let report = question
+            .clone()
+            .rate("theta1", rate)
+            .velocity(&Watch::none());
+        report.unwrap().closed().unwrap().joints[0].rate.unwrap()
+    };
+    assert_eq!((rate("2/s"), rate("2 rad/s")), (0.5, 2.0));
+}

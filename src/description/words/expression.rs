@@ -74,6 +74,7 @@ pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static s
         MeasureErrorKind::Units(..) => "different units",
         MeasureErrorKind::Argument(..) => "wrong unit",
         MeasureErrorKind::BareAngle(_) => "deg or rad?",
+        MeasureErrorKind::BareRate(_) => "deg/s or rad/s?",
     }
 }
 
@@ -81,6 +82,10 @@ pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
     match error {
         MeasureErrorKind::BareAngle(value) => format!(
             "write `{value}deg`, which is `{:.6}rad`, or `{value}rad` if so many turns are meant",
+            value.to_radians()
+        ),
+        MeasureErrorKind::BareRate(value) => format!(
+            "write `{value}deg/s`, which is `{:.6}rad/s`, or `{value}rad/s` if so many turns are meant",
             value.to_radians()
         ),
         MeasureErrorKind::Wrong { wanted, .. } => match (units_of(*wanted), wanted.si_unit()) {

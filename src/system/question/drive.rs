@@ -132,8 +132,10 @@ impl Drive {
     ) -> Result<Self, DriveError> {
         let mechanism = question.mechanism();
         let coordinate = self.find(question, name)?;
-        // a rate has the unit of its coordinate per unit of time, which is not written
-        let value = number(question, name, value, coordinate.measure(mechanism))?;
+        let wanted = coordinate.measure(mechanism);
+        let number = value.per_time(mechanism, wanted, order as usize + 1);
+        let wrong = |error| DriveError::Question(QuestionError::value(name, value, error));
+        let value = number.map_err(wrong)?;
         self.given = true;
         let mixed =
             |platform: usize| DriveError::Mixed(mechanism.platforms()[platform].name.clone());
