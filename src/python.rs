@@ -29,7 +29,7 @@ use crate::output::drawing::{DrawingSettings, Panel, sheet};
 use crate::output::view::{Viewed, page};
 use crate::scene::Scene;
 use crate::system::Value;
-use asked::{Asked, Number};
+use asked::{Asked, values};
 use report::Report;
 use watched::watched;
 
@@ -66,7 +66,8 @@ struct Mechanism {
 impl Mechanism {
     /// Reads a text whose errors name it as `name`, and gives parameters other values.
     #[new]
-    fn new(text: String, name: &str, parameters: Vec<(String, Number)>) -> PyResult<Self> {
+    fn new(text: String, name: &str, parameters: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let parameters = values("parameters", parameters)?;
         let wrong = |problems| FileError::new(name, &text, problems);
         let style = Style::Plain;
         let mut description = Description::read(&text).map_err(|_| {
@@ -137,14 +138,14 @@ impl Mechanism {
         }
     }
 
-    fn page(&self, file: &str, set: Vec<(String, Number)>) -> String {
-        let set = set.into_iter();
-        page(&Viewed {
+    fn page(&self, file: &str, set: &Bound<'_, PyAny>) -> PyResult<String> {
+        let set = values("parameters", set)?.into_iter();
+        Ok(page(&Viewed {
             file: file.into(),
             text: self.text.clone(),
             set: set.map(|(name, value)| (name, value.to_string())).collect(),
             watch: false,
-        })
+        }))
     }
 
     /// Does what the method of that name of a question does. `progress` is called with words, what is done, and of how
@@ -200,9 +201,9 @@ impl Mechanism {
         Bound<'py, PyArray1<bool>>,
     )> {
         let asked = Asked::new(self.mechanism.clone(), given)?;
-        let values = values.as_slice()?;
+        let rows = values.as_slice()?;
         let many = watched(py, progress, true, |watch| {
-            asked.question.solve_many(&names, values, watch)
+            asked.question.solve_many(&names, rows, watch)
         })?;
         let many = many.map_err(|error| asked.refusal(&error.into()))?;
         let (rows, width) = (many.reached.len(), many.names.len());
@@ -219,8 +220,8 @@ impl Mechanism {
         &self,
         py: Python<'py>,
         given: &Bound<'py, PyDict>,
-        vary: Vec<(String, (Number, Number))>,
-        deviate: Vec<(String, Number)>,
+        vary: &Bound<'py, PyAny>,
+        deviate: &Bound<'py, PyAny>,
         kind: &str,
         counts: Vec<usize>,
         rows: Option<PyReadonlyArray2<'py, f64>>,
@@ -237,12 +238,10 @@ impl Mechanism {
             (None, "latin") => Points::LatinHypercube(count),
             (None, _) => Points::Sobol(count),
         };
-        let asked = Asked::varied(self.mechanism.clone(), given, &vary)?;
-        let vary: Vec<(String, Value, Value)> = (vary.iter())
-            .map(|(name, (from, to))| (name.clone(), from.into(), to.into()))
-            .collect();
-        let deviate: Vec<(String, Value)> = (deviate.iter())
-            .map(|(name, deviation)| (name.clone(), deviation.into()))
+        let (asked, vary) = Asked::varied(self.mechanism.clone(), given, vary)?;
+        let deviate = values("deviate", deviate)?.into_iter();
+        let deviate: Vec<(String, Value)> = deviate
+            .map(|(name, deviation)| (name, (&deviation).into()))
             .collect();
         let study = Study::new(&asked.question, &vary, &deviate, points);
         let study = study.map_err(|error| asked.refusal(&error.into()))?;

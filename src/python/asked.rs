@@ -3,8 +3,9 @@
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBool, PyDict};
 
 use super::QuestionError;
 use super::words::{Refused, worded};
@@ -21,10 +22,24 @@ use crate::output::complaint::{Complaint, Given};
 use crate::solve::Pruning;
 
 /// A number in SI units and rad, or an expression with units as in a file.
-#[derive(FromPyObject)]
+#[derive(Clone)]
 pub enum Number {
     Number(f64),
     Text(String),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Number {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(text) = given.extract::<String>() {
+            return Ok(Number::Text(text));
+        }
+        match given.is_instance_of::<PyBool>() {
+            true => Err(PyTypeError::new_err("a truth value is no number")),
+            false => Ok(Number::Number(given.extract()?)),
+        }
+    }
 }
 
 impl Display for Number {
@@ -36,11 +51,12 @@ impl Display for Number {
     }
 }
 
+/// Numbers are read as the command line reads them, which refuses angles of many turns without a unit.
 impl From<&Number> for Value {
     fn from(given: &Number) -> Self {
         match given {
-            Number::Number(number) => Value::Number(*number),
-            Number::Text(text) => Value::Text(text.clone()),
+            Number::Number(number) if !number.is_finite() => Value::Number(*number),
+            number => Value::Text(number.to_string()),
         }
     }
 }
@@ -50,6 +66,38 @@ enum Names {
     One(String),
     Several(Vec<String>),
 }
+
+/// What an argument is, where it may be that; else which argument it is and what it may be.
+fn taken<'a, 'py, T: FromPyObject<'a, 'py>>(
+    name: &str,
+    wanted: &str,
+    given: &'a Bound<'py, PyAny>,
+) -> PyResult<T> {
+    // Python counts truth values among whole numbers
+    let flag = given.is_instance_of::<PyBool>() && wanted != FLAG;
+    if !flag && let Ok(taken) = given.extract() {
+        return Ok(taken);
+    }
+    let kind = given.get_type().name()?.to_string();
+    let found = match kind.as_str() {
+        "NoneType" => "None".into(),
+        "int" => {
+            return Err(QuestionError::new_err(format!(
+                "`{name}` is {wanted}, not {given}"
+            )));
+        }
+        _ if kind.starts_with(['a', 'e', 'i', 'o', 'u']) => format!("an {kind}"),
+        _ => format!("a {kind}"),
+    };
+    Err(PyTypeError::new_err(format!(
+        "`{name}` is {wanted}, not {found}"
+    )))
+}
+
+const VALUE: &str = "a number or a text such as \"60 deg\"";
+const COUNT: &str = "a whole number from 0 on";
+const FLAG: &str = "True or False";
+const TEXT: &str = "a text";
 
 /// How analyses work.
 #[derive(Default)]
@@ -63,6 +111,45 @@ pub struct Settings {
     pub compare: CompareSettings,
     pub of: Option<String>,
     pub relative_to: Option<String>,
+}
+
+type Entries<'py> = Vec<(String, Bound<'py, PyAny>)>;
+
+/// What a mapping gives to names.
+fn entries<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Entries<'py>> {
+    let entries: Bound<PyDict> = taken(name, "a mapping from names", given)?;
+    let named = |(key, value): (Bound<'py, PyAny>, _)| {
+        Ok((
+            taken(&format!("{name}: the name {key}"), TEXT, &key)?,
+            value,
+        ))
+    };
+    entries.iter().map(named).collect()
+}
+
+/// The numbers and expressions that a mapping gives to names.
+pub fn values(name: &str, given: &Bound<PyAny>) -> PyResult<Vec<(String, Number)>> {
+    let entries = entries(name, given)?.into_iter();
+    let value = |(of, value): (String, Bound<PyAny>)| {
+        let number = taken(&format!("{name}[{of:?}]"), VALUE, &value)?;
+        Ok((of, number))
+    };
+    entries.map(value).collect()
+}
+
+/// Where something begins and ends.
+fn range(name: &str, given: &Bound<PyAny>) -> PyResult<(Number, Number)> {
+    let ends: Vec<Bound<PyAny>> = taken(name, "two values, (from, to)", given)?;
+    match &ends[..] {
+        [from, to] => Ok((
+            taken(&format!("{name}[0]"), VALUE, from)?,
+            taken(&format!("{name}[1]"), VALUE, to)?,
+        )),
+        _ => {
+            let said = format!("`{name}` is two values, (from, to), not {}", ends.len());
+            Err(QuestionError::new_err(said))
+        }
+    }
 }
 
 fn law(word: &str) -> PyResult<Law> {
@@ -133,27 +220,29 @@ impl Asked {
     pub fn varied(
         mechanism: Arc<Mechanism>,
         given: &Bound<'_, PyDict>,
-        vary: &[(String, (Number, Number))],
-    ) -> PyResult<Self> {
+        vary: &Bound<'_, PyAny>,
+    ) -> PyResult<(Self, Vec<(String, Value, Value)>)> {
         let mut asked = Asked::new(mechanism, given)?;
         asked.ranges = Ranged::Vary;
-        for (name, (from, to)) in vary {
+        let mut varied = Vec::new();
+        for (name, ends) in entries("vary", vary)? {
+            let (from, to) = range(&format!("vary[{name:?}]"), &ends)?;
             let range = Some(format!("{from}..{to}"));
             asked.parts.push((Role::Input, "vary", name.clone(), range));
+            varied.push((name, (&from).into(), (&to).into()));
         }
-        Ok(asked)
+        Ok((asked, varied))
     }
 
     fn put(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
         if let Some((option, role, put)) = VALUES.iter().find(|(option, ..)| *option == key) {
-            let pairs: Vec<(String, Number)> = given.cast::<PyDict>()?.items().extract()?;
-            for (name, number) in pairs {
+            for (name, number) in values(key, given)? {
                 self.change(|question| put(question, name.clone(), (&number).into()));
                 let value = Some(number.to_string());
                 self.parts.push((*role, option, name, value));
             }
         } else if let Some((option, role, put)) = NAMES.iter().find(|(option, ..)| *option == key) {
-            let names = match given.extract()? {
+            let names = match taken(key, "a name or a list of names", given)? {
                 Names::One(name) => vec![name],
                 Names::Several(names) => names,
             };
@@ -162,9 +251,8 @@ impl Asked {
                 self.parts.push((*role, option, name, None));
             }
         } else if let Some((option, ranges)) = RANGES.iter().find(|(option, _)| *option == key) {
-            let pairs: Vec<(String, (Number, Number))> =
-                given.cast::<PyDict>()?.items().extract()?;
-            for (name, (from, to)) in pairs {
+            for (name, ends) in entries(key, given)? {
+                let (from, to) = range(&format!("{key}[{name:?}]"), &ends)?;
                 self.ranges = *ranges;
                 self.change(|question| question.input(&name, &from, &to));
                 let range = Some(format!("{from}..{to}"));
@@ -183,38 +271,37 @@ impl Asked {
                 settings.numbered = true;
                 let mode = match given.extract::<String>() {
                     Ok(all) if all == "all" => Mode::All,
-                    Ok(_) => return Err(QuestionError::new_err("a mode is a number or \"all\"")),
-                    Err(_) => Mode::Number(given.extract()?),
+                    _ => Mode::Number(taken(key, "a whole number from 1 on, or \"all\"", given)?),
                 };
                 self.change(|question| question.mode(mode));
             }
             "seed" => {
-                let seed = given.extract()?;
+                let seed = taken(key, COUNT, given)?;
                 self.change(|question| question.seed(seed));
             }
-            "all_complex" => settings.assemblies.all_complex = given.extract()?,
+            "all_complex" => settings.assemblies.all_complex = taken(key, FLAG, given)?,
             "prove" => {
-                let prove: bool = given.extract()?;
+                let prove: bool = taken(key, FLAG, given)?;
                 settings.assemblies.proof = prove.then(Pruning::default);
             }
             "follow" => {
-                settings.sweep.follow = given.extract()?;
+                settings.sweep.follow = taken(key, FLAG, given)?;
                 settings.singularities.follow = settings.sweep.follow;
             }
-            "certify" => settings.sweep.certify = given.extract()?,
-            "straight" => settings.sweep.straightness = given.extract()?,
-            "steps" => settings.sweep.steps = given.extract()?,
-            "law" => settings.sweep.pace.law = law(&given.extract::<String>()?)?,
-            "duration" => settings.sweep.pace.duration = given.extract()?,
-            "grid" => settings.workspace.nodes = given.extract()?,
+            "certify" => settings.sweep.certify = taken(key, FLAG, given)?,
+            "straight" => settings.sweep.straightness = taken(key, FLAG, given)?,
+            "steps" => settings.sweep.steps = taken(key, COUNT, given)?,
+            "law" => settings.sweep.pace.law = law(&taken::<String>(key, TEXT, given)?)?,
+            "duration" => settings.sweep.pace.duration = taken(key, "a number of seconds", given)?,
+            "grid" => settings.workspace.nodes = taken(key, "a list of whole numbers", given)?,
             "starts" => {
-                settings.workspace.starts = given.extract()?;
+                settings.workspace.starts = taken(key, COUNT, given)?;
                 settings.singularities.starts = settings.workspace.starts;
             }
-            "search" => settings.workspace.searched = given.extract()?,
-            "samples" => settings.compare.samples = given.extract()?,
-            "of" => settings.of = Some(given.extract()?),
-            "relative_to" => settings.relative_to = Some(given.extract()?),
+            "search" => settings.workspace.searched = taken(key, COUNT, given)?,
+            "samples" => settings.compare.samples = taken(key, COUNT, given)?,
+            "of" => settings.of = Some(taken(key, "the name of a frame", given)?),
+            "relative_to" => settings.relative_to = Some(taken(key, "the name of a frame", given)?),
             _ => {
                 return Err(QuestionError::new_err(format!(
                     "there is no option `{key}`"

@@ -211,6 +211,104 @@ def test_errors_say_where_and_what_and_the_remedy(four_bar):
     assert issubclass(QuestionError, linkwork.Error) and issubclass(linkwork.Error, ValueError)
 
 
+@pytest.mark.parametrize(
+    ("ask", "named"),
+    [
+        (lambda m: linkwork.load(3), "path"),
+        (lambda m: linkwork.load(None), "path"),
+        (lambda m: linkwork.parse(b"Mechanism()"), "text"),
+        (lambda m: linkwork.parse("Mechanism()", 3), "name"),
+        (lambda m: m.with_parameters(l1=None), r"parameters\["),
+        (lambda m: m.with_parameters(l1=[1.0]), r"parameters\["),
+        (lambda m: m.to_ron("yes"), "axes"),
+        (lambda m: m.svg(labels=1), "labels"),
+        (lambda m: m.solve(theta1=None), r"hold\[\"theta1\"\]"),
+        (lambda m: m.solve(theta1=[1.0]), r"hold\[\"theta1\"\]"),
+        (lambda m: m.solve(theta1=1j), r"hold\[\"theta1\"\]"),
+        (lambda m: m.solve(theta1=True), r"hold\[\"theta1\"\]"),
+        (lambda m: m.solve(hold=3), "hold"),
+        (lambda m: m.solve(hold={3: 1.0}), "hold"),
+        (lambda m: m.solve(guess="phi1"), "guess"),
+        (lambda m: m.solve(free=3), "free"),
+        (lambda m: m.solve(free=["theta1", 3]), "free"),
+        (lambda m: m.solve(mode=1.5), "mode"),
+        (lambda m: m.solve(mode=True), "mode"),
+        (lambda m: m.solve(seed="one"), "seed"),
+        (lambda m: m.solve(seed=-1), "seed"),
+        (lambda m: m.solve(progress=3, mode=1), "progress"),
+        (lambda m: m.assemblies(prove="yes"), "prove"),
+        (lambda m: m.assemblies(all_complex=1), "all_complex"),
+        (lambda m: m.sweep(3, 0, 1), "name"),
+        (lambda m: m.sweep("theta1", 0, [1]), "input"),
+        (lambda m: m.sweep(input=[("theta1", 0, 1)]), "input"),
+        (lambda m: m.sweep(input={"theta1": 1}), "input"),
+        (lambda m: m.sweep(input={"theta1": (0, 1, 2)}), "input"),
+        (lambda m: m.sweep("theta1", 0, 1, steps=2.5), "steps"),
+        (lambda m: m.sweep("theta1", 0, 1, steps=True), "steps"),
+        (lambda m: m.sweep("theta1", 0, 1, law=3), "law"),
+        (lambda m: m.sweep("theta1", 0, 1, duration="long"), "duration"),
+        (lambda m: m.sweep("theta1", 0, 1, follow="no"), "follow"),
+        (lambda m: m.sweep("theta1", 0, 1, report=3), "report"),
+        (lambda m: m.sweep("theta1", 0, 1, of=[1]), "of"),
+        (lambda m: m.sweep("theta1", 0, 1, dwell=3), "dwell"),
+        (lambda m: m.circuits(of=3), "of"),
+        (lambda m: m.mobility(lock=3), "lock"),
+        (lambda m: m.velocity(rate=3), "rate"),
+        (lambda m: m.velocity(rate={"theta1": None}), "rate"),
+        (lambda m: m.velocity(acceleration=[1]), "acceleration"),
+        (lambda m: m.velocity(point=3), "point"),
+        (lambda m: m.statics(wrench=3), "wrench"),
+        (lambda m: m.statics(wrench={"left": 3}), "wrench"),
+        (lambda m: m.statics(wrench={"left": (1, None, 0)}), "wrench"),
+        (lambda m: m.statics(load={"phi1": None}), "load"),
+        (lambda m: m.singularities(output=3), "output"),
+        (lambda m: m.singularities(locus=3), "locus"),
+        (lambda m: m.singularities(starts="many"), "starts"),
+        (lambda m: m.workspace(3), "map"),
+        (lambda m: m.workspace({"theta1": (0, 1)}, grid="ten"), "grid"),
+        (lambda m: m.workspace({"theta1": (0, 1)}, grid=[2.5]), "grid"),
+        (lambda m: m.workspace({"theta1": (0, 1)}, search=1.5), "search"),
+        (lambda m: m.formulas(of=3), "of"),
+        (lambda m: m.compare(samples="many"), "samples"),
+        (lambda m: m.solve_many(None), "values"),
+        (lambda m: m.solve_many("1"), "values"),
+        (lambda m: m.solve_many([0.5, None]), "values"),
+        (lambda m: m.solve_many([0.5, 1j]), "values"),
+        (lambda m: m.solve_many(["0.5"]), "values"),
+        (lambda m: m.solve_many([True, False]), "values"),
+        (lambda m: m.solve_many(np.array([0.5, 1.0], dtype=complex)), "values"),
+        (lambda m: m.solve_many(np.ma.array([0.5, 1.0], mask=[False, True])), "values"),
+        (lambda m: m.solve_many(np.array([0.5, None], dtype=object)), "values"),
+        (lambda m: m.solve_many([[0.5], [0.5, 1.0]]), "values"),
+        (lambda m: m.solve_many([0.5], names=3), "names"),
+        (lambda m: m.solve_many([0.5], progress="no"), "progress"),
+    ],
+)
+def test_what_is_of_the_wrong_kind_is_named(four_bar, ask, named):
+    with pytest.raises((TypeError, ValueError), match=f"^`{named}"):
+        ask(four_bar)
+
+
+def test_angles_of_many_turns_have_units_as_on_the_command_line(four_bar):
+    """What the command line refuses is refused, with its remedy; what it takes is taken."""
+    for ask in [
+        lambda angle: four_bar.solve(theta1=angle),
+        lambda angle: four_bar.solve(theta1=1.0, guess={"phi1": angle}),
+        lambda angle: four_bar.sweep("theta1", 0, angle, steps=4),
+        lambda angle: four_bar.velocity(rate={"theta1": angle}),
+    ]:
+        with pytest.raises(QuestionError, match="without a unit is in rad"):
+            ask(360)
+        with pytest.raises(QuestionError, match="360 ?deg"):
+            ask(np.float64(360.0))
+        ask("360 deg")
+        ask(2 * pi)
+    turns = four_bar.velocity(rate={"theta1": "360 deg/s"})
+    assert turns == four_bar.velocity(rate={"theta1": "360 deg"})
+    # in an array there is no place for units
+    assert four_bar.solve_many([0.5, 0.5 + 8 * pi])["reached"].all()
+
+
 def test_everything_pickles(four_bar):
     changed = four_bar.with_parameters(l1="1.1 m")
     again = pickle.loads(pickle.dumps(changed))
@@ -260,6 +358,29 @@ def test_ctrl_c_ends_long_work():
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "begun\n"
         time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=10)[0] == "interrupted\n"
+
+
+@pytest.mark.parametrize("values", ["np.linspace(0.5, 0.9, 20_000_000)", "np.tile([0.5, 1500.0], 4000)"])
+def test_ctrl_c_ends_many_rows(values):
+    """Rows side by side, and rows that are thousands of steps from one another."""
+    script = f"""
+        import linkwork, sys, threading, time
+        import numpy as np
+        m = linkwork.load(sys.argv[1])
+        rows = {values}
+        print("begun", flush=True)
+        try:
+            m.solve_many(rows)
+        except KeyboardInterrupt:
+            print("interrupted")
+    """
+    arguments = [sys.executable, "-c", textwrap.dedent(script), str(SHIPPED / "four_bar.ron")]
+    with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "begun\n"
+        time.sleep(0.3)
+        assert process.poll() is None
         process.send_signal(signal.SIGINT)
         assert process.communicate(timeout=10)[0] == "interrupted\n"
 

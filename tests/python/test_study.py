@@ -146,6 +146,79 @@ def test_what_is_wrong_is_said(four_bar):
         linkwork.study(four_bar, {"l2": (0, 1)}, "phi1")
 
 
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        ({"vary": 3}, "vary"),
+        ({"vary": {"l2": 3}}, "vary"),
+        ({"vary": {"l2": (1, None)}}, "vary"),
+        ({"quantities": 3}, "quantities"),
+        ({"samples": 2.5}, "samples"),
+        ({"samples": True}, "samples"),
+        ({"vary": ["l2"], "samples": [3.0, None]}, "samples"),
+        ({"vary": ["l2"], "samples": np.ma.array([3.0, 4.0], mask=[0, 1])}, "samples"),
+        ({"latin": "yes"}, "latin"),
+        ({"samples": None, "grid": "ten"}, "grid"),
+        ({"deviate": 3}, "deviate"),
+        ({"deviate": {"l1": None}}, "deviate"),
+        ({"executor": 3}, "executor"),
+        ({"shards": "two"}, "shards"),
+        ({"keep": 3}, "keep"),
+        ({"progress": 3}, "progress"),
+    ],
+)
+def test_what_is_of_the_wrong_kind_is_named(four_bar, given, named):
+    with pytest.raises((TypeError, ValueError), match=f"^`{named}"):
+        linkwork.study(four_bar, **{"vary": {"l2": (3, 4)}, "quantities": "phi1", "samples": 4, **given})
+
+
+def test_paths_and_mechanisms_are_checked(four_bar):
+    rows = linkwork.study(four_bar, VARY, "phi1", samples=4)
+    for ask, named in [
+        (lambda: linkwork.study_into(3, four_bar, VARY, samples=4), "path"),
+        (lambda: linkwork.study("four_bar.ron", VARY, samples=4), "m"),
+        (lambda: rows.write(3), "path"),
+        (lambda: rows.regions("4"), "grid"),
+    ]:
+        with pytest.raises(TypeError, match=f"^`{named}`"):
+            ask()
+
+
+def test_an_interrupted_file_says_what_is_kept(four_bar, tmp_path):
+    """What is finished is kept in the folder and not worked out again; without a folder nothing is, as is said."""
+    whole = tmp_path / "whole.csv"
+    linkwork.study_into(whole, four_bar, VARY, "phi1", samples=40, shards=4)
+
+    def stop(_, done, __):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    file, keep = tmp_path / "rows.csv", tmp_path / "kept"
+    asked = {"samples": 40, "shards": 4, "progress": stop}
+    with pytest.raises(KeyboardInterrupt, match="nothing is written to .*rows.csv; keep=FOLDER keeps"):
+        linkwork.study_into(file, four_bar, VARY, "phi1", **asked)
+    with pytest.raises(KeyboardInterrupt, match="finished shards are in .*kept"):
+        linkwork.study_into(file, four_bar, VARY, "phi1", **asked, keep=keep)
+    assert not file.exists()
+    before = {kept: kept.stat().st_mtime_ns for kept in keep.iterdir()}
+    assert len(before) == 2
+    linkwork.study_into(file, four_bar, VARY, "phi1", samples=40, shards=4, keep=keep)
+    assert file.read_bytes() == whole.read_bytes()
+    assert before.items() <= {kept: kept.stat().st_mtime_ns for kept in keep.iterdir()}.items()
+
+
+def test_a_shard_is_read_by_other_readers(tmp_path):
+    """Its first line is a comment."""
+    pandas = pytest.importorskip("pandas")
+    file = tmp_path / "shard.csv"
+    options = ["--vary", "l2=3..5", "--samples", "9", "--quantity", "phi1", "--shard", "2/2", "-o", str(file)]
+    subprocess.run(["linkwork", "study", str(SHIPPED / "four_bar.ron"), *options], check=True)
+    rows = pandas.read_csv(file, comment="#")
+    assert list(rows.columns) == ["row of 9", "l2 (m)", "assembled", "phi1 (rad)"]
+    assert list(rows["row of 9"]) == [4, 5, 6, 7, 8]
+    assert np.genfromtxt(file, delimiter=",", skip_header=2).shape == (5, 4)
+
+
 def test_rows_in_a_file_are_those_in_memory(four_bar, tmp_path):
     asked = (four_bar, VARY, "phi1, velocity:left.x", 200)
     whole = linkwork.study(*asked[:3], samples=asked[3], rate={"theta1": 1.0})

@@ -35,11 +35,12 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _linkwork, executors, parts
+from . import _given, _linkwork, executors, parts
+from ._given import Value, Wrench, wrenches
 from ._linkwork import Error, MechanismError, QuestionError, __version__
 from ._progress import Bar, Progress, bar
 from ._reports import Fields, Report, Rows
-from ._study import Study, Value, Wrench, study, study_into, wrenches
+from ._study import Study, study, study_into
 
 __all__ = [
     "Error",
@@ -68,13 +69,13 @@ Array = npt.NDArray[np.float64]
 
 def load(path: str | os.PathLike[str]) -> Mechanism:
     """The mechanism of a file. What is odd about it is a warning of Python."""
-    with open(path, encoding="utf-8") as file:
+    with open(_given.path("path", path), encoding="utf-8") as file:
         return parse(file.read(), os.fspath(path))
 
 
 def parse(text: str, name: str = "<text>") -> Mechanism:
     """The mechanism that a text describes; errors call it by ``name``."""
-    made = Mechanism._of(text, name, {})
+    made = Mechanism._of(_given.text("text", text), _given.text("name", name), {})
     if odd := made._core.warnings(name):
         warnings.warn(odd, stacklevel=2)
     return made
@@ -82,6 +83,10 @@ def parse(text: str, name: str = "<text>") -> Mechanism:
 
 #: What every question takes, in the order in which it is put: what is freed is freed first.
 _ALWAYS = ("free", "hold", "guess", "mode", "seed")
+
+#: What maps names to something, and what names.
+_MAPPINGS = {"hold", "guess", "rate", "acceleration", "load", "dwell", "wrench", "input", "locus", "map"}
+_NAMES = {"free", "lock", "output", "point", "trace", "report"}
 
 
 class Mechanism:
@@ -125,7 +130,7 @@ class Mechanism:
 
     def _become(self, text: str, name: str, values: dict[str, Value]) -> None:
         self._made_of = (text, name, values)
-        self._core = _linkwork.Mechanism(text, name, list(values.items()))
+        self._core = _linkwork.Mechanism(text, name, values)
         self._joints = frozenset(joint[0] for joint in self._core.joints())
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -143,7 +148,7 @@ class Mechanism:
     def page(self) -> str:
         """The page of ``linkwork view``, one file: the mechanism follows the mouse, with the solver inside."""
         _, name, values = self._made_of
-        return self._core.page(os.path.basename(name), list(values.items()))
+        return self._core.page(os.path.basename(name), values)
 
     def _repr_html_(self) -> str:
         page = html.escape(self.page(), quote=True)
@@ -181,17 +186,17 @@ class Mechanism:
 
     def to_ron(self, axes: bool = False) -> str:
         """The mechanism as a file of tables, or of joint coordinates."""
-        return self._core.ron(axes)
+        return self._core.ron(_given.flag("axes", axes))
 
     def svg(self, labels: bool = False, **given: Any) -> str:
         """A picture of the assembled mechanism as SVG; with ``mode="all"`` of every assembly."""
-        return self._core.svg(self._given("svg", given, {}), labels)
+        return self._core.svg(self._given("svg", given, {}), _given.flag("labels", labels))
 
     def _given(self, what: str, given: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
         """What is given to a question, in the order in which it is put."""
         put = {key: value for key in _ALWAYS if key in given and (value := given.pop(key)) is not None}
         if given:
-            hold = dict(put.pop("hold", None) or {})
+            hold = _given.mapping("hold", put.pop("hold", None))
             for name, value in given.items():
                 if name not in self._joints:
                     known = [*self._joints, *_ALWAYS, *options]
@@ -201,8 +206,11 @@ class Mechanism:
                 hold[name] = value
             free = put.pop("free", None)
             put = {"hold": hold, **put} if free is None else {"free": free, "hold": hold, **put}
-        if options:
-            put.update((key, value) for key, value in options.items() if value is not None)
+        put.update((key, value) for key, value in options.items() if value is not None)
+        for key in put.keys() & _MAPPINGS:
+            put[key] = _given.mapping(key, put[key])
+        for key in put.keys() & _NAMES:
+            put[key] = _given.names(key, put[key])
         return put
 
     def _ask(self, what: str, given: dict[str, Any], **options: Any) -> Any:
@@ -265,8 +273,9 @@ class Mechanism:
         along the whole curve. ``law`` and ``duration`` (s) say how the input moves in time; ``certify=True``
         shows by interval arithmetic that all rows lie on one branch.
         """
-        ranges = dict(input or {})
+        ranges = _given.mapping("input", input)
         if name is not None:
+            name = _given.text("name", name)
             if start is None or stop is None:
                 raise TypeError(f"say where `{name}` starts and stops: sweep(name, start, stop)")
             ranges[name] = (start, stop)
@@ -274,7 +283,7 @@ class Mechanism:
             "sweep",
             given,
             input=ranges,
-            trace=of,
+            trace=None if of is None else _given.names("of", of),
             report=report,
             follow=follow,
             law=law,
@@ -289,7 +298,7 @@ class Mechanism:
 
     def circuits(self, *, of: Names | None = None, **given: Any) -> Report:
         """All circuits and branches of a mechanism with one freedom, with the paths of the points ``of``."""
-        return self._ask("circuits", given, trace=of)  # type: ignore[no-any-return]
+        return self._ask("circuits", given, trace=None if of is None else _given.names("of", of))  # type: ignore[no-any-return]
 
     def mobility(self, *, lock: Names | None = None, **given: Any) -> Report:
         """The freedoms of the assembled mechanism; what is named by ``lock`` stands still."""
@@ -342,8 +351,8 @@ class Mechanism:
         **given: Any,
     ) -> Rows:
         """A map of one to three coordinates, ``{"hand.x": (-1, 1), ...}``, with a row for each node of its ``grid``."""
-        nodes = [grid] if isinstance(grid, int) else grid
-        return self._ask("workspace", given, map=dict(map), grid=nodes, search=search, starts=starts)  # type: ignore[no-any-return]
+        nodes = None if grid is None else _given.counts("grid", grid)
+        return self._ask("workspace", given, map=_given.mapping("map", map), grid=nodes, search=search, starts=starts)  # type: ignore[no-any-return]
 
     def formulas(self, *, of: str | None = None, relative_to: str | None = None) -> Report:
         """What the mechanism has in closed form, or the transform ``of`` a frame."""
@@ -363,12 +372,12 @@ class Mechanism:
         """
         if names is None:
             names = [name for name, _, driven, *_ in self._core.joints() if driven]
-        names = [names] if isinstance(names, str) else list(names)
-        rows = np.ascontiguousarray(values, dtype=np.float64)
+        names = _given.names("names", names)
+        rows = _given.numbers("values", values)
         if rows.ndim == 1 and len(names) == 1:
             rows = rows.reshape(-1, 1)
         if rows.ndim != 2 or rows.shape[1] != len(names):
-            raise ValueError(f"give a column for each of {', '.join(names)}; the array has the shape {rows.shape}")
+            raise ValueError(f"give a column for each of {', '.join(names)}; `values` has the shape {rows.shape}")
         progress = bar(given.pop("progress", None))
         try:
             put = self._given("solve_many", given, {})

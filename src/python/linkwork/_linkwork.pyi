@@ -6,7 +6,7 @@ import numpy.typing as npt
 
 __version__: str
 
-_Set = list[tuple[str, float | str]]
+_Set = Mapping[str, float | str]
 _Progress = Callable[[str, int, int | None], None] | None
 
 class Error(ValueError): ...
@@ -42,7 +42,7 @@ class Mechanism:
     def study(
         self,
         given: Mapping[str, Any],
-        vary: list[tuple[str, tuple[float | str, ...]]],
+        vary: Mapping[str, Any],
         deviate: _Set,
         kind: str,
         counts: list[int],

@@ -6,6 +6,8 @@ import sys
 import time
 from typing import Any, Callable, Optional
 
+from . import _given
+
 #: Called with what is being done, how much of it is done, and how much there is to do, if that is known.
 Progress = Callable[[str, int, Optional[int]], None]
 
@@ -50,5 +52,7 @@ def bar(wanted: bool | None | Progress) -> Progress | Bar:
     """What is called with the progress: the user's function, or a bar where a terminal or a notebook shows it."""
     if callable(wanted):
         return wanted
+    if wanted is not None:
+        wanted = _given.flag("progress", wanted)
     seen = sys.stderr is not None and sys.stderr.isatty() or "ipykernel" in sys.modules
     return Bar(seen if wanted is None else wanted)

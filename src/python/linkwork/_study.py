@@ -10,20 +10,19 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Callable, Union
+from typing import IO, TYPE_CHECKING, Any, Callable
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _linkwork
+from . import _given, _linkwork
+from ._given import Value, wrenches
 from ._progress import Bar, Progress, bar
 from ._reports import Fields
 
 if TYPE_CHECKING:
     from . import Mechanism
 
-Value = Union[float, str]
-Wrench = Union[str, Sequence[float]]
 Columns = dict[str, npt.NDArray[np.float64]]
 
 #: The shards of a study that others work at, at least.
@@ -71,11 +70,11 @@ class Study(dict[str, npt.NDArray[np.float64]]):
 
     def regions(self, grid: Sequence[int]) -> npt.NDArray[np.uint32]:
         """The number of the region of each row of a ``grid``, from 1: nodes beside each other where it assembles."""
-        return _linkwork.regions(list(grid), [bool(there) for there in self["assembled"]])
+        return _linkwork.regions(_given.counts("grid", grid), [bool(there) for there in self["assembled"]])
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the rows: to ``.csv`` as the command line does, to ``.parquet`` or ``.arrow`` by pyarrow."""
-        _write(Path(path), len(self["row"]), iter([dict(zip(self._titles, self.values()))]))
+        _write(Path(_given.path("path", path)), len(self["row"]), iter([dict(zip(self._titles, self.values()))]))
 
 
 def study(
@@ -107,8 +106,8 @@ def study(
     :mod:`linkwork.executors` for Ray and Spark. The rows are the same, to the bit. What is finished is kept in the
     folder ``keep`` and not worked out again.
     """
-    asked = _Asked(m, vary, quantities, samples, latin, grid, deviate, given)
-    whole = shards or (asked.shards() if executor or keep else 1)
+    asked = _Asked(m, vary, quantities, samples, latin, grid, deviate, executor, given)
+    whole = _shards(shards) or (asked.shards() if executor or keep else 1)
     parts = list(asked.parts(whole, executor, keep, progress))
     return Study({title: np.concatenate([part[title] for part in parts]) for title in parts[0]})
 
@@ -134,9 +133,25 @@ def study_into(
     The name says how: ``.csv``, with the bytes of ``linkwork study``; ``.parquet`` or ``.arrow``, where pyarrow is
     installed. The file is there when it is whole.
     """
-    asked = _Asked(m, vary, quantities, samples, latin, grid, deviate, given)
-    parts = asked.parts(shards or asked.shards(), executor, keep, progress)
-    _write(Path(path), asked.count, parts)
+    asked = _Asked(m, vary, quantities, samples, latin, grid, deviate, executor, given)
+    parts = asked.parts(_shards(shards) or asked.shards(), executor, keep, progress)
+    file = Path(_given.path("path", path))
+    try:
+        _write(file, asked.count, parts)
+    except KeyboardInterrupt:
+        kept = "keep=FOLDER keeps shards as they are finished" if keep is None else f"finished shards are in {keep}"
+        said = f"nothing is written to {file}; {kept}, and the same call goes on from there"
+        raise KeyboardInterrupt(said) from None
+
+
+def _shards(given: Any) -> int:
+    return 0 if given is None else _given.count("shards", given)
+
+
+def _mechanism(given: Any) -> Mechanism:
+    if not hasattr(given, "_core"):
+        raise _given.wrong("m", "a Mechanism", given)
+    return given  # type: ignore[no-any-return]
 
 
 class _Asked:
@@ -151,28 +166,35 @@ class _Asked:
         latin: bool,
         grid: int | Sequence[int] | None,
         deviate: Mapping[str, Value] | None,
+        executor: Executor | None,
         given: dict[str, Any],
     ) -> None:
-        names = list(vary)
-        whole = samples is None or isinstance(samples, (int, np.integer))
-        rows = None if whole else np.asarray(samples, dtype=np.float64)
+        m = _mechanism(m)
+        names = list(_given.mapping("vary", vary)) if isinstance(vary, Mapping) else _given.names("vary", vary)
+        whole = not hasattr(samples, "__len__")
+        rows = None if whole else _given.numbers("samples", samples)
         if rows is not None and rows.ndim == 1:
             rows = rows.reshape(-1, 1)
         if rows is None and names and not isinstance(vary, Mapping):
             raise TypeError("give the rows of values as an array: samples=...")
+        if executor is not None and not hasattr(executor, "submit"):
+            raise _given.wrong("executor", "an executor, which has `submit`", executor)
         if (samples is None) == (grid is None):
             raise TypeError("give either samples or a grid")
-        options: dict[str, Any] = {"report": [quantities] if isinstance(quantities, str) else list(quantities)}
+        options: dict[str, Any] = {"report": _given.names("quantities", quantities)}
         options["wrench"] = wrenches(given.pop("wrench", None))
         options.update((name, given.pop(name, None)) for name in ("rate", "load"))
         self._m = m
         self._put = m._given("study", given, options)
         ends = vary if isinstance(vary, Mapping) else dict.fromkeys(names, (0.0, 1.0))
-        self._ranges: list[tuple[str, tuple[Value, ...]]] = [(name, tuple(ends[name])) for name in names]
-        self._deviate = list((deviate or {}).items())
-        nodes = [grid] * len(names) if isinstance(grid, (int, np.integer)) else list(grid or [])
+        self._ranges: dict[str, Any] = dict(ends)
+        self._deviate = _given.mapping("deviate", deviate)
+        nodes = [] if grid is None else _given.counts("grid", grid)
+        if grid is not None and not hasattr(grid, "__len__"):
+            nodes *= len(names)
+        latin = _given.flag("latin", latin)
         self._kind = "given" if rows is not None else "grid" if nodes else "latin" if latin else "sobol"
-        self._counts = nodes or ([] if rows is not None else [int(np.asarray(samples))])
+        self._counts = nodes or ([] if rows is not None else [_given.count("samples", samples)])
         self._rows = rows
         self.count = len(rows) if rows is not None else math.prod(self._counts)
 
@@ -198,7 +220,7 @@ class _Asked:
         """The shards in their order."""
         if self._rows is not None:
             of = max(1, min(of, self.count))
-        folder = None if keep is None else Path(keep)
+        folder = None if keep is None else Path(_given.path("keep", keep))
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
         told = bar(progress)
@@ -274,21 +296,11 @@ class _Keep:
             _save(self._path, done.result())
 
 
-def wrenches(given: Mapping[str, Wrench] | None) -> dict[str, str] | None:
-    """Wrenches as the command line takes them."""
-    if given is None:
-        return None
-    return {
-        frame: wrench if isinstance(wrench, str) else ",".join(repr(float(part)) for part in wrench)
-        for frame, wrench in given.items()
-    }
-
-
 def _shard(
     m: Mechanism,
     put: dict[str, Any],
-    ranges: list[tuple[str, tuple[Value, ...]]],
-    deviate: list[tuple[str, Value]],
+    ranges: dict[str, Any],
+    deviate: dict[str, Any],
     kind: str,
     counts: list[int],
     rows: npt.NDArray[np.float64] | None,
