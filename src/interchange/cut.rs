@@ -226,12 +226,8 @@ impl Cutter<'_> {
         let leader = &self.mechanism.joints()[place.joint];
         let suffix = if place.slides { ".slide" } else { "" };
         let name = format!("{row}.{}{suffix}", leader.name);
-        self.couplings.push(Coupling {
-            joint: name.clone(),
-            leader: leader.name.clone(),
-            factor,
-            offset: 0.0,
-        });
+        let coupling = Coupling::of(name.clone(), leader.name.clone(), factor, 0.0);
+        self.couplings.push(coupling);
         Joint {
             name,
             limits: None,
@@ -293,8 +289,9 @@ fn places_in(
 fn followers(mechanism: &Mechanism, couplings: &[Coupling]) -> Vec<Remark> {
     let mut remarks = Vec::new();
     for joint in mechanism.joints() {
-        let of = couplings.iter().filter(|c| c.leader == joint.name);
-        let followers: Vec<String> = of.map(|c| c.joint.clone()).collect();
+        let of = couplings.iter().filter_map(Coupling::pair);
+        let of = of.filter(|(_, leader, ..)| *leader == joint.name);
+        let followers: Vec<String> = of.map(|(follower, ..)| follower.to_owned()).collect();
         let (kind, joint) = (joint.kind, joint.name.clone());
         match kind {
             _ if followers.is_empty() => {}

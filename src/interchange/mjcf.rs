@@ -12,4 +12,5 @@ mod write;
 pub use include::NotRead;
 pub(crate) use include::{Files, splice};
 pub(crate) use read::read;
+pub(super) use sliders::with_sliders;
 pub use write::write;

@@ -4,16 +4,18 @@ use std::collections::{HashMap, HashSet};
 
 use super::remark::Remark;
 use crate::description::{GROUND, first_free, variable_name};
+use crate::geometry::Pose;
 
 /// Names given so far.
 #[derive(Default)]
 pub(super) struct Names {
     variables: HashSet<String>,
     bodies: HashSet<String>,
-    /// The name given to the platform for which another one was requested.
-    pub platforms: HashMap<String, String>,
-    /// The name given to the frame for which another one was requested.
-    pub frames: HashMap<String, String>,
+    /// The name given to the platform that a body is.
+    pub platforms: HashMap<usize, String>,
+    /// The frames on each body: the name requested, the place, the name given. Frames of bodies, sites and closures that are
+    /// called alike are the same only where they are in the same place.
+    frames: HashMap<usize, Vec<(String, Pose<f64>, String)>>,
     /// What had to be renamed.
     pub renamed: Vec<Remark>,
 }
@@ -28,18 +30,26 @@ impl Names {
         name
     }
 
-    /// A name for a platform.
-    pub fn platform(&mut self, wanted: &str) -> String {
+    /// A name for the platform that a body is.
+    pub fn platform(&mut self, body: usize, wanted: &str) -> String {
         let name = self.body(wanted);
-        self.platforms.insert(wanted.to_owned(), name.clone());
+        self.platforms.insert(body, name.clone());
         name
     }
 
-    /// A name for a frame, or for the chain that ends there.
-    pub fn frame(&mut self, wanted: &str) -> String {
+    /// A name for a frame in a body, or for the chain that ends there.
+    pub fn frame(&mut self, wanted: &str, body: usize, pose: &Pose<f64>) -> String {
         let name = self.body(wanted);
-        self.frames.insert(wanted.to_owned(), name.clone());
+        let frame = (wanted.to_owned(), *pose, name.clone());
+        self.frames.entry(body).or_default().push(frame);
         name
+    }
+
+    /// The name given to that frame, if it was given one.
+    pub fn of_frame(&self, wanted: &str, body: usize, pose: &Pose<f64>) -> Option<&String> {
+        let mut frames = self.frames.get(&body)?.iter();
+        let found = frames.find(|(known, at, _)| known == wanted && at == pose);
+        found.map(|(.., name)| name)
     }
 
     fn body(&mut self, wanted: &str) -> String {

@@ -103,8 +103,8 @@ pub enum ImportProblemKind {
     SeveralRoots { links: Vec<String> },
     #[error("{} form a cycle", quoted(links))]
     Cycle { links: Vec<String> },
-    #[error("joint `{joint}` follows two other joints")]
-    FollowsTwo { joint: String },
+    #[error("the couplings of joint `{joint}` and those it follows contradict one another")]
+    Contradiction { joint: String },
     #[error("joint `{joint}` follows itself through other joints")]
     FollowsItself { joint: String },
     #[error("keyframe `{name}` has {found} values, the joints have {expected}")]
@@ -150,7 +150,8 @@ impl ImportProblemKind {
             }
             Self::TooDeep { .. } => "remove the nesting",
             Self::Empty | Self::NotThisFormat { .. } => {
-                "linkwork reads URDF, which begins with `robot`, and MJCF, which begins with `mujoco`"
+                "linkwork reads URDF, which begins with `robot`, MJCF, which begins with `mujoco`, and SDF, which begins with \
+                 `sdf`"
             }
             Self::Macro { .. } => "expand the file first: xacro FILE > robot.urdf",
             Self::Missing { .. } => "add it",
@@ -169,7 +170,7 @@ impl ImportProblemKind {
             Self::SeveralRoots { .. } => {
                 "connect them to one link, with fixed joints if they do not move"
             }
-            Self::FollowsTwo { .. } => "remove one of them",
+            Self::Contradiction { .. } => "remove one of them",
             Self::FollowsItself { .. } => "let one of these joints follow no other",
             Self::WrongKeyframe { .. } => {
                 "give one value for each hinge and slide, 4 for a ball, 7 for a free joint"

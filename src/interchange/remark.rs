@@ -100,9 +100,41 @@ pub enum Remark {
     WithinBody { name: String },
     #[error("constraint `{name}` is left out: it is not active")]
     Inactive { name: String },
+    #[error("joint `{joint}` stands at {value} {unit}: it is coupled to nothing that moves")]
+    Stands {
+        joint: String,
+        value: f64,
+        unit: &'static str,
+    },
+    #[error("the limits of joint `{joint}` are left out: it follows several joints")]
+    LimitsLost { joint: String },
+    #[error("the limits of joint `{joint}` are left out: it closes a loop")]
+    ClosingLimits { joint: String },
+    #[error("the limit of joint `{joint}` is left out: it has one only")]
+    OneSided { joint: String },
+    #[error("{} on the ground: no joint leads from the world to {}", stand(links), if links.len() == 1 { "it" } else { "them" })]
+    Grounded { links: Vec<String> },
+    /// Joints of SDF are at 0 where they are written.
+    #[error("joints count from the configuration that is written: there all are at 0")]
+    CountedFromHome,
+    /// Joints with motors that other motors move already.
+    #[error(
+        "{} passive: with more motors than freedoms, the other motors decide where {}",
+        named_few(joints, ["is", "are"]),
+        if joints.len() == 1 { "it is" } else { "they are" }
+    )]
+    Redundant { joints: Vec<String> },
+    /// Home values that were moved to the nearer limit.
+    #[error(
+        "the home {} of {} outside the limits: moved to the nearer one",
+        if joints.len() == 1 { "value" } else { "values" },
+        named_few(joints, ["is", "are"])
+    )]
+    Moved { joints: Vec<String> },
     /// A name that a mechanism file cannot use.
     #[error(
-        "{noun} `{from}` is renamed `{to}`: names of frames have no dots, names of joints only letters, digits and `_`"
+        "{noun} `{from}` is renamed `{to}`: a name is given once, names of frames have no dots, names of joints only letters, \
+         digits and `_`"
     )]
     Renamed {
         noun: &'static str,
@@ -127,6 +159,22 @@ impl Remark {
                 | Self::Halves(_)
         )
     }
+}
+
+/// Names of a few, how many more there are, and the verb.
+fn named_few(names: &[String], verbs: [&str; 2]) -> String {
+    const MOST: usize = 5;
+    let more = names.len().saturating_sub(MOST);
+    let verb = verbs[usize::from(names.len() > 1)];
+    match more {
+        0 => format!("{} {verb}", quoted(names)),
+        _ => format!("{} and {more} more {verb}", quoted(&names[..MOST])),
+    }
+}
+
+fn stand(links: &[String]) -> String {
+    let noun = ["link", "links"][usize::from(links.len() > 1)];
+    format!("{noun} {}", named_few(links, ["stands", "stand"]))
 }
 
 fn follow(followers: &[String]) -> String {

@@ -54,17 +54,13 @@ pub struct Body {
     pub frames: Vec<(String, Pose<f64>)>,
 }
 
-/// A joint whose value follows that of another: `offset + factor · value`.
+/// A linear relation between the values of joints: Σ factor · value = constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
-    /// The joint that follows.
-    pub joint: String,
-    /// The joint that leads.
-    pub leader: String,
-    /// The motion of the follower for a unit of the leader.
-    pub factor: f64,
-    /// The follower's value where the leader's is 0.
-    pub offset: f64,
+    /// The joints with their factors; first the one that follows the others, where the file says which.
+    pub terms: Vec<(String, f64)>,
+    /// What the sum is, in rad or m.
+    pub constant: f64,
 }
 
 /// A frame on a body.
@@ -158,6 +154,24 @@ impl Loop {
             frame: format!("{name}_{}", side + 1),
             pose: ends[side].1,
         })
+    }
+}
+
+impl Coupling {
+    /// A joint that follows another: its value is offset + factor · value.
+    pub(super) fn of(joint: String, leader: String, factor: f64, offset: f64) -> Self {
+        Coupling {
+            terms: vec![(joint, 1.0), (leader, -factor)],
+            constant: offset,
+        }
+    }
+
+    /// The joint that follows, the one that it follows, the factor and the offset, where there are two.
+    pub(super) fn pair(&self) -> Option<(&str, &str, f64, f64)> {
+        let [(joint, own), (leader, other)] = &self.terms[..] else {
+            return None;
+        };
+        Some((joint, leader, -other / own, self.constant / own))
     }
 }
 

@@ -7,20 +7,21 @@
 //! a chain without rows.
 
 mod closures;
+mod joints;
 mod relations;
 
 use std::collections::HashMap;
 
-use relations::{carriers, leaders, within_reason};
+use relations::{Following, carriers, followers, within_reason};
 
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Coupling, Motion, Tree};
+use super::tree::{Attachment, Motion, Tree};
 use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
-    JointDescription, Named, PlatformDescription, Role, Row, Spanned,
+    Named, PlatformDescription, Row, Spanned,
 };
 use crate::geometry::{Line, Pose};
 use crate::mechanism::{JointAxis, SerialAxes, Table};
@@ -46,7 +47,7 @@ pub(super) fn describe(
         convention,
         carriers: carriers(tree),
         zero: tree.poses(|joint| joint.reference),
-        leaders: leaders(tree)?,
+        followers: followers(tree)?,
         variables: HashMap::new(),
         names: Names::default(),
         needs: Vec::new(),
@@ -56,6 +57,7 @@ pub(super) fn describe(
         remarks: Vec::new(),
     };
     unroller.variables();
+    let outputs = unroller.outputs();
     unroller.needs(kept);
     let platforms = unroller.platforms();
     unroller.chains();
@@ -64,6 +66,7 @@ pub(super) fn describe(
     if !unroller.chains.iter().any(moves) && platforms.is_empty() {
         return Err(ImportProblemKind::NothingMoves);
     }
+    let joints = unroller.joints();
     let description = Description {
         name: Spanned::nowhere(match tree.name.trim() {
             "" => "mechanism".to_owned(),
@@ -71,10 +74,11 @@ pub(super) fn describe(
         }),
         source: Some(Spanned::nowhere(source)),
         convention: Some(Spanned::nowhere(convention)),
-        joints: unroller.joints(),
+        joints,
         chains: unroller.chains,
         platforms,
         closures,
+        outputs,
         ..Description::default()
     };
     let mut remarks = unroller.remarks;
@@ -100,7 +104,7 @@ struct Unroller<'a> {
     carriers: Vec<(usize, Pose<f64>)>,
     /// Ground from every body at the references.
     zero: Vec<Pose<f64>>,
-    leaders: HashMap<String, Coupling>,
+    followers: HashMap<String, Following>,
     /// The variable of each joint that leads.
     variables: HashMap<String, String>,
     names: Names,
@@ -135,7 +139,7 @@ fn is_identity(pose: &Pose<f64>) -> bool {
 impl Unroller<'_> {
     fn variables(&mut self) {
         for joint in self.tree.joints() {
-            if !joint.motion.floats() && !self.leaders.contains_key(&joint.name) {
+            if !joint.motion.floats() && !self.followers.contains_key(&joint.name) {
                 let variable = self.names.variable(&joint.name);
                 self.variables.insert(joint.name.clone(), variable);
             }
@@ -162,7 +166,7 @@ impl Unroller<'_> {
             found.push((side.frame.clone(), carrier, pose));
         }
         for frame in found {
-            if self.needs.iter().all(|(other, ..)| *other != frame.0) {
+            if !self.needs.contains(&frame) {
                 self.needs.push(frame);
             }
         }
@@ -177,7 +181,7 @@ impl Unroller<'_> {
                     home: Displacement::of_pose(&home),
                     frames: Vec::new(),
                 };
-                let name = self.names.platform(&body.name);
+                let name = self.names.platform(i, &body.name);
                 platforms.push((i, Named::new(name, platform)));
             }
         }
@@ -264,7 +268,7 @@ impl Unroller<'_> {
             self.places.insert(link, Placed { chain, row, frame });
         }
         let (on, base) = self.standing(on, seen_from * table.base);
-        let name = self.names.frame(&wanted);
+        let name = self.names.frame(&wanted, last, &tip);
         let rows = self.rows(links, &table);
         let chain = ChainDescription {
             rows,
@@ -283,7 +287,7 @@ impl Unroller<'_> {
             }
             None if on == 0 => (GROUND.into(), base),
             None => {
-                let name = &self.names.platforms[&self.tree.bodies[on].name];
+                let name = &self.names.platforms[&on];
                 (name.clone(), self.zero[on].inverse() * base)
             }
         }
@@ -303,63 +307,5 @@ impl Unroller<'_> {
             Row::new(alpha, a, d, entry(Entry::angle, row.theta, row.turn))
         });
         rows.collect()
-    }
-
-    /// constant + Σ coefficient · joint in terms of variables: joints that follow are replaced by their leaders.
-    fn affine<'n>(
-        &self,
-        constant: f64,
-        terms: impl IntoIterator<Item = (&'n String, f64)>,
-    ) -> (f64, Vec<(String, f64)>) {
-        let (mut constant, mut variables) = (constant, Vec::new());
-        for (joint, coefficient) in terms.into_iter().filter(|(_, c)| *c != 0.0) {
-            let (leader, factor) = match self.leaders.get(joint) {
-                None => (joint, coefficient),
-                Some(coupling) => {
-                    constant += coefficient * coupling.offset;
-                    (&coupling.leader, coefficient * coupling.factor)
-                }
-            };
-            let variable = self.variables.get(leader).filter(|_| factor != 0.0);
-            variables.extend(variable.map(|variable| (variable.clone(), factor)));
-        }
-        (constant, variables)
-    }
-
-    /// The joint variables: those of joints that lead, within the limits of all that follow.
-    fn joints(&self) -> Vec<Named<JointDescription>> {
-        let mut joints = Vec::new();
-        for joint in self.tree.joints() {
-            let Some(variable) = self.variables.get(&joint.name) else {
-                continue;
-            };
-            let (mut limits, mut actuated) = (joint.limits, joint.actuated);
-            let mut angle = joint.motion == Motion::Turn;
-            let coupled = self.tree.joints().filter_map(|follower| {
-                let coupling = self.leaders.get(&follower.name)?;
-                (coupling.leader == joint.name).then_some((follower, coupling))
-            });
-            for (follower, coupling) in coupled {
-                actuated |= follower.actuated;
-                angle |= follower.motion == Motion::Turn;
-                if let (Some((low, high)), true) = (follower.limits, coupling.factor != 0.0) {
-                    let ends = [low, high].map(|end| (end - coupling.offset) / coupling.factor);
-                    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-                    let (least, most) = limits.unwrap_or((low, high));
-                    limits = Some((least.max(low), most.min(high)))
-                        .filter(|(low, high)| low <= high)
-                        .or(limits);
-                }
-            }
-            let entry = if angle { Entry::angle } else { Entry::length };
-            let description = JointDescription {
-                role: [Role::Passive, Role::Actuated][usize::from(actuated)],
-                home: entry(joint.home),
-                limits: limits.map(|(low, high)| (entry(low), entry(high))),
-                span: 0..0,
-            };
-            joints.push(Named::new(variable.clone(), description));
-        }
-        joints
     }
 }

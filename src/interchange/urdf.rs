@@ -1,5 +1,6 @@
 //! URDF, the format of ROS.
 
+mod couplings;
 mod loops;
 mod motion;
 mod read;

@@ -527,7 +527,7 @@ fn wrong_files_are_refused_with_their_places() {
         ("not xml".into(), "file: this is not XML"),
         (robot("<link name=\"a\">"), "file:3:"),
         (robot("<link name=a/>"), "file:2:"),
-        ("<sdf/>".into(), "the outermost element is `sdf`"),
+        ("<world/>".into(), "the outermost element is `world`"),
         (deep, "levels deep"),
         (
             joint("<axis xyz=\"0 0 0\"/>"),
@@ -648,9 +648,9 @@ fn wrong_files_are_refused_with_their_places() {
         (
             mujoco(
                 "<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
-                 <equality><joint joint1=\"j\" joint2=\"k\"/><joint joint1=\"k\" joint2=\"j\"/></equality>",
+                 <equality><joint joint1=\"j\" joint2=\"k\"/><joint joint1=\"k\" joint2=\"j\" polycoef=\"1 1\"/></equality>",
             ),
-            "follows itself",
+            "contradict one another",
         ),
     ];
     for (text, expected) in cases {

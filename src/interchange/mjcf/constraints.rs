@@ -47,7 +47,11 @@ pub(super) fn read(
             "connect" => loops.extend(reader.connect(node, name)),
             "weld" => loops.extend(reader.weld(node, name)),
             "joint" => couplings.extend(reader.joint(node)),
-            "tendon" => loops.extend(reader.tendon(node, name)),
+            "tendon" => match reader.tendon(node, name) {
+                Some(Tendon::Rod(rod)) => loops.push(*rod),
+                Some(Tendon::Coupling(coupling)) => couplings.push(coupling),
+                None => {}
+            },
             _ => {
                 let help = "only rigid bodies are supported: remove it";
                 let what = format!("the constraint `{element}`");
@@ -62,6 +66,12 @@ pub(super) fn read(
     }
     tree.loops = hinges(loops);
     tree.couplings = couplings;
+}
+
+/// What a constraint on a tendon is: between two sites a rod, along joints a relation of their values.
+enum Tendon {
+    Rod(Box<Loop>),
+    Coupling(Coupling),
 }
 
 struct Constraints<'a, 'r, 'i> {
@@ -190,30 +200,59 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         let follower = self.problems.needed(node, "joint1")?.to_owned();
         let (line, y0) = (self.line(node), self.reference(node, "joint1", &follower));
         let ([c0, c1], y0) = (line?, y0?);
-        Some(match node.attribute("joint2") {
-            None => Coupling {
-                leader: follower.clone(),
-                joint: follower,
-                factor: 0.0,
-                offset: y0 + c0,
-            },
-            Some(leader) => Coupling {
-                joint: follower,
-                leader: leader.to_owned(),
-                factor: c1,
-                offset: y0 + c0 - c1 * self.reference(node, "joint2", leader)?,
-            },
-        })
+        let Some(leader) = node.attribute("joint2") else {
+            // alone it stands still
+            return Some(Coupling {
+                terms: vec![(follower, 1.0)],
+                constant: y0 + c0,
+            });
+        };
+        let x0 = self.reference(node, "joint2", leader)?;
+        let leader = leader.to_owned();
+        Some(Coupling::of(follower, leader, c1, y0 + c0 - c1 * x0))
     }
 
-    /// A tendon between two sites that has a constant length, or that of a fixed tendon.
-    fn tendon(&mut self, node: Node, name: String) -> Option<Loop> {
+    /// A tendon that has a constant length, or that of a fixed tendon: between two sites, or fixed itself.
+    ///
+    /// y − y₀ = c₀ + c₁ (x − x₀) for the lengths y and x, whose values where the joints have their references are y₀ and x₀.
+    fn tendon(&mut self, node: Node, name: String) -> Option<Tendon> {
         let first = self.problems.needed(node, "tendon1")?;
         let [c0, c1] = self.line(node)?;
-        let spatial = self.tendon_named(node, "tendon1", first)?;
-        let sites: Vec<Node> = spatial.children().filter(Node::is_element).collect();
+        let tendon = self.tendon_named(node, "tendon1", first)?;
+        let mut length = Extent {
+            constant: c0,
+            terms: Vec::new(),
+        };
+        if let Some(second) = node.attribute("tendon2") {
+            let fixed = self.tendon_named(node, "tendon2", second)?;
+            if !fixed.has_tag_name("fixed") {
+                let what =
+                    format!("two spatial tendons `{first}` and `{second}` of related lengths");
+                let help = "a length may depend on joints, through a fixed tendon";
+                return self.problems.unsupported(what, help, node);
+            }
+            for (joint, factor, x0) in self.fixed(fixed)? {
+                length.constant -= c1 * factor * x0;
+                length.terms.push((joint, c1 * factor));
+            }
+        }
+        if tendon.has_tag_name("fixed") {
+            let (mut terms, mut constant) = (Vec::new(), length.constant);
+            for (joint, factor, y0) in self.fixed(tendon)? {
+                constant += factor * y0;
+                terms.push((joint, factor));
+            }
+            terms.extend(
+                length
+                    .terms
+                    .into_iter()
+                    .map(|(joint, factor)| (joint, -factor)),
+            );
+            return Some(Tendon::Coupling(Coupling { terms, constant }));
+        }
+        let sites: Vec<Node> = tendon.children().filter(Node::is_element).collect();
         let names: Vec<&str> = sites.iter().filter_map(|s| s.attribute("site")).collect();
-        let two = spatial.has_tag_name("spatial") && sites.len() == 2;
+        let two = tendon.has_tag_name("spatial") && sites.len() == 2;
         let ([a, b], true) = (&names[..], two) else {
             let help = "a tendon of constant length must lead straight from one site to another";
             let what = format!("the constraint on tendon `{first}`");
@@ -225,33 +264,22 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         );
         let sides = [a?, b?];
         let [p, q] = [0, 1].map(|i| (self.poses[sides[i].body] * sides[i].pose).position);
-        let mut length = Extent {
-            constant: (q - p).norm() + c0,
-            terms: Vec::new(),
-        };
-        if let Some(second) = node.attribute("tendon2") {
-            let fixed = self.tendon_named(node, "tendon2", second)?;
-            if !fixed.has_tag_name("fixed") {
-                let what =
-                    format!("two spatial tendons `{first}` and `{second}` of related lengths");
-                let help = "a length may depend on joints, through a fixed tendon";
-                return self.problems.unsupported(what, help, node);
-            }
-            for term in children(fixed, "joint") {
-                let joint = self.problems.needed(term, "joint")?;
-                let coefficient = term.attribute("coef").map_or(Some(vec![1.0]), parse);
-                let (x0, coefficient) = (
-                    self.reference(term, "joint", joint)?,
-                    *coefficient?.first()?,
-                );
-                length.constant -= c1 * coefficient * x0;
-                length.terms.push((joint.to_owned(), c1 * coefficient));
-            }
-        }
-        Some(Loop {
+        length.constant += (q - p).norm();
+        Some(Tendon::Rod(Box::new(Loop {
             length: Some(length),
             ..Loop::new(name, ClosureKind::Distance, sides)
-        })
+        })))
+    }
+
+    /// The joints of a fixed tendon with their factors and references.
+    fn fixed(&mut self, tendon: Node) -> Option<Vec<(String, f64, f64)>> {
+        let terms = children(tendon, "joint").into_iter().map(|term| {
+            let joint = self.problems.needed(term, "joint")?;
+            let coefficient = term.attribute("coef").map_or(Some(vec![1.0]), parse);
+            let x0 = self.reference(term, "joint", joint)?;
+            Some((joint.to_owned(), *coefficient?.first()?, x0))
+        });
+        terms.collect()
     }
 
     fn tendon_named(&mut self, node: Node, attribute: &str, name: &str) -> Option<Node<'r, 'i>> {

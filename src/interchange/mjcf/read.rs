@@ -14,9 +14,9 @@ use roxmltree::Node;
 use super::check::{AXIS, is_irrelevant, look};
 use super::constraints;
 use super::part::{Parts, pose};
-use crate::description::unless;
+use crate::description::{first_free, unless};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
-use crate::interchange::page::{Problems, direction, document};
+use crate::interchange::page::{Problems, child, children, direction, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
@@ -76,7 +76,8 @@ fn bodies(
     remarks: &mut Vec<Remark>,
 ) -> Result<(Tree, Vec<Parts>), ImportProblemKind> {
     let driven = model.actuators.iter().filter_map(|a| a.joint.as_deref());
-    let driven: HashSet<&str> = driven.collect();
+    let mut driven: HashSet<&str> = driven.collect();
+    drive_further(root, &mut driven, remarks);
     let closes = |equality: &Equality| !matches!(equality, Equality::Joint(_));
     let closed = model.equality.iter().any(closes);
     if driven.is_empty() {
@@ -85,6 +86,9 @@ fn bodies(
             false => "no joint has an actuator: all are taken as actuated",
         }));
     }
+    // no joint that the file names has the name of one that it does not
+    let joints = model.bodies.iter().flat_map(|entry| &entry.body.joints);
+    let mut taken: HashSet<String> = joints.filter_map(|joint| joint.name.clone()).collect();
     let mut bodies: Vec<Body> = Vec::new();
     let mut parts: Vec<Parts> = Vec::new();
     for (index, entry) in model.bodies.iter().enumerate() {
@@ -114,10 +118,15 @@ fn bodies(
                 let next = Body::new(name.clone(), Some(bodies.len()), Pose::identity());
                 bodies.push(std::mem::replace(&mut part, next));
             }
+            let mut made = |wanted: String| {
+                let made = first_free(&wanted, "_", |name| !taken.contains(name));
+                taken.insert(made.clone());
+                made
+            };
             let joint_name = match (&joint.name, entry.body.joints.len()) {
                 (Some(name), _) => name.clone(),
-                (None, 1) => format!("{name}_joint"),
-                (None, _) => format!("{name}_joint{}", i + 1),
+                (None, 1) => made(format!("{name}_joint")),
+                (None, _) => made(format!("{name}_joint{}", i + 1)),
             };
             let (automatic, range) = (model.compiler.autolimits, joint.range);
             let limited = joint.limited.resolve(automatic, range.is_some());
@@ -158,6 +167,50 @@ fn bodies(
     };
     home(model, &mut tree, remarks)?;
     Ok((tree, parts))
+}
+
+/// Joints that actuators drive in other ways: in the axes of their parents, and the first of a tendon along joints.
+fn drive_further<'a>(root: Node<'a, '_>, driven: &mut HashSet<&'a str>, remarks: &mut Vec<Remark>) {
+    let tendons = children(root, "tendon").into_iter();
+    let tendons: Vec<Node> = tendons.flat_map(|block| children(block, "fixed")).collect();
+    let actuators = children(root, "actuator").into_iter();
+    let actuators = actuators.flat_map(|block| block.children().filter(Node::is_element));
+    let (mut along, mut others) = (false, 0);
+    for actuator in actuators.filter(|actuator| !actuator.has_attribute("joint")) {
+        let tendon = actuator.attribute("tendon");
+        let tendon = tendons
+            .iter()
+            .find(|known| tendon.is_some() && known.attribute("name") == tendon);
+        let first = tendon.and_then(|tendon| child(*tendon, "joint")?.attribute("joint"));
+        along |= first.is_some();
+        match actuator.attribute("jointinparent").or(first) {
+            Some(joint) => _ = driven.insert(joint),
+            None => others += 1,
+        }
+    }
+    if along {
+        remarks.push(Remark::Driven(
+            "the first joint of a driven tendon is actuated",
+        ));
+    }
+    if others > 0 {
+        let element = "actuator without joint".into();
+        remarks.push(Remark::Ignored {
+            element,
+            count: others,
+        });
+    }
+    let limited = root.descendants().filter(|node| {
+        let tendon = node
+            .parent()
+            .is_some_and(|block| block.has_tag_name("tendon"));
+        tendon && node.has_attribute("range") && node.attribute("limited") != Some("false")
+    });
+    let count = limited.count();
+    if count > 0 {
+        let element = "range of a tendon".into();
+        remarks.push(Remark::Ignored { element, count });
+    }
 }
 
 /// The home values: those of the keyframe `home`, or of the first one, or the references.

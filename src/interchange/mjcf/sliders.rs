@@ -6,7 +6,7 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Joint, Loop, Motion, Tree};
 
 /// Sliding closures as joints of a further body, welded to the other side.
-pub(super) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
+pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
     let mut tree = tree.clone();
     let mut remarks = Vec::new();
     let home = tree.home();

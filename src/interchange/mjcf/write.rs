@@ -15,7 +15,7 @@ use super::sliders::with_sliders;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Extent, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, place, vector};
 
 /// The text of an MJCF file, with remarks on what it expresses differently from the mechanism.
@@ -30,16 +30,11 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     };
     remarks.extend(tree.loops.iter().filter_map(|l| page.closure(l)));
     remarks.push(Remark::MassesInvented);
-    for coupling in &tree.couplings {
-        let polynomial = [coupling.offset, coupling.factor, 0.0, 0.0, 0.0];
+    for (joint, leader, factor, offset) in tree.couplings.iter().filter_map(Coupling::pair) {
+        let polynomial = numbers([offset, factor, 0.0, 0.0, 0.0]);
         page.equalities.leaf(
             "joint name joint1 joint2 polycoef",
-            &[
-                &coupling.joint,
-                &coupling.joint,
-                &coupling.leader,
-                &numbers(polynomial),
-            ],
+            &[&joint, &joint, &leader, &polynomial],
         );
     }
     let mut xml = Xml::default();

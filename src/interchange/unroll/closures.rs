@@ -3,7 +3,7 @@
 use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
 use crate::description::{
     ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
-    place_of,
+    first_free, place_of,
 };
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
@@ -33,32 +33,30 @@ impl Unroller<'_> {
             let frames = &mut platform.value.frames;
             // frames of the same name are the same frame
             let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted);
-            let own = if own.trim().is_empty() { "frame" } else { own }.to_owned();
-            if place_of(frames, &own).is_none() {
+            let own = if own.trim().is_empty() { "frame" } else { own };
+            let same = |name: &str| frames.iter().find(|frame| frame.name.value == name);
+            let own = first_free(own, "_", |name| {
+                same(name).is_none_or(|frame| frame.value == steps)
+            });
+            if same(&own).is_none() {
                 frames.push(Named::new(own.clone(), steps));
             }
             return format!("{owner}.{own}");
         }
+        if let Some(name) = self.names.of_frame(wanted, carrier, pose) {
+            return name.clone();
+        }
         let (on, base) = match self.places.get(&carrier) {
             None => (GROUND.to_owned(), *pose),
             Some(Placed { chain, row, frame }) => {
-                let part = &self.chains[*chain];
                 let at = frame.inverse() * self.zero[carrier] * *pose;
-                if self.names.frames.get(wanted) == Some(&part.name.value)
-                    && *row == part.value.rows.len()
-                {
-                    return part.name.value.clone();
-                }
-                (format!("{}.{row}", part.name.value), at)
+                (format!("{}.{row}", self.chains[*chain].name.value), at)
             }
         };
-        if let Some(name) = self.names.frames.get(wanted) {
-            return name.clone();
-        }
         if is_identity(&base) && fit(wanted) != wanted {
             return on;
         }
-        let name = self.names.frame(wanted);
+        let name = self.names.frame(wanted, carrier, pose);
         let chain = ChainDescription::frame(&on, Displacement::of_pose(&base));
         self.chains.push(Named::new(name.clone(), chain));
         name
@@ -118,11 +116,12 @@ impl Unroller<'_> {
 
     /// The body that a body moves with: the nearest one with a joint that has a variable.
     fn mover(&self, body: usize) -> usize {
-        let moves = |joint: &Joint| match self.leaders.get(&joint.name) {
-            None => true,
-            Some(coupling) => {
-                coupling.factor != 0.0 && self.variables.contains_key(&coupling.leader)
-            }
+        let leads = |(leader, factor): &(String, f64)| {
+            *factor != 0.0 && self.variables.contains_key(leader)
+        };
+        let moves = |joint: &Joint| {
+            let following = self.followers.get(&joint.name);
+            following.is_none_or(|following| following.terms.iter().any(leads))
         };
         let mut at = body;
         while let Some(parent) = self.tree.bodies[at].parent {

@@ -1,10 +1,10 @@
 //! Relations between the bodies and joints of a tree before it is unrolled.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::geometry::Pose;
 use crate::interchange::problem::ImportProblemKind;
-use crate::interchange::tree::{Coupling, Tree};
+use crate::interchange::tree::Tree;
 
 /// The body that carries each body, and the pose of the body in it: the nearest one that moves.
 pub(super) fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
@@ -20,32 +20,96 @@ pub(super) fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
     carriers
 }
 
-/// For each following joint: the first leader, factor and offset.
-pub(super) fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportProblemKind> {
-    let mut direct: HashMap<&str, &Coupling> = HashMap::new();
-    for coupling in &tree.couplings {
-        if direct.insert(&coupling.joint, coupling).is_some() {
-            let joint = coupling.joint.clone();
-            return Err(ImportProblemKind::FollowsTwo { joint });
-        }
-    }
-    let mut leaders = HashMap::new();
-    for coupling in &tree.couplings {
-        let mut total = coupling.clone();
-        let mut steps = 0;
-        while let Some(next) = direct.get(total.leader.as_str()) {
-            total.offset += total.factor * next.offset;
-            total.factor *= next.factor;
-            total.leader = next.leader.clone();
-            steps += 1;
-            if steps > direct.len() {
-                let joint = coupling.joint.clone();
-                return Err(ImportProblemKind::FollowsItself { joint });
+/// A joint that follows others: offset + Σ factor · value.
+#[derive(Debug, Default)]
+pub(super) struct Following {
+    pub offset: f64,
+    pub terms: Vec<(String, f64)>,
+}
+
+impl Following {
+    /// Adds a joint; what is lost in rounding of what was there cancels.
+    fn add(&mut self, joint: &str, factor: f64) {
+        match self.terms.iter().position(|(known, _)| known == joint) {
+            None => self.terms.push((joint.to_owned(), factor)),
+            Some(place) => {
+                let known = &mut self.terms[place].1;
+                let largest = known.abs().max(factor.abs());
+                *known += factor;
+                if known.abs() <= 1e-12 * largest {
+                    self.terms.remove(place);
+                }
             }
         }
-        leaders.insert(coupling.joint.clone(), total);
     }
-    Ok(leaders)
+
+    /// Puts what a joint follows in its place.
+    fn replace(&mut self, joint: &str, by: &Following) {
+        let Some(place) = self.terms.iter().position(|(known, _)| known == joint) else {
+            return;
+        };
+        let (_, factor) = self.terms.remove(place);
+        self.offset += factor * by.offset;
+        for (leader, of) in &by.terms {
+            self.add(leader, factor * of);
+        }
+    }
+}
+
+/// The joints that follow: of each coupling one, if it can be one that is not driven, and first the one that follows in the
+/// file. Those that lead follow none.
+pub(super) fn followers(tree: &Tree) -> Result<HashMap<String, Following>, ImportProblemKind> {
+    let driven = tree.joints().filter(|joint| joint.actuated);
+    let driven: HashSet<&str> = driven.map(|joint| joint.name.as_str()).collect();
+    let mut found: HashMap<String, Following> = HashMap::new();
+    // the followers of each joint that leads
+    let mut led: HashMap<String, Vec<String>> = HashMap::new();
+    for coupling in &tree.couplings {
+        // offset + Σ factor · value = 0, in terms of joints that lead
+        let mut sum = Following {
+            offset: -coupling.constant,
+            terms: Vec::new(),
+        };
+        coupling
+            .terms
+            .iter()
+            .for_each(|(joint, factor)| sum.add(joint, *factor));
+        for (joint, _) in &coupling.terms {
+            if let Some(following) = found.get(joint) {
+                sum.replace(joint, following);
+            }
+        }
+        sum.terms.retain(|(_, factor)| *factor != 0.0);
+        let is_free = |(joint, _): &(String, f64)| !driven.contains(joint.as_str());
+        let place = sum.terms.iter().position(is_free).unwrap_or(0);
+        let Some((joint, own)) = sum.terms.get(place).cloned() else {
+            if sum.offset.abs() > 1e-9 * coupling.constant.abs().max(1.0) {
+                let joint = coupling.terms.first().map(|(joint, _)| joint.clone());
+                let joint = joint.unwrap_or_default();
+                return Err(ImportProblemKind::Contradiction { joint });
+            }
+            continue;
+        };
+        sum.terms.remove(place);
+        let following = Following {
+            offset: -sum.offset / own,
+            terms: (sum.terms.into_iter())
+                .map(|(leader, factor)| (leader, -factor / own))
+                .collect(),
+        };
+        let before = led.remove(&joint).unwrap_or_default();
+        for follower in &before {
+            if let Some(known) = found.get_mut(follower) {
+                known.replace(&joint, &following);
+            }
+        }
+        for (leader, _) in &following.terms {
+            let led = led.entry(leader.clone()).or_default();
+            led.extend(before.iter().cloned().chain([joint.clone()]));
+        }
+        found.insert(joint, following);
+    }
+    Ok(found)
 }
 
 /// Refuses numbers so large that all others would be lost to rounding.
@@ -75,8 +139,9 @@ pub(super) fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
         }
     }
     for coupling in &tree.couplings {
-        let line = [coupling.factor, coupling.offset];
-        check(&coupling.joint, line.into_iter())?;
+        let factors = coupling.terms.iter().map(|(_, factor)| *factor);
+        let joint = coupling.terms.first().map_or("", |(joint, _)| joint);
+        check(joint, factors.chain([coupling.constant]))?;
     }
     for part in &tree.loops {
         let lengths = part.length.iter().flat_map(|length| {

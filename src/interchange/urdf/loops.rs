@@ -104,6 +104,23 @@ impl LoopReader<'_> {
         (self.problems).known(found, (node, attribute), ("link", name), links)
     }
 
+    /// The link in whose frame something is given: that of the name in an attribute, which may be a joint, whose frame is that
+    /// of its child, or `__model__`, the root; `own` if there is none.
+    fn frame(&mut self, node: Node, attribute: &str, own: usize) -> Option<usize> {
+        let mut bodies = self.tree.bodies.iter();
+        match node.attribute(attribute).map_or("", str::trim) {
+            "" => Some(own),
+            "__model__" => Some(0),
+            name => {
+                let moved = bodies.position(|body| body.joints.iter().any(|j| j.name == name));
+                match self.tree.body(name).or(moved) {
+                    Some(found) => Some(found),
+                    None => self.link(node, attribute, name),
+                }
+            }
+        }
+    }
+
     fn close(&mut self, node: Node, kind: ClosureKind, ends: [(usize, Pose<f64>); 2]) {
         let own = node.attribute("name").map(str::to_owned);
         let mut name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
@@ -185,15 +202,13 @@ impl LoopReader<'_> {
         let numbers = |problems: &mut Problems, part: Node, count: usize| {
             problems.parsed(part.text().unwrap_or_default(), count, tag(part))
         };
+        let poses = self.tree.poses(|joint| joint.reference);
         let mut pose = Pose::identity();
         if let Some(part) = child(node, "pose") {
             let v = numbers(self.problems, part, 6)?;
             pose = pose_of([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
-            if !part.attribute("relative_to").unwrap_or_default().is_empty() {
-                let help = "give the pose in the child link";
-                let what = "a pose relative to a named frame";
-                return self.problems.unsupported(what, help, part);
-            }
+            let seen_from = self.frame(part, "relative_to", child_body)?;
+            pose = poses[child_body].inverse() * poses[seen_from] * pose;
         }
         // a universal joint has a second axis, which the child carries
         let names = match kind {
@@ -206,14 +221,22 @@ impl LoopReader<'_> {
                 let v = numbers(self.problems, part, 3)?;
                 let joint = node.attribute("name").unwrap_or("joint");
                 let (along, example) = ([v[0], v[1], v[2]], "<xyz>0 0 1</xyz>");
-                *axis = self.problems.axis(along, joint, example, part)?;
+                let along = self.problems.axis(along, joint, example, part)?;
+                // in the frame of the joint, or in that of a link
+                *axis = match part.attribute("expressed_in").unwrap_or_default() {
+                    "" => along,
+                    _ => {
+                        let seen_from = poses[self.frame(part, "expressed_in", child_body)?];
+                        let turned = (poses[child_body] * pose).inverse() * seen_from;
+                        turned.rotation * along
+                    }
+                };
             } else if name == "axis2" {
                 let needs = "a second axis, an element `axis2`".to_owned();
                 self.problems.missing(node, needs);
                 return None;
             }
         }
-        let poses = self.tree.poses(|joint| joint.reference);
         let [on_parent, on_child] = axes.map(|axis| pose * along_z(&axis));
         let on_parent = poses[parent].inverse() * poses[child_body] * on_parent;
         let ends = [(parent, on_parent), (child_body, on_child)];

@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use roxmltree::Node;
-
+use crate::description::first_free;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{child, children, least_along};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Joint, Motion};
+use roxmltree::Node;
 
 /// The type of a joint.
 #[derive(Clone, Copy)]
@@ -45,7 +45,12 @@ pub(super) struct Hanging {
 }
 
 /// The joints of a link, as turns and slides about axes through its own frame.
-pub(super) fn moving(part: &Hanging, name: &str, actuated: bool) -> Vec<Joint> {
+pub(super) fn moving(
+    part: &Hanging,
+    name: &str,
+    actuated: bool,
+    free: &dyn Fn(&str) -> bool,
+) -> Vec<Joint> {
     let (axis, limits) = (part.axis, part.limits);
     let finite = limits.0.is_finite() && limits.1.is_finite();
     // two zeros mean absent limits
@@ -53,7 +58,6 @@ pub(super) fn moving(part: &Hanging, name: &str, actuated: bool) -> Vec<Joint> {
     let joint = |name: String, motion: Motion, axis: Vector3<f64>, limited: bool| {
         let limits = limited.then_some(limits);
         Joint {
-            home: limits.map_or(0.0, |(low, high)| 0.0_f64.clamp(low, high)),
             limits,
             actuated,
             ..Joint::new(name, motion, axis)
@@ -68,19 +72,23 @@ pub(super) fn moving(part: &Hanging, name: &str, actuated: bool) -> Vec<Joint> {
             // in the plane that the axis is normal to
             let across = axis.cross(&Vector3::unit(least_along(&axis)));
             let x = across.times(1.0 / across.norm());
+            // no other joint has the name of a part
+            let part = |word: &str| first_free(&format!("{name}_{word}"), "_", free);
             vec![
-                joint(format!("{name}_x"), Motion::Slide, x, false),
-                joint(format!("{name}_y"), Motion::Slide, axis.cross(&x), false),
-                joint(format!("{name}_turn"), Motion::Turn, axis, false),
+                joint(part("x"), Motion::Slide, x, false),
+                joint(part("y"), Motion::Slide, axis.cross(&x), false),
+                joint(part("turn"), Motion::Turn, axis, false),
             ]
         }
     }
 }
 
-/// Which joints are driven: those of transmissions; where there are none, those with an effort, or all.
+/// Which joints are driven: those of transmissions; where there are none, those that are said to be independent, or those
+/// with an effort, or all of a tree and none of a linkage with loops.
 pub(super) fn driven(
     robot: Node,
     joints: &[(Node, String)],
+    closed: bool,
     remarks: &mut Vec<Remark>,
 ) -> Vec<bool> {
     let transmissions = children(robot, "transmission");
@@ -95,12 +103,22 @@ pub(super) fn driven(
             |(node, name): &(Node, String)| named.contains(name.as_str()) && !follows(node);
         return joints.iter().map(driven).collect();
     }
+    let moves = |node: &Node| node.attribute("type") != Some("fixed");
+    // as URDF+ says
+    let independent = |node: &Node| node.attribute("independent").map(|word| word == "true");
+    if joints.iter().any(|(node, _)| independent(node).is_some()) {
+        let rule = "joints that are not independent are passive";
+        remarks.push(Remark::Driven(rule));
+        let driven = |(node, _): &(Node, String)| {
+            independent(node) != Some(false) && moves(node) && !follows(node)
+        };
+        return joints.iter().map(driven).collect();
+    }
     let strong = |node: &Node| {
         let effort =
             child(*node, "limit").and_then(|limit| limit.attribute("effort")?.trim().parse().ok());
         effort.map(|effort: f64| effort > 0.0)
     };
-    let moves = |node: &Node| node.attribute("type") != Some("fixed");
     let efforts: Vec<Option<bool>> = joints.iter().map(|(node, _)| strong(node)).collect();
     if efforts.contains(&Some(true)) && efforts.contains(&Some(false)) {
         let rule = "joints with an effort of 0, or without effort, are passive";
@@ -108,6 +126,11 @@ pub(super) fn driven(
         let driven = joints.iter().zip(efforts);
         let driven = driven.map(|((node, _), strong)| strong == Some(true) && !follows(node));
         return driven.collect();
+    }
+    if closed {
+        let rule = "no joint has a transmission: all are passive, as loops are closed";
+        remarks.push(Remark::Driven(rule));
+        return vec![false; joints.len()];
     }
     let driven = joints.iter().map(|(node, _)| moves(node) && !follows(node));
     driven.collect()

@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use roxmltree::Node;
 
+use super::couplings;
 use super::loops;
 use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::description::unless;
@@ -84,7 +85,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                     *ignored.entry("mesh".into()).or_default() += shapes.count();
                 }
                 "material" | "transmission" => {}
-                _ if loops::is_loop(node) => {}
+                _ if loops::is_loop(node) || couplings::is_coupling(node) => {}
                 "gazebo" => {}
                 _ => *ignored.entry(element.to_owned()).or_default() += 1,
             }
@@ -106,7 +107,10 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Err(self.problems.0);
         }
         let hangs: Vec<Hanging> = hangs.into_iter().flatten().collect();
-        let driven = driven(robot, &joints, &mut self.remarks);
+        let closed = robot
+            .children()
+            .any(|node| node.is_element() && loops::is_loop(node));
+        let driven = driven(robot, &joints, closed, &mut self.remarks);
         let children = hangs.iter().enumerate();
         let joint_of: HashMap<&str, usize> = children.map(|(i, h)| (h.child.as_str(), i)).collect();
         let mut bodies: Vec<Body> = Vec::new();
@@ -120,14 +124,11 @@ impl<'a, 'i> Reader<'a, 'i> {
                 let (part, name) = (&hangs[i], &joints[i].1);
                 body.parent = index.get(part.parent.as_str()).copied();
                 body.pose = part.origin;
-                body.joints = moving(part, name, driven[i]);
+                let free = |name: &str| joints.iter().all(|(_, joint)| joint != name);
+                body.joints = moving(part, name, driven[i], &free);
                 if let Some((leader, factor, offset)) = &part.mimic {
-                    couplings.push(Coupling {
-                        joint: name.clone(),
-                        leader: leader.clone(),
-                        factor: *factor,
-                        offset: *offset,
-                    });
+                    let leader = leader.clone();
+                    couplings.push(Coupling::of(name.clone(), leader, *factor, *offset));
                 }
             }
             bodies.push(body);
@@ -143,6 +144,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         for (body, pose) in tree.bodies.iter_mut().zip(poses) {
             body.home = body.floats().then_some(pose);
         }
+        (tree.couplings).extend(couplings::read(robot, &tree, &mut self.problems));
         tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
         unless(self.problems.0, (tree, self.remarks))
     }

@@ -3,7 +3,7 @@
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, RollPitchYaw};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{Body, Coupling, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, vector};
 
 /// The limit of a prismatic joint that has none, in units of the size of the mechanism.
@@ -62,8 +62,8 @@ impl UrdfWriter<'_> {
         let [joint] = body.joints.as_slice() else {
             return false;
         };
-        let mut couplings = self.tree.couplings.iter();
-        body.frames.is_empty() && !couplings.any(|coupling| coupling.leader == joint.name)
+        let mut couplings = self.tree.couplings.iter().filter_map(Coupling::pair);
+        body.frames.is_empty() && !couplings.any(|(_, leader, ..)| leader == joint.name)
     }
 
     fn rigid(&self) -> impl Iterator<Item = &Loop> {
@@ -178,22 +178,18 @@ impl UrdfWriter<'_> {
         if joint.motion == Motion::Slide && joint.limits.is_none() {
             self.unlimited.push(joint.name.clone());
         }
-        let mut couplings = self.tree.couplings.iter();
-        let coupling = couplings.find(|coupling| coupling.joint == joint.name);
+        let mut couplings = self.tree.couplings.iter().filter_map(Coupling::pair);
+        let coupling = couplings.find(|(follower, ..)| *follower == joint.name);
         if !joint.motion.floats() && coupling.is_none() && joint.home != 0.0 {
             self.away.push(joint.name.clone());
         }
         self.open_joint(&joint.name, kind.unwrap_or(own), links, origin);
         self.joints.leaf("axis xyz", &[&vector(&joint.axis)]);
         self.limit(limits, if joint.actuated { FAR } else { 0.0 }, FAR);
-        if let Some(coupling) = coupling {
+        if let Some((_, leader, factor, offset)) = coupling {
             self.joints.leaf(
                 "mimic joint multiplier offset",
-                &[
-                    &coupling.leader,
-                    &numbers([coupling.factor]),
-                    &numbers([coupling.offset]),
-                ],
+                &[&leader, &numbers([factor]), &numbers([offset])],
             );
         }
         self.joints.close("joint");

@@ -1,0 +1,122 @@
+//! The variables of a mechanism, and the joints that follow them.
+
+use super::{Unroller, sum};
+use crate::description::{Entry, JointDescription, Named, Role};
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::Motion;
+
+impl Unroller<'_> {
+    /// constant + Σ coefficient · joint in terms of variables: joints that follow are replaced by their leaders.
+    pub(super) fn affine<'n>(
+        &self,
+        constant: f64,
+        terms: impl IntoIterator<Item = (&'n String, f64)>,
+    ) -> (f64, Vec<(String, f64)>) {
+        let (mut constant, mut variables) = (constant, Vec::new());
+        for (joint, coefficient) in terms.into_iter().filter(|(_, c)| *c != 0.0) {
+            let own = [(joint.clone(), 1.0)];
+            let terms = match self.followers.get(joint) {
+                None => &own[..],
+                Some(following) => {
+                    constant += coefficient * following.offset;
+                    &following.terms
+                }
+            };
+            for (leader, factor) in terms.iter().filter(|(_, factor)| *factor != 0.0) {
+                let variable = self.variables.get(leader);
+                variables.extend(variable.map(|of| (of.clone(), coefficient * factor)));
+            }
+        }
+        (constant, variables)
+    }
+
+    /// Joints that follow, as outputs of their names: what stands still and what has its limits elsewhere is said.
+    pub(super) fn outputs(&mut self) -> Vec<Named<Entry>> {
+        let mut outputs = Vec::new();
+        for joint in self.tree.joints() {
+            let Some(following) = self.followers.get(&joint.name) else {
+                continue;
+            };
+            let (name, value) = (joint.name.clone(), following.offset);
+            let unit = if joint.motion == Motion::Turn {
+                "rad"
+            } else {
+                "m"
+            };
+            match following.terms.len() {
+                0 => self.remarks.push(Remark::Stands {
+                    joint: name,
+                    value,
+                    unit,
+                }),
+                1 => {}
+                _ if joint.limits.is_some() => {
+                    self.remarks.push(Remark::LimitsLost { joint: name });
+                }
+                _ => {}
+            }
+            // names with dots are those that a written mechanism gives to parts of rows
+            if following.terms.is_empty() || joint.name.contains('.') {
+                continue;
+            }
+            let (constant, terms) = self.affine(0.0, [(&joint.name, 1.0)]);
+            let entry = if joint.motion == Motion::Turn {
+                Entry::angle
+            } else {
+                Entry::length
+            };
+            let name = self.names.variable(&joint.name);
+            outputs.push(Named::new(name, sum(&entry(constant), &terms)));
+        }
+        outputs
+    }
+
+    /// The joint variables: those of joints that lead, within the limits of all that follow.
+    pub(super) fn joints(&mut self) -> Vec<Named<JointDescription>> {
+        let (mut joints, mut moved) = (Vec::new(), Vec::new());
+        for joint in self.tree.joints() {
+            let Some(variable) = self.variables.get(&joint.name) else {
+                continue;
+            };
+            let (mut limits, mut actuated) = (joint.limits, joint.actuated);
+            let mut angle = joint.motion == Motion::Turn;
+            let coupled = self.tree.joints().filter_map(|follower| {
+                let following = self.followers.get(&follower.name)?;
+                match &following.terms[..] {
+                    [(leader, factor)] if *leader == joint.name && *factor != 0.0 => {
+                        Some((follower, following.offset, *factor))
+                    }
+                    _ => None,
+                }
+            });
+            for (follower, offset, factor) in coupled {
+                actuated |= follower.actuated;
+                angle |= follower.motion == Motion::Turn;
+                if let Some((low, high)) = follower.limits {
+                    let ends = [low, high].map(|end| (end - offset) / factor);
+                    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+                    let (least, most) = limits.unwrap_or((low, high));
+                    limits = Some((least.max(low), most.min(high)))
+                        .filter(|(low, high)| low <= high)
+                        .or(limits);
+                }
+            }
+            let entry = if angle { Entry::angle } else { Entry::length };
+            let home = limits.map_or(joint.home, |(low, high)| joint.home.clamp(low, high));
+            if home != joint.home {
+                moved.push(joint.name.clone());
+            }
+            let description = JointDescription {
+                role: [Role::Passive, Role::Actuated][usize::from(actuated)],
+                home: entry(home),
+                limits: limits.map(|(low, high)| (entry(low), entry(high))),
+                span: 0..0,
+            };
+            joints.push(Named::new(variable.clone(), description));
+        }
+        if !moved.is_empty() {
+            self.remarks.push(Remark::Moved { joints: moved });
+        }
+        joints
+    }
+}
