@@ -144,8 +144,8 @@ impl Question {
     /// Holds a joint, a coordinate of a platform or of a point, `left+0.5,0.2.x`, or a whole platform. What is freed is
     /// freed first: `actuated` may be free and one actuated joint held.
     pub fn hold(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        let name = self.placed(name.into());
-        self.hold.push((name, value.into()));
+        let (name, [value]) = self.led(name.into(), [value.into()]);
+        self.hold.push((name, value));
         self.measured()
     }
 
@@ -158,8 +158,8 @@ impl Question {
 
     /// Starts the search at a value.
     pub fn guess(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        let name = self.placed(name.into());
-        self.guess.push((name, value.into()));
+        let (name, [value]) = self.led(name.into(), [value.into()]);
+        self.guess.push((name, value));
         self
     }
 
@@ -196,12 +196,8 @@ impl Question {
         from: impl Into<Value>,
         to: impl Into<Value>,
     ) -> Self {
-        let name = self.placed(name.into());
-        self.inputs.push(Range {
-            name,
-            from: from.into(),
-            to: to.into(),
-        });
+        let (name, [from, to]) = self.led(name.into(), [from.into(), to.into()]);
+        self.inputs.push(Range { name, from, to });
         self.measured()
     }
 
@@ -270,6 +266,26 @@ impl Question {
     pub fn store(mut self, store: Arc<dyn Store>) -> Self {
         self.store = Some(store);
         self
+    }
+
+    /// A name of a coordinate with values. An output that follows a joint is that joint, at the values where it has these.
+    /// What is wrong with values is said when the question is asked.
+    fn led<const N: usize>(&mut self, name: String, values: [Value; N]) -> (String, [Value; N]) {
+        let name = self.placed(name);
+        let Some(follower) = self.mechanism.follower(&name) else {
+            return (name, values);
+        };
+        let plain = system::Question::new(&self.mechanism);
+        let numbers = values
+            .each_ref()
+            .map(|value| plain.value(&name, value).ok());
+        match numbers.iter().all(Option::is_some) {
+            true => {
+                let leader = self.mechanism.joints()[follower.joint].name.clone();
+                (leader, numbers.map(|of| of.map_or(0.0, |(_, x)| x).into()))
+            }
+            false => (name, values),
+        }
     }
 
     /// A name of a coordinate. That of a point ([`NamedPoint`]), `left+0.5,0.2.x`, becomes a joint of the mechanism.

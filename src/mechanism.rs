@@ -5,6 +5,7 @@ mod closure;
 mod configuration;
 mod coordinate;
 mod dimensions;
+mod follower;
 mod frames;
 mod inspect;
 mod kinematics;
@@ -28,6 +29,7 @@ mod variable;
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
 pub use coordinate::PoseCoordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
+pub use follower::Follower;
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 

@@ -194,6 +194,12 @@ impl Reporter<'_> {
             joints: joints
                 .map(|(_, joint, value)| (joint.name.clone(), value))
                 .collect(),
+            outputs: (mechanism.joint_outputs(&at.joints))
+                .map(|(output, value)| (output.name.clone(), value))
+                .collect(),
+            output_units: (mechanism.joint_outputs(&at.joints))
+                .map(|(output, _)| output.unit)
+                .collect(),
             squared_lengths: false,
             warnings: (mechanism.warnings().iter())
                 .map(|problem| problem.kind.title())

@@ -54,6 +54,18 @@ impl Question {
         watch: &Watch,
     ) -> Result<Many, AskError> {
         let mechanism = &*self.mechanism;
+        let followers = names.iter().map(|name| mechanism.follower(name));
+        let followers: Vec<_> = followers.collect();
+        if followers.iter().any(Option::is_some) {
+            let (mut names, mut values) = (names.to_vec(), values.to_vec());
+            for (i, follower) in followers.iter().enumerate() {
+                let Some(follower) = follower else { continue };
+                names[i].clone_from(&mechanism.joints()[follower.joint].name);
+                let column = values.iter_mut().skip(i).step_by(names.len());
+                column.for_each(|value| *value = follower.joint_at(*value));
+            }
+            return self.solve_many(&names, &values, watch);
+        }
         let plain = system::Question::new(mechanism);
         let mut coordinates = Vec::new();
         let mut begins = self.clone();

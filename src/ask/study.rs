@@ -155,7 +155,9 @@ impl Study {
             let (of, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
             let (_, to) = (plain.value(name, to)).map_err(Role::To.named(index))?;
             ranges.push(Spread::Even(from, to));
-            varied.push(Varied::coordinate(name, of, &mechanism));
+            // what follows a joint is that joint
+            let name = of.name(&mechanism);
+            varied.push(Varied::coordinate(&name, of, &mechanism));
         }
         for (name, deviation) in deviations {
             if varied.iter().any(|of| of.name == *name) {
@@ -172,6 +174,13 @@ impl Study {
                     let held = held.map_or(&home, |(_, value)| value);
                     let value = |value| plain.value(name, value).map_err(AskError::Question);
                     let ((of, mean), (_, deviation)) = (value(held)?, value(deviation)?);
+                    if let Some(follower) = mechanism.follower(name) {
+                        return Err(StudyError::Unknown {
+                            name: name.clone(),
+                            suggestion: Some(mechanism.joints()[follower.joint].name.clone()),
+                        }
+                        .into());
+                    }
                     varied.push(Varied::coordinate(name, of, &mechanism));
                     (mean, deviation)
                 }

@@ -4,6 +4,7 @@ use super::closing;
 use super::document::{Cell, Document, Section, Table, TableOf};
 use super::quantity::{clause, degrees, form, number, quantity, size};
 use super::report::Report;
+use crate::algebra::SiUnit;
 use crate::analysis::assembly::{AssemblyReport, JointVariable, Outcome, PlatformRecord};
 use crate::description::{count, listed};
 use crate::system::{FrameRecord, Gap};
@@ -22,6 +23,7 @@ impl Report for AssemblyReport {
             .notes(idle(self))
             .notes(others(self))
             .table("Joints", joints(self))
+            .table("Outputs", outputs(self))
             .sections(platforms)
             .table("Frames", tips(self))
             .sections(gaps)
@@ -169,6 +171,23 @@ fn joints(report: &AssemblyReport) -> TableOf<(&JointVariable, f64)> {
         .numbers("value", |(of, value)| Cell::quantity(value, of.unit))
         .numbers("", radians)
         .words("limits", limits)
+}
+
+/// Outputs that depend on joints alone.
+fn outputs(report: &AssemblyReport) -> TableOf<((&str, f64), SiUnit)> {
+    let outputs = report
+        .outputs
+        .0
+        .iter()
+        .map(|(name, value)| (name.as_str(), *value));
+    let units = report.output_units.iter().copied();
+    let radians = |((_, value), unit): ((&str, f64), SiUnit)| {
+        unit.is_angle().then(|| format!("{} rad", number(value)))
+    };
+    Table::of(outputs.zip(units))
+        .words("name", |((name, _), _)| name.to_owned())
+        .numbers("value", |((_, value), unit)| Cell::quantity(value, unit))
+        .numbers("", radians)
 }
 
 fn pose(name: &str, platform: &PlatformRecord) -> Section {

@@ -114,6 +114,12 @@ pub struct AssemblyReport {
     pub held: Vec<String>,
     /// Joint values of the assembled configuration, or of the closest approach, rad or m.
     pub joints: Named<f64>,
+    /// Values there of the outputs of the file that depend on joints alone, in SI units and rad.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub outputs: Named<f64>,
+    /// Their units.
+    #[serde(skip)]
+    pub output_units: Vec<SiUnit>,
     /// Poses of the platforms there.
     pub platforms: Named<PlatformRecord>,
     /// Tip frames of the chains there; of a file of joint coordinates, of the bodies and points that it names.

@@ -131,11 +131,13 @@ impl Drive {
         order: Order,
     ) -> Result<Self, DriveError> {
         let mechanism = question.mechanism();
-        let coordinate = self.find(question, name)?;
-        let wanted = coordinate.measure(mechanism);
+        let follower = mechanism.follower(name);
+        let leader = follower.map_or(name, |of| &mechanism.joints()[of.joint].name);
+        let coordinate = self.find(question, leader)?;
+        let wanted = follower.map_or_else(|| coordinate.measure(mechanism), |of| of.measure);
         let number = value.per_time(mechanism, wanted, order as usize + 1);
         let wrong = |error| DriveError::Question(QuestionError::value(name, value, error));
-        let value = number.map_err(wrong)?;
+        let value = number.map_err(wrong)? / follower.map_or(1.0, |of| of.factor);
         self.given = true;
         let mixed =
             |platform: usize| DriveError::Mixed(mechanism.platforms()[platform].name.clone());

@@ -112,7 +112,10 @@ impl Load {
         value: impl Into<Value>,
     ) -> Result<Self, ForceError> {
         let mechanism = question.mechanism();
-        let Some(joint) = mechanism.joint(name) else {
+        // a force on what follows acts on the joint by its factor: the power is the same
+        let follower = mechanism.follower(name);
+        let leader = follower.map(|of| of.joint);
+        let Some(joint) = mechanism.joint(name).or(leader) else {
             let (platform, part) = name.rsplit_once('.').unwrap_or((name, ""));
             let coordinate = PoseCoordinate::from_word(part);
             if mechanism.platform(name).is_some()
@@ -136,12 +139,14 @@ impl Load {
                 known,
             });
         };
-        let wanted = match mechanism.joints()[joint].kind.is_angle() {
+        let turns = mechanism.joints()[joint].kind.is_angle();
+        let wanted = match follower.map_or(turns, |of| of.measure == Measure::Angle) {
             true => Measure::Moment,
             false => Measure::Force,
         };
         let value = number(question, name, &value.into(), wanted).map_err(ForceError::Value)?;
-        self.joints.push((joint, value));
+        self.joints
+            .push((joint, value * follower.map_or(1.0, |of| of.factor)));
         Ok(self)
     }
 }

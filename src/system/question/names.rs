@@ -70,8 +70,11 @@ impl Question<'_> {
         if value.is_home() {
             return Ok(of.home(self.mechanism));
         }
-        let number = value.coordinate(self.mechanism, of.measure(self.mechanism));
-        number.map_err(|error| QuestionError::value(name, value, error))
+        let follower = self.mechanism.follower(name);
+        let measure = follower.map_or_else(|| of.measure(self.mechanism), |of| of.measure);
+        let number = value.coordinate(self.mechanism, measure);
+        let number = number.map_err(|error| QuestionError::value(name, value, error))?;
+        Ok(follower.map_or(number, |follower| follower.joint_at(number)))
     }
 
     fn target(&self, name: &str) -> Result<Target, QuestionError> {
@@ -88,6 +91,9 @@ impl Question<'_> {
             )
         {
             return Ok(Target::Coordinate(Coordinate::Pose(platform, coordinate)));
+        }
+        if let Some(follower) = self.mechanism.follower(name) {
+            return Ok(Target::Coordinate(Coordinate::Joint(follower.joint)));
         }
         let platforms = self.mechanism.platforms().iter();
         let coordinates = Coordinate::all(self.mechanism).map(|of| of.name(self.mechanism));
