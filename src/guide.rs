@@ -17,7 +17,7 @@
 //! | [`drawing`] | pictures of the mechanism |
 //! | [`view`] | an interactive page with the solver inside |
 //! | [`frames`] | tables from joint axes and back, conventions and cuts |
-//! | [`exchange`] | URDF and MJCF |
+//! | [`exchange`] | URDF, MJCF and SDF |
 //! | [`conventions`] | units, frames, angles, names, exit status |
 //! | [`library`] | use from Rust |
 //! | [`studies`] | quantities over many dimensions and inputs, tolerances, on any number of machines |
@@ -43,7 +43,7 @@ pub mod coordinates {}
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/drawing.md"))]
 pub mod drawing {}
 
-/// Exchange with other programs: URDF and MJCF.
+/// Exchange with other programs: URDF, MJCF and SDF.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/exchange.md"))]
 pub mod exchange {}
 

@@ -1,6 +1,6 @@
-//! Files of other programs: URDF and MJCF, read as descriptions and written from mechanisms.
+//! Files of other programs: URDF, MJCF and SDF, read as descriptions and written from mechanisms.
 //!
-//! Both formats describe trees of bodies; they differ in how they close loops. The [`Tree`] is the intermediate
+//! The formats describe trees of bodies; they differ in how they close loops. The [`Tree`] is the intermediate
 //! form: writing goes mechanism → tree → text, reading text → tree → description.
 
 mod cut;
@@ -10,6 +10,7 @@ mod names;
 mod page;
 mod problem;
 mod remark;
+mod sdf;
 mod tree;
 mod unroll;
 mod urdf;
@@ -20,5 +21,6 @@ pub use import::{ImportError, ImportSettings, Imported, import, load};
 pub use mjcf::{NotRead, write as write_mjcf};
 pub use problem::{ImportProblem, ImportProblemKind, WrongFile};
 pub use remark::Remark;
+pub use sdf::write as write_sdf;
 pub use tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 pub use urdf::write as write_urdf;

@@ -33,7 +33,7 @@
 //! | [`solve`] | Newton's method, continuation, homotopy |
 //! | [`description`] | the mechanism file, read and written |
 //! | [`mechanism`] | the valid, immutable mechanism and its kinematics over any number |
-//! | [`interchange`] | URDF and MJCF |
+//! | [`interchange`] | URDF, MJCF and SDF |
 //! | [`system`] | equations, Jacobians and curves of one question about a mechanism |
 //! | [`analysis`] | the analyses: a mechanism, a question and settings in, a report out |
 //! | [`ask`] | questions that own their mechanism, and every analysis as a method of them |

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use linkwork::ask::Question;
-use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
+use linkwork::interchange::{Remark, tree_of, write_mjcf, write_sdf, write_urdf};
 use linkwork::output::{Report, closing, text};
 
 use super::asked::Asked;
@@ -15,8 +15,8 @@ use super::{Answer, Refusal, lines};
 /// Write a mechanism as a file for another program.
 ///
 /// The mechanism is assembled first, as `solve` does it, at home unless --hold, --free and --guess say otherwise. MJCF
-/// gets the loops as equality constraints and the assembled configuration as the keyframe `home`; URDF has no loops
-/// and gets the tree. What the format cannot express, or expresses differently, is listed on stderr.
+/// gets the loops as equality constraints and the assembled configuration as the keyframe `home`; SDF gets them as joints,
+/// which are at 0 there; URDF has no loops and gets the tree. What the format cannot express, or expresses differently, is listed on stderr.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork export mechanisms/four_bar.ron --to mjcf --output four_bar.xml"
@@ -41,6 +41,8 @@ enum To {
     Urdf,
     /// The format of MuJoCo.
     Mjcf,
+    /// The format of Gazebo.
+    Sdf,
 }
 
 impl Export {
@@ -61,6 +63,7 @@ impl Export {
         let (tree, mut said) = tree_of(mechanism, &closed.configuration);
         let (text, more): (String, Vec<Remark>) = match self.to {
             To::Mjcf => write_mjcf(&tree, &said),
+            To::Sdf => write_sdf(&tree, &said),
             To::Urdf => write_urdf(&tree),
         };
         said.extend(more);

@@ -3,26 +3,27 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::description::{self, Convention, LoadError, ProblemKind};
-use linkwork::interchange::{ImportError, ImportSettings, load};
+use linkwork::description::{self, Convention, LoadError, ProblemKind, Role};
+use linkwork::interchange::{ImportError, ImportSettings, Remark, load};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
+use linkwork::system::{Question, QuestionError, check_count};
 
 use super::export::remarks;
 use super::written::written;
 use super::{Answer, Refusal, style};
 
-/// Read a URDF or MJCF file as a mechanism.
+/// Read a URDF, MJCF or SDF file as a mechanism.
 ///
-/// Trees become chains with tables, and branches chains on links of others; mimic joints and equality constraints of joints
-/// become shared variables; `connect` and `weld` constraints, and the loop elements that programs add to URDF, become
-/// closures. What is left out, and what was decided, is listed on stderr.
+/// Trees become chains with tables, and branches chains on links of others; coupled joints share variables and keep their
+/// names as outputs; `connect` and `weld` constraints, the loop elements that programs add to URDF, and joints of SDF
+/// that close loops, become closures. What is left out, and what was decided, is listed on stderr.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork import robot.urdf --loops loops.ron --frame tool0 > robot.ron"
 )]
 pub struct Import {
-    /// The URDF or MJCF file
+    /// The URDF, MJCF or SDF file
     file: PathBuf,
     /// A mechanism file with the closures of the loops, and chains `on:` links, by the names of links and sites
     #[arg(long, value_name = "FILE")]
@@ -51,13 +52,24 @@ impl Import {
             include_from: self.include_from.clone(),
         };
         let closing = loops.as_ref().map(|(_, description)| description);
-        let imported = load(&self.file, closing, &settings).map_err(|error| {
+        let mut imported = load(&self.file, closing, &settings).map_err(|error| {
             Refusal(match error {
                 ImportError::Wrong(wrong) => diagnostics::import(&wrong, style()),
                 ImportError::Unreadable(error) => return Refusal::error(error),
             })
         })?;
-        if let Err(mut problems) = Mechanism::new(&imported.description) {
+        let made = Mechanism::new(&imported.description);
+        if let Ok(mechanism) = &made
+            && let Err(QuestionError::TooMany { free, .. } | QuestionError::Dependent { free, .. }) =
+                check_count(&Question::new(mechanism))
+        {
+            let joints = imported.description.joints.iter_mut();
+            for joint in joints.filter(|joint| free.contains(&joint.name.value)) {
+                joint.value.role = Role::Passive;
+            }
+            imported.remarks.push(Remark::Redundant { joints: free });
+        }
+        if let Err(mut problems) = made {
             for problem in &mut problems {
                 if let ProblemKind::UnknownFrame { name, suggestion } = &mut problem.kind {
                     let links = imported.links.iter().map(String::as_str);

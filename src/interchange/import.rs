@@ -1,4 +1,4 @@
-//! URDF or MJCF → description.
+//! URDF, MJCF or SDF → description.
 
 use std::path::{Path, PathBuf};
 
@@ -8,6 +8,7 @@ use super::mjcf::{self, Files, NotRead};
 use super::names::fit;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
+use super::sdf;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
 use super::urdf;
@@ -48,7 +49,7 @@ pub enum ImportError {
     Wrong(WrongFile),
 }
 
-/// Reads a URDF or MJCF file; MJCF with the files it includes, which lie in its folder or in those of
+/// Reads a URDF, MJCF or SDF file; the latter two with the files they include, which lie in its folder or in those of
 /// [`ImportSettings::include_from`].
 ///
 /// `loops` is the description of a file that closes loops: its closures, chains and platforms refer to links and
@@ -115,10 +116,11 @@ pub fn import(
             let spliced = mjcf::splice(name, text, files)?;
             mjcf::read(&spliced.text).map_err(|problems| spliced.wrong(problems))?
         }
+        "sdf" => sdf::read(&page, files).map_err(wrong)?,
         found => {
             return Err(whole(ImportProblemKind::NotThisFormat {
                 found: found.to_owned(),
-                expected: &["robot", "mujoco"],
+                expected: &["robot", "mujoco", "sdf"],
             }));
         }
     };

@@ -39,6 +39,15 @@ impl Xml {
         self.0.push(Event::Empty(start(names, values)));
     }
 
+    /// An element with a text in it.
+    pub fn leaf_text(&mut self, names: &str, values: &[&dyn Display], text: &str) {
+        let start = start(names, values);
+        let end = start.to_end().into_owned();
+        self.0.push(Event::Start(start));
+        self.0.push(Event::Text(BytesText::new(text).into_owned()));
+        self.0.push(Event::End(end));
+    }
+
     pub fn close(&mut self, tag: &'static str) {
         self.0.push(Event::End(BytesEnd::new(tag)));
     }

@@ -4,6 +4,7 @@ mod coordinates;
 mod description;
 mod exchange;
 mod golden;
+mod imports;
 mod includes;
 mod machines;
 mod mechanisms;

@@ -1,0 +1,169 @@
+//! Joints of an SDF file as joints of the tree, and as loops.
+
+use std::collections::HashSet;
+
+use super::parts::{Axis, Joint, Kind, direction_in, frame_of};
+use super::read::Builder;
+use crate::description::{ClosureKind, first_free};
+use crate::geometry::{Pose, Vector3};
+use crate::interchange::page::along_z;
+use crate::interchange::problem::{ImportProblem, ImportProblemKind};
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::{self, Coupling, Loop, Motion};
+
+impl Builder<'_> {
+    /// World from the frame of a joint, and its axes there, each a unit vector.
+    fn at(&mut self, joint: usize) -> Option<(Pose<f64>, Vec<Vector3<f64>>)> {
+        let name = frame_of(&self.reader.joints[joint].name);
+        let place = self.reader.frames.place(&name);
+        let place = self.found(place, Some(joint))?;
+        let mut along = Vec::new();
+        for axis in 0..self.reader.joints[joint].axes.len() {
+            let Axis {
+                seen_from,
+                along: own,
+                ..
+            } = &self.reader.joints[joint].axes[axis];
+            let (own, seen_from) = (*own, self.reader.frames.place(seen_from));
+            let seen_from = self.found(seen_from, Some(joint))?;
+            along.push(direction_in(&place, &seen_from, own));
+        }
+        Some((place, along))
+    }
+
+    /// The joints that move a link against its parent; `outwards` if it is the child of the joint in the file too.
+    pub(super) fn moving(
+        &mut self,
+        index: usize,
+        link: usize,
+        outwards: bool,
+        actuated: bool,
+        taken: &mut HashSet<String>,
+        couplings: &mut Vec<Coupling>,
+    ) -> Option<Vec<tree::Joint>> {
+        let (place, along) = self.at(index)?;
+        let Joint {
+            name,
+            kind,
+            axes,
+            pitch,
+            ..
+        } = &self.reader.joints[index];
+        let given = &self.names[name];
+        let at = self.poses[link].inverse() * place;
+        let sign = if outwards { 1.0 } else { -1.0 };
+        let mut made = |word: &str| {
+            let name = first_free(&format!("{given}_{word}"), "_", |name| {
+                !taken.contains(name)
+            });
+            taken.insert(name.clone());
+            name
+        };
+        let joint = |name: String, motion: Motion, i: usize| tree::Joint {
+            point: at.position,
+            limits: axes.get(i).and_then(|axis| axis.limits),
+            actuated,
+            ..tree::Joint::new(
+                name,
+                motion,
+                along
+                    .get(i)
+                    .map_or(Vector3::unit(2), |along| at.rotation * along.times(sign)),
+            )
+        };
+        let one_sided = axes.iter().any(|axis| axis.one_sided);
+        let mut joints = match kind {
+            Kind::Fixed => Vec::new(),
+            Kind::Ball => vec![joint(given.clone(), Motion::Ball, 0)],
+            Kind::Turn => vec![joint(given.clone(), Motion::Turn, 0)],
+            Kind::Slide => vec![joint(given.clone(), Motion::Slide, 0)],
+            Kind::Universal => {
+                let second = joint(made("2"), Motion::Turn, 1);
+                vec![joint(given.clone(), Motion::Turn, 0), second]
+            }
+            Kind::Screw => {
+                let mut slide = joint(made("slide"), Motion::Slide, 0);
+                slide.limits = None;
+                slide.actuated = false;
+                couplings.push(Coupling::of(slide.name.clone(), given.clone(), *pitch, 0.0));
+                vec![joint(given.clone(), Motion::Turn, 0), slide]
+            }
+        };
+        for (axis, joint) in axes.iter().zip(&mut joints) {
+            if let Some((leader, factor, offset)) = &axis.mimic {
+                let Some(known) = self.names.get(leader) else {
+                    let kind = ImportProblemKind::Unknown {
+                        noun: "joint",
+                        name: leader.clone(),
+                        suggestion: None,
+                    };
+                    let span = Some(self.reader.joints[index].span.clone());
+                    self.problems.push(ImportProblem { kind, span });
+                    return None;
+                };
+                joint.actuated = false;
+                couplings.push(Coupling::of(
+                    joint.name.clone(),
+                    known.clone(),
+                    *factor,
+                    *offset,
+                ));
+            }
+        }
+        // from child to parent the second axis comes first
+        if !outwards {
+            joints.reverse();
+        }
+        if one_sided {
+            self.remarks.push(Remark::OneSided {
+                joint: given.clone(),
+            });
+        }
+        Some(joints)
+    }
+
+    /// A joint that closes a loop: its frame where all joints are at 0 is on both links.
+    pub(super) fn closing(&mut self, index: usize, links: [(usize, usize); 2]) -> Option<Loop> {
+        let (place, along) = self.at(index)?;
+        let Joint {
+            name,
+            kind,
+            axes,
+            span,
+            ..
+        } = &self.reader.joints[index];
+        let given = self.names[name].clone();
+        let kind = match kind {
+            Kind::Turn => ClosureKind::Revolute,
+            Kind::Slide => ClosureKind::Prismatic,
+            Kind::Ball => ClosureKind::Spherical,
+            Kind::Universal => ClosureKind::Universal,
+            Kind::Fixed => ClosureKind::Rigid,
+            Kind::Screw => {
+                let kind = ImportProblemKind::Unsupported {
+                    what: "a screw that closes a loop".into(),
+                    help: "let another joint of the loop close it",
+                };
+                let span = Some(span.clone());
+                self.problems.push(ImportProblem { kind, span });
+                return None;
+            }
+        };
+        let second = along.len().saturating_sub(1);
+        let ends = [0, second].map(|axis| match along.get(axis) {
+            Some(along) => place * along_z(along),
+            None => place,
+        });
+        let sides = [0, 1].map(|side| {
+            let (link, body) = links[side];
+            (body, self.poses[link].inverse() * ends[side])
+        });
+        if axes.iter().any(|axis| axis.limits.is_some()) {
+            self.remarks.push(Remark::ClosingLimits {
+                joint: given.clone(),
+            });
+        }
+        let sides = Loop::sides(&given, sides);
+        Some(Loop::new(given, kind, sides))
+    }
+}

@@ -1,0 +1,111 @@
+//! Joints of an SDF file.
+
+use roxmltree::Node;
+
+use super::model::{Reader, Scope};
+use super::parts::{Axis, Joint, KINDS, Kind, frame_of};
+use crate::geometry::Pose;
+use crate::interchange::page::{child, tag};
+use crate::interchange::problem::ImportProblemKind;
+
+impl Reader<'_> {
+    pub(super) fn joint(&mut self, node: Node, scope: &Scope) -> Option<Joint> {
+        let name = self.named(node, scope);
+        let kind = self.problems.word(node, "type", &KINDS);
+        let ends = ["parent", "child"].map(|end| {
+            let part = self.problems.needed_child(node, end)?;
+            let text = part.text().or(part.attribute("link")).unwrap_or_default();
+            Some(scope.name(text))
+        });
+        let ([parent, carrier], name, kind) = (ends, name?, kind?);
+        let (parent, carrier) = (parent?, carrier?);
+        let place = self.pose(node, scope, &carrier);
+        let own = frame_of(&name);
+        if !self.frames.add(&own, place, Some(carrier.clone())) {
+            let (noun, name) = ("joint", name.clone());
+            self.problems
+                .say(ImportProblemKind::Duplicate { noun, name }, node);
+        }
+        // before version 1.7 a joint may be called as a link, which then has the name
+        if !self.frames.has(&name) {
+            let at = (own.clone(), Pose::identity());
+            self.frames.add(&name, at, Some(own));
+        }
+        let wanted: &[&str] = match kind {
+            Kind::Ball | Kind::Fixed => &[],
+            Kind::Universal => &["axis", "axis2"],
+            _ => &["axis"],
+        };
+        let axes = wanted.iter().map(|part| {
+            let part = self.problems.needed_child(node, part)?;
+            self.axis(part, scope, &name)
+        });
+        let axes = axes.collect::<Option<Vec<Axis>>>()?;
+        // metres per turn, or before in rad/m against the turn
+        let advance = self.numbers::<1>(node, "screw_thread_pitch");
+        let before = self.numbers::<1>(node, "thread_pitch");
+        let pitch = match (advance, before) {
+            (Some([advance]), _) => advance / std::f64::consts::TAU,
+            (None, Some([turn])) if turn != 0.0 => -1.0 / turn,
+            _ if kind == Kind::Screw => {
+                self.problems
+                    .missing(node, "element `screw_thread_pitch`".into());
+                0.0
+            }
+            _ => 0.0,
+        };
+        Some(Joint {
+            name,
+            kind,
+            ends: [parent, carrier],
+            axes,
+            pitch,
+            span: tag(node),
+        })
+    }
+
+    fn axis(&mut self, node: Node, scope: &Scope, joint: &str) -> Option<Axis> {
+        let given = self.numbers(node, "xyz").unwrap_or([0.0, 0.0, 1.0]);
+        let example = "<xyz>0 0 1</xyz>";
+        let along = self.problems.axis(given, joint, example, node)?;
+        let expressed_in = child(node, "xyz").and_then(|xyz| xyz.attribute("expressed_in"));
+        let of_model = match self.word(node, "use_parent_model_frame") {
+            Some(word) => matches!(word, "true" | "1"),
+            None => self.version < (1, 5),
+        };
+        let seen_from = match expressed_in.map_or("", str::trim) {
+            "" if of_model => scope.model(),
+            "" => frame_of(joint),
+            name => scope.name(name),
+        };
+        // farther is as good as nowhere
+        const FAR: f64 = 1e15;
+        let limit = child(node, "limit");
+        let ends = ["lower", "upper"].map(|end| {
+            let part = child(limit?, end)?;
+            let value: Option<f64> = part.text().and_then(|text| text.trim().parse().ok());
+            if value.is_none_or(f64::is_nan) {
+                (self.problems).not_numbers(part.text().unwrap_or_default(), 1, tag(part));
+            }
+            value.filter(|value| value.abs() < FAR)
+        });
+        let limits = match ends {
+            [Some(low), Some(high)] => Some((low, high)).filter(|_| low <= high),
+            _ => None,
+        };
+        let mimic = child(node, "mimic").and_then(|mimic| {
+            let leader = scope.name(self.problems.needed(mimic, "joint")?);
+            let [factor] = self.numbers(mimic, "multiplier").unwrap_or([1.0]);
+            let [offset] = self.numbers(mimic, "offset").unwrap_or([0.0]);
+            let [reference] = self.numbers(mimic, "reference").unwrap_or([0.0]);
+            Some((leader, factor, offset - factor * reference))
+        });
+        Some(Axis {
+            along,
+            seen_from,
+            limits,
+            one_sided: ends.iter().flatten().count() == 1,
+            mimic,
+        })
+    }
+}

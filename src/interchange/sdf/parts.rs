@@ -1,0 +1,64 @@
+//! What a joint of an SDF file is.
+
+use std::ops::Range;
+
+use crate::geometry::{Pose, Vector3};
+
+/// The kinds of joints, in the words of the format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Turn,
+    Slide,
+    Ball,
+    Universal,
+    Screw,
+    Fixed,
+}
+
+pub(super) const KINDS: [(&str, Kind); 8] = [
+    ("revolute", Kind::Turn),
+    ("continuous", Kind::Turn),
+    ("revolute2", Kind::Universal),
+    ("prismatic", Kind::Slide),
+    ("ball", Kind::Ball),
+    ("universal", Kind::Universal),
+    ("screw", Kind::Screw),
+    ("fixed", Kind::Fixed),
+];
+
+/// An axis of a joint.
+pub(super) struct Axis {
+    /// Its direction, in the frame of that name.
+    pub along: Vector3<f64>,
+    pub seen_from: String,
+    pub limits: Option<(f64, f64)>,
+    /// Whether it has one limit only.
+    pub one_sided: bool,
+    /// The joint that it follows, the factor and the offset.
+    pub mimic: Option<(String, f64, f64)>,
+}
+
+pub(super) struct Joint {
+    pub name: String,
+    pub kind: Kind,
+    /// The frames of parent and child.
+    pub ends: [String; 2],
+    pub axes: Vec<Axis>,
+    /// Metres that a screw advances in a radian.
+    pub pitch: f64,
+    pub span: Range<usize>,
+}
+
+/// The name under which the frame of a joint is kept: no other element has it.
+pub(super) fn frame_of(joint: &str) -> String {
+    format!("{joint} (joint)")
+}
+
+/// The direction of an axis in the frame of its joint: both poses are in the world.
+pub(super) fn direction_in(
+    joint: &Pose<f64>,
+    seen_from: &Pose<f64>,
+    along: Vector3<f64>,
+) -> Vector3<f64> {
+    (joint.inverse() * *seen_from).rotation * along
+}

@@ -1,0 +1,603 @@
+//! Files of other programs as their users have them: names that are alike, coupled joints, constraints, and SDF. The files
+//! are our own; what is right follows from trigonometry.
+#![cfg(feature = "interchange")]
+
+use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings};
+use linkwork::ask::{Question, Solved};
+use linkwork::description::Description;
+use linkwork::interchange::{ImportSettings, Imported, NotRead, import, tree_of, write_sdf};
+use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
+
+fn read_with(text: &str, files: &dyn Fn(&str) -> Result<String, NotRead>) -> (Imported, Question) {
+    let imported = import("file", text, files, None, &ImportSettings::default());
+    let imported = imported.unwrap_or_else(|wrong| panic!("{:?}", wrong.lines()));
+    // as it is written
+    let ron = imported.description.to_ron().unwrap();
+    let description = Description::read(&ron).unwrap_or_else(|wrong| panic!("{ron}\n{wrong:?}"));
+    let mechanism = Mechanism::new(&description).unwrap_or_else(|wrong| panic!("{ron}\n{wrong:?}"));
+    (imported, Question::new(mechanism))
+}
+
+fn no_files(_: &str) -> Result<String, NotRead> {
+    Err(NotRead::Failed("there are no files here".into()))
+}
+
+fn read(text: &str) -> (Imported, Question) {
+    read_with(text, &no_files)
+}
+
+fn refused(text: &str) -> String {
+    match import("file", text, &no_files, None, &ImportSettings::default()) {
+        Ok(_) => panic!("{text} was read"),
+        Err(wrong) => wrong.lines().join("\n"),
+    }
+}
+
+fn remarks(imported: &Imported) -> String {
+    let lines: Vec<String> = imported.remarks.iter().map(ToString::to_string).collect();
+    lines.join("\n")
+}
+
+fn solved(question: &Question) -> AssemblyReport {
+    match question.solve(&AssemblySettings::default(), &Watch::none()) {
+        Ok(Solved::Ended(report)) => *report,
+        Ok(Solved::Lost(_)) => panic!("the mode was lost"),
+        Err(error) => panic!("{error:?}"),
+    }
+}
+
+/// The value of a joint, or of an output that follows one, of what must be assembled.
+fn value(report: &AssemblyReport, name: &str) -> f64 {
+    assert!(report.is_assembled(), "{:?}", report.outcome);
+    let found = report.joints.get(name).or(report.outputs.get(name));
+    *found.unwrap_or_else(|| panic!("there is no {name}"))
+}
+
+fn near(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-9, "{a} and {b}");
+}
+
+fn freedoms(question: &Question) -> Option<usize> {
+    solved(question).mobility
+}
+
+/// A spatial slider-crank: the distance of the ball of the crank from the pin of the slider is the rod.
+fn slider_crank(ball: &str, constraint: &str, pin: f64) -> String {
+    format!(
+        r#"<mujoco><worldbody>
+        <body name="crank"><joint name="crank" axis="0 0 1"/><geom size="1"/>
+          <body name="rod" pos="0.12 0 0"><joint name="{ball}" type="ball"/><geom size="1"/></body></body>
+        <body name="slider" pos="{pin} 0.04 0.03"><joint name="slide" type="slide" axis="1 0 0"/><geom size="1"/></body>
+        </worldbody><equality><connect name="{constraint}" body1="slider" body2="rod" anchor="0 0 0"/></equality>
+        <actuator><position joint="crank"/></actuator></mujoco>"#
+    )
+}
+
+/// Bodies, joints and constraints of MJCF have names of their own each: however they are called, the rod ends at the slider.
+#[test]
+fn names_of_different_kinds_do_not_meet() {
+    let (crank, pin) = (0.12, 0.4);
+    let rod: f64 = ((pin - crank) * (pin - crank) + 0.04f64.powi(2) + 0.03f64.powi(2)).sqrt();
+    let slide = |angle: f64| {
+        let across = crank * angle.sin() - 0.04;
+        crank * angle.cos() + (rod * rod - across * across - 0.03f64.powi(2)).sqrt() - pin
+    };
+    for (ball, constraint) in [
+        ("ball", "pin"),
+        ("rod", "rod"),
+        ("crank_1", "rod"),
+        ("slider", "slider"),
+        ("rod_1", "rod"),
+        ("rod", "rod_1"),
+        ("slide_1", "slide"),
+        ("crank_joint", "crank"),
+    ] {
+        let (_, question) = read(&slider_crank(ball, constraint, pin));
+        for angle in [0.0, 0.5, -1.2] {
+            let report = solved(&question.clone().hold("crank", angle));
+            near(value(&report, "slide"), slide(angle));
+        }
+    }
+    // where the slide runs 0.6 m beside the crank, the rod ends short of the other side
+    let text = slider_crank("rod", "rod", 0.12).replace("0.04 0.03", "0.6 0.03");
+    let (_, question) = read(&text);
+    assert!(solved(&question.clone().hold("crank", 0.3)).is_assembled());
+    assert!(!solved(&question.hold("crank", -1.5)).is_assembled());
+}
+
+/// A joint without a name is not the one that has the name it gets.
+#[test]
+fn joints_without_names_are_no_others() {
+    let text = r#"<mujoco><worldbody>
+        <body name="a"><joint axis="0 0 1"/><geom size="1"/>
+          <body name="b" pos="1 0 0"><joint name="a_joint" axis="0 0 1"/><geom size="1"/>
+          <site name="tip" pos="1 0 0"/></body></body></worldbody></mujoco>"#;
+    let (_, question) = read(text);
+    let names: Vec<&str> = question
+        .mechanism()
+        .joints()
+        .iter()
+        .map(|j| j.name.as_str())
+        .collect();
+    assert_eq!(names, ["a_joint_2", "a_joint"]);
+}
+
+fn fingers(motor: &str, polynomial: &str) -> String {
+    format!(
+        r#"<mujoco><worldbody>
+        <body name="l" pos="0 0.03 0"><joint name="left" axis="1 0 0"/><geom size="1"/></body>
+        <body name="r" pos="0 -0.03 0"><joint name="right" axis="1 0 0"/><geom size="1"/></body></worldbody>
+        <equality><joint joint1="left" joint2="right" polycoef="{polynomial}"/></equality>
+        <actuator><position joint="{motor}"/></actuator></mujoco>"#
+    )
+}
+
+/// left = 0.2 − 4 right, whichever has the motor: both have values, can be held, guessed, moved and driven.
+#[test]
+fn a_coupled_joint_keeps_its_name() {
+    for motor in ["left", "right"] {
+        let (_, question) = read(&fingers(motor, "0.2 -4"));
+        let driven = question.mechanism().joints();
+        assert_eq!(
+            driven.iter().map(|j| j.name.as_str()).collect::<Vec<_>>(),
+            [motor]
+        );
+        assert_eq!(freedoms(&question), Some(1));
+        for (name, held) in [("left", 0.6), ("right", -0.1)] {
+            let report = solved(&question.clone().hold(name, held));
+            near(value(&report, "left"), 0.6);
+            near(value(&report, "right"), -0.1);
+        }
+        let turned = solved(&question.clone().hold("left", "90 deg"));
+        near(
+            value(&turned, "right"),
+            (0.2 - std::f64::consts::FRAC_PI_2) / 4.0,
+        );
+        // what contradicts the coupling, and what is no angle
+        let solve =
+            |question: Question| question.solve(&AssemblySettings::default(), &Watch::none());
+        assert!(solve(question.clone().hold("left", 0.6).hold("right", 0.3)).is_err());
+        assert!(solve(question.clone().hold("left", "1 m")).is_err());
+        assert!(solve(question.clone().hold("left", "360")).is_err());
+        let rates = |name: &str, rate: &str| {
+            let report = question.clone().hold(name, 0.1).rate(name, rate);
+            let report = report.velocity(&Watch::none()).unwrap();
+            report.closed().unwrap().joints[0].rate.unwrap()
+        };
+        let factor = if motor == "left" { 1.0 } else { -0.25 };
+        near(rates("left", "2"), 2.0 * factor);
+        near(rates("right", "2"), -8.0 * factor);
+        // many rows of the follower are rows of the joint that leads
+        let names = ["left".to_owned()];
+        let many = question
+            .solve_many(&names, &[0.6, 1.0], &Watch::none())
+            .unwrap();
+        let column = many.names.iter().position(|name| name == motor).unwrap();
+        near(
+            many.values[many.names.len() + column],
+            if motor == "left" { 1.0 } else { -0.2 },
+        );
+    }
+}
+
+/// The power of a load is the same on the joint that follows and on the one that leads.
+#[test]
+fn a_load_on_a_coupled_joint_acts_by_its_factor() {
+    let (_, question) = read(&fingers("left", "0.2 -4"));
+    let report = question.load("right", "2").statics(&Watch::none()).unwrap();
+    // right = (0.2 − left)/4
+    let effort = serde_json::to_value(&report).unwrap().to_string();
+    assert!(effort.contains("0.5"), "{effort}");
+}
+
+/// The hand of two links of 1 and 0.8 m, the second at 0.3 rad.
+#[test]
+fn a_joint_coupled_to_nothing_stands() {
+    let text = |equality: &str| {
+        format!(
+            r#"<mujoco><worldbody><body name="u"><joint name="shoulder" axis="0 0 1"/><geom size="1"/>
+        <body name="l" pos="1 0 0"><joint name="elbow" axis="0 0 1"/><geom size="1"/><site name="hand" pos="0.8 0 0"/>
+        </body></body></worldbody><equality>{equality}</equality></mujoco>"#
+        )
+    };
+    let lone = r#"<joint joint1="elbow" polycoef="0.3"/>"#;
+    let settings = ImportSettings {
+        frames: vec!["hand".into()],
+        ..ImportSettings::default()
+    };
+    let imported = import("file", &text(lone), &no_files, None, &settings).unwrap();
+    assert!(remarks(&imported).contains("joint `elbow` stands at 0.3 rad"));
+    let question = Question::new(Mechanism::new(&imported.description).unwrap());
+    let report = solved(&question.hold("shoulder", 0.5));
+    let hand = report.frames.get("hand").unwrap().position;
+    near(hand[0], 0.5f64.cos() + 0.8 * 0.8f64.cos());
+    near(hand[1], 0.5f64.sin() + 0.8 * 0.8f64.sin());
+    let twice = format!("{lone}{}", r#"<joint joint1="elbow" polycoef="0.4"/>"#);
+    assert!(refused(&text(&twice)).contains("contradict one another"));
+    // told twice it is still so
+    read(&text(&format!("{lone}{lone}")));
+}
+
+/// L − L₀ = a₀ + a₁ (M − M₀), each length a sum over joints, counted from their references.
+#[test]
+fn tendons_along_joints_couple_them() {
+    let text = |tendons: &str, equalities: &str| {
+        format!(
+            r#"<mujoco><compiler angle="radian"/><worldbody><body name="p"><joint name="a" axis="0 0 1" ref="0.1"/><geom size="1"/>
+        <body name="m" pos="1 0 0"><joint name="b" axis="0 0 1"/><geom size="1"/>
+        <body name="d" pos="1 0 0"><joint name="c" axis="0 0 1"/><geom size="1"/></body></body></body></worldbody>
+        <tendon>{tendons}</tendon><equality>{equalities}</equality><actuator><position joint="a"/></actuator></mujoco>"#
+        )
+    };
+    let tendons = r#"<fixed name="ab"><joint joint="a" coef="2"/><joint joint="b" coef="-0.5"/></fixed>
+        <fixed name="c"><joint joint="c" coef="0.5"/></fixed>
+        <fixed name="sum"><joint joint="a" coef="1"/><joint joint="b" coef="3"/></fixed>"#;
+    let constraints =
+        r#"<tendon tendon1="ab"/><tendon tendon1="c" tendon2="sum" polycoef="0.03 0.25"/>"#;
+    let (_, question) = read(&text(tendons, constraints));
+    assert_eq!(freedoms(&question), Some(1));
+    let report = solved(&question.hold("a", 0.4));
+    // 2 (a − 0.1) = b/2; c/2 = 0.03 + ((a − 0.1) + 3 b)/4
+    let b = 4.0 * 0.3;
+    near(value(&report, "b"), b);
+    near(value(&report, "c"), 0.06 + 0.5 * (0.3 + 3.0 * b));
+    // one constraint leaves two freedoms
+    let (_, question) = read(&text(
+        tendons,
+        r#"<tendon tendon1="c" tendon2="sum" polycoef="0.03 0.25"/>"#,
+    ));
+    let report = solved(&question.hold("a", 0.4).hold("b", 0.2));
+    near(value(&report, "c"), 0.06 + 0.5 * (0.3 + 0.6));
+    let spatial = r#"<spatial name="s"/>"#;
+    let text = text(
+        &format!("{tendons}{spatial}"),
+        r#"<tendon tendon1="ab" tendon2="s"/>"#,
+    );
+    assert!(refused(&text).contains("cannot read"));
+}
+
+/// A motor on a tendon along joints drives the first; what is not read is said.
+#[test]
+fn motors_on_tendons_drive_their_first_joint() {
+    let text = fingers("left", "0 1").replace(
+        r#"<position joint="left"/>"#,
+        r#"<general tendon="split"/><general site="s"/></actuator>
+        <tendon><fixed name="split" range="0 1"><joint joint="right" coef="0.5"/><joint joint="left" coef="0.5"/></fixed></tendon>
+        <actuator>"#,
+    );
+    let (imported, question) = read(&text);
+    let said = remarks(&imported);
+    for words in [
+        "the first joint of a driven tendon is actuated",
+        "1 element ignored: `actuator without joint`",
+        "1 element ignored: `range of a tendon`",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
+    let joints = question.mechanism().joints();
+    assert_eq!((joints.len(), joints[0].name.as_str()), (1, "right"));
+    assert_eq!(joints[0].role, linkwork::description::Role::Actuated);
+}
+
+/// ratio · Σ joints to the predecessor = Σ joints to the successor, from the link that carries both.
+#[test]
+fn couplings_of_urdf_relate_sums_of_joints() {
+    let joint = |name: &str, parent: &str, child: &str, more: &str| {
+        format!(
+            r#"<joint name="{name}" type="continuous" {more}><parent link="{parent}"/><child link="{child}"/><axis xyz="0 0 1"/></joint>"#
+        )
+    };
+    let text = |ratio: &str| {
+        format!(
+            r#"<robot name="geared"><link name="base"/><link name="upper"/><link name="arm"/><link name="rotor"/>{}{}{}
+        <coupling name="gears" type="rolling"><predecessor link="arm"/><successor link="rotor"/>{ratio}</coupling></robot>"#,
+            joint("shoulder", "base", "upper", r#"independent="true""#),
+            joint("elbow", "upper", "arm", r#"independent="true""#),
+            joint("motor", "base", "rotor", r#"independent="false""#),
+        )
+    };
+    let (imported, question) = read(&text(r#"<ratio value="6"/>"#));
+    assert!(remarks(&imported).contains("not independent are passive"));
+    assert_eq!(freedoms(&question), Some(2));
+    let report = solved(&question.hold("shoulder", 0.2).hold("elbow", 0.1));
+    near(value(&report, "motor"), 6.0 * 0.3);
+    assert!(refused(&text("")).contains("has no element `ratio`"));
+}
+
+/// A four-bar: ground 0.5, crank 0.2 drawn at 1.2 rad, rocker pinned at the origin of its frame; the coupler's pin C is in
+/// the ground at (0.4, 0.05), or where `C` puts it, when it is drawn.
+fn four_bar(angle: f64) -> [f64; 2] {
+    let pin = |at: f64| [0.2 * f64::cos(at), 0.2 * f64::sin(at)];
+    let drawn = pin(1.2);
+    let c = [drawn[0] + 0.4, drawn[1] + 0.05];
+    let far = |a: [f64; 2], b: [f64; 2]| f64::hypot(a[0] - b[0], a[1] - b[1]);
+    let (coupler, rocker) = (far(drawn, c), far([0.5, 0.0], c));
+    let at = pin(1.2 + angle);
+    // by the law of cosines, on the side where it is drawn
+    let between = far(at, [0.5, 0.0]);
+    let along = f64::atan2(-at[1], 0.5 - at[0]);
+    let cos = |a: f64, b: f64, c: f64| (a * a + b * b - c * c) / (2.0 * a * b);
+    let up = along + cos(coupler, between, rocker).acos();
+    let end = [at[0] + coupler * up.cos(), at[1] + coupler * up.sin()];
+    let turn = |from: [f64; 2], of: [f64; 2], to: [f64; 2], then: [f64; 2]| {
+        let angle = |a: [f64; 2], b: [f64; 2]| f64::atan2(b[1] - a[1], b[0] - a[0]);
+        angle(to, then) - angle(from, of)
+    };
+    let coupler = turn(drawn, c, at, end);
+    [coupler - angle, turn([0.5, 0.0], c, [0.5, 0.0], end)]
+}
+
+fn urdf(pose: &str) -> String {
+    format!(
+        r#"<robot name="four_bar"><link name="base"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
+        <joint name="A" type="continuous"><parent link="base"/><child link="crank"/><origin rpy="0 0 1.2"/><axis xyz="0 0 1"/></joint>
+        <joint name="B" type="continuous"><parent link="crank"/><child link="coupler"/><origin xyz="0.2 0 0" rpy="0 0 -1.2"/><axis xyz="0 0 1"/></joint>
+        <joint name="D" type="continuous"><parent link="base"/><child link="rocker"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/></joint>
+        <gazebo><joint name="C" type="revolute"><parent>rocker</parent><child>coupler</child>{pose}<axis><xyz>0 0 1</xyz></axis></joint></gazebo></robot>"#
+    )
+}
+
+/// The pose of a joint in a frame that is named is where the pose in the child is.
+#[test]
+fn joints_of_gazebo_are_given_relative_to_any_link() {
+    let (x, y) = (0.2 * 1.2f64.cos() + 0.4, 0.2 * 1.2f64.sin() + 0.05);
+    for pose in [
+        "<pose>0.4 0.05 0 0 0 0</pose>".to_owned(),
+        r#"<pose relative_to="coupler">0.4 0.05 0 0 0 0</pose>"#.to_owned(),
+        r#"<pose relative_to="B">0.4 0.05 0 0 0 0</pose>"#.to_owned(),
+        format!(r#"<pose relative_to="base">{x} {y} 0 0 0 0</pose>"#),
+        format!(r#"<pose relative_to="__model__">{x} {y} 0 0 0 0</pose>"#),
+        format!(
+            r#"<pose relative_to="rocker">{} {y} 0 0 0 0</pose>"#,
+            x - 0.5
+        ),
+    ] {
+        let (imported, question) = read(&urdf(&pose));
+        assert!(remarks(&imported).contains("all are passive, as loops are closed"));
+        let report = solved(&question.hold("A", 0.1));
+        let [b, d] = four_bar(0.1);
+        near(value(&report, "B"), b);
+        near(value(&report, "D"), d);
+    }
+    let wrong = refused(&urdf(
+        r#"<pose relative_to="couplr">0.4 0.05 0 0 0 0</pose>"#,
+    ));
+    assert!(
+        wrong.contains("there is no link `couplr` (did you mean `coupler`?)"),
+        "{wrong}"
+    );
+}
+
+const SDF_LINKS: &str = r#"<link name="crank"><pose>0 0 0 0 0 1.2</pose></link>
+    <link name="coupler"><pose relative_to="B"/></link>
+    <link name="rocker"><pose>0.5 0 0 0 0 0</pose></link>"#;
+const SDF_JOINTS: &str = r#"<joint name="A" type="revolute"><parent>world</parent><child>crank</child>
+      <axis><xyz>0 0 1</xyz><limit><lower>-3</lower><upper>1e16</upper></limit></axis></joint>
+    <joint name="B" type="revolute"><pose relative_to="crank">0.2 0 0 0 0 -1.2</pose><parent>crank</parent><child>coupler</child>
+      <axis><xyz>0 0 1</xyz></axis></joint>
+    <joint name="C" type="revolute"><pose>0.4 0.05 0 0 0 0</pose><parent>rocker</parent><child>coupler</child>
+      <axis><xyz expressed_in="rocker">0 0 -1</xyz></axis></joint>
+    <joint name="D" type="revolute"><parent>world</parent><child>rocker</child>
+      <axis><xyz expressed_in="__model__">0 0 1</xyz></axis></joint>"#;
+
+fn sdf(inside: &str) -> String {
+    format!(
+        r#"<?xml version="1.0"?><sdf version="1.9"><model name="four_bar">{inside}</model></sdf>"#
+    )
+}
+
+fn closes(question: &Question, [a, b, d]: [&str; 3]) {
+    assert_eq!(freedoms(question), Some(1));
+    for angle in [0.1, -0.3] {
+        let report = solved(&question.clone().hold(a, angle));
+        let expected = four_bar(angle);
+        near(value(&report, b), expected[0]);
+        near(value(&report, d), expected[1]);
+    }
+}
+
+#[test]
+fn a_four_bar_of_sdf_closes_as_it_is_drawn() {
+    let whole = sdf(&format!("{SDF_LINKS}{SDF_JOINTS}"));
+    let (imported, question) = read(&whole);
+    assert!(remarks(&imported).contains("the limit of joint `A` is left out: it has one only"));
+    closes(&question, ["A", "B", "D"]);
+    // the model elsewhere, and turned, is the same
+    let placed = whole.replacen("<link", "<pose>1 2 3 0.1 0.2 0.3</pose><link", 1);
+    let held = placed.replace("<parent>world</parent>", "<parent>ground</parent>");
+    let held = held.replace(
+        "</model>",
+        r#"<frame name="ground"/><link name="ground_link"/></model>"#,
+    );
+    let fixed = r#"<joint name="F" type="fixed"><parent>world</parent><child>ground_link</child></joint></model>"#;
+    let held = held.replace(
+        r#"<frame name="ground"/>"#,
+        r#"<frame name="ground" attached_to="ground_link"/>"#,
+    );
+    closes(&read(&held.replace("</model>", fixed)).1, ["A", "B", "D"]);
+    // without a joint to the world the first link stands on it, and that is said
+    let (imported, question) = read(&held);
+    assert!(
+        remarks(&imported).contains("no joint leads from the world to it"),
+        "{}",
+        remarks(&imported)
+    );
+    assert_eq!(freedoms(&question), Some(1));
+    // a joint from child to parent turns the other way round its axis
+    let back = whole
+        .replace(
+            "<parent>world</parent><child>crank</child>",
+            "<parent>crank</parent><child>world</child>",
+        )
+        .replace(
+            "<axis><xyz>0 0 1</xyz><limit>",
+            "<axis><xyz>0 0 -1</xyz><limit>",
+        );
+    closes(&read(&back).1, ["A", "B", "D"]);
+    // before version 1.7 joints and links may have one name
+    let alike = whole
+        .replace(r#"name="D""#, r#"name="rocker""#)
+        .replace("1.9", "1.6");
+    closes(&read(&alike).1, ["A", "B", "rocker"]);
+    // an axis in another frame
+    let turned = whole.replace(
+        r#"<xyz expressed_in="rocker">0 0 -1</xyz>"#,
+        r#"<xyz expressed_in="tilted">0 1 0</xyz>"#,
+    );
+    let tilted = r#"<frame name="tilted" attached_to="rocker"><pose>0 0 0 1.5707963267948966 0 0</pose></frame></model>"#;
+    closes(
+        &read(&turned.replace("</model>", tilted)).1,
+        ["A", "B", "D"],
+    );
+    // with the pin of the rocker at (1, 0) the crank does not turn through
+    let long = whole.replace("0.5 0 0 0 0 0", "1 0 0 0 0 0");
+    assert!(!solved(&read(&long).1.hold("A", 2.0)).is_assembled());
+    for (from, to, words) in [
+        (
+            "relative_to=\"crank\"",
+            "relative_to=\"crnk\"",
+            "there is no frame `crnk`",
+        ),
+        (
+            "<child>rocker</child>",
+            "<child>rockr</child>",
+            "there is no frame `rockr`",
+        ),
+        (
+            "<pose relative_to=\"B\"/>",
+            "<pose relative_to=\"coupler\"/>",
+            "cycle",
+        ),
+        (
+            "type=\"revolute\"><parent>world",
+            "type=\"hinge\"><parent>world",
+            "unknown word `hinge`",
+        ),
+        ("name=\"D\"", "name=\"B\"", "there are two joints `B`"),
+    ] {
+        let said = refused(&whole.replacen(from, to, 1));
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+/// The same four-bar with the crank in a model within, and with the rocker in another file.
+#[test]
+fn models_within_models_and_beside_them_are_one_mechanism() {
+    let crank = r#"<link name="crank"><pose>0 0 0 0 0 1.2</pose></link>"#;
+    let inner = format!(
+        r#"<model name="drive"><pose>0 0 0.3 0 0 0</pose>{}</model>"#,
+        crank.replace("0 0 0 0 0 1.2", "0 0 -0.3 0 0 1.2")
+    );
+    let joints = SDF_JOINTS
+        .replace("<child>crank</child>", "<child>drive::crank</child>")
+        .replace("<parent>crank</parent>", "<parent>drive::crank</parent>")
+        .replace("relative_to=\"crank\"", "relative_to=\"drive::crank\"");
+    let nested = sdf(&format!("{}{joints}", SDF_LINKS.replace(crank, &inner)));
+    closes(&read(&nested).1, ["A", "B", "D"]);
+    let rocker = r#"<link name="rocker"><pose>0.5 0 0 0 0 0</pose></link>"#;
+    let include = r#"<include><uri>model://parts</uri><name>swing</name><pose>0.5 0 0 0 0 0</pose></include>"#;
+    let joints = SDF_JOINTS
+        .replace("rocker</parent>", "swing::rocker</parent>")
+        .replace("rocker</child>", "swing</child>")
+        .replace("expressed_in=\"rocker\"", "expressed_in=\"swing::rocker\"");
+    let outer = sdf(&format!("{}{joints}", SDF_LINKS.replace(rocker, include)));
+    let part = r#"<sdf version="1.6"><model name="any"><link name="rocker"/></model></sdf>"#;
+    let files = |name: &str| match name {
+        "parts/model.sdf" => Ok(part.to_owned()),
+        _ => Err(NotRead::Failed("there is no such file".into())),
+    };
+    closes(&read_with(&outer, &files).1, ["A", "B", "D"]);
+    assert!(refused(&outer).contains("`parts` cannot be included"));
+    let outside = |_: &str| Err(NotRead::Outside);
+    let wrong = import("file", &outer, &outside, None, &ImportSettings::default()).unwrap_err();
+    assert!(wrong.lines()[0].contains("lies outside the folder"));
+}
+
+/// A joint that follows another, a universal joint, and a screw, whose travel is that of its thread.
+#[test]
+fn joints_of_sdf_follow_and_advance() {
+    let text = sdf(
+        r#"<link name="a"/><link name="b"/><link name="c"><pose>1 0 0 0 0 0</pose></link>
+        <joint name="turn" type="revolute"><parent>world</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint>
+        <joint name="twin" type="revolute"><parent>world</parent><child>b</child><axis><xyz>0 0 1</xyz>
+          <mimic joint="turn" axis="axis"><multiplier>-2</multiplier><offset>0.1</offset><reference>0.05</reference></mimic></axis></joint>
+        <joint name="screw" type="screw"><parent>a</parent><child>c</child><axis><xyz>1 0 0</xyz></axis>
+          <screw_thread_pitch>0.01</screw_thread_pitch></joint>"#,
+    );
+    let (_, question) = read(&text);
+    let report = solved(&question.hold("turn", 0.3).hold("screw", 2.0));
+    near(value(&report, "twin"), 0.1 - 2.0 * (0.3 - 0.05));
+    near(
+        value(&report, "screw_slide"),
+        2.0 * 0.01 / std::f64::consts::TAU,
+    );
+}
+
+/// One line for all home values outside their limits; those within stay.
+#[test]
+fn home_values_outside_limits_are_moved_inside() {
+    let joint = |name: &str, parent: &str, range: &str| {
+        format!(
+            r#"<joint name="{name}" type="revolute"><parent link="{parent}"/><child link="{name}"/><axis xyz="0 0 1"/><limit {range}/></joint><link name="{name}"/>"#
+        )
+    };
+    let text = format!(
+        r#"<robot name="r"><link name="base"/>{}{}{}</robot>"#,
+        joint("a", "base", r#"lower="0.5" upper="1""#),
+        joint("b", "a", r#"lower="-1" upper="-0.25""#),
+        joint("c", "b", r#"lower="-1" upper="1""#),
+    );
+    let (imported, question) = read(&text);
+    let said = "the home values of `a` and `b` are outside the limits: moved to the nearer one";
+    assert_eq!(
+        remarks(&imported).matches(said).count(),
+        1,
+        "{}",
+        remarks(&imported)
+    );
+    let homes: Vec<f64> = question
+        .mechanism()
+        .joints()
+        .iter()
+        .map(|joint| joint.home)
+        .collect();
+    assert_eq!(homes, [0.5, -0.25, 0.0]);
+    assert!(question.mechanism().warnings().is_empty());
+}
+
+/// What is written where it is assembled is assembled there when it is read, with all joints at 0, and as free.
+#[test]
+fn what_is_written_as_sdf_and_read_again_is_as_free() {
+    for name in [
+        "four_bar",
+        "slider_crank",
+        "five_bar",
+        "three_rps",
+        "stewart_gough_6sps",
+        "rssr",
+        "sarrus",
+        "planar_3rpr",
+        "three_fingered_hand_distances",
+    ] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+        let path = path.join(format!("{name}.ron"));
+        let mechanism = Mechanism::load(&path).unwrap();
+        let report = solved(&Question::new(mechanism.clone()));
+        let (tree, known) = tree_of(&mechanism, &report.configuration());
+        let (text, said) = write_sdf(&tree, &known);
+        assert!(
+            said.iter()
+                .any(|remark| remark.to_string().contains("there all are at 0"))
+        );
+        let (_, question) = read(&text);
+        let again = solved(&question);
+        assert!(again.is_assembled(), "{name}: {:?}", again.outcome);
+        assert_eq!(again.mobility, report.mobility, "{name}\n{text}");
+        assert!(
+            again.joints.values().all(|value| value.abs() < 1e-6),
+            "{name}: {:?}",
+            again.joints
+        );
+    }
+}
