@@ -89,10 +89,15 @@ def numbers(name: str, given: Any) -> npt.NDArray[np.float64]:
     except ValueError as error:
         raise ValueError(f"`{name}` is {wanted} with rows of the same length: {error}") from None
     if array.dtype.kind == "O":
-        part = next((one for one in array.flat if isinstance(one, complex) or not hasattr(one, "__float__")), None)
-        if isinstance(part, (list, tuple)):
-            raise ValueError(f"`{name}` is {wanted} with rows of the same length")
-        raise TypeError(f"`{name}` is {wanted}, not of {part!r}")
+        for part in array.flat:
+            if isinstance(part, (list, tuple)):
+                raise ValueError(f"`{name}` is {wanted} with rows of the same length")
+            if isinstance(part, (bool, complex)) or not hasattr(part, "__float__"):
+                raise TypeError(f"`{name}` is {wanted}, not of {part!r}")
+        try:
+            array = array.astype(np.float64)
+        except OverflowError as error:
+            raise ValueError(f"`{name}` is {wanted}: {error}") from None
     if array.dtype.kind not in "iuf":
         raise TypeError(f"`{name}` is {wanted}, not of {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
