@@ -10,7 +10,7 @@ use linkwork::output::diagnostics;
 use linkwork::system::{Question, QuestionError, check_count};
 
 use super::export::remarks;
-use super::written::written;
+use super::written::{file, written};
 use super::{Answer, Refusal, style};
 
 /// Read a URDF, MJCF or SDF file as a mechanism.
@@ -38,7 +38,7 @@ pub struct Import {
     #[arg(long, value_enum, default_value_t = Convention::Modified)]
     convention: Convention,
     /// Write to this file instead of stdout
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["ron"]))]
     output: Option<PathBuf>,
 }
 

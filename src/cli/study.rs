@@ -14,7 +14,7 @@ use super::search::Search;
 use super::source::{Assignment, Source, once};
 use super::watched::{cut_short_is_said, watched};
 use super::words::Ranged;
-use super::written::save;
+use super::written::{file, save};
 use super::{Answer, Refusal, lines};
 
 /// Compute quantities over many values of parameters and coordinates.
@@ -75,7 +75,7 @@ pub struct Study {
     #[arg(long, conflicts_with = "shard")]
     spread: bool,
     /// Write to a file. Where the work is interrupted it has the rows that are finished, and the same command goes on from there
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = file(&["csv", "txt"]))]
     output: Option<PathBuf>,
 }
 

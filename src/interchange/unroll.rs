@@ -10,7 +10,7 @@ mod closures;
 mod joints;
 mod relations;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use relations::{Following, carriers, followers, within_reason};
 
@@ -51,6 +51,7 @@ pub(super) fn describe(
         variables: HashMap::new(),
         names: Names::default(),
         needs: Vec::new(),
+        tips: HashMap::new(),
         places: HashMap::new(),
         chains: Vec::new(),
         references: Vec::new(),
@@ -59,6 +60,7 @@ pub(super) fn describe(
     unroller.variables();
     let outputs = unroller.outputs();
     unroller.needs(kept);
+    unroller.tips();
     let platforms = unroller.platforms();
     unroller.chains();
     let (platforms, closures) = unroller.closures(platforms);
@@ -110,6 +112,8 @@ struct Unroller<'a> {
     names: Names,
     /// Frames that must have a name: the name, the carrier, the pose in it.
     needs: Vec<(String, usize, Pose<f64>)>,
+    /// The frame at the end of the chain that ends with a body: its name and its pose in the body.
+    tips: HashMap<usize, (String, Pose<f64>)>,
     places: HashMap<usize, Placed>,
     chains: Vec<Named<ChainDescription>>,
     references: Vec<(String, String)>,
@@ -154,20 +158,39 @@ impl Unroller<'_> {
 
     /// Names for the frames of loops and the requested frames.
     fn needs(&mut self, kept: &[String]) {
+        let mut named: HashMap<&str, Vec<(usize, Pose<f64>)>> = HashMap::new();
+        for (body, &(carrier, own)) in self.tree.bodies.iter().zip(&self.carriers) {
+            for (frame, pose) in &body.frames {
+                let places = named.entry(frame).or_default();
+                places.push((carrier, own * *pose));
+            }
+        }
         let mut found = Vec::new();
         for name in kept {
-            for (body, &(carrier, own)) in self.tree.bodies.iter().zip(&self.carriers) {
-                let named = body.frames.iter().filter(|(frame, _)| frame == name);
-                found.extend(named.map(|(frame, pose)| (frame.clone(), carrier, own * *pose)));
-            }
+            let places = named.get(name.as_str()).into_iter().flatten();
+            found.extend(places.map(|&(carrier, pose)| (name.clone(), carrier, pose)));
         }
         for side in self.tree.loops.iter().flat_map(|l| &l.sides) {
             let (carrier, pose) = self.carried(side);
             found.push((side.frame.clone(), carrier, pose));
         }
-        for frame in found {
-            if !self.needs.contains(&frame) {
-                self.needs.push(frame);
+        let mut seen = HashSet::new();
+        found.retain(|(name, ..)| seen.insert(name.clone()));
+        self.needs = found;
+    }
+
+    /// The frames at the ends of chains: the first that must have a name, or a part fixed to the last link that has no
+    /// children.
+    fn tips(&mut self) {
+        for (name, carrier, pose) in &self.needs {
+            let tip = || (name.clone(), *pose);
+            self.tips.entry(*carrier).or_insert_with(tip);
+        }
+        let children = self.tree.children();
+        for (i, &(carrier, pose)) in self.carriers.iter().enumerate() {
+            if i != carrier && children[i].is_empty() {
+                let tip = || (self.tree.bodies[i].name.clone(), pose);
+                self.tips.entry(carrier).or_insert_with(tip);
             }
         }
     }
@@ -216,16 +239,8 @@ impl Unroller<'_> {
 
     /// A name for the end of a chain, and the pose of that frame in the last link.
     fn tip(&self, last: usize) -> (String, Pose<f64>) {
-        if let Some((name, _, pose)) = self.needs.iter().find(|(_, carrier, _)| *carrier == last) {
-            return (name.clone(), *pose);
-        }
-        // a part fixed to the link that has no children, if any
-        let bodies = &self.tree.bodies;
-        let is_end = |i: &usize| {
-            self.carriers[*i].0 == last && bodies.iter().all(|body| body.parent != Some(*i))
-        };
-        let end = (last + 1..bodies.len()).find(is_end).unwrap_or(last);
-        (bodies[end].name.clone(), self.carriers[end].1)
+        let own = || (self.tree.bodies[last].name.clone(), Pose::identity());
+        self.tips.get(&last).cloned().unwrap_or_else(own)
     }
 
     fn chain(&mut self, on: usize, links: &[usize]) {
