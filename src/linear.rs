@@ -12,6 +12,7 @@
 mod aligned;
 mod block;
 mod bordered;
+mod change;
 mod decomposition;
 mod elimination;
 mod factorable;
@@ -28,6 +29,7 @@ mod vectors;
 pub use aligned::axis_aligned;
 pub use block::{Block, DenseOnly, Filled, NoFactors, SparseStep};
 pub use bordered::Bordered;
+pub use change::relative_change;
 pub use decomposition::{Decomposition, singular_values};
 pub use elimination::Elimination;
 pub use factorable::Factorable;

@@ -26,8 +26,8 @@ pub use curve::{
 pub(crate) use enclosure::Enclosure;
 pub(crate) use equations::solve;
 pub use equations::{
-    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,
-    System, Unknown, Work, approach, independent_parts,
+    BRANCH_CHANGE, BRANCH_STEP, ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts,
+    HeldPlatform, Places, Spin, System, Unknown, Work, approach, independent_parts,
 };
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};

@@ -1,5 +1,8 @@
 //! Solvers written as C and Rust: compiled without warnings, they find what the library finds.
 
+#[path = "generated/branches.rs"]
+mod branches;
+
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
@@ -114,22 +117,27 @@ fn rust_program(folder: &Path, main: &str) -> PathBuf {
     program
 }
 
-/// All configurations of all mechanisms as numbers in a file, in the order of the solvers.
-fn examples(solvers: &[(String, Question, Solver)], path: &Path) {
-    let mut bytes = Vec::new();
-    for (name, question, _) in solvers {
-        let examples: Vec<Example> = question.examples(CONFIGURATIONS, &Watch::none()).unwrap();
-        assert_eq!(examples.len(), CONFIGURATIONS, "{name} cannot follow");
-        for (inputs, state) in examples {
-            bytes.extend(inputs.iter().chain(&state).flat_map(|x| x.to_ne_bytes()));
-        }
-    }
+/// Configurations of all mechanisms as numbers in a file, in the order of the solvers.
+fn examples_file(all: &[Vec<Example>], path: &Path) {
+    let examples = all.iter().flatten();
+    let numbers = examples.flat_map(|(inputs, state)| inputs.iter().chain(state));
+    let bytes: Vec<u8> = numbers.flat_map(|x| x.to_ne_bytes()).collect();
     fs::write(path, bytes).unwrap();
 }
 
-/// What a compiled program says: for each solver how many searches failed, and the largest difference. Lengths may differ
-/// by a part of the characteristic length.
-fn judged(program: &Path, data: &Path, solvers: &[(String, Question, Solver)]) {
+/// Those of the solvers' own questions.
+fn examples(solvers: &[(String, Question, Solver)], path: &Path) {
+    let of = |(name, question, _): &(String, Question, Solver)| {
+        let examples = question.examples(CONFIGURATIONS, &Watch::none()).unwrap();
+        assert_eq!(examples.len(), CONFIGURATIONS, "{name} cannot follow");
+        examples
+    };
+    examples_file(&solvers.iter().map(of).collect::<Vec<_>>(), path);
+}
+
+/// What a compiled program says: for each solver how many searches failed, and the largest difference, which may be such
+/// a part of the characteristic length.
+fn judged(program: &Path, data: &Path, solvers: &[(String, Question, Solver)], part: f64) {
     let output = Command::new(program).arg(data).output().unwrap();
     let said = String::from_utf8(output.stdout).unwrap();
     assert_eq!(said.lines().count(), solvers.len(), "{said}");
@@ -140,7 +148,7 @@ fn judged(program: &Path, data: &Path, solvers: &[(String, Question, Solver)]) {
             panic!("{line}");
         };
         let apart: f64 = apart.parse().unwrap();
-        let limit = 1e-12 * question.mechanism().characteristic_length().max(1.0);
+        let limit = part * question.mechanism().characteristic_length().max(1.0);
         if failed != "0" || apart.is_nan() || apart > limit {
             writeln!(wrong, "{name}: {failed} failed, {apart:e} apart").unwrap();
         }
@@ -153,14 +161,24 @@ fn solvers_of_every_shipped_file_find_what_the_library_finds() {
     let (folder, solvers) = (folder("generated"), shipped());
     let data = folder.join("examples");
     examples(&solvers, &data);
-    judged(&all_rust(&folder, &solvers), &data, &solvers);
+    judged(
+        &all_rust(&folder, &solvers, CONFIGURATIONS),
+        &data,
+        &solvers,
+        1e-12,
+    );
     if has_cc() {
-        judged(&all_c(&folder, &solvers), &data, &solvers);
+        judged(
+            &all_c(&folder, &solvers, CONFIGURATIONS),
+            &data,
+            &solvers,
+            1e-12,
+        );
     }
 }
 
 /// All solvers as C, and a program that runs them.
-fn all_c(folder: &Path, solvers: &[(String, Question, Solver)]) -> PathBuf {
+fn all_c(folder: &Path, solvers: &[(String, Question, Solver)], count: usize) -> PathBuf {
     let mut main = String::from("#include <stdio.h>\n#include <string.h>\n");
     let mut calls = String::new();
     for (name, _, solver) in solvers {
@@ -176,7 +194,7 @@ static void run_{name}(FILE *file)
     {name}_follower follower = {{{{0}}, {{0}}}};
     int i, k, failed = 0;
     memcpy(follower.state, {name}_start_state, sizeof follower.state);
-    for (k = 0; k < {CONFIGURATIONS}; ++k) {{
+    for (k = 0; k < {count}; ++k) {{
         failed += fread(row, sizeof row, 1, file) != 1;
         failed += {name}_follow(&follower, row) != {upper}_SOLVED;
         for (i = 0; i < {state}; ++i) {{
@@ -202,7 +220,7 @@ static void run_{name}(FILE *file)
 }
 
 /// The same as Rust.
-fn all_rust(folder: &Path, solvers: &[(String, Question, Solver)]) -> PathBuf {
+fn all_rust(folder: &Path, solvers: &[(String, Question, Solver)], count: usize) -> PathBuf {
     let mut main = String::from("use std::io::Read;\n");
     let mut calls = String::new();
     for (name, _, solver) in solvers {
@@ -223,7 +241,7 @@ fn all_rust(folder: &Path, solvers: &[(String, Question, Solver)]) -> PathBuf {
             $file.read_exact(&mut bytes).unwrap();
             f64::from_ne_bytes(bytes)
         }};
-        for _ in 0..{CONFIGURATIONS} {{
+        for _ in 0..{count} {{
             let inputs = std::array::from_fn::<f64, INPUTS, _>(|_| read());
             failed += usize::from(follower.solve(&inputs) != Verdict::Solved);
             for x in follower.state {{

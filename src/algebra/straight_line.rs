@@ -61,6 +61,16 @@ pub fn record<R>(sample: Vec<f64>, work: impl FnOnce() -> R) -> (R, Vec<Operatio
     (made, list.operations)
 }
 
+/// The values of all operations.
+pub fn evaluate(operations: &[Operation], inputs: &[f64]) -> Vec<f64> {
+    let mut values: Vec<f64> = Vec::with_capacity(operations.len());
+    for operation in operations {
+        let input = |i: u32| inputs.get(i as usize).copied().unwrap_or(0.0);
+        values.push(operation.value(|x| values[x as usize], input));
+    }
+    values
+}
+
 impl List {
     fn put(&mut self, operation: Operation) -> Recorded {
         if let Some(&place) = self.places.get(&operation.key()) {

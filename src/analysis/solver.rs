@@ -4,16 +4,18 @@
 //! The one kinematics runs over recorded operations; nothing is derived a second time.
 
 mod closed;
+mod curvature;
 mod follower;
 mod iteration;
 mod placing;
 mod report;
+mod variable;
 
 pub use follower::{Follower, Following, Motions};
 pub use report::{ClosedProgram, Component, Divisor, FrameProgram, Radicand, Solver};
 
 pub use crate::algebra::LEAST_PIVOT;
-use crate::algebra::{Recorded, SiUnit, eliminate, record};
+use crate::algebra::{Recorded, eliminate, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{
@@ -23,6 +25,7 @@ use crate::number::{Dual, Number};
 use crate::solve::Equations;
 use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, System, Unknown};
 use iteration::{Iteration, Rows, negated, numbered, places};
+use variable::Variable;
 
 /// Why there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,7 +61,8 @@ pub fn solver(
     plan.check()?;
     let mechanism = question.mechanism();
     let (inputs, state) = plan.values(at);
-    let mut sample = [inputs.clone(), state.clone()].concat();
+    let start = [inputs.clone(), state.clone()].concat();
+    let mut sample = start.clone();
     // as many steps as there are unknowns
     sample.resize(
         sample.len() + 6 * mechanism.platforms().len() + state.len(),
@@ -78,10 +82,15 @@ pub fn solver(
             name: variable.name(mechanism),
             unit: variable.unit(mechanism),
             value,
+            limits: variable.limits(mechanism),
         })
         .collect()
     };
+    let variables = [plan.inputs.clone(), plan.state.clone()].concat();
+    let curvature = plan.curvature(&operations, &written.slopes, &variables, &start);
     Ok(Solver {
+        curvature: curvature.largest,
+        weights: curvature.weights,
         mechanism: mechanism.name().into(),
         inputs: components(&plan.inputs, &inputs),
         state: components(&plan.state, &state),
@@ -93,49 +102,6 @@ pub fn solver(
 /// The inputs and the state of a configuration.
 pub fn values(question: &Question, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
     Plan::new(question).values(at)
-}
-
-/// A number that is given, or one of those by which a configuration is kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Variable {
-    Held(Coordinate),
-    Joint(usize),
-    Orientation(usize, usize),
-    Position(usize, usize),
-}
-
-impl Variable {
-    fn of<T: Number>(self, at: &Configuration<T>) -> T {
-        match self {
-            Variable::Held(coordinate) => coordinate.of(at),
-            Variable::Joint(joint) => at.joints[joint],
-            Variable::Orientation(platform, i) => at.platforms[platform].orientation.0[i],
-            Variable::Position(platform, i) => at.platforms[platform].position.0[i],
-        }
-    }
-
-    fn name(self, mechanism: &Mechanism) -> String {
-        let of = |platform: usize| &mechanism.platforms()[platform].name;
-        match self {
-            Variable::Held(coordinate) => coordinate.name(mechanism),
-            Variable::Joint(joint) => mechanism.joints()[joint].name.clone(),
-            Variable::Orientation(platform, i) => {
-                format!("{}.q{}", of(platform), ["w", "x", "y", "z"][i])
-            }
-            Variable::Position(platform, i) => format!("{}.{}", of(platform), ["x", "y", "z"][i]),
-        }
-    }
-
-    fn unit(self, mechanism: &Mechanism) -> SiUnit {
-        match self {
-            Variable::Held(coordinate) => SiUnit::of_coordinate(coordinate.is_angle(mechanism)),
-            Variable::Joint(joint) => {
-                SiUnit::of_coordinate(mechanism.joints()[joint].kind.is_angle())
-            }
-            Variable::Orientation(..) => SiUnit::ONE,
-            Variable::Position(..) => SiUnit::METRE,
-        }
-    }
 }
 
 /// What is given and what is unknown.
@@ -289,6 +255,14 @@ impl<'a> Plan<'a> {
                 .map(|(row, factor)| (row.place(), *factor))
                 .collect(),
             pivots: pivots.filter_map(Divisor::of).collect(),
+            slopes: iteration.jacobian.iter().map(|row| places(row)).collect(),
+            rates: (rates.iter().enumerate())
+                .map(|(input, rates)| {
+                    let at = self.moving(input, &system, (&inputs, &state), rates);
+                    let rate = |variable: &Variable| variable.of(&at).slope.place();
+                    self.state.iter().map(rate).collect()
+                })
+                .collect(),
             step: numbered(&iteration.step),
             moved: (self.state.iter())
                 .map(|variable| variable.of(&moved).place())
@@ -311,6 +285,36 @@ impl<'a> Plan<'a> {
         rows.map(|row| row.slope).collect()
     }
 
+    /// The configuration in motion at a unit rate of an input, from the rates of the unknowns.
+    fn moving(
+        &self,
+        input: usize,
+        system: &System<Recorded>,
+        (inputs, state): (&[Recorded], &[Recorded]),
+        rates: &[Recorded],
+    ) -> Configuration<Dual<Recorded>> {
+        let (_, mut at) = self.posed(&varied(inputs, Some(input)), &varied(state, None));
+        let rate = |i: usize| Dual {
+            value: Recorded::zero(),
+            slope: rates[i],
+        };
+        for (i, unknown) in system.unknowns().iter().enumerate() {
+            match *unknown {
+                Unknown::Joint(joint) => {
+                    at.joints[joint] += rate(i).scale(system.joint_scale(joint));
+                }
+                Unknown::Twist(platform, 0) => {
+                    let omega = Vector3([rate(i), rate(i + 1), rate(i + 2)]);
+                    let shift = Vector3([rate(i + 3), rate(i + 4), rate(i + 5)]);
+                    let shift = shift.scaled(system.characteristic_length());
+                    at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
+                }
+                Unknown::Twist(..) => {}
+            }
+        }
+        at
+    }
+
     /// The pose of a frame and its twists for unit rates of the inputs, from the rates of the unknowns.
     fn frame(
         &self,
@@ -325,25 +329,7 @@ impl<'a> Plan<'a> {
         let mut pose = Vec::new();
         let mut twists = Vec::new();
         for (input, rates) in rates.iter().enumerate() {
-            let (_, mut at) = self.posed(&varied(inputs, Some(input)), &varied(state, None));
-            for (i, unknown) in system.unknowns().iter().enumerate() {
-                let rate = |i: usize| Dual {
-                    value: Recorded::zero(),
-                    slope: rates[i],
-                };
-                match *unknown {
-                    Unknown::Joint(joint) => {
-                        at.joints[joint] += rate(i).scale(system.joint_scale(joint));
-                    }
-                    Unknown::Twist(platform, 0) => {
-                        let omega = Vector3([rate(i), rate(i + 1), rate(i + 2)]);
-                        let shift = Vector3([rate(i + 3), rate(i + 4), rate(i + 5)]);
-                        let shift = shift.scaled(system.characteristic_length());
-                        at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
-                    }
-                    Unknown::Twist(..) => {}
-                }
-            }
+            let at = self.moving(input, system, (inputs, state), rates);
             kinematics.place(&at, &mut placement);
             let placed = kinematics.pose(frame, &placement);
             let placed = placed.expect("the plan has the frame");

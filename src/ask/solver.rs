@@ -69,8 +69,6 @@ fn follow(
     amplitude: f64,
     count: usize,
 ) -> Vec<Example> {
-    /// Unknowns move less from one configuration to the next, in rad and in characteristic lengths.
-    const FARTHEST: f64 = 0.3;
     let mechanism = question.mechanism();
     let held = question.held();
     let joints = (0..held.joints.len()).filter(|joint| held.joints[*joint]);
@@ -101,7 +99,7 @@ fn follow(
     let (mut system, mut at, mut trial) = (question.system(), start.clone(), start.clone());
     let mut work = system.work();
     for k in 0..count {
-        let wanted = values_at(k);
+        let (wanted, before) = (values_at(k), at.clone());
         if wanted
             .iter()
             .all(|(input, _)| matches!(input, Coordinate::Joint(_)))
@@ -117,11 +115,8 @@ fn follow(
             at = question.start();
         }
         trial.clone_from(&at);
-        let before = at.clone();
         let report = newton.solve(&system, &mut at, &mut trial, &mut work);
-        let moved = system.difference(&before, &at);
-        // farther than that it may be another assembly
-        if report.stop != Stop::Solved || moved.iter().any(|part| part.abs() > FARTHEST) {
+        if report.stop != Stop::Solved || !system.is_on_branch_of(&before, &at, &mut work) {
             break;
         }
         found.push(values(question, &at));

@@ -52,15 +52,36 @@ impl Mechanism {
         joints.filter_map(|(i, (joint, value))| (!joint.allows(*value)).then_some(i))
     }
 
-    /// Brings joints with limits, where full turns change nothing, to the equivalent value nearest the middle of
-    /// the limits: within them if possible.
+    /// Brings joints with limits, where full turns change nothing, to the nearest equivalent value within the limits; where
+    /// there is none, to the one nearest their middle.
     pub fn turn_to_limits(&self, joints: &mut [f64]) {
         for (joint, value) in joints.iter_mut().enumerate() {
-            if let Some((low, high)) = self.joints[joint].limits
-                && self.repeats(joint)
-            {
-                *value = turn_near(*value, 0.5 * (low + high));
+            *value = self.turned_near(joint, *value, *value);
+        }
+    }
+
+    /// The equivalent of a value of a joint that is nearest to another, brought within limits as above; the value itself
+    /// where full turns change something.
+    pub fn turned_near(&self, joint: usize, value: f64, to: f64) -> f64 {
+        if !self.repeats(joint) {
+            return value;
+        }
+        let turned = self.by_limits(joint, turn_near(value, to));
+        match self.joints[joint].limits {
+            Some((low, high)) if !self.joints[joint].allows(turned) => {
+                turn_near(turned, 0.5 * (low + high))
             }
+            _ => turned,
+        }
+    }
+
+    /// The value near which a joint is reported where no guess or earlier configuration leads to it: home if it has
+    /// limits, otherwise the whole turns nearest home.
+    pub fn home_turn(&self, joint: usize) -> f64 {
+        let of = &self.joints[joint];
+        match of.limits {
+            Some(_) => of.home,
+            None => TAU * turns(of.home),
         }
     }
 

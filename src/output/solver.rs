@@ -32,6 +32,10 @@ impl Code {
             ("start_state", values(&solver.state)),
             ("fast", writer.fast()),
             ("linearise", writer.linearise()),
+            ("slopes", writer.slopes()),
+            ("apart", writer.apart()),
+            ("limits", writer.limits()),
+            ("rates", writer.rates()),
             ("move", writer.moved()),
             ("normalise", writer.normalise()),
             ("frames", writer.frames()),
@@ -74,12 +78,18 @@ impl Code {
             ("@iterated@", solver.first_following()),
             ("@unknowns@", solver.unknowns),
             ("@rows@", solver.residual.len()),
+            ("@equations@", solver.slopes.len()),
+            ("@steps@", solver.step.len()),
             ("@frame_count@", solver.frames.len()),
             ("@signs@", signs.map_or(0, |closed| closed.signs.len())),
         ];
         let text = counts.into_iter().fold(text, |text, (name, count)| {
             text.replace(name, &count.to_string())
         });
+        let unknowns = solver.step.iter().map(|(unknown, _)| unknown.to_string());
+        let unknowns: Vec<String> = unknowns.collect();
+        let text = text.replace("@unknown_of_steps@", &unknowns.join(", "));
+        let text = text.replace("@curvature@", &self.literal(solver.curvature));
         let text = text.replace("@least_pivot@", &format!("{LEAST_PIVOT:e}"));
         let words = self.words();
         let text = words.fold(text, |text, (name, word)| text.replace(name, word));

@@ -1,4 +1,5 @@
 mod approach;
+mod branch;
 mod closure_gap;
 mod closures;
 mod coordinate;
@@ -12,6 +13,7 @@ mod settle;
 mod spin;
 
 pub use approach::approach;
+pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
 pub use closure_gap::Gap;
 pub use closures::{ClosureAxes, ClosureWrenches};
 pub use coordinate::Coordinate;

@@ -17,7 +17,7 @@ use super::equations::{System, Work, solve};
 use super::question::{Count, Question};
 use crate::description::Role;
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
-use crate::mechanism::{Configuration, Mechanism, turn_near};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stage, Stop, Watch};
 use crate::system::{Freedoms, Held, HeldPlatform};
 
@@ -180,18 +180,17 @@ impl<'a> Search<'a> {
             && (self.mechanism.outside_limits(&attempt.at.joints)).all(|i| self.held.joints[i])
     }
 
-    /// The attempt, its passive turns brought back to (−π, π], into their limits, or to the turn that was guessed.
+    /// The attempt, what was solved brought to the turn that was guessed or else to that of home, and into its limits.
     fn normalised(&self, mut attempt: Attempt) -> Attempt {
-        for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            let solved = attempt.report.stop == Stop::Solved;
-            if !solved || self.held.joints[i] || !self.mechanism.repeats(i) {
-                continue;
+        if attempt.report.stop != Stop::Solved {
+            return attempt;
+        }
+        for (i, value) in attempt.at.joints.iter_mut().enumerate() {
+            if !self.held.joints[i] {
+                let home = || self.mechanism.home_turn(i);
+                let near = self.question.guess_of(i).unwrap_or_else(home);
+                *value = self.mechanism.turned_near(i, *value, near);
             }
-            let guessed = self.question.guess_of(i).unwrap_or(0.0);
-            let middle = joint
-                .limits
-                .map_or(guessed, |(low, high)| 0.5 * (low + high));
-            attempt.at.joints[i] = turn_near(attempt.at.joints[i], middle);
         }
         attempt
     }

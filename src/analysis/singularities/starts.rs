@@ -210,7 +210,8 @@ impl Search<'_> {
             if self.region.mechanism.repeats(joint) {
                 let mut sides = self.region.sides.iter();
                 let side = sides.find(|side| side.coordinate == Coordinate::Joint(joint));
-                let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
+                let home = || self.region.mechanism.home_turn(joint);
+                let middle = side.map_or_else(home, |side| 0.5 * (side.from + side.to));
                 *value = turn_near(*value, middle);
             }
         }

@@ -3,14 +3,18 @@
 //! The step is recorded once as a straight-line program, which then runs for [`BATCH`] motions at once. Each motion is
 //! what it would be without the others.
 
+mod certain;
 mod past;
 
+use super::curvature::Curvature;
 use super::iteration::{Iteration, numbered, places};
 use super::{LEAST_PIVOT, NoSolver, Plan, Variable};
-use crate::algebra::{BATCH, Batch, Place, Recorded, Registers, record};
+use crate::algebra::{BATCH, Batch, Place, Recorded, Registers, eliminate, record};
+use crate::linear::DENSE_LIMIT;
 use crate::mechanism::Configuration;
 use crate::number::{Number, widest};
 use crate::system::{Coordinate, Question, System};
+use certain::{Certain, Jacobians};
 use past::{Mask, Past};
 
 /// How motions are followed.
@@ -48,6 +52,8 @@ pub struct Follower<'a> {
     free: Vec<usize>,
     program: Batch,
     results: Results,
+    /// What makes changes of the numbers that change, then of the state, dimensionless, and how fast the Jacobian changes.
+    curvature: Curvature,
 }
 
 /// The sections of the program, after the one for what depends on held values alone.
@@ -59,6 +65,8 @@ enum Section {
     Step = 2,
     /// What follows from the state.
     Reached = 3,
+    /// The Jacobian and its inverse.
+    Jacobian = 4,
 }
 
 /// Where the results of the program are.
@@ -78,6 +86,9 @@ struct Results<T = usize> {
     columns: Vec<T>,
     /// Numbers on whose sign these rest, and whether they are negative.
     decided: Vec<(T, bool)>,
+    /// The Jacobian row by row, and its left inverse row by row; none of many unknowns.
+    jacobian: Vec<Vec<T>>,
+    inverse: Vec<Vec<T>>,
 }
 
 /// The latest solutions of [`BATCH`] motions.
@@ -85,6 +96,7 @@ struct Results<T = usize> {
 pub struct Motions {
     registers: Registers,
     past: Past,
+    certain: Certain,
 }
 
 impl<'a> Follower<'a> {
@@ -112,7 +124,7 @@ impl<'a> Follower<'a> {
         let mut sample: Vec<f64> = changing.iter().map(|&i| inputs[i]).collect();
         sample.extend(&state);
         let count = sample.len();
-        let (written, operations) = record(sample, || {
+        let (written, operations) = record(sample.clone(), || {
             plan.recorded(&changing, &inputs, settings.longest_step)
         });
         let written = written?;
@@ -121,6 +133,7 @@ impl<'a> Follower<'a> {
             vec![written.size],
             written.moved.clone(),
             Vec::new(),
+            [written.jacobian.concat(), written.inverse.concat()].concat(),
         ];
         sections[Section::Step as usize].push(written.doubt);
         let reached = &mut sections[Section::Reached as usize];
@@ -130,7 +143,14 @@ impl<'a> Follower<'a> {
         reached.extend(written.decided.iter().map(|(place, _)| *place));
         sections[0] = Batch::known(&operations, changing.len(), &sections.concat());
         let program = Batch::new(&operations, count, &sections);
+        let inputs_of = changing.iter().map(|&i| plan.inputs[i]);
+        let variables: Vec<Variable> = inputs_of.chain(plan.state.iter().copied()).collect();
+        let curvature = plan.curvature(&operations, &written.jacobian, &variables, &sample);
         let at = |place: Place| program.result(place);
+        let all = |of: &[Vec<Place>]| -> Vec<Vec<usize>> {
+            let row = |row: &Vec<Place>| row.iter().map(|&place| at(place)).collect();
+            of.iter().map(row).collect()
+        };
         let results = Results {
             size: at(written.size),
             doubt: at(written.doubt),
@@ -143,6 +163,8 @@ impl<'a> Follower<'a> {
             decided: (written.decided.iter())
                 .map(|&(place, negative)| (at(place), negative))
                 .collect(),
+            jacobian: all(&written.jacobian),
+            inverse: all(&written.inverse),
         };
         let placed = |i: &usize| written.placed.iter().any(|(of, _)| of == i);
         let free = (0..plan.state.len()).filter(|i| !placed(i)).collect();
@@ -154,18 +176,41 @@ impl<'a> Follower<'a> {
             free,
             program,
             results,
+            curvature,
         })
     }
 
     /// [`BATCH`] motions that begin at a configuration.
     pub fn motions(&self, at: &Configuration<f64>) -> Motions {
         let registers = self.program.registers();
+        let numbers = 0..self.curvature.weights.len();
         let mut motions = Motions {
             past: Past::none(&self.state(self.free.iter().copied()), &registers),
+            certain: Certain::none(numbers.zip(&self.curvature.weights), &self.results.jacobian),
             registers,
         };
-        (0..BATCH).for_each(|motion| self.put(&mut motions, motion, at));
+        (0..BATCH).for_each(|motion| self.set(&mut motions, motion, at));
+        self.keep_certain(&mut motions, &[u64::MAX; BATCH]);
         motions
+    }
+
+    /// Takes the solutions of motions for ones of their branches.
+    fn keep_certain(&self, motions: &mut Motions, which: &Mask) {
+        let Motions {
+            registers, certain, ..
+        } = motions;
+        self.program.run(0, registers);
+        self.program.run(Section::Jacobian as usize, registers);
+        let now = self.jacobians(registers);
+        certain.keep(which, &now, self.curvature.largest, registers);
+    }
+
+    fn jacobians<'r>(&'r self, registers: &'r Registers) -> Jacobians<'r> {
+        Jacobians {
+            jacobian: &self.results.jacobian,
+            inverse: &self.results.inverse,
+            registers,
+        }
     }
 
     /// The registers of numbers of the state.
@@ -175,6 +220,13 @@ impl<'a> Follower<'a> {
 
     /// Puts a motion at a configuration, and forgets where it came from.
     pub fn put(&self, motions: &mut Motions, motion: usize, at: &Configuration<f64>) {
+        self.set(motions, motion, at);
+        let mut which = [0; BATCH];
+        which[motion] = u64::MAX;
+        self.keep_certain(motions, &which);
+    }
+
+    fn set(&self, motions: &mut Motions, motion: usize, at: &Configuration<f64>) {
         let (inputs, state) = self.plan.values(at);
         let changing = self.changing.iter().map(|&i| inputs[i]);
         for (register, value) in changing.chain(state).enumerate() {
@@ -188,9 +240,14 @@ impl<'a> Follower<'a> {
         motions.registers.rows_mut(coordinate)
     }
 
-    /// Leads the motions that go to the values set, and says which arrive; the others stay at their latest solution.
+    /// Leads the motions that go to the values set, and says which arrive, certainly on their branch; the others stay at
+    /// their latest solution.
     pub fn solve(&self, motions: &mut Motions, going: &[bool; BATCH]) -> [bool; BATCH] {
-        let Motions { registers, past } = motions;
+        let Motions {
+            registers,
+            past,
+            certain,
+        } = motions;
         let Results {
             size,
             doubt,
@@ -217,6 +274,14 @@ impl<'a> Follower<'a> {
             let free = self.free.iter().map(|i| self.changing.len() + i);
             free.zip(moved)
                 .for_each(|(to, &from)| assign(to, from, &open, registers));
+        }
+        let far = certain.beyond(&solved, past, registers);
+        if far != [0; BATCH] {
+            self.program.run(Section::Jacobian as usize, registers);
+            let now = self.jacobians(registers);
+            let sure = certain.sure(&far, &now, self.curvature.largest, registers);
+            certain.keep(&sure, &now, self.curvature.largest, registers);
+            (0..BATCH).for_each(|i| solved[i] &= !far[i] | sure[i]);
         }
         self.program.run(Section::Reached as usize, registers);
         trust(&mut solved, registers.rows(*placing));
@@ -348,10 +413,24 @@ impl Plan<'_> {
             pivots,
             placed,
             placing,
+            jacobian,
         } = match self.placing(&system, held, &dimensions, &at) {
             Some(few) => few,
             None => self.on_all(&system, &at)?,
         };
+        let unknowns = step.len();
+        let unit = |row: usize| {
+            let entries = (0..rows.len()).map(|i| if i == row { 1.0 } else { 0.0 });
+            entries.map(Recorded::from_f64).collect()
+        };
+        let units = (0..rows.len()).map(unit).collect();
+        let columns = match unknowns <= DENSE_LIMIT {
+            true => eliminate(jacobian.clone(), units, unknowns).map_or_else(|_| vec![], |of| of.0),
+            false => Vec::new(),
+        };
+        let inverse = (0..unknowns)
+            .map(|k| columns.iter().map(|column| column[k].place()).collect())
+            .collect();
         let squares = |of: Vec<Recorded>| {
             let all = of.into_iter();
             all.fold(Recorded::zero(), |sum, x| sum + x * x)
@@ -389,6 +468,8 @@ impl Plan<'_> {
             placing: small.place(),
             columns: columns.collect(),
             decided: Recorded::decisions(),
+            jacobian: jacobian.iter().map(|row| places(row)).collect(),
+            inverse,
         })
     }
 }

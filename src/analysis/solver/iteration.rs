@@ -12,6 +12,8 @@ use crate::system::{Held, System};
 pub(super) struct Iteration {
     /// With the factors by which no closure row is larger.
     pub rows: Vec<(Recorded, f64)>,
+    /// The Jacobian of the rows by these unknowns.
+    pub jacobian: Vec<Vec<Recorded>>,
     /// The steps of unknowns by their places.
     pub step: Vec<(usize, Recorded)>,
     /// What is divided by in a step.
@@ -27,6 +29,7 @@ impl Iteration {
     pub fn of(rows: &Rows, step: Vec<Recorded>, pivots: Vec<Pivot>) -> Self {
         Iteration {
             rows: rows.residual.iter().map(|&row| (row, 1.0)).collect(),
+            jacobian: rows.jacobian.clone(),
             step: step.into_iter().enumerate().collect(),
             pivots,
             placed: Vec::new(),
@@ -123,7 +126,7 @@ impl Plan<'_> {
         };
         let unknowns = few.unknowns().len();
         let (mut solutions, pivots) =
-            eliminate(rows.jacobian, vec![rows.residual.clone()], unknowns).ok()?;
+            eliminate(rows.jacobian.clone(), vec![rows.residual.clone()], unknowns).ok()?;
         let step = negated(solutions.pop()?).into_iter().zip(few.unknowns());
         let step = step.filter_map(|(x, &unknown)| Some((system.place_of(unknown)?, x)));
         let placed = self
@@ -140,6 +143,7 @@ impl Plan<'_> {
             rows: (rows.residual.into_iter())
                 .zip(rows.open.into_iter().map(factor))
                 .collect(),
+            jacobian: rows.jacobian,
             step: step.collect(),
             pivots,
             placed: placed.collect(),

@@ -11,6 +11,9 @@ pub struct Component {
     pub unit: SiUnit,
     /// Its value at the assembled configuration from which the order of elimination was chosen.
     pub value: f64,
+    /// The limits of a joint.
+    #[serde(default)]
+    pub limits: Option<(f64, f64)>,
 }
 
 /// The pose and the twists of a frame.
@@ -90,6 +93,12 @@ pub struct Solver {
     /// Places of the rows that Newton's method brings to zero: the closure rows, or distances between the points where a
     /// platform stands on three balls, which hold if those do; with the factors by which no closure row is larger.
     pub iterated: Vec<(Place, f64)>,
+    /// Places of the entries of their Jacobian by the unknowns that are iterated, row by row.
+    pub slopes: Vec<Vec<Place>>,
+    /// How fast that changes for a unit change of inputs and state, weighted so that they are dimensionless.
+    pub curvature: f64,
+    /// The weights of the inputs, then of the state; 0 where it does not depend on them.
+    pub weights: Vec<f64>,
     /// What is divided by.
     pub pivots: Vec<Divisor>,
     /// The unknowns that are iterated, with the places of their components of the step −J⁻¹ r, dimensionless.
@@ -101,6 +110,8 @@ pub struct Solver {
     /// The state in closed form, if it has one: for what the iteration does not solve, and without a start.
     #[serde(default)]
     pub closed: Option<ClosedProgram>,
+    /// For each input the places of the rates of the state for a unit rate of it.
+    pub rates: Vec<Vec<Place>>,
     /// Frames whose poses and twists are wanted.
     pub frames: Vec<FrameProgram>,
 }

@@ -336,7 +336,7 @@ impl<'a> Map<'a> {
     }
 }
 
-/// The joints, angles within limits or in (−π, π]; all of the latter kind where modes are compared.
+/// The joints, angles in the turn of home and within limits, or in (−π, π]; all of the latter kind where modes are compared.
 fn brought(problem: &MapProblem, joints: &[f64], plain: bool) -> Vec<f64> {
     let mut joints = joints.to_vec();
     bring(problem, &mut joints, plain);
@@ -346,10 +346,10 @@ fn brought(problem: &MapProblem, joints: &[f64], plain: bool) -> Vec<f64> {
 fn bring(problem: &MapProblem, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if problem.turns[joint] {
-            *value = turn_near(*value, 1e-9);
+            *value = match plain {
+                true => turn_near(*value, 1e-9),
+                false => problem.by_home(joint, *value),
+            };
         }
-    }
-    if !plain {
-        problem.mechanism.turn_to_limits(joints);
     }
 }

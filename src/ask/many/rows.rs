@@ -12,7 +12,7 @@ use crate::system::{self, Coordinate, MotionTracker, System};
 const LONGEST: f64 = 0.2;
 
 /// The shortest step that is tried, over the longest.
-const SHORTEST: f64 = 1.0 / 1024.0;
+const SHORTEST: f64 = 1.0 / 16384.0;
 
 /// Steps beyond which a row is too far away.
 const FARTHEST: f64 = 10_000.0;
@@ -263,6 +263,7 @@ impl Rows<'_> {
         if *tracker.configuration() != place.at {
             tracker.restart(&place.at);
         }
+        let mut work = self.system.work();
         let begin = &place.values;
         let longest = 1.0 / steps as f64;
         let (mut gone, mut step) = (0.0, longest);
@@ -276,7 +277,9 @@ impl Rows<'_> {
                 _ => begin[i] + next * (to[i] - begin[i]),
             };
             let before = tracker.configuration().clone();
-            if self.solve(tracker, value) {
+            let solved = self.solve(tracker, value);
+            let now = tracker.configuration();
+            if solved && tracker.system().is_on_branch_of(&before, now, &mut work) {
                 gone = next;
                 step = (2.0 * step).min(longest);
                 continue;

@@ -209,6 +209,10 @@ impl Code {
             ("@rank@", "1e-10", "1e-5"),
             ("@singular@", "1e-5", "3e-3"),
             ("@close@", "1e-9", "2e-3"),
+            ("@limit_rounding@", "1e-9", "1e-5"),
+            // a step after which the rows are closed
+            ("@closed_step@", "1e-8", "1e-4"),
+            ("@shortest@", "1e-9", "1e-5"),
             ("@farthest@", "1e5", "1e4"),
             ("@two_over_pi@", "0.6366197723675814", "0.63661975@f@"),
             ("@round@", "6755399441055744.0", "12582912.0"),

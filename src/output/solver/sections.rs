@@ -1,6 +1,7 @@
 //! The straight-line parts of a solver.
 
 mod closed;
+mod keeping;
 mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -223,13 +224,16 @@ impl<'a> Writer<'a> {
 
     /// Rows and Jacobian into arrays.
     pub fn linearise(&self) -> String {
-        let (residual, jacobian) = (&self.solver.residual, &self.solver.jacobian);
-        let used = self.needed(residual.iter().chain(jacobian.iter().flatten()).copied());
+        self.rows(&self.solver.residual, &self.solver.jacobian)
+    }
+
+    fn rows(&self, rows: &[Place], jacobian: &[Vec<Place>]) -> String {
+        let used = self.needed(rows.iter().chain(jacobian.iter().flatten()).copied());
         let mut text = self.text(1, false);
         text.numbers(&used, "u");
         text.numbers(&used, "x");
         text.operations(used);
-        for (i, &row) in residual.iter().enumerate() {
+        for (i, &row) in rows.iter().enumerate() {
             text.line(&format!("r[{i}] = {};\n", self.name(row, false)));
         }
         for (i, row) in jacobian.iter().enumerate() {

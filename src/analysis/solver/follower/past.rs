@@ -11,10 +11,15 @@ pub(super) type Mask = [u64; BATCH];
 /// A number for each motion.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-struct Row([f64; BATCH]);
+pub(super) struct Row(pub [f64; BATCH]);
 
 impl Row {
-    const ZERO: Row = Row([0.0; BATCH]);
+    pub const ZERO: Row = Row([0.0; BATCH]);
+
+    /// Takes the numbers of some motions.
+    pub fn choose(&mut self, from: &[f64; BATCH], motions: &Mask) {
+        choose(&mut self.0, from, motions);
+    }
 }
 
 /// The latest solutions, with the backward differences m, ∇m, ∇²m of the moves m that led there.
@@ -64,6 +69,19 @@ impl Past {
         for known in &self.known {
             registers.rows_mut(known.register)[motion] = known.latest.0[motion];
         }
+    }
+
+    /// The squares of the moves from the latest solutions.
+    pub fn moved(&self, registers: &Registers) -> Row {
+        let mut moved = Row::ZERO;
+        for known in &self.known {
+            let now = registers.rows(known.register);
+            for i in 0..BATCH {
+                let away = now[i] - known.latest.0[i];
+                moved.0[i] += away * away;
+            }
+        }
+        moved
     }
 
     /// Puts the numbers of motions where they will be next.

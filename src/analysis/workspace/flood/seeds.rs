@@ -51,7 +51,13 @@ impl ModeSeeds {
                     true => at,
                     false => on_sides(node, at),
                 };
-                problem.mechanism.turn_to_limits(&mut at.joints);
+                let joints = at.joints.iter_mut().enumerate();
+                let limited = |joint: usize| mechanism.joints()[joint].limits.is_some();
+                for (joint, angle) in joints.filter(|(joint, _)| problem.turns[*joint]) {
+                    if limited(joint) {
+                        *angle = problem.by_home(joint, *angle);
+                    }
+                }
                 match problem.allows(&at.joints) {
                     true => mode_seeds.seeds.push((node, at)),
                     false => mode_seeds.outside += 1,

@@ -81,6 +81,12 @@ impl<'m> MapProblem<'m> {
         !self.outputs.is_empty() && !self.holds(&self.outputs)
     }
 
+    /// The value of a joint in the turn of home and within limits; half a turn is positive.
+    pub fn by_home(&self, joint: usize, value: f64) -> f64 {
+        let home = self.mechanism.home_turn(joint);
+        self.mechanism.turned_near(joint, value, home + 1e-9)
+    }
+
     pub fn allows(&self, joints: &[f64]) -> bool {
         self.mechanism.outside_limits(joints).next().is_none()
     }

@@ -1,0 +1,127 @@
+//! How fast the Jacobian of the iteration changes, for a bound on the steps that keep to a branch.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::{Plan, Variable};
+use crate::algebra::{Operation, Place, SiUnit, evaluate};
+use crate::linear::{DENSE_LIMIT, norm, singular_values};
+
+/// How fast the Jacobian changes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Curvature {
+    /// What makes a change of each input, then of each number of the state, dimensionless; 0 where the Jacobian does not
+    /// depend on it.
+    pub weights: Vec<f64>,
+    /// The largest change of the Jacobian for a unit change of all these found, in the Frobenius norm.
+    pub largest: f64,
+}
+
+impl Plan<'_> {
+    /// Of a Jacobian in these places, from the values of `variables`, the inputs of the operations, at the start. It is
+    /// looked at there and at random configurations: all angles and orientations, lengths within half the size of the
+    /// mechanism.
+    pub(super) fn curvature(
+        &self,
+        operations: &[Operation],
+        jacobian: &[Vec<Place>],
+        variables: &[Variable],
+        start: &[f64],
+    ) -> Curvature {
+        /// Configurations looked at.
+        const SAMPLES: usize = 24;
+        /// A step of differences.
+        const STEP: f64 = 1e-5;
+        let length = self.mechanism.characteristic_length();
+        let last = jacobian.iter().flatten().max().map_or(0, |place| place + 1);
+        let operations = &operations[..last as usize];
+        let used = used(operations, jacobian, variables.len());
+        let weight = |variable: &Variable| match *variable {
+            Variable::Orientation(..) => 2.0,
+            of if self.is_length(of) => 1.0 / length,
+            _ => 1.0,
+        };
+        let weights: Vec<f64> = (variables.iter().enumerate())
+            .map(|(i, variable)| if used[i] { weight(variable) } else { 0.0 })
+            .collect();
+        let entries = |at: &[f64]| -> Vec<f64> {
+            let values = evaluate(operations, at);
+            let entries = jacobian.iter().flatten();
+            entries.map(|&place| values[place as usize]).collect()
+        };
+        let mut rng = Pcg64Mcg::seed_from_u64(1);
+        let mut largest = 0.0f64;
+        for sample in 0..SAMPLES {
+            let mut at = start.to_vec();
+            if sample > 0 {
+                self.scatter(variables, &mut at, length, &mut rng);
+            }
+            let slopes: Vec<Vec<f64>> = (0..at.len())
+                .filter(|i| weights[*i] > 0.0)
+                .map(|i| {
+                    let side = |by: f64| {
+                        let mut at = at.clone();
+                        at[i] += by;
+                        entries(&at)
+                    };
+                    let step = STEP / weights[i];
+                    let (low, high) = (side(-step), side(step));
+                    let pairs = high.iter().zip(low);
+                    pairs.map(|(b, a)| (b - a) / (2.0 * STEP)).collect()
+                })
+                .collect();
+            // of many the norm of the whole, which is larger
+            let all = slopes.concat();
+            let size = match slopes.len() {
+                0 => 0.0,
+                n if n > DENSE_LIMIT => norm(&all),
+                n => singular_values(all.len() / n, n, &all)[0],
+            };
+            if size.is_finite() {
+                largest = largest.max(size);
+            }
+        }
+        Curvature { weights, largest }
+    }
+
+    /// Random values about a start.
+    fn scatter(&self, variables: &[Variable], at: &mut [f64], length: f64, rng: &mut Pcg64Mcg) {
+        let mut number = |size: f64| size * (2.0 * rng.random::<f64>() - 1.0);
+        for i in 0..at.len() {
+            match variables[i] {
+                Variable::Orientation(_, 0) => {
+                    let q = [0, 1, 2, 3].map(|_| number(1.0));
+                    let unit = 1.0 / norm(&q).max(0.1);
+                    at[i..i + 4].copy_from_slice(&q.map(|x| x * unit));
+                }
+                Variable::Orientation(..) => {}
+                of if self.is_length(of) => at[i] += number(0.5 * length),
+                _ => at[i] += number(std::f64::consts::PI),
+            }
+        }
+    }
+
+    fn is_length(&self, variable: Variable) -> bool {
+        variable.unit(self.mechanism) == SiUnit::METRE
+    }
+}
+
+/// Whether places depend on each of the first inputs of the operations.
+fn used(operations: &[Operation], places: &[Vec<Place>], inputs: usize) -> Vec<bool> {
+    let mut needed = vec![false; operations.len()];
+    let mut used = vec![false; inputs];
+    for &place in places.iter().flatten() {
+        needed[place as usize] = true;
+    }
+    for (place, operation) in operations.iter().enumerate().rev() {
+        if needed[place] {
+            (operation.operands()).for_each(|operand| needed[operand as usize] = true);
+            if let Operation::Input(i) = *operation
+                && let Some(used) = used.get_mut(i as usize)
+            {
+                *used = true;
+            }
+        }
+    }
+    used
+}

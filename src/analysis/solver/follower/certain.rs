@@ -1,0 +1,135 @@
+//! Whether motions keep to their branches.
+
+use super::past::{Mask, Past, Row};
+use crate::algebra::{BATCH, Registers};
+use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
+
+/// For each motion the latest solution that was looked at, and how far from it others are certain to be on its branch.
+///
+/// With β the norm of the inverse of the Jacobian there and K that of its derivative there is one solution within a
+/// distance of 1/βK (Newton and Kantorovich).
+#[derive(Clone, Debug)]
+pub(super) struct Certain {
+    /// The numbers that the Jacobian depends on, with their weights.
+    known: Vec<(usize, f64, Row)>,
+    /// The Jacobian, row by row.
+    jacobian: Vec<Row>,
+    /// The square of the distance.
+    reach: Row,
+}
+
+/// Jacobians and their left inverses, by the registers in which they are.
+pub(super) struct Jacobians<'r> {
+    pub jacobian: &'r [Vec<usize>],
+    pub inverse: &'r [Vec<usize>],
+    pub registers: &'r Registers,
+}
+
+impl Jacobians<'_> {
+    /// For each motion (βK)², infinite where there is no inverse.
+    fn sizes(&self, curvature: f64) -> Row {
+        let mut size = Row::ZERO;
+        for &register in self.inverse.iter().flatten() {
+            let entries = self.registers.rows(register);
+            (0..BATCH).for_each(|i| size.0[i] += entries[i] * entries[i]);
+        }
+        let none = self.inverse.iter().all(Vec::is_empty);
+        for size in &mut size.0 {
+            let finite = size.is_finite() && !none;
+            *size = if finite {
+                *size * curvature * curvature
+            } else {
+                f64::INFINITY
+            };
+        }
+        size
+    }
+}
+
+impl Certain {
+    /// Nothing, of the numbers in registers with these weights.
+    pub fn none<'w>(
+        numbers: impl Iterator<Item = (usize, &'w f64)>,
+        jacobian: &[Vec<usize>],
+    ) -> Self {
+        let known = numbers.filter(|(_, weight)| **weight > 0.0);
+        Certain {
+            known: known.map(|(i, weight)| (i, *weight, Row::ZERO)).collect(),
+            jacobian: vec![Row::ZERO; jacobian.iter().map(Vec::len).sum()],
+            reach: Row::ZERO,
+        }
+    }
+
+    /// The squares of the distances to the present solutions.
+    fn apart(&self, registers: &Registers) -> Row {
+        let mut apart = Row::ZERO;
+        for (register, weight, from) in &self.known {
+            let to = registers.rows(*register);
+            for i in 0..BATCH {
+                let away = weight * (to[i] - from.0[i]);
+                apart.0[i] += away * away;
+            }
+        }
+        apart
+    }
+
+    /// Those of the motions solved that have come too far or too fast.
+    pub fn beyond(&self, solved: &Mask, past: &Past, registers: &Registers) -> Mask {
+        let (apart, moved) = (self.apart(registers), past.moved(registers));
+        let mut beyond = [0; BATCH];
+        for i in 0..BATCH {
+            let near = apart.0[i] <= self.reach.0[i] && 100.0 * moved.0[i] <= self.reach.0[i];
+            beyond[i] = if near { 0 } else { solved[i] };
+        }
+        beyond
+    }
+
+    /// Those of the motions `of` that are on their branches by the change of the Jacobian.
+    pub fn sure(&self, of: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) -> Mask {
+        let (size, apart) = (now.sizes(curvature), self.apart(registers));
+        let width = now.jacobian.first().map_or(0, Vec::len);
+        let changes: Vec<Row> = (now.jacobian.iter().flatten())
+            .zip(&self.jacobian)
+            .map(|(&register, before)| {
+                let now = registers.rows(register);
+                Row(std::array::from_fn(|i| before.0[i] - now[i]))
+            })
+            .collect();
+        let mut squares = Row::ZERO;
+        for row in now.inverse {
+            for c in 0..width {
+                let mut sum = Row::ZERO;
+                for (k, &register) in row.iter().enumerate() {
+                    let inverse = registers.rows(register);
+                    let change = &changes[k * width + c];
+                    (0..BATCH).for_each(|i| sum.0[i] += inverse[i] * change.0[i]);
+                }
+                (0..BATCH).for_each(|i| squares.0[i] += sum.0[i] * sum.0[i]);
+            }
+        }
+        let mut sure = *of;
+        for i in 0..BATCH {
+            let (square, way) = (squares.0[i], apart.0[i]);
+            let changes_little = square <= BRANCH_CHANGE.powi(2) && way <= BRANCH_STEP.powi(2);
+            let certain =
+                size.0[i].is_finite() && (36.0 * size.0[i] * way <= 1.0 || changes_little);
+            sure[i] &= u64::from(certain).wrapping_neg();
+        }
+        sure
+    }
+
+    /// Takes the present solutions of some motions.
+    pub fn keep(&mut self, which: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) {
+        let size = now.sizes(curvature);
+        let mut reach = Row::ZERO;
+        (0..BATCH).for_each(|i| reach.0[i] = 0.64 / (size.0[i] + 1e-30));
+        self.reach.choose(&reach.0, which);
+        for (register, _, from) in &mut self.known {
+            from.choose(registers.rows(*register), which);
+        }
+        let places = now.jacobian.iter().flatten();
+        for (kept, &register) in self.jacobian.iter_mut().zip(places) {
+            kept.choose(registers.rows(register), which);
+        }
+    }
+}
