@@ -2,7 +2,7 @@
 
 use crate::algebra::BATCH;
 use crate::analysis::solver::Follower;
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{self, Coordinate, MotionTracker, System};
 
 /// The longest step of what is held, in rad or characteristic lengths.
@@ -67,9 +67,9 @@ impl Block<'_> {
         rest.for_each(|(values, _)| values.fill(f64::NAN));
     }
 
-    fn put_at(&mut self, row: usize, at: &Configuration<f64>) {
+    fn put_at(&mut self, mechanism: &Mechanism, row: usize, at: &Configuration<f64>) {
         let columns = self.columns;
-        self.put(row, columns.iter().map(|column| column.of(at)));
+        self.put(row, columns.iter().map(|column| column.of(mechanism, at)));
     }
 }
 
@@ -126,7 +126,7 @@ impl Rows<'_> {
     }
 
     fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
-        self.coordinates.iter().map(|of| of.of(at)).collect()
+        self.coordinates.iter().map(|of| of.of(self.question.mechanism(), at)).collect()
     }
 
     /// The rows of a block in as many paths as there are motions side by side.
@@ -187,7 +187,7 @@ impl Rows<'_> {
                     values,
                 };
                 if self.goes_or_begins(&mut single, &mut place, self.row(first + row)) {
-                    block.put_at(row, &place.at);
+                    block.put_at(self.question.mechanism(), row, &place.at);
                 }
                 follower.put(&mut motions, motion, &place.at);
                 for (i, &value) in place.values.iter().enumerate() {
@@ -204,7 +204,7 @@ impl Rows<'_> {
         let mut place = self.begin();
         for row in 0..block.reached.len() {
             if self.goes_or_begins(&mut tracker, &mut place, self.row(block.first + row)) {
-                block.put_at(row, &place.at);
+                block.put_at(self.question.mechanism(), row, &place.at);
             }
         }
     }
