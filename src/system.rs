@@ -37,6 +37,7 @@ pub use question::{
     coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
     with_coordinates,
 };
+pub(crate) use record::is_origin;
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
     Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, Search, Searched, TooLarge,

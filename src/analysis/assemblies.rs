@@ -377,7 +377,7 @@ fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
     let mut held = held.clone();
     for (held, pose) in held.platforms.iter_mut().zip(&home.platforms) {
         if let HeldPlatform::Partly(parts) = held {
-            let pose = pose.pose();
+            let pose = mechanism.in_ground(pose);
             (parts.coordinates.iter_mut()).for_each(|(c, value)| *value = c.of(&pose));
             parts.orientation = parts.orientation.map(|_| pose.rotation);
         }

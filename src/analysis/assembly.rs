@@ -175,8 +175,9 @@ impl Reporter<'_> {
             moved: None,
             held: self.question.held_names(),
             frames: frames.collect(),
+            centre: mechanism.dimensions().centre,
             platforms: platforms
-                .map(|(part, pose)| (part.name.clone(), PlatformRecord::of(&pose.pose())))
+                .map(|(part, pose)| (part.name.clone(), PlatformRecord::of(&mechanism.in_ground(pose))))
                 .collect(),
             gaps: (mechanism.closures().iter().zip(gaps))
                 .map(|(closure, gap)| (closure.name.clone(), gap))

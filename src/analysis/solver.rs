@@ -150,7 +150,10 @@ impl<'a> Plan<'a> {
     }
 
     fn values(&self, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
-        let of = |variables: &[Variable]| variables.iter().map(|v| v.of(at)).collect();
+        let of = |variables: &[Variable]| {
+            let values = variables.iter().map(|v| v.of(self.mechanism, at));
+            values.collect()
+        };
         (of(&self.inputs), of(&self.state))
     }
 
@@ -189,9 +192,10 @@ impl<'a> Plan<'a> {
         let platforms = platforms.map(|(platform, part)| match part {
             HeldPlatform::Pose => {
                 let [x, y, z, ..] = PoseCoordinate::ALL;
+                let place = Vector3([x, y, z].map(|c| held(platform, c)));
                 PlatformPose {
                     orientation: angles(platform).quaternion(),
-                    position: Vector3([x, y, z].map(|c| held(platform, c))),
+                    position: self.mechanism.to_centre(place),
                 }
             }
             _ => {
@@ -259,13 +263,13 @@ impl<'a> Plan<'a> {
             rates: (rates.iter().enumerate())
                 .map(|(input, rates)| {
                     let at = self.moving(input, &system, (&inputs, &state), rates);
-                    let rate = |variable: &Variable| variable.of(&at).slope.place();
+                    let rate = |variable: &Variable| variable.of(self.mechanism, &at).slope.place();
                     self.state.iter().map(rate).collect()
                 })
                 .collect(),
             step: numbered(&iteration.step),
             moved: (self.state.iter())
-                .map(|variable| variable.of(&moved).place())
+                .map(|variable| variable.of(self.mechanism, &moved).place())
                 .collect(),
             placed: numbered(&iteration.placed),
             closed: solution.and_then(|solution| self.closed(solution, &at)),
@@ -340,10 +344,11 @@ impl<'a> Plan<'a> {
                 let (a, rate) = (axis.map(|x| x.value), axis.map(|x| x.slope));
                 omega += a.cross(&rate).scaled(0.5);
             }
-            let velocity = placed.position.map(|x| x.slope);
+            let position = self.mechanism.to_ground(placed.position);
+            let velocity = position.map(|x| x.slope);
             let twist = [velocity.0, omega.0].concat();
             twists.push(twist.iter().map(|x| x.place()).collect());
-            pose = (axes.iter().chain([&placed.position]))
+            pose = (axes.iter().chain([&position]))
                 .flat_map(|column| column.0.map(|x| x.value.place()))
                 .collect();
         }

@@ -68,7 +68,7 @@ impl Motions<'_> {
             let size = |of: &Driven| (of.to - of.from).abs() / of.coordinate.scale(self.mechanism);
             let most = (inputs.iter()).max_by(|a, b| size(a).total_cmp(&size(b)));
             let gone = most.map_or(0.0, |of| {
-                (of.coordinate.of(at) - of.from) / (of.to - of.from)
+                (of.coordinate.of(self.mechanism, at) - of.from) / (of.to - of.from)
             });
             let gone = if gone.is_finite() { gone } else { 0.0 };
             return (step as f64 + gone.clamp(0.0, 1.0)) / self.settings.steps as f64;
@@ -82,7 +82,7 @@ impl Motions<'_> {
             .or(self.metered.inputs.first());
         let part = measure.map_or(0.0, |input| {
             let way = input.to - input.from;
-            let gone = input.coordinate.of(at) - input.from;
+            let gone = input.coordinate.of(self.mechanism, at) - input.from;
             match input.coordinate {
                 Coordinate::Joint(_) => gone / way,
                 // an angle of a platform is known modulo a turn

@@ -34,7 +34,7 @@ impl Question {
             let (coordinate, _) = resolved.value(name, "home").ok()?;
             Some(Holdable {
                 name: name.clone(),
-                value: there.as_ref().map(|at| coordinate.of(at)),
+                value: there.as_ref().map(|at| coordinate.of(&self.mechanism, at)),
                 is_angle: coordinate.is_angle(&self.mechanism),
             })
         };

@@ -84,7 +84,7 @@ fn follow(
         let values = inputs.iter().enumerate().map(move |(i, &input)| {
             // no two inputs go to and fro alike
             let away = amplitude * input.scale(mechanism) * ((i + 1) as f64 * turn).sin();
-            let value = input.of(start) + away;
+            let value = input.of(mechanism, start) + away;
             let limits = match input {
                 Coordinate::Joint(joint) => mechanism.joints()[joint].limits,
                 _ => None,

@@ -155,10 +155,10 @@ impl Steering {
         let free = joints.filter(|joint| !self.driven.contains(joint));
         let asked = Question::new(self.mechanism.clone()).free("actuated");
         let asked = self.driven.iter().fold(asked, |asked, coordinate| {
-            asked.hold(name(coordinate), coordinate.of(&self.at))
+            asked.hold(name(coordinate), coordinate.of(&self.mechanism, &self.at))
         });
         free.fold(asked, |asked, joint| {
-            asked.guess(name(&joint), joint.of(&self.at))
+            asked.guess(name(&joint), joint.of(&self.mechanism, &self.at))
         })
     }
 
@@ -167,7 +167,7 @@ impl Steering {
     pub fn move_to(&mut self, targets: &[(Coordinate, f64)], watch: &Watch) -> SweepReport {
         let inputs = targets.iter().map(|&(coordinate, to)| Driven {
             coordinate,
-            from: coordinate.of(&self.at),
+            from: coordinate.of(&self.mechanism, &self.at),
             to,
         });
         let moves = |input: &Driven| {
@@ -248,7 +248,7 @@ impl Steering {
             None => v,
         };
         let from = mean(&|i| twists.origin(i, &placement));
-        let way = seen(Vector3(to) - from).times(1.0 / length);
+        let way = seen(mechanism.to_centre(Vector3(to)) - from).times(1.0 / length);
         let mut matrix = Vec::new();
         for (k, motion) in motions.iter().enumerate() {
             let velocity = seen(mean(&|i| twists.twist(i, &placement, motion).velocity));
@@ -273,7 +273,7 @@ impl Steering {
                 .zip(&parts)
                 .map(|(m, part)| part * rate(m))
                 .sum();
-            let to = of.of(&self.at) + shorter * step * of.scale(&mechanism);
+            let to = of.of(&mechanism, &self.at) + shorter * step * of.scale(&mechanism);
             let limits = match of {
                 Coordinate::Joint(joint) => mechanism.joints()[joint].limits,
                 _ => None,
@@ -389,8 +389,8 @@ mod tests {
             (driven[2], -0.05),
             (driven[5], 0.1),
         ] {
-            let to = of.of(steering.at()) + way;
-            let before: Vec<f64> = driven.iter().map(|of| of.of(steering.at())).collect();
+            let to = of.of(steering.mechanism(), steering.at()) + way;
+            let before: Vec<f64> = driven.iter().map(|of| of.of(steering.mechanism(), steering.at())).collect();
             let report = steering.move_to(&[(of, to)], watch);
             assert_eq!(report.ending, SweepEnd::Complete);
             for (other, before) in driven.iter().zip(before) {

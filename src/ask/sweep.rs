@@ -265,7 +265,7 @@ fn input<'q>(
     let home = mechanism.home();
     let mut refused = None;
     for of in first.iter().chain(&rest) {
-        let question = (released.clone()).at_values([(*of, of.of(&home))]);
+        let question = (released.clone()).at_values([(*of, of.of(mechanism, &home))]);
         match check_count(&question) {
             Ok(_) => return Ok((*of, question)),
             Err(error) if driven(of) => refused = refused.or(Some(error)),
@@ -284,7 +284,7 @@ fn seeds(
     watch: &Watch,
 ) -> Vec<Configuration<f64>> {
     const VALUES: u32 = 12;
-    let home = input.of(&mechanism.home());
+    let home = input.of(mechanism, &mechanism.home());
     let length = mechanism.characteristic_length();
     let (low, high) = match input {
         Coordinate::Joint(joint) => match mechanism.joints()[joint].limits {

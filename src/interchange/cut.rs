@@ -188,7 +188,10 @@ impl Cutter<'_> {
     fn chain(&mut self, chain: usize) {
         let dimensions = &self.mechanism.dimensions().chains[chain];
         let Attachment { mut body, pose, .. } = self.placed[&dimensions.on].clone();
-        let mut pose = pose * dimensions.base;
+        let mut pose = match dimensions.on {
+            Frame::Ground => self.mechanism.shifted(dimensions.base),
+            _ => pose * dimensions.base,
+        };
         self.place(Frame::Link { chain, row: 0 }, body, pose);
         for (index, part) in dimensions.rows.iter().enumerate() {
             let frame = Frame::Link {

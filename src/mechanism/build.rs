@@ -181,7 +181,7 @@ impl Mechanism {
             inspect::inspect(&mechanism, description, &mut builder.problems);
         }
         if !builder.problems.iter().any(refused) {
-            match mechanism.dimensions_over(&builder.values) {
+            match mechanism.centred(&builder.values) {
                 Ok(dimensions) => mechanism.set_dimensions(dimensions),
                 // the parts were evaluated one by one above; only their combination can fail
                 Err(error) => builder.refuse(ProblemKind::NoValue(error.kind), &error.span),

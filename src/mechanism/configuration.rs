@@ -6,7 +6,8 @@ use crate::number::Number;
 pub struct PlatformPose<T> {
     /// Ground from platform.
     pub orientation: Quaternion<T>,
-    /// Origin of the platform frame in ground, in m.
+    /// Origin of the platform frame from the [centre](super::Dimensions::centre) along ground's axes, in m. The centre is
+    /// ground's origin unless the mechanism is far from it; [`Mechanism::in_ground`](super::Mechanism::in_ground) has both.
     pub position: Vector3<T>,
 }
 

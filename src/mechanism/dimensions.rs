@@ -2,7 +2,7 @@
 //! lifted to complex, dual and other number types.
 
 use super::{ClosureKind, Frame};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 
 /// A linear form Σ cⱼ qⱼ in the joint variables, as (joint, coefficient) pairs.
@@ -57,7 +57,7 @@ impl<T> RowDimensions<T> {
 pub struct ChainDimensions<T> {
     /// The frame to which the chain is attached.
     pub on: Frame,
-    /// From that frame to the chain's frame 0.
+    /// From that frame, or for a chain on ground from the [centre](Dimensions::centre), to the chain's frame 0.
     pub base: Pose<T>,
     /// The rows of the table.
     pub rows: Vec<RowDimensions<T>>,
@@ -83,6 +83,9 @@ pub struct ClosureDimensions<T> {
 pub struct Dimensions<T> {
     /// The characteristic length in m that makes residuals and Jacobians dimensionless.
     pub characteristic_length: f64,
+    /// The place in ground, in m, from which positions are measured, along ground's axes: the origin, or for a mechanism
+    /// far from it a place amid its bases. What is a metre long keeps all its digits there.
+    pub centre: [f64; 3],
     /// For each joint the natural size of its variable: 1 rad, or the characteristic length.
     pub joint_scales: Vec<f64>,
     /// The chains.
@@ -94,6 +97,14 @@ pub struct Dimensions<T> {
 }
 
 impl<T> Dimensions<T> {
+    /// The centre from ground.
+    pub fn ground(&self) -> Pose<T>
+    where
+        T: Number,
+    {
+        Pose::translation(Vector3(self.centre.map(|x| T::zero() - T::from_f64(x))))
+    }
+
     /// The same dimensions over another number, as constants.
     pub fn map<U>(&self, mut lift: impl FnMut(T) -> U) -> Dimensions<U>
     where
@@ -106,6 +117,7 @@ impl<T> Dimensions<T> {
         };
         Dimensions {
             characteristic_length: self.characteristic_length,
+            centre: self.centre,
             joint_scales: self.joint_scales.clone(),
             chains: (self.chains.iter())
                 .map(|chain| ChainDimensions {
@@ -175,6 +187,7 @@ impl<T> Dimensions<T> {
     pub(super) fn empty() -> Self {
         Dimensions {
             characteristic_length: 1.0,
+            centre: [0.0; 3],
             joint_scales: vec![],
             chains: vec![],
             platforms: vec![],

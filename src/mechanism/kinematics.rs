@@ -37,7 +37,7 @@ pub(crate) enum Need {
     Pose,
 }
 
-/// The poses of all slots at one configuration: ground from frame.
+/// The poses of all slots at one configuration: ground from frame, with positions from the [centre](Dimensions::centre).
 #[derive(Clone, Debug)]
 pub struct Placement<T>(pub(crate) Vec<Pose<T>>);
 
@@ -168,7 +168,7 @@ impl<T: Number> Kinematics<T> {
     /// The slot a frame is fixed to and its displacement there.
     fn resolve(&mut self, dimensions: &Dimensions<T>, frame: Frame) -> (Slot, Pose<T>) {
         match frame {
-            Frame::Ground => (0, Pose::identity()),
+            Frame::Ground => (0, dimensions.ground()),
             Frame::Platform { platform } => (1 + platform, Pose::identity()),
             Frame::OnPlatform { platform, frame } => {
                 (1 + platform, dimensions.platforms[platform][frame])
@@ -194,6 +194,8 @@ impl<T: Number> Kinematics<T> {
             .find_map(|k| Some((k, *self.moving.get(&(chain, k))?)));
         let (first, (mut slot, mut fixed)) = match placed {
             Some((k, slot)) => (k, (slot, dims.rows[k - 1].after)),
+            // bases on ground are given from the centre
+            None if dims.on == Frame::Ground => (0, (0, dims.base)),
             None => {
                 let (slot, fixed) = self.resolve(dimensions, dims.on);
                 (0, (slot, fixed * dims.base))

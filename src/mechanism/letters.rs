@@ -79,7 +79,7 @@ impl Letters<'_> {
         let parameters = self.0.parameters().iter();
         let parameters = parameters.map(|parameter| T::from_f64(parameter.value));
         let poses = at.platforms.iter().flat_map(|platform| {
-            let pose = platform.pose();
+            let pose = self.0.in_ground(platform);
             let columns = pose.rotation.0.into_iter().chain([pose.position]);
             columns.flat_map(|column| column.0).collect::<Vec<T>>()
         });
@@ -127,8 +127,8 @@ impl<'a> Formal<'a> {
         parameters: &[Symbolic],
         joints: Vec<Symbolic>,
     ) -> Result<Self, EvaluationError> {
-        let mut dimensions = mechanism.dimensions_over(parameters)?;
-        // formulas are in m and rad: nothing is made dimensionless
+        let mut dimensions = mechanism.dimensions_about([0.0; 3], parameters)?;
+        // formulas are in m and rad, in ground: nothing is made dimensionless
         dimensions.characteristic_length = 1.0;
         dimensions.joint_scales.fill(1.0);
         let letters = Letters(mechanism);

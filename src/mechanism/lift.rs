@@ -1,5 +1,6 @@
 //! From formulas to dimensions over a number type: the only place where this happens.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::dimensions::{
@@ -9,7 +10,7 @@ use super::model::{FixedStep, Formula, Joint, JointKind, Row, Symbol};
 use super::{Frame, Mechanism};
 use crate::algebra::{Affine, EvaluationError};
 use crate::description::{Convention, Role};
-use crate::geometry::{Axis, Pose};
+use crate::geometry::{Axis, Pose, Vector3};
 use crate::linear::{join, root};
 use crate::number::Number;
 
@@ -53,7 +54,16 @@ pub(super) fn product<T: Number>(
     steps: &[FixedStep],
     parameters: &[T],
 ) -> Result<Pose<T>, EvaluationError> {
-    let mut pose = Pose::identity();
+    product_from(Pose::identity(), steps, parameters)
+}
+
+/// The product of a pose and steps. Far from the origin it begins at the centre, so that what they have in common cancels
+/// before what distinguishes them is added.
+fn product_from<T: Number>(
+    mut pose: Pose<T>,
+    steps: &[FixedStep],
+    parameters: &[T],
+) -> Result<Pose<T>, EvaluationError> {
     for step in steps {
         let step = step.try_map(|formula| value(formula, parameters))?;
         step.extend(&mut pose);
@@ -101,18 +111,35 @@ impl Mechanism {
         &self,
         parameters: &[T],
     ) -> Result<Dimensions<T>, EvaluationError> {
-        let chains = each(&self.chains, |chain| {
+        self.dimensions_about(self.dimensions.centre, parameters)
+    }
+
+    /// The same with positions from another centre, in m.
+    pub(super) fn dimensions_about<T: Number>(
+        &self,
+        centre: [f64; 3],
+        parameters: &[T],
+    ) -> Result<Dimensions<T>, EvaluationError> {
+        let mut dimensions = Dimensions::empty();
+        dimensions.centre = centre;
+        dimensions.joint_scales = vec![1.0; self.joints.len()];
+        let ground: Pose<T> = dimensions.ground();
+        dimensions.chains = each(&self.chains, |chain| {
+            let from = match chain.on {
+                Frame::Ground => ground,
+                _ => Pose::identity(),
+            };
             Ok(ChainDimensions {
                 on: chain.on,
-                base: product(&chain.base, parameters)?,
+                base: product_from(from, &chain.base, parameters)?,
                 rows: each(&chain.rows, |row| row.over(chain.convention, parameters))?,
                 tip: product(&chain.tip, parameters)?,
             })
         })?;
-        let platforms = each(&self.platforms, |platform| {
+        dimensions.platforms = each(&self.platforms, |platform| {
             each(&platform.frames, |(_, steps)| product(steps, parameters))
         })?;
-        let closures = each(&self.closures, |closure| {
+        dimensions.closures = each(&self.closures, |closure| {
             let (length, extension) = match &closure.length {
                 Some(affine) => linear_form(affine, parameters)?,
                 None => (T::zero(), LinearForm(vec![])),
@@ -124,16 +151,36 @@ impl Mechanism {
                 extension,
             })
         })?;
-        let mut dimensions = Dimensions {
-            characteristic_length: 1.0,
-            joint_scales: vec![1.0; self.joints.len()],
-            chains,
-            platforms,
-            closures,
-        };
         let length = self.largest_length(&dimensions, &self.driven_lengths());
         measure(&mut dimensions, length, &self.joints);
         Ok(dimensions)
+    }
+
+    /// The dimensions for given values of the parameters about a centre that is near to the bases there: the one there is,
+    /// or the origin, or else the place of the box round the bases that is nearest to it.
+    pub(super) fn centred(&self, parameters: &[f64]) -> Result<Dimensions<f64>, EvaluationError> {
+        /// Within so many characteristic lengths no more than a digit is lost.
+        const NEAR: f64 = 10.0;
+        let dimensions = self.dimensions_over(parameters)?;
+        let near = NEAR * dimensions.characteristic_length;
+        let mut places: Vec<[f64; 3]> = places_on_ground(&dimensions)
+            .into_iter()
+            .map(|(_, place)| place)
+            .collect();
+        if places.is_empty() {
+            let homes = self.home().platforms.into_iter();
+            places.extend(homes.map(|pose| pose.position.0));
+        }
+        let from_centre = Vector3(nearest(&places));
+        if from_centre.norm() <= near {
+            return Ok(dimensions);
+        }
+        let centre = Vector3(dimensions.centre) + from_centre;
+        let centre = match centre.norm() <= near {
+            true => [0.0; 3],
+            false => centre.0,
+        };
+        self.dimensions_about(centre, parameters)
     }
 
     /// The same mechanism with the characteristic length that belongs to its dimensions and to lengths that are held,
@@ -203,6 +250,34 @@ impl Mechanism {
 /// side of it, from the nearest place of the box round them. Where a drawing has its origin is no dimension, nor how far
 /// apart parts are that have nothing to do with one another.
 fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64> {
+    let places = places_on_ground(dimensions);
+    let part = |of: usize| {
+        let places = places.iter().filter(move |(part, _)| *part == of);
+        places.map(|(_, place)| *place).collect::<Vec<_>>()
+    };
+    let parts: BTreeMap<usize, [f64; 3]> = (places.iter())
+        .map(|(of, _)| (*of, nearest(&part(*of))))
+        .collect();
+    let distances = places.iter().map(|(part, place)| {
+        (Vector3(*place) - Vector3(parts[part])).norm()
+    });
+    distances.collect::<Vec<_>>().into_iter()
+}
+
+/// The place of the box round some places that is nearest to the centre.
+fn nearest(places: &[[f64; 3]]) -> [f64; 3] {
+    std::array::from_fn(|axis| {
+        let along = places.iter().map(|place| place[axis]);
+        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        });
+        low.max(high.min(0.0))
+    })
+}
+
+/// The bases of chains on the ground, and ground where closures join it, from the centre; those of one part of the
+/// mechanism have one number.
+fn places_on_ground<T: Number>(dimensions: &Dimensions<T>) -> Vec<(usize, [f64; 3])> {
     let chains = &dimensions.chains;
     let platform = |platform: usize| Some(chains.len() + platform);
     let body = |frame: Frame| match frame {
@@ -241,22 +316,10 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
             .then_some(closure.frames)?;
         frames.into_iter().find_map(body)
     });
-    let places = bases.chain(to_ground.map(|i| (i, [0.0; 3])));
+    let ground = dimensions.centre.map(|x| 0.0 - x);
+    let places = bases.chain(to_ground.map(|i| (i, ground)));
     let places = places.map(|(i, place)| (root(&mut roots, i), place));
-    let places: Vec<(usize, [f64; 3])> = places.collect();
-    let mut boxes = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 3]; roots.len()];
-    for (part, place) in &places {
-        for (side, x) in boxes[*part].iter_mut().zip(place) {
-            *side = [side[0].min(*x), side[1].max(*x)];
-        }
-    }
-    places.into_iter().map(move |(part, place)| {
-        let squares = place.iter().zip(boxes[part]).map(|(x, [low, high])| {
-            let nearest = low.max(high.min(0.0));
-            (x - nearest).powi(2)
-        });
-        squares.sum::<f64>().sqrt()
-    })
+    places.collect()
 }
 
 /// Gives dimensions their characteristic length, in m.

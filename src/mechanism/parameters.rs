@@ -120,7 +120,7 @@ impl Mechanism {
                 return Err(Box::new(fault.at(length.constant.span.clone())));
             }
         }
-        let dimensions = changed.dimensions_over(&values).map_err(no_value)?;
+        let dimensions = changed.centred(&values).map_err(no_value)?;
         changed.set_dimensions(dimensions);
         Ok(changed)
     }

@@ -41,8 +41,8 @@ impl Mechanism {
 
     /// The axis of a row.
     fn hinge(&self, (chain, row): (usize, usize), at: &Configuration<f64>) -> Option<Line> {
-        let [link] = self.poses([Frame::Link { chain, row }], at);
-        let hinge = link * self.dimensions.chains[chain].rows[row].before;
+        let link = self.poses_about_centre(&[Frame::Link { chain, row }], at);
+        let hinge = link[0] * self.dimensions.chains[chain].rows[row].before;
         Line::new(hinge.position, hinge.rotation.column(Axis::Z))
     }
 

@@ -93,6 +93,7 @@ mod tests {
         let first = vec![turn(0, Pose::identity()), turn(1, between)];
         Dimensions {
             characteristic_length: 1.0,
+            centre: [0.0; 3],
             joint_scales: vec![1.0; 3],
             chains: vec![
                 chain(Pose::identity(), first, tip),

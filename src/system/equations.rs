@@ -47,6 +47,7 @@ pub struct System<T: Factorable> {
     places: Places,
     joint_scales: Vec<f64>,
     length: f64,
+    centre: [f64; 3],
     holds: Vec<HoldRow<T>>,
     empty: Bordered<T>,
 }
@@ -99,7 +100,7 @@ impl<T: Factorable> System<T> {
             .map(|(closure, &kept)| Closure::new(dimensions, closure, &kinematics, kept))
             .collect();
         let layout = Layout::new(&closures, held);
-        let holds = hold_rows(held);
+        let holds = hold_rows(held, &dimensions.centre);
         let hold_count = holds.iter().map(HoldRow::rows).sum();
         let mut block_start = Vec::with_capacity(layout.blocks.len());
         let mut row = 0;
@@ -116,6 +117,7 @@ impl<T: Factorable> System<T> {
             plans,
             joint_scales: dimensions.joint_scales.clone(),
             length: dimensions.characteristic_length,
+            centre: dimensions.centre,
             empty: Bordered::new(
                 layout.unknowns.len(),
                 layout.blocks,
@@ -214,8 +216,23 @@ impl<T: Factorable> System<T> {
         self.empty.rows()
     }
 
+    /// A value of a platform coordinate as the equations have it.
+    pub(crate) fn from_centre(&self, coordinate: PoseCoordinate, value: T) -> T {
+        coordinate.from_centre(value, &self.centre)
+    }
+
     /// Asks for another value of a held platform coordinate.
     pub fn set_target(&mut self, platform: usize, coordinate: PoseCoordinate, value: T) {
+        self.set_target_from_centre(platform, coordinate, self.from_centre(coordinate, value));
+    }
+
+    /// The same for a position from the centre.
+    pub(crate) fn set_target_from_centre(
+        &mut self,
+        platform: usize,
+        coordinate: PoseCoordinate,
+        value: T,
+    ) {
         for hold in &mut self.holds {
             if let HoldRow::Coordinate(p, c, target) = hold
                 && (*p, *c) == (platform, coordinate)
@@ -324,11 +341,14 @@ impl<T: Factorable> System<T> {
     }
 }
 
-pub(crate) fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
+/// The rows of what is held in part, with positions from the centre.
+pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<HoldRow<T>> {
     let mut rows = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {
         let single = held.coordinates().iter();
-        rows.extend(single.map(|&(c, value)| HoldRow::Coordinate(platform, c, value)));
+        rows.extend(single.map(|&(c, value)| {
+            HoldRow::Coordinate(platform, c, c.from_centre(value, centre))
+        }));
         rows.extend((held.orientation()).map(|wanted| HoldRow::Orientation(platform, wanted)));
         rows.extend(held.spins().iter().copied().map(HoldRow::Spin));
     }

@@ -78,7 +78,7 @@ impl JointSpace {
             .collect();
         let free: Vec<bool> = held.joints.iter().map(|held| !held).collect();
         let recut = dimensions.recut(&poses, &watched, &free);
-        let holds = hold_rows(&held.map(Interval::point)).into_iter();
+        let holds = hold_rows(&held.map(Interval::point), &dimensions.centre).into_iter();
         let holds = holds.filter_map(|hold| {
             let (HoldRow::Coordinate(p, ..) | HoldRow::Orientation(p, _)) = hold else {
                 return None;
@@ -96,6 +96,7 @@ impl JointSpace {
     /// Holds a coordinate of a platform, already held, between two values, in rad or m.
     pub fn hold(&mut self, platform: usize, coordinate: PoseCoordinate, value: Interval) {
         if let Some(frame) = self.recut.platforms[platform] {
+            let value = coordinate.from_centre(value, &self.recut.dimensions.centre);
             self.enclosure.hold_coordinate(frame, coordinate, value);
         }
     }
@@ -107,10 +108,12 @@ impl JointSpace {
             let kinematics = Kinematics::new(mechanism.dimensions(), carried.frames);
             let mut placement = kinematics.placement();
             kinematics.place(at, &mut placement);
-            let poses = carried
-                .frames
-                .map(|frame| kinematics.pose(frame, &placement).copied());
-            let [from, to] = poses.map(|pose| pose.unwrap_or(Pose::identity()));
+            let poses = carried.frames.map(|frame| match frame {
+                // what stands for a platform begins at the centre
+                Frame::Ground => Pose::identity(),
+                _ => *(kinematics.pose(frame, &placement)).expect("it was planned for them"),
+            });
+            let [from, to] = poses;
             joints.extend(carried.values([&from, &to]));
         }
         let unknowns = (self.enclosure.unknowns().iter()).zip(self.enclosure.scales());

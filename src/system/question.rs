@@ -25,7 +25,7 @@ use super::equations::System;
 use crate::description::Role;
 use crate::geometry::Pose;
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate, Value};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Value};
 use crate::system::{Coordinate, Held, HeldParts, HeldPlatform};
 use demand::Target;
 
@@ -141,7 +141,7 @@ impl<'a> Question<'a> {
                         self.changed = true;
                     }
                     Coordinate::Pose(platform, c) => {
-                        let pose = self.start.platforms[platform].pose();
+                        let pose = self.mechanism.in_ground(&self.start.platforms[platform]);
                         self.start_at(platform, &with_coordinates(&pose, [(c, number)]));
                     }
                     Coordinate::Joint(_) | Coordinate::Turn(..) => {}
@@ -196,7 +196,7 @@ impl<'a> Question<'a> {
         (nothing.near(at)).at_values(
             locked
                 .iter()
-                .map(|coordinate| (*coordinate, coordinate.of(at))),
+                .map(|coordinate| (*coordinate, coordinate.of(mechanism, at))),
         )
     }
 
@@ -214,13 +214,14 @@ impl<'a> Question<'a> {
     pub(crate) fn held_lengths(&self) -> Vec<f64> {
         let joints = self.mechanism.joints().iter().enumerate();
         let joints = joints.filter(|(i, joint)| self.joints[*i] && !joint.kind.is_angle());
-        let positions = self
-            .coordinates
-            .iter()
-            .flat_map(|c| c[..3].iter().flatten());
+        let centre = &self.mechanism.dimensions().centre;
+        let positions = self.coordinates.iter().flat_map(|c| {
+            let positions = PoseCoordinate::ALL.into_iter().zip(&c[..3]);
+            positions.filter_map(|(c, value)| Some(c.from_centre((*value)?, centre)))
+        });
         joints
             .map(|(i, _)| self.start.joints[i])
-            .chain(positions.copied())
+            .chain(positions)
             .collect()
     }
 
@@ -283,7 +284,8 @@ impl<'a> Question<'a> {
         for (platform, pose) in start.platforms.iter_mut().enumerate() {
             let given = self.held_values(platform);
             if !given.is_empty() {
-                *pose = PlatformPose::from_pose(&with_coordinates(&pose.pose(), given));
+                let there = self.mechanism.in_ground(pose);
+                *pose = (self.mechanism).from_ground(&with_coordinates(&there, given));
             }
         }
         start
@@ -334,7 +336,7 @@ impl<'a> Question<'a> {
     }
 
     fn start_at(&mut self, platform: usize, pose: &Pose<f64>) {
-        self.start.platforms[platform] = PlatformPose::from_pose(pose);
+        self.start.platforms[platform] = self.mechanism.from_ground(pose);
         self.guessed_platforms[platform] = true;
     }
 }

@@ -142,6 +142,11 @@ impl Mechanism {
     }
 }
 
+/// Whether positions are measured from the origin of ground.
+pub(crate) fn is_origin(centre: &[f64; 3]) -> bool {
+    *centre == [0.0; 3]
+}
+
 /// A number whose absence in JSON means that it is infinite: JSON has no infinite numbers.
 pub fn infinite_if_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))

@@ -349,7 +349,8 @@ impl Question<'_> {
         let joints = self.mechanism.joints().iter().map(|j| j.name.clone());
         let platforms = self.mechanism.platforms().iter().map(|p| p.name.clone());
         let poses = at.platforms.iter().map(|pose| {
-            let parts = pose.position.0.iter().chain(&pose.orientation.0);
+            let position = self.mechanism.to_ground(pose.position);
+            let parts = position.0.iter().chain(&pose.orientation.0);
             parts.map(pair).collect()
         });
         ComplexAssembly {

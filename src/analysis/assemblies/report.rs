@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::system::Gap;
+use crate::system::{Gap, is_origin};
 pub use crate::system::{Named, Unfit};
 
 /// The pose of a platform in ground.
@@ -29,6 +29,10 @@ pub struct Assembly {
     pub joints: Named<f64>,
     /// Platform poses.
     pub platforms: Named<PoseReport>,
+    /// From where its [configuration](Assembly::configuration) measures positions, in m: the origin unless the mechanism is
+    /// far from it.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub centre: [f64; 3],
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
     /// Jacobian; `null` where the smallest is zero.
     pub condition: Option<f64>,
@@ -61,7 +65,7 @@ impl Assembly {
     pub fn configuration(&self) -> Configuration<f64> {
         let platforms = self.platforms.values().map(|platform| PlatformPose {
             orientation: Quaternion(platform.quaternion),
-            position: Vector3(platform.position),
+            position: Vector3(platform.position) - Vector3(self.centre),
         });
         Configuration {
             joints: self.joints.values().copied().collect(),

@@ -6,7 +6,9 @@ use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::system::{FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null};
+use crate::system::{
+    FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin,
+};
 
 /// Freedoms that nothing held decides.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -124,6 +126,10 @@ pub struct AssemblyReport {
     pub platforms: Named<PlatformRecord>,
     /// Tip frames of the chains there; of a file of joint coordinates, of the bodies and points that it names.
     pub frames: Named<FrameRecord>,
+    /// From where a [configuration](AssemblyReport::configuration) measures positions, in m: the origin unless the mechanism
+    /// is far from it.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub centre: [f64; 3],
     /// For each closure how far it is open.
     pub gaps: Named<Gap>,
     /// The joint variables.
@@ -147,7 +153,7 @@ impl AssemblyReport {
             platforms: (self.platforms.values())
                 .map(|platform| PlatformPose {
                     orientation: Quaternion(platform.frame.quaternion),
-                    position: Vector3(platform.frame.position),
+                    position: Vector3(platform.frame.position) - Vector3(self.centre),
                 })
                 .collect(),
         }

@@ -131,6 +131,7 @@ pub fn along(
         return report;
     }
     let mut search = Tests {
+        mechanism,
         classifier: Classifier::new(mechanism, inputs, &outputs, &start),
         moved: moved.to_vec(),
     };
@@ -213,6 +214,7 @@ struct Met {
 const SAME: f64 = 1e-7;
 
 struct Tests<'m> {
+    mechanism: &'m Mechanism,
     classifier: Classifier<'m>,
     moved: Vec<Driven>,
 }
@@ -299,7 +301,7 @@ impl Tests<'_> {
         (singularity.is_singular() || fold || branches).then(|| Crossing {
             part: curve.part(at),
             moved: (self.moved.iter())
-                .map(|input| input.coordinate.of(at))
+                .map(|input| input.coordinate.of(self.mechanism, at))
                 .collect(),
             joints: at.joints.clone(),
             fold,

@@ -8,7 +8,7 @@ use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{Bound, SingularitiesSettings, names, output_names};
-use crate::mechanism::{Configuration, PoseCoordinate, Variable};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Variable};
 use crate::number::sorting::sort_by;
 use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{
@@ -248,7 +248,9 @@ impl Search<'_> {
                 joints: (places.iter())
                     .map(|place| place.at.at.joints.clone())
                     .collect(),
-                poses: places.iter().map(poses).collect(),
+                poses: (places.iter())
+                    .map(|place| poses(self.region.mechanism, place))
+                    .collect(),
                 singularity: kinds[chosen].clone(),
                 crossings,
                 cusps,
@@ -287,7 +289,7 @@ impl Search<'_> {
             Some(Cusp {
                 point,
                 joints: place.at.at.joints.clone(),
-                poses: poses(place),
+                poses: poses(self.region.mechanism, place),
             })
         });
         cusps.collect()
@@ -299,10 +301,10 @@ impl Search<'_> {
 }
 
 /// Positions of the platforms, with quaternions and with roll, pitch and yaw.
-fn poses(place: &At) -> Vec<[f64; 10]> {
+fn poses(mechanism: &Mechanism, place: &At) -> Vec<[f64; 10]> {
     let platforms = place.at.at.platforms.iter();
     let poses = platforms.map(|pose| {
-        let [x, y, z, roll, pitch, yaw] = PoseCoordinate::all_of(&pose.pose());
+        let [x, y, z, roll, pitch, yaw] = PoseCoordinate::all_of(&mechanism.in_ground(pose));
         let [w, i, j, k] = pose.orientation.0;
         [x, y, z, w, i, j, k, roll, pitch, yaw]
     });

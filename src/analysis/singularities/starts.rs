@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::SingularitiesSettings;
 use super::classify::{Classifier, Kind};
-use crate::mechanism::{Configuration, PlatformPose, turn_near};
+use crate::mechanism::{Configuration, turn_near};
 use crate::solve::{Newton, Place, Progress, SolutionCurve, Stage};
 use crate::system::{
     Coordinate, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, met_at, neared,
@@ -193,9 +193,10 @@ impl Search<'_> {
             match side.coordinate {
                 Coordinate::Joint(joint) => at.joints[joint] = value,
                 Coordinate::Pose(platform, coordinate) => {
-                    let pose = at.platforms[platform].pose();
+                    let mechanism = self.region.mechanism;
+                    let pose = mechanism.in_ground(&at.platforms[platform]);
                     let pose = with_coordinates(&pose, [(coordinate, value)]);
-                    at.platforms[platform] = PlatformPose::from_pose(&pose);
+                    at.platforms[platform] = mechanism.from_ground(&pose);
                 }
                 // never a side: it has no value
                 Coordinate::Turn(..) => {}

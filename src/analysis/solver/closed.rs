@@ -71,7 +71,9 @@ impl Plan<'_> {
         } = recorder;
         let state = self.state.iter();
         Some(ClosedProgram {
-            state: state.map(|variable| variable.of(&found).place()).collect(),
+            state: state
+                .map(|variable| variable.of(self.mechanism, &found).place())
+                .collect(),
             signs,
             radicands,
             divisors,

@@ -454,12 +454,12 @@ impl Plan<'_> {
         let moved = system.displaced(&at, &along);
         let moved = self.state.iter().enumerate().filter_map(|(i, variable)| {
             let free = placed.iter().all(|(of, _)| *of != i);
-            free.then(|| variable.of(&moved))
+            free.then(|| variable.of(self.mechanism, &moved))
         });
         let moved: Vec<Recorded> = moved.collect();
         placed.iter().for_each(|&(i, x)| state[i] = x);
         let (_, reached) = self.posed(&inputs, &state);
-        let columns = Coordinate::all(self.mechanism).map(|of| of.of(&reached).place());
+        let columns = Coordinate::all(self.mechanism).map(|of| of.of(self.mechanism, &reached).place());
         Ok(Results {
             size: size.place(),
             doubt: doubt.place(),

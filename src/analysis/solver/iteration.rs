@@ -135,7 +135,7 @@ impl Plan<'_> {
             .enumerate()
             .filter_map(|(i, variable)| match variable {
                 Variable::Orientation(platform, _) | Variable::Position(platform, _) => {
-                    own.contains(platform).then(|| (i, variable.of(&reached)))
+                    own.contains(platform).then(|| (i, variable.of(self.mechanism, &reached)))
                 }
                 _ => None,
             });

@@ -13,9 +13,9 @@ pub(super) enum Variable {
 }
 
 impl Variable {
-    pub fn of<T: Number>(self, at: &Configuration<T>) -> T {
+    pub fn of<T: Number>(self, mechanism: &Mechanism, at: &Configuration<T>) -> T {
         match self {
-            Variable::Held(coordinate) => coordinate.of(at),
+            Variable::Held(coordinate) => coordinate.of(mechanism, at),
             Variable::Joint(joint) => at.joints[joint],
             Variable::Orientation(platform, i) => at.platforms[platform].orientation.0[i],
             Variable::Position(platform, i) => at.platforms[platform].position.0[i],

@@ -42,13 +42,13 @@ pub(super) fn of(
 ) -> Vec<Reaction> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
-    // force, moment about the origin of ground
+    // force, moment about the centre
     let at_origin = |point: Vector3<f64>, force: Vector3<f64>, moment: Vector3<f64>| {
         [force, moment + point.cross(&force)]
     };
     let mut acting: Vec<(Body, [Vector3<f64>; 2])> = Vec::new();
     for &(point, force, moment) in &load.wrenches {
-        let wrench = at_origin(point.at(mechanism, at), Vector3(force), Vector3(moment));
+        let wrench = at_origin(mechanism.to_centre(point.at(mechanism, at)), Vector3(force), Vector3(moment));
         acting.push((mechanism.body(point.frame), wrench));
     }
     let mut reactions = Vec::new();
@@ -70,7 +70,7 @@ pub(super) fn of(
             variables: vec![],
             from: mechanism.body_name(first),
             on: mechanism.body_name(second),
-            point: end.0,
+            point: mechanism.to_ground(end).0,
             force: force.0,
             moment: moment.0,
             unique: [true; 6],
@@ -97,7 +97,7 @@ pub(super) fn of(
     let links: Vec<(Body, usize, usize)> = links.collect();
     let frame = |&(_, chain, row): &_| Frame::Link { chain, row };
     let frames: Vec<Frame> = links.iter().map(frame).collect();
-    let poses = mechanism.placed(&frames, at);
+    let poses = mechanism.poses_about_centre(&frames, at);
     let joints = links.into_iter().zip(frames).zip(poses);
     reactions.extend(joints.map(|(((body, chain, row), frame), pose)| {
         let point = pose.position;
@@ -112,7 +112,7 @@ pub(super) fn of(
                 .collect(),
             from: mechanism.body_name(inner),
             on: mechanism.body_name(body),
-            point: point.0,
+            point: mechanism.to_ground(point).0,
             force: force.0,
             moment: (moment - point.cross(&force)).0,
             unique: [true; 6],

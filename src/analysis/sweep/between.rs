@@ -16,6 +16,8 @@ pub struct Between {
     /// What the inputs follow, with the parts of the time at the first and the last row.
     schedule: Option<(Schedule, [f64; 2])>,
     middle: Configuration<f64>,
+    /// The part of the way where the middle row is.
+    part: f64,
     /// How far, in rad and characteristic lengths, a configuration may be from that of the middle row.
     reach: f64,
     scales: Vec<(Coordinate, f64)>,
@@ -36,12 +38,12 @@ impl Between {
         let [first, middle, last] = rows;
         let along = |of: Coordinate| Driven {
             coordinate: of,
-            from: of.of(first),
-            to: of.of(last),
+            from: of.of(mechanism, first),
+            to: of.of(mechanism, last),
         };
         // how far it goes one way, at the slower side
         let goes = |of: Coordinate| {
-            let steps = [of.of(middle) - of.of(first), of.of(last) - of.of(middle)];
+            let steps = [of.from_centre(middle) - of.from_centre(first), of.from_centre(last) - of.from_centre(middle)];
             match steps[0] * steps[1] > 0.0 {
                 true => steps[0].abs().min(steps[1].abs()) / of.scale(mechanism),
                 false => 0.0,
@@ -58,6 +60,13 @@ impl Between {
             }
             _ => return None,
         };
+        // rows that follow a schedule are equal parts of the time
+        let part = match (&schedule, &moved[..]) {
+            (None, [Driven { coordinate, from, to }, ..]) => {
+                (coordinate.of(mechanism, middle) - from) / (to - from)
+            }
+            _ => 0.5,
+        };
         let held = holding(held, &moved)?;
         let system = System::reduced(mechanism, mechanism.dimensions(), &held);
         let mut between = Between {
@@ -65,6 +74,7 @@ impl Between {
             moved,
             schedule,
             middle: middle.clone(),
+            part,
             reach: 0.0,
             scales,
         };
@@ -73,7 +83,7 @@ impl Between {
     }
 
     fn far(&self, at: &Configuration<f64>) -> f64 {
-        let far = |(of, scale): &(Coordinate, f64)| (of.of(at) - of.of(&self.middle)).abs() / scale;
+        let far = |(of, scale): &(Coordinate, f64)| (of.from_centre(at) - of.from_centre(&self.middle)).abs() / scale;
         self.scales.iter().map(far).fold(0.0, f64::max)
     }
 
@@ -85,13 +95,7 @@ impl Between {
 
     /// The part of the way where the middle row is.
     pub fn middle(&self) -> f64 {
-        match (&self.schedule, &self.moved[..]) {
-            (None, [first, ..]) => {
-                (first.coordinate.of(&self.middle) - first.from) / (first.to - first.from)
-            }
-            // rows are equal parts of the time
-            _ => 0.5,
-        }
+        self.part
     }
 
     /// The assembled configuration at a part of the way, if the branch of the rows has one there.

@@ -119,7 +119,7 @@ impl<'m> Certifier<'m> {
             let angle = input.coordinate.is_angle(self.mechanism);
             let angle = angle && input.coordinate.platform().is_some();
             let known = latest.map(|latest| latest.inputs[i]);
-            near(input.coordinate.of(at), angle, known)
+            near(input.coordinate.of(self.mechanism, at), angle, known)
         });
         let inputs = inputs.collect();
         let mut variables = space.of(self.mechanism, at);

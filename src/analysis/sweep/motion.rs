@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Dwell, Pace, Row, Straightness, SweepReport};
 use crate::algebra::SiUnit;
+use crate::geometry::Vector3;
 use crate::mechanism::{Mechanism, NamedPoint, PoseCoordinate, Variable};
 use crate::system::Moved;
 
@@ -112,8 +113,12 @@ pub struct Extreme {
 }
 
 /// What the columns of rows are.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Columns(Vec<Variable>);
+#[derive(Clone, Debug, PartialEq)]
+pub struct Columns {
+    variables: Vec<Variable>,
+    /// From where configurations measure positions.
+    centre: Vector3<f64>,
+}
 
 impl Columns {
     /// The number of the step, then all joints, platforms and traced points of a mechanism, then quantities.
@@ -127,21 +132,25 @@ impl Columns {
             variables.extend(axes.map(variable));
         }
         variables.extend(quantities);
-        Columns(variables)
+        Columns {
+            variables,
+            centre: Vector3(mechanism.dimensions().centre),
+        }
     }
 
     /// Their names and units.
     pub fn variables(&self) -> &[Variable] {
-        &self.0
+        &self.variables
     }
 
     /// The values of a row in these columns, but for the number of the step.
     pub fn values<'a>(&self, row: &Row<'a>) -> impl Iterator<Item = f64> + use<'a> {
-        let at = row.configuration;
-        let poses = at.platforms.iter().flat_map(|platform| {
-            let [x, y, z, angles @ ..] = PoseCoordinate::all_of(&platform.pose());
+        let (at, centre) = (row.configuration, self.centre);
+        let poses = at.platforms.iter().flat_map(move |platform| {
+            let [.., roll, pitch, yaw] = PoseCoordinate::all_of(&platform.pose());
+            let [x, y, z] = (platform.position + centre).0;
             let quaternion = platform.orientation.0.into_iter();
-            [x, y, z].into_iter().chain(quaternion).chain(angles)
+            [x, y, z].into_iter().chain(quaternion).chain([roll, pitch, yaw])
         });
         let points = row.points.iter().flatten().copied();
         let quantities = row.quantities.iter().map(|value| value.unwrap_or(f64::NAN));

@@ -51,6 +51,8 @@ pub(super) struct Tracer {
     twists: FrameTwists<f64>,
     placement: Placement<f64>,
     length: f64,
+    /// From where the kinematics measures positions.
+    centre: Vector3<f64>,
 }
 
 impl Tracer {
@@ -63,10 +65,11 @@ impl Tracer {
             placement: twists.placement(),
             twists,
             length: mechanism.characteristic_length(),
+            centre: Vector3(dimensions.centre),
         }
     }
 
-    /// Where the point is, in m.
+    /// Where the point is from the centre, in m.
     fn position(&mut self, at: &Configuration<f64>) -> Vector3<f64> {
         self.twists.place(at, &mut self.placement);
         let frame = self.twists.frame(0, &self.placement);
@@ -231,7 +234,7 @@ impl Tracer {
 
     fn passed(&mut self, passages: &[(&At, usize)]) -> PathPoint {
         PathPoint {
-            position: self.position(&passages[0].0.at).0,
+            position: (self.position(&passages[0].0.at) + self.centre).0,
             joints: (passages.iter())
                 .map(|(place, _)| place.at.joints.clone())
                 .collect(),

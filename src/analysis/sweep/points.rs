@@ -1,5 +1,6 @@
 //! Points of bodies whose paths are traced.
 
+use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Kinematics, Mechanism, NamedPoint, Placement, Point};
 
 /// Where traced points are, without allocating.
@@ -7,6 +8,8 @@ pub struct Paths {
     kinematics: Kinematics<f64>,
     placement: Placement<f64>,
     points: Vec<Point>,
+    /// From where the kinematics measures positions.
+    centre: Vector3<f64>,
     pub at: Vec<[f64; 3]>,
 }
 
@@ -17,6 +20,7 @@ impl Paths {
         Paths {
             placement: kinematics.placement(),
             kinematics,
+            centre: Vector3(mechanism.dimensions().centre),
             at: vec![[0.0; 3]; points.len()],
             points: points.iter().map(|p| p.point).collect(),
         }
@@ -30,7 +34,7 @@ impl Paths {
         for (at, point) in self.at.iter_mut().zip(&self.points) {
             let pose = self.kinematics.pose(point.frame, &self.placement);
             let pose = pose.expect("the kinematics was planned for the points' frames");
-            *at = point.placed(pose).0;
+            *at = (point.placed(pose) + self.centre).0;
         }
     }
 }

@@ -75,7 +75,8 @@ pub(super) fn centres(
             let (omega, velocity) = split(&relative);
             let (point, at_infinity) = if omega.norm() > ZERO * largest {
                 let speed = omega.dot(&omega);
-                (Some(omega.cross(&velocity).times(length / speed)), None)
+                let place = omega.cross(&velocity).times(length / speed);
+                (Some(mechanism.foot(place, &omega)), None)
             } else if velocity.norm() > ZERO * largest {
                 let across = plane.cross(&velocity);
                 (None, Some(across.times(1.0 / across.norm())))

@@ -87,7 +87,7 @@ pub(super) fn rates(
             }
             FrameRate {
                 name: point.name(mechanism),
-                position: position.0,
+                position: mechanism.to_ground(position).0,
                 angular_velocity: omega.0,
                 velocity: velocity.0,
                 angular_acceleration: accelerations.then_some(turning.0),

@@ -78,7 +78,7 @@ fn within(problem: &MapProblem, grid: &Grid, axis: usize, at: &Configuration<f64
     /// Part of an edge that is rounding.
     const ROUNDING: f64 = 1e-9;
     let coordinate = problem.axes[axis].coordinate;
-    let value = coordinate.of(at);
+    let value = coordinate.of(problem.mechanism, at);
     let low = grid.coordinate(axis, 0);
     let high = grid.coordinate(axis, grid.count(axis) - 1);
     let margin = ROUNDING * grid.spacing(axis);

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::algebra::BATCH;
 use crate::analysis::solver::Follower;
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{self, Coordinate, MotionTracker, System};
 
@@ -73,9 +73,9 @@ impl Block<'_> {
         rest.for_each(|(values, _)| values.fill(f64::NAN));
     }
 
-    fn put_at(&mut self, row: usize, at: &Configuration<f64>) {
+    fn put_at(&mut self, mechanism: &Mechanism, row: usize, at: &Configuration<f64>) {
         let columns = self.columns;
-        self.put(row, columns.iter().map(|column| column.of(at)));
+        self.put(row, columns.iter().map(|column| column.of(mechanism, at)));
     }
 }
 
@@ -132,7 +132,7 @@ impl Rows<'_> {
     }
 
     fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
-        self.coordinates.iter().map(|of| of.of(at)).collect()
+        self.coordinates.iter().map(|of| of.of(self.question.mechanism(), at)).collect()
     }
 
     /// Whether the work goes on after so many rows more. Asked at every step: a row may be ten thousand steps away.
@@ -207,7 +207,7 @@ impl Rows<'_> {
                     values,
                 };
                 if self.goes_or_begins(&mut single, &mut place, self.row(first + row)) {
-                    block.put_at(row, &place.at);
+                    block.put_at(self.question.mechanism(), row, &place.at);
                 }
                 follower.put(&mut motions, motion, &place.at);
                 for (i, &value) in place.values.iter().enumerate() {
@@ -228,7 +228,7 @@ impl Rows<'_> {
         let mut place = self.begin();
         for row in 0..block.reached.len() {
             if self.goes_or_begins(&mut tracker, &mut place, self.row(block.first + row)) {
-                block.put_at(row, &place.at);
+                block.put_at(self.question.mechanism(), row, &place.at);
             }
             if !self.goes_on(1) {
                 return false;

@@ -205,7 +205,7 @@ impl Picture {
     fn values(&self, mechanism: &Mechanism, row: &Row) -> Vec<f64> {
         let at: &Configuration<f64> = row.configuration;
         let unit = |of: Coordinate| SiUnit::of_coordinate(of.is_angle(mechanism));
-        let shown = |of: Coordinate| quantity::shown(of.of(at), unit(of));
+        let shown = |of: Coordinate| quantity::shown(of.of(mechanism, at), unit(of));
         let input = self.input.map_or(f64::NAN, |input| shown(input.coordinate));
         let outputs = self.outputs.iter();
         let outputs = outputs.map(|(joint, _)| shown(Coordinate::Joint(*joint)));

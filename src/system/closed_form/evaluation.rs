@@ -131,7 +131,7 @@ impl ClosedSolution {
     pub fn tried(&self, question: &Question, inputs: &Configuration<f64>) -> Tried {
         let mechanism = question.mechanism();
         let held = question.held_coordinates().into_iter();
-        let values: Vec<_> = held.map(|c| (c, c.of(inputs))).collect();
+        let values: Vec<_> = held.map(|c| (c, c.of(mechanism, inputs))).collect();
         let there = question.clone().near(inputs).at_values(values).start();
         let (branches, undetermined) = self.branches(mechanism, &there);
         let system = System::new(mechanism.dimensions(), &question.held());

@@ -94,7 +94,7 @@ const BESIDE: f64 = 1e-9;
 impl Region<'_> {
     /// A coordinate of the box at a configuration; angles of platforms near the middle of the box.
     pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
-        let x = side.coordinate.of(at);
+        let x = side.coordinate.of(self.mechanism, at);
         match side.coordinate {
             Coordinate::Pose(_, c) if c.is_angle() => {
                 let middle = 0.5 * (side.from + side.to);

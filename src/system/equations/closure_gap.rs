@@ -18,7 +18,7 @@ impl Gap {
     pub fn of(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Gap> {
         let closures = mechanism.closures().iter().enumerate();
         let frames = closures.clone().flat_map(|(_, closure)| closure.frames);
-        let poses = mechanism.placed(&frames.collect::<Vec<_>>(), at);
+        let poses = mechanism.poses_about_centre(&frames.collect::<Vec<_>>(), at);
         closures
             .zip(poses.chunks_exact(2))
             .map(|((i, closure), ends)| {

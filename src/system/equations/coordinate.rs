@@ -74,7 +74,18 @@ impl Coordinate {
     }
 
     /// Its value in a configuration, in m or rad.
-    pub fn of<T: Number>(self, at: &Configuration<T>) -> T {
+    pub fn of<T: Number>(self, mechanism: &Mechanism, at: &Configuration<T>) -> T {
+        let from_centre = self.from_centre(at);
+        match self {
+            Coordinate::Pose(_, c) if !c.is_angle() => {
+                from_centre + T::from_f64(mechanism.dimensions().centre[c as usize])
+            }
+            _ => from_centre,
+        }
+    }
+
+    /// The same, a position from the [centre](crate::mechanism::Dimensions::centre): of two, the difference counts.
+    pub(crate) fn from_centre<T: Number>(self, at: &Configuration<T>) -> T {
         match self {
             Coordinate::Joint(joint) => at.joints[joint],
             Coordinate::Pose(platform, c) => c.of(&at.platforms[platform].pose()),

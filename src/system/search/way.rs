@@ -39,8 +39,9 @@ impl Search<'_> {
                     at.platforms[i] = pose_between(home, to, share);
                 }
                 for &(coordinate, value) in held.coordinates() {
+                    let value = self.system.from_centre(coordinate, value);
                     let value = between(coordinate.of(&home.pose()), value, share);
-                    system.to_mut().set_target(i, coordinate, value);
+                    system.to_mut().set_target_from_centre(i, coordinate, value);
                 }
             }
             let mut trial = at.clone();
@@ -74,6 +75,7 @@ impl Search<'_> {
                 } else {
                     1.0 / length
                 };
+                let value = self.system.from_centre(*coordinate, *value);
                 longest = longest.max((value - coordinate.of(&home.pose())).abs() * scale);
             }
             if *held == HeldPlatform::Pose {

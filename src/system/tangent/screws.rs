@@ -96,8 +96,8 @@ impl Neighbourhood<'_> {
             let spins = lines.iter().map(|line| at_ground(*line, Vector3::zero()));
             TwistSpace {
                 body: mechanism.body_name(body),
-                screws: principal_screws(&twists, length),
-                spins: principal_screws(&spins.collect::<Vec<_>>(), length),
+                screws: principal_screws(mechanism, &twists),
+                spins: principal_screws(mechanism, &spins.collect::<Vec<_>>()),
             }
         });
         spaces.collect()
@@ -118,16 +118,16 @@ pub fn without<T: Number>(omega: &Vector3<T>, spins: &[Vector3<f64>]) -> Vector3
     along.fold(*omega, |left, part| left - part)
 }
 
-/// Principal screws of wrenches (f; m/L) about the origin of ground, along the force or else the moment.
-pub fn wrench_screws(wrenches: &[Vec<f64>], length: f64) -> Vec<Screw> {
-    principal_screws(wrenches, length)
+/// Principal screws of wrenches (f; m/L) about the centre, along the force or else the moment.
+pub fn wrench_screws(mechanism: &Mechanism, wrenches: &[Vec<f64>]) -> Vec<Screw> {
+    principal_screws(mechanism, wrenches)
 }
 
-/// Principal screws of a space of twists (ω; v/L) at the origin, then its translations.
+/// Principal screws of a space of twists (ω; v/L) at the centre, then its translations.
 ///
 /// Twists are made unique by taking the part of v that is orthogonal to the translations; the pitch ω·v/ω·ω is then a
 /// quadratic form on the space of the ω, and its eigenvectors are the principal screws (Ball 1900; Hunt 1978).
-fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
+fn principal_screws(mechanism: &Mechanism, twists: &[Vec<f64>]) -> Vec<Screw> {
     let space = axis_aligned(twists);
     let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();
     let rotations = axis_aligned(&omegas);
@@ -148,7 +148,7 @@ fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
             velocity
         })
         .collect();
-    let mut screws = rotations_of(&rotation_basis, &velocities, length);
+    let mut screws = rotations_of(mechanism, &rotation_basis, &velocities);
     screws.extend(translations.iter().map(|t| {
         let unit = Vector3([t[0], t[1], t[2]]).times(1.0 / norm(t));
         Screw {
@@ -161,7 +161,12 @@ fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
 }
 
 /// The principal screws that turn, the one of least pitch first.
-fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f64) -> Vec<Screw> {
+fn rotations_of(
+    mechanism: &Mechanism,
+    rotation_basis: &[Vec<f64>],
+    velocities: &[Vec<f64>],
+) -> Vec<Screw> {
+    let length = mechanism.characteristic_length();
     let size = rotation_basis.len();
     if size == 0 {
         return Vec::new();
@@ -185,7 +190,7 @@ fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f6
                 sum
             };
             let (omega, velocity) = (combine(rotation_basis), combine(velocities));
-            let point = omega.cross(&velocity).times(length);
+            let point = mechanism.foot(omega.cross(&velocity).times(length), &omega);
             let pitch = omega.dot(&velocity) * length;
             Screw {
                 direction: clean(pointing(omega).0, 1.0),

@@ -86,6 +86,7 @@ impl Question<'_> {
                 mode: k + 1,
                 joints: named_joints(self.mechanism, &f.point),
                 platforms: named_poses(self.mechanism, &f.point, f.multiplicity == 1),
+                centre: self.mechanism.dimensions().centre,
                 condition,
                 determinant_sign: sign,
                 multiplicity: f.multiplicity,

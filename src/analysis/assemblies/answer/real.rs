@@ -174,7 +174,7 @@ pub(crate) fn named_poses(
             false => angle,
         };
         PoseReport {
-            position: pose.position.0,
+            position: mechanism.to_ground(pose.position).0,
             quaternion: pose.orientation.0,
             roll_pitch_yaw: [once(roll), pitch, once(yaw)],
         }

@@ -47,6 +47,8 @@ pub(crate) struct Coordinates {
     pub inputs: Vec<Input>,
     pub joint_scales: Vec<f64>,
     pub length: f64,
+    /// From where positions are measured, in m.
+    centre: [f64; 3],
     /// For each joint after how many turns everything is where it was: more than one where a gear turns something by a
     /// fraction, `None` for slides and screws and for a ratio that is no fraction.
     pub turns: Vec<Option<f64>>,
@@ -88,6 +90,7 @@ impl Coordinates {
             inputs: (joints.chain(poses).chain(targets).chain(orientations)).collect(),
             joint_scales: dimensions.joint_scales.clone(),
             length: dimensions.characteristic_length,
+            centre: dimensions.centre,
             screws,
             incommensurate,
             turns,
@@ -184,7 +187,10 @@ impl Coordinates {
                     inputs.extend(at.platforms[p].orientation.0);
                     inputs.extend(at.platforms[p].position.0);
                 }
-                Input::Target(p, c) => inputs.extend(held.platforms[p].target(c)),
+                Input::Target(p, c) => {
+                    let target = held.platforms[p].target(c);
+                    inputs.extend(target.map(|x| c.from_centre(x, &self.centre)));
+                }
                 Input::Orientation(p) => {
                     let wanted = held.platforms[p].orientation();
                     inputs.extend(wanted.iter().flat_map(|r| Quaternion::from_rotation(r).0));

@@ -87,14 +87,14 @@ impl Classifier<'_> {
             row += slopes.len();
         }
         let resisted = parts.into_iter().map(|part| {
-            let origin = part.point.at(mechanism, at);
+            let origin = mechanism.to_centre(part.point.at(mechanism, at));
             let wrenches = part.wrenches.iter().map(|&[a, b, c, d, e, f]| {
                 let (moment, force) = (Vector3([a, b, c]), Vector3([d, e, f]));
                 let moment = moment + origin.cross(&force).times(1.0 / length);
                 [force.0, moment.0].concat()
             });
             Resisted {
-                wrenches: wrench_screws(&wrenches.collect::<Vec<_>>(), length),
+                wrenches: wrench_screws(mechanism, &wrenches.collect::<Vec<_>>()),
                 output: part.name,
             }
         });

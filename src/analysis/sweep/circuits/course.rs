@@ -63,7 +63,7 @@ impl<'m> Course<'m> {
         };
         let mut values: Vec<f64> = Vec::with_capacity(found.places.len());
         for place in &found.places {
-            let value = of.of(&place.at);
+            let value = of.of(mechanism, &place.at);
             let before = values.last().copied();
             let value = before.map_or(value, |before| near(value, before));
             if is_angle && before.is_some_and(|before| (value - before).abs() > JUMP) {
@@ -90,7 +90,7 @@ impl<'m> Course<'m> {
                         |curve: &mut Curve, place: &At| curve.rate(&place.at, &place.tangent, of);
                     let (from, to) = (&found.places[a], &found.places[b]);
                     let turning = method.root(curve, from, to, &mut rate);
-                    near(of.of(&turning.at), values[a])
+                    near(of.of(mechanism, &turning.at), values[a])
                 }
                 // a place in between is where it turns
                 _ => values[a + 1],

@@ -9,7 +9,7 @@ use super::neighbour::Flood;
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
-use crate::mechanism::{Configuration, PlatformPose, turn_near};
+use crate::mechanism::{Configuration, turn_near};
 use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
 use crate::system::{System, Work, random_configuration, sets_of_angles, with_coordinates};
 
@@ -153,8 +153,8 @@ fn put_in(problem: &MapProblem, values: &[f64], at: &Configuration<f64>) -> Conf
     for (platform, pose) in at.platforms.iter_mut().enumerate() {
         let coordinates = held.held_values(platform);
         if !coordinates.is_empty() {
-            let with = with_coordinates(&pose.pose(), coordinates);
-            *pose = PlatformPose::from_pose(&with);
+            let with = with_coordinates(&problem.mechanism.in_ground(pose), coordinates);
+            *pose = problem.mechanism.from_ground(&with);
         }
     }
     problem.put(&at, values)
@@ -210,7 +210,7 @@ pub(crate) fn probe(
 fn nearest(problem: &MapProblem, grid: &Grid, at: &Configuration<f64>) -> Option<usize> {
     let (mut node, mut stride) = (0, 1);
     for (i, axis) in problem.axes.iter().enumerate() {
-        let place = ((axis.coordinate.of(at) - axis.from) / grid.spacing(i)).round();
+        let place = ((axis.coordinate.of(problem.mechanism, at) - axis.from) / grid.spacing(i)).round();
         if !(place >= 0.0 && place < grid.count(i) as f64) {
             return None;
         }

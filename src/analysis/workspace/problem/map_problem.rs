@@ -132,6 +132,8 @@ pub(crate) struct Targets {
     single: Vec<(usize, PoseCoordinate, usize)>,
     /// Platforms of which an angle or the pose is mapped.
     whole: Vec<Whole>,
+    /// Where positions are measured from.
+    centre: [f64; 3],
 }
 
 #[derive(Clone, Debug)]
@@ -150,6 +152,7 @@ impl Targets {
             joints: Vec::new(),
             single: Vec::new(),
             whole: Vec::new(),
+            centre: problem.mechanism.dimensions().centre,
         };
         for (i, axis) in problem.axes.iter().enumerate() {
             match axis.coordinate {
@@ -165,7 +168,7 @@ impl Targets {
                     if !turned {
                         targets.single.push((platform, c, i));
                     } else if targets.whole.iter().all(|w| w.platform != platform) {
-                        let at = start.platforms[platform].pose();
+                        let at = problem.mechanism.in_ground(&start.platforms[platform]);
                         let source = |c: PoseCoordinate| {
                             let of = Coordinate::Pose(platform, c);
                             let axis = problem.axes.iter().position(|a| a.coordinate == of);
@@ -190,7 +193,7 @@ impl Targets {
             at.joints[joint] = values[axis];
         }
         for whole in self.whole.iter().filter(|whole| whole.pose) {
-            at.platforms[whole.platform] = PlatformPose::from_pose(&whole.at(values));
+            at.platforms[whole.platform] = PlatformPose::from_pose(&whole.at(values, &self.centre));
         }
     }
 
@@ -198,7 +201,7 @@ impl Targets {
     pub fn numbers(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let single = self.single.iter().map(|&(_, _, axis)| values[axis]);
         let turned = self.turned();
-        let turned = turned.flat_map(|whole| whole.at(values).rotation.0.map(|column| column.0));
+        let turned = turned.flat_map(|whole| whole.at(values, &self.centre).rotation.0.map(|column| column.0));
         single.chain(turned.flatten())
     }
 
@@ -226,9 +229,11 @@ impl Targets {
 }
 
 impl Whole {
-    fn at(&self, values: &[f64]) -> Pose<f64> {
+    /// Its pose, with its position from the centre.
+    fn at(&self, values: &[f64], centre: &[f64; 3]) -> Pose<f64> {
         let sources = (self.sources.iter())
-            .map(|&(c, axis, value)| (c, axis.map_or(value, |axis| values[axis])));
+            .map(|&(c, axis, value)| (c, axis.map_or(value, |axis| values[axis])))
+            .map(|(c, value)| (c, c.from_centre(value, centre)));
         with_coordinates(&Pose::identity(), sources)
     }
 }

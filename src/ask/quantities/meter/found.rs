@@ -159,7 +159,12 @@ impl Meter<'_> {
         order: Order,
     ) -> Option<T> {
         if !c.is_angle() {
-            return Some(here.moved(i, order)?.0[c as usize]);
+            let of = here.moved(i, order)?;
+            let mechanism = self.of.question.mechanism();
+            return Some(match order {
+                Order::Value => mechanism.to_ground(of).0[c as usize],
+                _ => of.0[c as usize],
+            });
         }
         let mut angles = self.plan.angles.iter();
         let place = angles.position(|of| *of == (i, c, order))?;
