@@ -258,9 +258,9 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
     let parts: BTreeMap<usize, [f64; 3]> = (places.iter())
         .map(|(of, _)| (*of, nearest(&part(*of))))
         .collect();
-    let distances = places.iter().map(|(part, place)| {
-        (Vector3(*place) - Vector3(parts[part])).norm()
-    });
+    let distances = places
+        .iter()
+        .map(|(part, place)| (Vector3(*place) - Vector3(parts[part])).norm());
     distances.collect::<Vec<_>>().into_iter()
 }
 

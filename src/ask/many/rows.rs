@@ -132,7 +132,10 @@ impl Rows<'_> {
     }
 
     fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
-        self.coordinates.iter().map(|of| of.of(self.question.mechanism(), at)).collect()
+        self.coordinates
+            .iter()
+            .map(|of| of.of(self.question.mechanism(), at))
+            .collect()
     }
 
     /// Whether the work goes on after so many rows more. Asked at every step: a row may be ten thousand steps away.

@@ -19,7 +19,7 @@ pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Cou
             let part = problems.needed_child(node, end)?;
             let name = problems.needed(part, "link")?;
             let links = tree.bodies.iter().map(|body| body.name.as_str());
-            let found = tree.body(name);
+            let found = links.clone().position(|link| link == name);
             let body = problems.known(found, (part, "link"), ("link", name), links)?;
             let way = std::iter::successors(Some(body), |body| tree.bodies[*body].parent);
             ways.push(way.collect::<Vec<usize>>());

@@ -120,7 +120,7 @@ impl LoopReader<'_> {
             "__model__" => Some(0),
             name => {
                 let moved = bodies.position(|body| body.joints.iter().any(|j| j.name == name));
-                match self.tree.body(name).or(moved) {
+                match self.bodies.get(name).copied().or(moved) {
                     Some(found) => Some(found),
                     None => self.link(node, attribute, name),
                 }
