@@ -6,12 +6,13 @@ use super::motions::Motions;
 use super::quantities::Metered;
 use super::ranges::still;
 use super::{AskError, Mode, Question, Role};
-use crate::analysis::assemblies::{Assembly, AssemblySolver, Wanted};
+use crate::analysis::assemblies::{Assembly, AssemblySolver, ComplexAssembly, Fit, Wanted};
 use crate::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, sweep,
+    CircuitsReport, CircuitsSettings, Sink, Slice, SweepReport, SweepSettings, Swept, circuits,
+    sweep,
 };
 use crate::description;
-use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, turn_near};
 use crate::solve::{Stage, Watch};
 use crate::system::{self, Coordinate, Driven, QuestionError, check_count, moved, sampling_range};
 
@@ -164,15 +165,23 @@ impl Question {
         let released = self.one_freedom()?;
         let (input, question) = input(mechanism, &released)?;
         let question = question.with_spins_still();
-        let solver = self.solver(&question, watch)?;
-        let seeds = seeds(mechanism, &question, &solver, input, watch);
         let held = question.with_still(released.held());
-        let settings = CircuitsSettings {
+        let mut settings = CircuitsSettings {
             points: self.named_points()?,
             ..CircuitsSettings::default()
         };
-        let held = (&held, question.still());
-        let mut report = circuits(mechanism, held, input, &seeds, &settings, watch);
+        if let Some((joint, question)) = sliced(mechanism, &released, (input, &question)) {
+            let solver = self.solver(&question, watch)?;
+            settings.slice = Some(slice(mechanism, &question, &solver, joint, watch));
+        }
+        let at_rest = (&held, question.still());
+        let follow = |seeds: &[_]| circuits(mechanism, at_rest, input, seeds, &settings, watch);
+        let mut report = follow(&[question.start()]);
+        if !(report.swept.as_ref().is_some_and(Swept::is_whole) || watch.is_stopped()) {
+            let solver = self.solver(&question, watch)?;
+            let seeds = seeds(mechanism, &question, &solver, input, watch);
+            report = follow(&[&[question.start()], &seeds[..]].concat());
+        }
         for (path, point) in report.paths.iter_mut().zip(&settings.points) {
             path.order = self.order(&point.point, watch);
         }
@@ -273,6 +282,91 @@ fn input<'q>(
         }
     }
     Err(refused.map_or(AskError::NotOneCoordinate, AskError::Question))
+}
+
+/// The joint along whose values complex configurations are followed, with the question that holds it too: the input if
+/// it comes back to where it was, else another joint that does, else the input.
+fn sliced<'q>(
+    mechanism: &Mechanism,
+    released: &system::Question<'q>,
+    (input, question): (Coordinate, &system::Question<'q>),
+) -> Option<(usize, system::Question<'q>)> {
+    let repeats = |of: &Coordinate| match of {
+        Coordinate::Joint(joint) => mechanism.turns_to_repeat(*joint).is_some(),
+        _ => false,
+    };
+    let held = released.held_coordinates();
+    let home = mechanism.home();
+    let others = Coordinate::all(mechanism).filter(|of| repeats(of) && !held.contains(of));
+    let all = Some(input).filter(repeats).into_iter().chain(others);
+    let found = all.into_iter().find_map(|of| {
+        let question = released.clone().at_values([(of, of.of(&home))]);
+        check_count(&question).is_ok().then_some((of, question))
+    });
+    match found.map_or((input, question.clone()), |(of, question)| {
+        (of, question.with_spins_still())
+    }) {
+        (Coordinate::Joint(joint), question) => Some((joint, question)),
+        _ => None,
+    }
+}
+
+/// All configurations at a value of a joint that is not special.
+fn slice(
+    mechanism: &Mechanism,
+    question: &system::Question,
+    solver: &AssemblySolver,
+    joint: usize,
+    watch: &Watch,
+) -> Slice {
+    /// Parts of a cycle, and of the characteristic length.
+    const BESIDE_HOME: f64 = 0.381_966;
+    /// How far slides are followed, in characteristic lengths.
+    const REACH: f64 = 5.0;
+    let home = mechanism.home().joints[joint];
+    let (value, reach) = match mechanism.turns_to_repeat(joint) {
+        Some(turns) => (turn_near(home + BESIDE_HOME * TAU, 0.0), 0.5 * turns * TAU),
+        None => {
+            let length = mechanism.characteristic_length();
+            let unit = match mechanism.joints()[joint].kind.is_angle() {
+                true => 1.0,
+                false => length,
+            };
+            (home + 0.1 * BESIDE_HOME * unit, REACH * unit)
+        }
+    };
+    let question = question
+        .clone()
+        .at_values([(Coordinate::Joint(joint), value)]);
+    let wanted = Wanted {
+        certificates: false,
+        all_complex: true,
+        ..Wanted::default()
+    };
+    let report = solver.at_targets(&question.start(), &question.held(), wanted, watch);
+    let simple = report.assemblies.iter().all(|a| a.multiplicity == 1)
+        && report
+            .complex_assemblies
+            .iter()
+            .all(|a| a.multiplicity == 1);
+    let mut real: Vec<_> = report
+        .assemblies
+        .iter()
+        .map(Assembly::configuration)
+        .collect();
+    for at in &mut real {
+        at.joints[joint] = value;
+    }
+    Slice {
+        joint,
+        value,
+        reach,
+        real,
+        complex: (report.complex_assemblies.iter())
+            .map(ComplexAssembly::configuration)
+            .collect(),
+        whole: report.fit == Fit::Finite && simple && !report.may_lack_some(),
+    }
 }
 
 /// All assemblies at home and at values of the input spread over its range.

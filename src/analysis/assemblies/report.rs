@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::Complex;
 use crate::system::Gap;
 pub use crate::system::{Named, Unfit};
 
@@ -323,6 +324,21 @@ pub struct ComplexAssembly {
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
     /// Jacobian; `null` where solutions meet.
     pub condition: Option<f64>,
+}
+
+impl ComplexAssembly {
+    /// The assembly as a configuration.
+    pub fn configuration(&self) -> Configuration<Complex<f64>> {
+        let number = |[re, im]: [f64; 2]| Complex::new(re, im);
+        let platforms = self.platforms.values().map(|parts| PlatformPose {
+            position: Vector3(std::array::from_fn(|i| number(parts[i]))),
+            orientation: Quaternion(std::array::from_fn(|i| number(parts[3 + i]))),
+        });
+        Configuration {
+            joints: self.joints.values().map(|x| number(*x)).collect(),
+            platforms: platforms.collect(),
+        }
+    }
 }
 
 pub(super) fn is_zero(count: &usize) -> bool {

@@ -2,7 +2,7 @@
 
 use super::paths;
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion};
+use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion, Swept};
 use crate::description::{count, listed};
 use crate::number::sorting::sort_by;
 use crate::output::document::{Cell, Document, Section, Table};
@@ -11,22 +11,68 @@ use crate::output::report::Report;
 
 impl Report for CircuitsReport {
     fn document(&self) -> Document {
-        let seeds = format!(
-            "followed from {}: all assemblies at several values of {}{}",
-            count(self.seeds, "start"),
-            self.input,
-            match self.unusable {
-                0 => String::new(),
-                n => format!("; {n} of them outside limits or singular"),
-            }
-        );
         let whole = self.circuits.iter().all(|circuit| circuit.whole);
         Document::new(&self.mechanism, sentence(self))
             .yes_if(whole && !self.circuits.is_empty())
             .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .sections(paths::sections(&self.paths, true))
-            .method(seeds)
+            .method(found(self))
+    }
+}
+
+/// How they were found, and whether there can be others.
+fn found(report: &CircuitsReport) -> String {
+    let Some(swept) = &report.swept else {
+        let unusable = match report.unusable {
+            0 => String::new(),
+            n => format!("; {n} of them outside limits or singular"),
+        };
+        return format!(
+            "followed from {}: all assemblies at several values of {}{unusable}; there may be others between these",
+            count(report.seeds, "start"),
+            report.input,
+        );
+    };
+    let Swept { joint, unit, .. } = swept;
+    let known = format!(
+        "{} at {joint} = {}, {} of them real, each followed {}, complex ones too",
+        count(swept.configurations, "configuration"),
+        quantity(swept.value, *unit),
+        swept.real,
+        match swept.range {
+            Some([from, to]) =>
+                format!("from {} to {}", quantity(from, *unit), quantity(to, *unit)),
+            None => format!("over all values of {joint}"),
+        }
+    );
+    let lost = match swept.lost {
+        0 => None,
+        n => Some(format!(
+            "{} of complex configurations lost",
+            count(n, "path")
+        )),
+    };
+    let doubtful = swept.doubtful.then(|| {
+        format!(
+            "`assemblies` may lack some of the configurations at {joint} = {}",
+            quantity(swept.value, *unit)
+        )
+    });
+    let exhausted = report
+        .exhausted
+        .then(|| "more curves than steps to follow them".to_owned());
+    let doubts: Vec<String> = [lost, doubtful, exhausted].into_iter().flatten().collect();
+    match doubts.is_empty() {
+        true => format!(
+            "{known}: these are all circuits on which {joint} moves, if `assemblies` finds all configurations there"
+        ),
+        false => format!(
+            "{known}, and {} at several values of {}; circuits may be missing: {}",
+            count(report.seeds, "start"),
+            report.input,
+            doubts.join("; ")
+        ),
     }
 }
 
@@ -57,7 +103,14 @@ fn sentence(report: &CircuitsReport) -> String {
         Some(of) => format!(": a {}", class(of)),
         None => String::new(),
     };
-    format!("{what} with {branches} for {}{grashof}.", report.input)
+    let least = match report.is_whole() {
+        true => "",
+        false => "At least ",
+    };
+    format!(
+        "{least}{what} with {branches} for {}{grashof}.",
+        report.input
+    )
 }
 
 fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
