@@ -11,7 +11,7 @@ mod report;
 mod slice;
 mod tracing;
 
-pub use report::{Branch, Circuit, CircuitsReport, FourBarClass, JointMotion};
+pub use report::{Branch, Circuit, CircuitsReport, FourBarClass, Grashof, JointMotion};
 pub use slice::{Slice, Swept};
 
 use super::At;
@@ -20,7 +20,7 @@ use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Watch};
 use crate::system::{Coordinate, Curve, Held, Still};
-use class::class;
+use class::{class, grashof};
 use course::Course;
 use tracing::{Found, SAME, Tracing};
 
@@ -33,8 +33,9 @@ pub struct CircuitsSettings {
     pub most_steps: usize,
     /// Points whose paths are looked at.
     pub points: Vec<NamedPoint>,
-    /// All configurations at one value of a joint, from which every circuit on which it moves is met.
-    pub slice: Option<Slice>,
+    /// All configurations at a value of a joint, from which every circuit on which it moves is met, and at more values of
+    /// it where they go to infinity between these.
+    pub slices: Vec<Slice>,
 }
 
 impl CircuitsSettings {
@@ -47,7 +48,7 @@ impl Default for CircuitsSettings {
             continuation: Continuation::default(),
             most_steps: 20_000,
             points: Vec::new(),
-            slice: None,
+            slices: Vec::new(),
         }
     }
 }
@@ -78,8 +79,7 @@ pub fn circuits(
         .any(|joint| joint.limits.is_some());
     let mut tracing = Tracing::new(&free, held, at_rest, (settings, watch));
     seeds.iter().for_each(|seed| tracing.take(seed));
-    let swept =
-        (settings.slice.as_ref()).map(|slice| slice::sweep(slice, held, &mut tracing, watch));
+    let swept = slice::sweep(&settings.slices, held, &mut tracing, watch);
     if limited {
         let whole = tracing;
         tracing = Tracing::new(mechanism, held, at_rest, (settings, watch));
@@ -125,6 +125,7 @@ pub fn circuits(
         mechanism: mechanism.name().to_owned(),
         input: input.name(mechanism),
         class: class(mechanism, &all),
+        grashof: (traced.first()).and_then(|found| grashof(mechanism, &found.places.first()?.at)),
         circuits: all,
         seeds: seeds.len(),
         unusable,

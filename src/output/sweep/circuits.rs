@@ -14,6 +14,7 @@ impl Report for CircuitsReport {
         let whole = self.circuits.iter().all(|circuit| circuit.whole);
         Document::new(&self.mechanism, sentence(self))
             .yes_if(whole && !self.circuits.is_empty())
+            .notes(other_class(self))
             .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .sections(paths::sections(&self.paths, true))
@@ -46,6 +47,20 @@ fn found(report: &CircuitsReport) -> String {
             None => format!("over all values of {joint}"),
         }
     );
+    let known = match &swept.poles[..] {
+        [] => known,
+        poles => {
+            let poles: Vec<String> = poles.iter().map(|x| quantity(*x, *unit)).collect();
+            let at = listed(&poles);
+            format!(
+                "{known}; beside {joint} = {at}, where complex ones go to infinity, from others beyond"
+            )
+        }
+    };
+    let gaps = swept.gaps.iter();
+    let gaps = gaps.map(|[from, to]| quantity::range(joint, *from, *to, *unit));
+    let gaps: Vec<String> = gaps.collect();
+    let uncovered = (!gaps.is_empty()).then(|| format!("not looked at: {}", listed(&gaps)));
     let lost = match swept.lost {
         0 => None,
         n => Some(format!(
@@ -62,7 +77,10 @@ fn found(report: &CircuitsReport) -> String {
     let exhausted = report
         .exhausted
         .then(|| "more curves than steps to follow them".to_owned());
-    let doubts: Vec<String> = [lost, doubtful, exhausted].into_iter().flatten().collect();
+    let doubts: Vec<String> = [uncovered, lost, doubtful, exhausted]
+        .into_iter()
+        .flatten()
+        .collect();
     match doubts.is_empty() {
         true => format!(
             "{known}: these are all circuits on which {joint} moves, if `assemblies` finds all configurations there"
@@ -85,6 +103,26 @@ fn class(class: FourBarClass) -> &'static str {
         FourBarClass::ChangePoint => "4-bar with change points",
         FourBarClass::GearedFiveBar => "geared 5-bar",
     }
+}
+
+/// Where the circuits are not those of the class that the lengths have, by how little they have it.
+fn other_class(report: &CircuitsReport) -> Option<String> {
+    let of = report.grashof.filter(|of| report.class != Some(of.class))?;
+    let lengths = match of.class {
+        FourBarClass::ChangePoint => "as long as".to_owned(),
+        _ => {
+            let than = if of.excess > 0.0 { "longer" } else { "shorter" };
+            format!("{} {than} than", metres(of.excess.abs()))
+        }
+    };
+    let reason = match report.class {
+        Some(_) => "too near to its change point to be followed apart from it",
+        None => "circuits were not found, or not followed to their end",
+    };
+    Some(format!(
+        "by its lengths it is a {}, whose shortest and longest link together are {lengths} the other two: {reason}",
+        class(of.class)
+    ))
 }
 
 fn sentence(report: &CircuitsReport) -> String {

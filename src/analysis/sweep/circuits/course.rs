@@ -141,8 +141,16 @@ impl<'m> Course<'m> {
         }
     }
 
-    /// Pieces between places where it turns back.
+    /// Pieces between places where it turns back; none where it stands still.
     pub fn branches(&self) -> Vec<Branch> {
+        const STILL: f64 = 1e-9;
+        if self
+            .values
+            .iter()
+            .all(|x| (x - self.values[0]).abs() < STILL)
+        {
+            return Vec::new();
+        }
         let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
         let piece = |a: f64, b: f64, turns: bool| {
             let (low, high) = self.centred(a.min(b), a.max(b));

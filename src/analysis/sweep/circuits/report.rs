@@ -81,6 +81,15 @@ pub enum FourBarClass {
     GearedFiveBar,
 }
 
+/// The class of a planar 4-bar by its lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Grashof {
+    /// The class.
+    pub class: FourBarClass,
+    /// By how much the shortest and the longest link together are longer than the other two, in m.
+    pub excess: f64,
+}
+
 /// The circuits of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CircuitsReport {
@@ -90,8 +99,11 @@ pub struct CircuitsReport {
     pub input: String,
     /// The circuits in the order of their first seeds.
     pub circuits: Vec<Circuit>,
-    /// The class of a planar 4-bar.
+    /// The class of a planar 4-bar, as its circuits show it.
     pub class: Option<FourBarClass>,
+    /// The same by its lengths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grashof: Option<Grashof>,
     /// Assembled configurations from which curves were followed.
     pub seeds: usize,
     /// Seeds that are not assembled or outside limits; no curve was begun there.

@@ -13,8 +13,9 @@ use super::tracing::{SAME, Tracing};
 use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, turn_near};
+use crate::number::sorting::sort_by;
 use crate::number::{Complex, Number};
-use crate::solve::{Continuation, Place, SolutionCurve, Watch};
+use crate::solve::{Continuation, Place, Watch};
 use crate::system::{ComplexCurve, Curve, Held};
 
 type C = Complex<f64>;
@@ -52,6 +53,12 @@ pub struct Swept {
     /// The values between which they were followed; `None` if the joint came back to where it was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
+    /// Values beyond which other configurations had to be known, because there some go to infinity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub poles: Vec<f64>,
+    /// Values that no path covers, from one to another: next to poles with no configurations known beyond.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<[f64; 2]>,
     /// Paths that were lost, and dead points that none of them led to.
     pub lost: usize,
     /// Whether the search for the configurations may have missed some.
@@ -62,7 +69,7 @@ pub struct Swept {
 impl Swept {
     /// Whether every circuit on which the joint moves was met, if all configurations at the one value were known.
     pub fn is_whole(&self) -> bool {
-        self.lost == 0 && !self.doubtful
+        self.lost == 0 && self.gaps.is_empty() && !self.doubtful
     }
 }
 
@@ -70,19 +77,24 @@ impl Swept {
 enum End {
     /// At a real configuration.
     Real(Configuration<f64>),
-    /// Where the joint has gone all its way.
+    /// Where the joint has gone all its way, or where a path came before.
     Through,
+    /// At infinity, where the joint has this value.
+    Pole(f64),
+    /// Where other paths cross, on all that go on from there.
+    Crossing(Vec<Place<Configuration<C>>>),
     Lost,
 }
 
-/// Follows all curves that the slice leads to.
+/// Follows all curves that slices at values of one joint lead to.
 pub(super) fn sweep(
-    slice: &Slice,
+    slices: &[Slice],
     held: &Held<f64>,
     tracing: &mut Tracing,
     watch: &Watch,
-) -> Swept {
+) -> Option<Swept> {
     let mechanism = tracing.mechanism;
+    let slice = slices.first()?;
     let of = &mechanism.joints()[slice.joint];
     let cycle = mechanism.turns_to_repeat(slice.joint);
     let mut swept = Swept {
@@ -92,14 +104,78 @@ pub(super) fn sweep(
         configurations: slice.real.len() + slice.complex.len(),
         real: slice.real.len(),
         range: (cycle.is_none()).then(|| [slice.value - slice.reach, slice.value + slice.reach]),
+        poles: Vec::new(),
+        gaps: Vec::new(),
         lost: 0,
-        doubtful: !slice.whole,
+        doubtful: !slices.iter().all(|slice| slice.whole),
     };
+    // what they cover, as distances from the first
+    let mut covered = Vec::new();
+    for of in slices {
+        let Some([below, above]) = from_one(of, held, tracing, &mut swept, watch) else {
+            swept.doubtful = true;
+            continue;
+        };
+        for side in [below, above] {
+            if side.abs() < paths_reach(of, cycle) {
+                let pole = of.value + side;
+                swept
+                    .poles
+                    .push(cycle.map_or(pole, |turns| turns * turn_near(pole / turns, 0.0)));
+            }
+        }
+        let from = of.value - slice.value;
+        covered.push([from + below, from + above]);
+    }
+    let reach = paths_reach(slice, cycle);
+    swept.gaps = gaps(&covered, reach, cycle.is_some())
+        .map(|gap| gap.map(|from| slice.value + from))
+        .collect();
+    sort_by(&mut swept.poles, f64::total_cmp);
+    swept.poles.dedup_by(|a, b| (*a - *b).abs() < BESIDE_A_POLE);
+    Some(swept)
+}
+
+/// How far a pair is followed on either side.
+fn paths_reach(slice: &Slice, cycle: Option<f64>) -> f64 {
+    cycle.map_or(slice.reach, |turns| turns * PI)
+}
+
+/// Next to a pole what goes to infinity is complex.
+const BESIDE_A_POLE: f64 = 0.02;
+
+/// What intervals leave uncovered between −reach and reach, which are the same place if that is a whole cycle.
+fn gaps(covered: &[[f64; 2]], reach: f64, cycle: bool) -> impl Iterator<Item = [f64; 2]> {
+    let shifts: &[f64] = if cycle { &[-2.0, 0.0, 2.0] } else { &[0.0] };
+    let moved = |shift: &f64| {
+        let by = shift * reach;
+        covered.iter().map(move |[low, high]| [low + by, high + by])
+    };
+    let mut all: Vec<[f64; 2]> = shifts.iter().flat_map(moved).collect();
+    sort_by(&mut all, |a, b| a[0].total_cmp(&b[0]));
+    let mut gaps = Vec::new();
+    let mut end = -reach;
+    for [low, high] in all.into_iter().chain([[reach, reach]]) {
+        if low.min(reach) > end + BESIDE_A_POLE {
+            gaps.push([end, low.min(reach)]);
+        }
+        end = end.max(high);
+    }
+    gaps.into_iter()
+}
+
+/// Follows the curves that one slice leads to; how far below and above its value all paths went.
+fn from_one(
+    slice: &Slice,
+    held: &Held<f64>,
+    tracing: &mut Tracing,
+    swept: &mut Swept,
+    watch: &Watch,
+) -> Option<[f64; 2]> {
+    let mechanism = tracing.mechanism;
+    let cycle = mechanism.turns_to_repeat(slice.joint);
     slice.real.iter().for_each(|seed| tracing.take(seed));
-    let Some(complex) = ComplexCurve::new(mechanism, held, slice.joint) else {
-        swept.doubtful = true;
-        return swept;
-    };
+    let complex = ComplexCurve::new(mechanism, held, slice.joint)?;
     let mut paths = Paths {
         // far from the real ones cosines and sines are large
         method: Continuation {
@@ -107,8 +183,9 @@ pub(super) fn sweep(
             ..tracing.method().clone()
         },
         value: slice.value,
-        reach: cycle.map_or(slice.reach, |turns| turns * PI),
+        reach: paths_reach(slice, cycle),
         complex,
+        crossings: Vec::new(),
         watch,
     };
     let mut waiting = Vec::new();
@@ -128,6 +205,7 @@ pub(super) fn sweep(
             Err(_) => swept.lost += 1,
         }
     }
+    let mut went = [-paths.reach, paths.reach];
     // dead points that a path is to end at, and those that one did
     let (mut wanted, mut reached) = (Vec::new(), Vec::new());
     let mut seen = 0;
@@ -138,7 +216,7 @@ pub(super) fn sweep(
                 let from = cycle.map_or(from, |turns| turns * turn_near(from / turns, 0.0));
                 if from.abs() >= paths.reach {
                 } else if (from > 0.0) != *greatest {
-                    wanted.push(fold.at.clone());
+                    wanted.push((from, fold.at.clone()));
                 } else {
                     let mut at = fold.at.map(C::from_f64);
                     at.joints[slice.joint] = C::from_f64(slice.value + from);
@@ -163,6 +241,11 @@ pub(super) fn sweep(
                 reached.push(at);
             }
             End::Through => {}
+            End::Pole(at) => match up {
+                true => went[1] = went[1].min(at - slice.value),
+                false => went[0] = went[0].max(at - slice.value),
+            },
+            End::Crossing(places) => waiting.extend(places.into_iter().map(|place| (place, up))),
             End::Lost => swept.lost += 1,
         }
     }
@@ -171,11 +254,12 @@ pub(super) fn sweep(
     let near = |a: &Configuration<f64>, b: &Configuration<f64>| {
         norm(&tracing.curve.difference_but_turns(a, b)) < ARRIVED
     };
-    let missed = wanted.iter().filter(|fold| one_set(fold));
+    let within = |from: f64| from > went[0] && from < went[1];
+    let missed = (wanted.iter()).filter(|(from, fold)| within(*from) && one_set(fold));
     swept.lost += missed
-        .filter(|fold| !reached.iter().any(|at| near(fold, at)))
+        .filter(|(_, fold)| !reached.iter().any(|at| near(fold, at)))
         .count();
-    swept
+    Some(went)
 }
 
 /// A path this near to real configurations has come to one, if it is a dead point.
@@ -186,6 +270,8 @@ struct Paths<'a> {
     method: Continuation,
     value: f64,
     reach: f64,
+    /// Those that a path came to, with the sense in which it went.
+    crossings: Vec<(Configuration<C>, bool)>,
     watch: &'a Watch<'a>,
 }
 
@@ -211,6 +297,9 @@ impl Paths<'_> {
         (up, joint): (bool, usize),
     ) -> End {
         const STEPS: usize = 20_000;
+        /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
+        const INFINITE: f64 = 9.0;
+        const FAR: f64 = 5.0;
         let mut length = 0.1 * self.method.longest;
         let mut before = 0.0;
         let mut none_ahead = false;
@@ -231,16 +320,18 @@ impl Paths<'_> {
                 Err(_) if !none_ahead && length < 1e-3 * self.method.longest => {
                     none_ahead = true;
                     match self.beyond(real, &place, up) {
-                        Some(Ok(to)) => (place, length) = (to, 0.1 * self.method.longest),
-                        Some(Err(real)) => return End::Real(real),
-                        None => {}
+                        Some(end) => return end,
+                        None => continue,
                     }
-                    continue;
                 }
                 Err(_) => {
                     length *= 0.5;
                     if length < self.method.shortest {
-                        break;
+                        let far = self.complex.split(&place.at).0 > FAR;
+                        return match far {
+                            true => End::Pole(self.complex.value(&place.at)),
+                            false => End::Lost,
+                        };
                     }
                     continue;
                 }
@@ -255,18 +346,22 @@ impl Paths<'_> {
             {
                 return End::Real(dead.at);
             }
+            if imaginary > INFINITE {
+                return End::Pole(self.complex.value(&place.at));
+            }
             before = imaginary;
         }
         End::Lost
     }
 
-    /// What is beyond a crossing just ahead: a place straight on, or the dead point that it is.
+    /// What is beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
+    /// another one does not; they leave with every loop turned by i that met its conjugate.
     fn beyond(
         &mut self,
         real: &mut Curve,
         place: &Place<Configuration<C>>,
         up: bool,
-    ) -> Option<Result<Place<Configuration<C>>, Configuration<f64>>> {
+    ) -> Option<End> {
         let (method, complex) = (&self.method, &mut self.complex);
         let reach = 0.2 * method.longest;
         let point = method.branch_point(complex, &place.at, reach)?;
@@ -274,12 +369,29 @@ impl Paths<'_> {
         if imaginary < SAME
             && let Ok(dead) = method.settle(real, beside)
         {
-            return Some(Err(dead.at));
+            return Some(End::Real(dead.at));
         }
-        let way = complex.difference(&place.at, &point.at);
-        let straight = point.straight_on(&way, &place.tangent)?;
-        let (to, _) = method.leave(complex, &point.at, &straight)?;
-        let on = (complex.value(&to.at) > complex.value(&point.at)) == up;
-        on.then_some(Ok(to))
+        let conjugate = point.at.map(|z| z.conj());
+        let same = |known: &Configuration<C>| {
+            complex
+                .apart(known, &point.at)
+                .min(complex.apart(known, &conjugate))
+                < SAME
+        };
+        if (self.crossings.iter()).any(|(known, sense)| *sense == up && same(known)) {
+            return Some(End::Through);
+        }
+        self.crossings.push((point.at.clone(), up));
+        let at = complex.value(&point.at);
+        let mut places = Vec::new();
+        for direction in &point.directions {
+            for sign in [1.0, -1.0] {
+                let direction: Vec<f64> = direction.iter().map(|x| sign * x).collect();
+                let left = method.leave(complex, &point.at, &direction);
+                let on = left.filter(|(to, _)| (complex.value(&to.at) > at) == up);
+                places.extend(on.map(|(to, _)| complex.going(to, up)));
+            }
+        }
+        (!places.is_empty()).then_some(End::Crossing(places))
     }
 }

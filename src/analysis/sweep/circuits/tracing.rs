@@ -66,7 +66,7 @@ impl<'a> Tracing<'a> {
             mechanism,
             curve: Curve::new(mechanism, held),
             at_rest,
-            joint: settings.slice.as_ref().map(|slice| slice.joint),
+            joint: settings.slices.first().map(|slice| slice.joint),
             settings,
             watch,
             traced: Vec::new(),
