@@ -30,21 +30,26 @@ impl Question {
         let follow =
             |seeds: &[_], settings: &_| circuits(mechanism, at_rest, input, seeds, settings, watch);
         let home = [question.start()];
-        let mut report = follow(&home, &settings);
-        if let Some((joint, question)) = sliced(mechanism, &released, (input, &question)) {
-            let solver = self.solver(&question, watch)?;
-            let mut values = vec![beside_home(mechanism, joint)];
-            while !values.is_empty() && settings.slices.len() < MOST_SLICES {
-                let of = |value: f64| slice(mechanism, &question, &solver, (joint, value), watch);
-                settings
-                    .slices
-                    .extend(values.iter().map(|value| of(*value)));
-                report = follow(&home, &settings);
-                // beyond values at which configurations go to infinity others begin
-                let gaps = report.swept.iter().flat_map(|swept| &swept.gaps);
-                values = gaps.map(|[from, to]| 0.5 * (from + to)).collect();
+        let mut report = match sliced(mechanism, &released, (input, &question)) {
+            None => follow(&home, &settings),
+            Some((joint, question)) => {
+                let solver = self.solver(&question, watch)?;
+                let mut values = vec![beside_home(mechanism, joint)];
+                loop {
+                    let of =
+                        |value: &f64| slice(mechanism, &question, &solver, (joint, *value), watch);
+                    settings.slices.extend(values.iter().map(of));
+                    let report = follow(&home, &settings);
+                    // beyond values at which configurations go to infinity others begin
+                    let gaps = report.swept.iter().flat_map(|swept| &swept.gaps);
+                    values = gaps.map(|[from, to]| 0.5 * (from + to)).collect();
+                    let most = settings.slices.len() >= MOST_SLICES;
+                    if values.is_empty() || most || watch.is_stopped() {
+                        break report;
+                    }
+                }
             }
-        }
+        };
         if !(report.swept.as_ref().is_some_and(Swept::is_whole) || watch.is_stopped()) {
             let solver = self.solver(&question, watch)?;
             let seeds = seeds(mechanism, &question, &solver, input, watch);
