@@ -19,6 +19,7 @@
 //! ```
 
 mod at_configuration;
+mod circuits;
 mod error;
 mod live;
 mod many;

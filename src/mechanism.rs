@@ -55,7 +55,7 @@ pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::{Mover, Need};
 pub(crate) use letters::{Formal, Letters};
 pub(crate) use recut::Recut;
-pub(crate) use turns::{principal, turn_near, turns};
+pub(crate) use turns::{principal, turn_near, turns, turns_to_repeat};
 
 /// A valid mechanism. It is immutable; its existence proves that its description is meaningful. Copies share what does not
 /// depend on the values of parameters.
@@ -72,8 +72,8 @@ pub struct Mechanism {
     outputs: Arc<Vec<Quantity>>,
     homes: Arc<model::Homes>,
     dimensions: Arc<Dimensions<f64>>,
-    /// For each joint whether a full turn leaves every frame where it is.
-    repeating: Vec<bool>,
+    /// For each joint after how many turns every frame is where it was, if ever.
+    cycles: Vec<Option<f64>>,
     /// For each closure the rows that do not vanish in every configuration, once asked for.
     rows_that_vary: OnceLock<Vec<Kept>>,
     coordinates: Option<Arc<Coordinates>>,

@@ -17,7 +17,7 @@ mod warm;
 mod watch;
 
 pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
-pub use branching::BranchPoint;
+pub use branching::{ALIGNED, BranchPoint};
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
 pub use deflation::{deflating_step, step_off_saddle};
 pub use endgame::{PathEnd, Turning, path_end};

@@ -20,8 +20,8 @@ mod tangent;
 pub use crate::mechanism::{PointError, Value, ValueError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
-    Bound, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
-    NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
+    Bound, ComplexCurve, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor,
+    MotionTracker, NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
 pub(crate) use enclosure::Enclosure;
 pub(crate) use equations::solve;

@@ -23,7 +23,8 @@ pub(crate) use between::Between;
 use certified::Certifier;
 pub use certified::{Certificate, Uncertified};
 pub use circuits::{
-    Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, JointMotion, circuits,
+    Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, Grashof, JointMotion, Slice,
+    Swept, circuits,
 };
 pub use dwell::Dwell;
 pub(crate) use dwell::dwell;

@@ -1,19 +1,16 @@
-//! Motions and circuits.
+//! Motions.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
 use super::motions::Motions;
 use super::quantities::Metered;
 use super::ranges::still;
 use super::{AskError, Mode, Question, Role};
-use crate::analysis::assemblies::{Assembly, AssemblySolver, Wanted};
-use crate::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, circuits, sweep,
-};
+use crate::analysis::sweep::{CircuitsReport, Sink, SweepReport, SweepSettings, sweep};
 use crate::description;
-use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
-use crate::solve::{Stage, Watch};
-use crate::system::{self, Coordinate, Driven, QuestionError, check_count, moved, sampling_range};
+use crate::mechanism::Configuration;
+use crate::solve::Watch;
+use crate::system::{self, Coordinate, Driven, QuestionError, check_count, moved};
 
 /// Steps made at most.
 const MOST_STEPS: usize = 1_000_000_000;
@@ -154,80 +151,8 @@ impl Question {
         Ok(sweep(mechanism, &held, &[], at, &settings, sink, watch))
     }
 
-    /// All circuits and branches of a mechanism with one freedom, with the cusps and double points of the paths of the
-    /// question's points.
-    ///
-    /// # Errors
-    /// If the question is wrong or leaves another number of freedoms.
-    pub fn circuits(&self, watch: &Watch) -> Result<CircuitsReport, AskError> {
-        let mechanism = &*self.mechanism;
-        let released = self.one_freedom()?;
-        let (input, question) = input(mechanism, &released)?;
-        let question = question.with_spins_still();
-        let solver = self.solver(&question, watch)?;
-        let seeds = seeds(mechanism, &question, &solver, input, watch);
-        let held = question.with_still(released.held());
-        let settings = CircuitsSettings {
-            points: self.named_points()?,
-            ..CircuitsSettings::default()
-        };
-        let held = (&held, question.still());
-        let mut report = circuits(mechanism, held, input, &seeds, &settings, watch);
-        for (path, point) in report.paths.iter_mut().zip(&settings.points) {
-            path.order = self.order(&point.point, watch);
-        }
-        report.interrupted |= watch.is_stopped();
-        Ok(report)
-    }
-
-    /// The order of the path of a point: with so many different points, real or complex, a plane meets it. `None` if
-    /// the search for them may have missed some.
-    fn order(&self, point: &crate::mechanism::Point, watch: &Watch) -> Option<usize> {
-        /// Points this near, over the characteristic length, are one that several configurations share.
-        const SAME: f64 = 1e-6;
-        let cut = (self.mechanism).with_point_on_a_plane(point.frame, point.offset);
-        let length = cut.characteristic_length();
-        let asked = Question {
-            mechanism: cut.into(),
-            store: None,
-            ..self.clone()
-        };
-        let question = asked.released().ok()?;
-        check_count(&question).ok()?;
-        let wanted = Wanted {
-            certificates: false,
-            all_complex: true,
-            starts: false,
-            proof: None,
-        };
-        let report = asked
-            .all(&question.with_spins_still(), wanted, watch)
-            .ok()?;
-        if report.may_lack_some() || report.not_isolated > 0 {
-            return None;
-        }
-        // the slides in the plane
-        let real = (report.assemblies.iter())
-            .filter_map(|of| of.joints.0.last_chunk())
-            .map(|[(_, x), (_, y)]| [[*x, 0.0], [*y, 0.0]]);
-        let complex = (report.complex_assemblies.iter())
-            .filter_map(|of| of.joints.0.last_chunk())
-            .map(|[(_, x), (_, y)]| [*x, *y]);
-        let mut places: Vec<[[f64; 2]; 2]> = Vec::new();
-        for place in real.chain(complex) {
-            let known = places.iter().any(|other| {
-                let parts = other.iter().flatten().zip(place.iter().flatten());
-                parts.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < SAME * length
-            });
-            if !known {
-                places.push(place);
-            }
-        }
-        Some(places.len())
-    }
-
     /// The question that leaves one freedom: actuated joints are held only if that is asked for.
-    fn one_freedom(&self) -> Result<system::Question<'_>, AskError> {
+    pub(super) fn one_freedom(&self) -> Result<system::Question<'_>, AskError> {
         let question = self.released()?;
         match check_count(&question) {
             Err(QuestionError::TooFew { mobility, held, .. }) if mobility == held + 1 => {
@@ -240,83 +165,4 @@ impl Question {
             Err(error) => Err(AskError::Question(error)),
         }
     }
-}
-
-/// The coordinate that moves where one freedom is left, with the question that holds it too: a driven joint, else a
-/// passive one, else a coordinate of a platform.
-fn input<'q>(
-    mechanism: &Mechanism,
-    released: &system::Question<'q>,
-) -> Result<(Coordinate, system::Question<'q>), AskError> {
-    let held = released.held_coordinates();
-    let driven = |of: &Coordinate| match of {
-        Coordinate::Joint(joint) => mechanism.joints()[*joint].role == description::Role::Actuated,
-        _ => false,
-    };
-    // an angle beside a whole orientation that is held does not move
-    let turned = |of: &Coordinate| {
-        let whole =
-            |h: &Coordinate| matches!(h, Coordinate::Turn(p, _) if of.platform() == Some(*p));
-        of.platform().is_some() && of.is_angle(mechanism) && held.iter().any(whole)
-    };
-    let (first, rest): (Vec<Coordinate>, Vec<Coordinate>) = Coordinate::all(mechanism)
-        .filter(|of| !held.contains(of) && !turned(of))
-        .partition(driven);
-    let home = mechanism.home();
-    let mut refused = None;
-    for of in first.iter().chain(&rest) {
-        let question = (released.clone()).at_values([(*of, of.of(mechanism, &home))]);
-        match check_count(&question) {
-            Ok(_) => return Ok((*of, question)),
-            Err(error) if driven(of) => refused = refused.or(Some(error)),
-            Err(_) => {}
-        }
-    }
-    Err(refused.map_or(AskError::NotOneCoordinate, AskError::Question))
-}
-
-/// All assemblies at home and at values of the input spread over its range.
-fn seeds(
-    mechanism: &Mechanism,
-    question: &system::Question,
-    solver: &AssemblySolver,
-    input: Coordinate,
-    watch: &Watch,
-) -> Vec<Configuration<f64>> {
-    const VALUES: u32 = 12;
-    let home = input.of(mechanism, &mechanism.home());
-    let length = mechanism.characteristic_length();
-    let (low, high) = match input {
-        Coordinate::Joint(joint) => match mechanism.joints()[joint].limits {
-            Some(limits) => limits,
-            None if mechanism.repeats(joint) => (home, home + TAU),
-            None => sampling_range(&mechanism.joints()[joint], home, length),
-        },
-        Coordinate::Pose(_, PoseCoordinate::Pitch) => (-FRAC_PI_2, FRAC_PI_2),
-        of if of.is_angle(mechanism) => (home, home + TAU),
-        _ => (home - 2.0 * length, home + 2.0 * length),
-    };
-    let wanted = Wanted {
-        certificates: false,
-        ..Wanted::default()
-    };
-    let mut seeds = Vec::new();
-    for k in 0..=VALUES {
-        if watch.stops(Stage::Inputs, k as usize, Some(VALUES as usize + 1)) {
-            break;
-        }
-        // uneven, so that nothing special is hit
-        let part = (f64::from(k) - 0.618_034) / f64::from(VALUES);
-        let value = if k > 0 {
-            low + part * (high - low)
-        } else {
-            home
-        };
-        let question = question.clone().at_values([(input, value)]);
-        let at = question.start();
-        let report = solver.at_targets(&at, &question.held(), wanted, watch);
-        let found = report.assemblies.iter();
-        seeds.extend(found.map(Assembly::configuration));
-    }
-    seeds
 }

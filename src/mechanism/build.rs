@@ -168,7 +168,7 @@ impl Mechanism {
                 platforms: poses,
             }),
             dimensions: super::Dimensions::empty().into(),
-            repeating: Vec::new(),
+            cycles: Vec::new(),
             rows_that_vary: OnceLock::new(),
             coordinates: description.coordinates.clone().map(Arc::from),
             warnings: Arc::default(),

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::Mechanism;
-use super::model::{Joint, JointKind};
+use super::model::JointKind;
+use super::{Dimensions, Mechanism};
 
 /// As much as `Joint::allows`, in rad or m.
 const ROUNDING: f64 = 1e-9;
@@ -34,16 +34,28 @@ impl Mechanism {
     /// Whether a full turn of the joint leaves every frame where it is: not if it also slides, or if
     /// its variable turns some row by a fraction.
     pub fn repeats(&self, joint: usize) -> bool {
-        self.repeating[joint]
+        self.cycles[joint] == Some(1.0)
     }
 
-    pub(super) fn infer_repeating(&mut self) {
-        let revolute = |joint: &Joint| joint.kind == JointKind::Revolute;
-        self.repeating = self.joints.iter().map(revolute).collect();
-        let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
-        for &(joint, factor) in rows.flat_map(|row| &row.turn.0) {
-            self.repeating[joint] &= factor == factor.round();
-        }
+    /// After how many turns of the joint every frame is where it was: more than one where a gear turns something by a
+    /// fraction. `None` if it also slides, or if a ratio is no fraction.
+    pub fn turns_to_repeat(&self, joint: usize) -> Option<f64> {
+        self.cycles[joint]
+    }
+
+    pub(super) fn infer_cycles(&mut self) {
+        let revolute = |&joint: &usize| self.joints[joint].kind == JointKind::Revolute;
+        let turns = |joint: usize| turns_to_repeat(&self.dimensions, joint);
+        let joints = 0..self.joints.len();
+        let cycles = joints.map(|joint| Some(joint).filter(revolute).and_then(turns));
+        self.cycles = cycles.collect();
+    }
+
+    /// The same mechanism with joints that go as far as the links let them.
+    pub(crate) fn without_limits(&self) -> Mechanism {
+        let mut free = self.clone();
+        free.joints.iter_mut().for_each(|joint| joint.limits = None);
+        free
     }
 
     /// The joints that are outside their limits.
@@ -115,4 +127,24 @@ impl Mechanism {
             (true, _) => principal(value, ROUNDING),
         }
     }
+
+    /// The same, and of a joint that turns something by a fraction the equivalent value nearest to zero.
+    pub fn within_cycle(&self, joint: usize, value: f64) -> f64 {
+        match (self.cycles[joint], self.joints[joint].limits) {
+            (Some(turns), None) => turns * principal(value / turns, ROUNDING),
+            _ => self.as_given(joint, value),
+        }
+    }
+}
+
+/// After how many turns of a joint everything that it turns stands as it did, if it turns it by fractions.
+pub(crate) fn turns_to_repeat(dimensions: &Dimensions<f64>, joint: usize) -> Option<f64> {
+    /// Gears have some dozen teeth.
+    const MOST: u32 = 120;
+    const ROUNDING: f64 = 1e-12;
+    let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
+    let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
+    let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();
+    let mut turns = (1..=MOST).map(f64::from);
+    turns.find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
 }

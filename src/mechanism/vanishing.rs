@@ -53,7 +53,7 @@ impl Mechanism {
     pub(super) fn set_dimensions(&mut self, dimensions: Dimensions<f64>) {
         self.rows_that_vary = OnceLock::new();
         self.dimensions = dimensions.into();
-        self.infer_repeating();
+        self.infer_cycles();
     }
 
     /// For each closure the rows that do not vanish whatever joints and platforms do.

@@ -34,6 +34,9 @@ impl<P> BranchPoint<P> {
     }
 }
 
+/// Beside a crossing a branch still points the way it passes it: the cosine of the angle.
+pub const ALIGNED: f64 = 0.98;
+
 /// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
 const STEP: f64 = 1e-5;
 
@@ -153,8 +156,6 @@ impl Continuation {
         from: &C::Point,
         direction: &[f64],
     ) -> Option<(Place<C::Point>, f64)> {
-        /// The branch must still point there: the cosine of the angle.
-        const ALIGNED: f64 = 0.98;
         let mut length = 0.2 * self.longest;
         for _ in 0..8 {
             let ahead: Vec<f64> = direction.iter().map(|x| x * length).collect();

@@ -1,10 +1,12 @@
 //! The assembled configurations of a mechanism with one freedom left, as a curve.
 
+mod complex;
 mod locus;
 mod trace;
 mod tracker;
 mod walk;
 
+pub use complex::ComplexCurve;
 pub use locus::{LocusCurve, Singular};
 pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, settled};
 pub use tracker::MotionTracker;
@@ -87,7 +89,8 @@ pub struct Curve {
     inputs: Vec<Driven>,
     /// The input that measures the part of the segment that is gone.
     measure: usize,
-    repeats: Vec<bool>,
+    /// For each joint after how many turns nothing has changed.
+    cycles: Vec<Option<f64>>,
 }
 
 impl Curve {
@@ -118,10 +121,16 @@ impl Curve {
             system,
             inputs,
             measure,
-            repeats: (0..mechanism.joints().len())
-                .map(|joint| mechanism.repeats(joint))
-                .collect(),
+            cycles: Curve::cycles_of(mechanism),
         }
+    }
+
+    /// For each joint after how many turns nothing has changed.
+    fn cycles_of(mechanism: &Mechanism) -> Vec<Option<f64>> {
+        let joints = 0..mechanism.joints().len();
+        joints
+            .map(|joint| mechanism.turns_to_repeat(joint))
+            .collect()
     }
 
     /// The closure equations.
@@ -304,9 +313,9 @@ impl Curve {
         self.system.difference_into(from, to, step);
         for (x, unknown) in step.iter_mut().zip(self.system.unknowns()) {
             if let Unknown::Joint(joint) = *unknown
-                && self.repeats[joint]
+                && let Some(turns) = self.cycles[joint]
             {
-                *x = turn_near(*x, 0.0);
+                *x = turns * turn_near(*x / turns, 0.0);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! The other analyses, each against closed forms and published values.
 
+mod circuits;
 mod closed_form;
 mod closed_reports;
 mod closing;

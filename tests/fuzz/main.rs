@@ -4,6 +4,7 @@
 //! one likes; what breaks an invariant is written to the folder `FUZZ_FOUND` names. Cases that once did are kept in
 //! `tests/found`.
 
+mod circuits;
 mod generator;
 mod invariants;
 mod kinematics;
@@ -51,6 +52,27 @@ fn answers_about_random_mechanisms_keep_the_invariants() {
             panic!("seed {seed}: {broken}\n{text}");
         }
     }
+}
+
+#[test]
+fn circuits_of_random_linkages_hold_every_assembly() {
+    for seed in 0..40 {
+        if let Err((broken, text)) = circuits::check(seed) {
+            panic!("seed {seed}: {broken}\n{text}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "takes as long as one likes: FUZZ=0..1000"]
+fn circuits_of_many_random_linkages_hold_every_assembly() {
+    let seeds = range(&std::env::var("FUZZ").unwrap_or("0..200".into()));
+    let broken = seeds.filter_map(|seed| Some((seed, circuits::check(seed).err()?)));
+    let broken: Vec<_> = broken.collect();
+    for (seed, (said, text)) in &broken {
+        eprintln!("seed {seed}: {said}\n{text}");
+    }
+    assert!(broken.is_empty(), "{} of them", broken.len());
 }
 
 /// The numbers `a..b` of an environment variable.

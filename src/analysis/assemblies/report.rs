@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::number::Complex;
 use crate::system::{Gap, is_origin};
 pub use crate::system::{Named, Unfit};
 
@@ -327,6 +328,21 @@ pub struct ComplexAssembly {
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
     /// Jacobian; `null` where solutions meet.
     pub condition: Option<f64>,
+}
+
+impl ComplexAssembly {
+    /// The assembly as a configuration of the mechanism.
+    pub fn configuration(&self, mechanism: &Mechanism) -> Configuration<Complex<f64>> {
+        let number = |[re, im]: [f64; 2]| Complex::new(re, im);
+        let platforms = self.platforms.values().map(|parts| PlatformPose {
+            position: mechanism.to_centre(Vector3([0, 1, 2].map(|i| number(parts[i])))),
+            orientation: Quaternion(std::array::from_fn(|i| number(parts[3 + i]))),
+        });
+        Configuration {
+            joints: self.joints.values().map(|x| number(*x)).collect(),
+            platforms: platforms.collect(),
+        }
+    }
 }
 
 pub(super) fn is_zero(count: &usize) -> bool {

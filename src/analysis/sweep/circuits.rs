@@ -8,57 +8,55 @@
 mod class;
 mod course;
 mod report;
+mod slice;
+mod tracing;
 
-pub use report::{Branch, Circuit, CircuitsReport, FourBarClass, JointMotion};
-
-use std::ops::ControlFlow;
+pub use report::{Branch, Circuit, CircuitsReport, FourBarClass, Grashof, JointMotion};
+pub use slice::{Slice, Swept};
 
 use super::At;
-use super::begin::forwards;
 use super::paths::Tracer;
-use crate::linear::{dot, norm};
+use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
-use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
-use crate::system::{Coordinate, Curve, Event, Held, Still, Walk, sets_of_angles};
-use class::class;
+use crate::solve::{Continuation, Watch};
+use crate::system::{Coordinate, Curve, Held, Still};
+use class::{class, grashof};
 use course::Course;
+use tracing::{Found, SAME, Tracing};
 
 /// How to look for circuits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitsSettings {
     /// How carefully curves are followed.
     pub continuation: Continuation,
-    /// Steps after which a curve is given up.
+    /// Steps after which a curve is given up; ten times as many are made for all curves together.
     pub most_steps: usize,
     /// Points whose paths are looked at.
     pub points: Vec<NamedPoint>,
+    /// All configurations at a value of a joint, from which every circuit on which it moves is met, and at more values of
+    /// it where they go to infinity between these.
+    pub slices: Vec<Slice>,
+}
+
+impl CircuitsSettings {
+    const CURVES: usize = 10;
 }
 
 impl Default for CircuitsSettings {
     fn default() -> Self {
         CircuitsSettings {
             continuation: Continuation::default(),
-            most_steps: 50_000,
+            most_steps: 20_000,
             points: Vec::new(),
+            slices: Vec::new(),
         }
     }
 }
 
-/// One curve as it was followed.
-struct Found {
-    places: Vec<At>,
-    turnings: Vec<(usize, At)>,
-    crossings: Vec<BranchPoint<Configuration<f64>>>,
-    closed: bool,
-    whole: bool,
-    length: f64,
-    seeds: usize,
-}
-
-/// Follows a curve from every seed that lies on none so far, and from every crossing.
+/// Follows a curve from every seed that lies on none so far, from every crossing, and from wherever the slice leads.
 ///
-/// `held`, which includes what stands `still` so that links do not spin, must leave one freedom. Circuits on which no seed lies are not found: take all assemblies
-/// at several values of the input. Of circuits that differ only in the two sets of angles of balls written as three
+/// `held`, which includes what stands `still` so that links do not spin, must leave one freedom. Without a slice circuits
+/// on which no seed lies are not found. Of circuits that differ only in the two sets of angles of balls written as three
 /// rows there is one.
 pub fn circuits(
     mechanism: &Mechanism,
@@ -72,173 +70,85 @@ pub fn circuits(
     if let Coordinate::Joint(joint) = input {
         with_input.joints[joint] = true;
     }
-    let mut curve = Curve::new(mechanism, held);
-    let method = &settings.continuation;
-    let mut traced: Vec<Found> = Vec::new();
-    let mut unusable = 0;
-    for seed in seeds {
-        if watch.is_stopped() {
-            break;
-        }
-        let mut seed = seed.clone();
-        let Ok(place) = curve.begin(mechanism, &mut seed, method) else {
-            unusable += 1;
-            continue;
-        };
-        // with another set of the angles of a ball everything moves alike
-        let mut sets = sets_of_angles(mechanism, (&with_input, still), &seed).into_iter();
-        let known = sets.find_map(|mut set| {
-            let place = curve.begin(mechanism, &mut set, method).ok()?;
-            holding(&mut curve, method, &traced, &place)
-        });
-        if let Some(known) = known {
-            traced[known].seeds += 1;
-            continue;
-        }
-        let place = forwards(mechanism, &curve, place);
-        let mut waiting = vec![(place, 1)];
-        while let Some((place, seeds)) = waiting.pop() {
-            if holding(&mut curve, method, &traced, &place).is_some() {
-                continue;
-            }
-            if watch.is_stopped() {
-                break;
-            }
-            let found = trace(mechanism, &mut curve, place, (settings, watch), seeds);
-            for point in &found.crossings {
-                for direction in &point.directions {
-                    if let Some((place, _)) = method.leave(&mut curve, &point.at, direction) {
-                        waiting.push((forwards(mechanism, &curve, place), 0));
-                    }
-                }
-            }
-            traced.push(found);
+    let at_rest = (&with_input, still);
+    // limits cut circuits into pieces, so that whole ones are looked for first
+    let free = mechanism.without_limits();
+    let limited = mechanism
+        .joints()
+        .iter()
+        .any(|joint| joint.limits.is_some());
+    let mut tracing = Tracing::new(&free, held, at_rest, (settings, watch));
+    seeds.iter().for_each(|seed| tracing.take(seed));
+    let swept = slice::sweep(&settings.slices, held, &mut tracing, watch);
+    if limited {
+        let whole = tracing;
+        tracing = Tracing::new(mechanism, held, at_rest, (settings, watch));
+        for seed in whole
+            .traced
+            .iter()
+            .flat_map(|found| within_limits(mechanism, found))
+        {
+            tracing.take(&seed);
         }
     }
+    let exhausted = tracing.is_exhausted();
+    let Tracing {
+        mut curve,
+        traced,
+        unusable,
+        ..
+    } = tracing;
+    let method = &settings.continuation;
     let all: Vec<Circuit> = (0..traced.len())
         .map(|i| described(mechanism, (&mut curve, method), input, &traced, i))
         .collect();
-    let places: Vec<(&[At], bool)> = (traced.iter())
-        .map(|found| (&found.places[..], found.closed))
-        .collect();
-    let paths = settings.points.iter().map(|point| {
-        let mut tracer = Tracer::new(mechanism, &curve, point);
-        let mut path = tracer.report(&mut curve, method, &places);
-        let special = path.cusps.iter_mut().chain(&mut path.double_points);
-        for joints in special.flat_map(|point| &mut point.joints) {
-            for (joint, value) in joints.iter_mut().enumerate() {
-                *value = mechanism.as_given(joint, *value);
+    let mut paths = Vec::new();
+    if !settings.points.is_empty() {
+        let places: Vec<(Vec<At>, bool)> = (traced.iter())
+            .map(|found| (found.restored(&mut curve, method), found.closed))
+            .collect();
+        let places: Vec<(&[At], bool)> = places.iter().map(|(p, c)| (&p[..], *c)).collect();
+        paths.extend(settings.points.iter().map(|point| {
+            let mut tracer = Tracer::new(mechanism, &curve, point);
+            let mut path = tracer.report(&mut curve, method, &places);
+            let special = path.cusps.iter_mut().chain(&mut path.double_points);
+            for joints in special.flat_map(|point| &mut point.joints) {
+                for (joint, value) in joints.iter_mut().enumerate() {
+                    *value = mechanism.as_given(joint, *value);
+                }
             }
-        }
-        path
-    });
-    let paths = paths.collect();
+            path
+        }));
+    }
     CircuitsReport {
         paths,
         mechanism: mechanism.name().to_owned(),
         input: input.name(mechanism),
         class: class(mechanism, &all),
+        grashof: (traced.first()).and_then(|found| grashof(mechanism, &found.places.first()?.at)),
         circuits: all,
         seeds: seeds.len(),
         unusable,
+        swept,
+        exhausted,
         characteristic_length: mechanism.characteristic_length(),
         interrupted: watch.is_stopped(),
     }
 }
 
-/// The curve that a place lies on.
-fn holding(
-    curve: &mut Curve,
-    method: &Continuation,
-    traced: &[Found],
-    place: &At,
-) -> Option<usize> {
-    const SAME: f64 = 1e-6;
-    traced.iter().position(|known| {
-        known.places.iter().any(|node| {
-            let gap = curve.difference_but_turns(&node.at, &place.at);
-            if norm(&gap) > 1.5 * method.longest {
-                return false;
-            }
-            let near = |curve: &Curve, at: &At| {
-                norm(&curve.difference_but_turns(&at.at, &place.at)) < SAME
-            };
-            let along = dot(&gap, &node.tangent);
-            near(curve, node)
-                || (method.step(curve, node, along)).is_ok_and(|(at, _)| near(curve, &at))
-        })
-    })
-}
-
-/// The curve through a place: round it, or from one end to the other.
-fn trace(
-    mechanism: &Mechanism,
-    curve: &mut Curve,
-    start: At,
-    watched: (&CircuitsSettings, &Watch),
-    seeds: usize,
-) -> Found {
-    // first backwards to an end, if there is one
-    let back = start.clone().reversed();
-    let (mut found, end) = half(mechanism, curve, back, watched, seeds);
-    if !found.closed {
-        let begin = end.map_or(start, Place::reversed);
-        return half(mechanism, curve, begin, watched, seeds).0;
-    }
-    // now in the sense it was to have
-    found.turnings.reverse();
-    found.crossings.reverse();
-    let places = found.places.into_iter().rev();
-    found.places = places.map(Place::reversed).collect();
-    found
-}
-
-/// The curve from a place on until it closes or ends; with the limit that it ends at.
-fn half(
-    mechanism: &Mechanism,
-    curve: &mut Curve,
-    from: At,
-    (settings, watch): (&CircuitsSettings, &Watch),
-    seeds: usize,
-) -> (Found, Option<At>) {
-    let mut found = Found {
-        places: vec![from.clone()],
-        turnings: Vec::new(),
-        crossings: Vec::new(),
-        closed: false,
-        whole: false,
-        length: 0.0,
-        seeds,
+/// A configuration of each piece of a curve that lies within limits.
+fn within_limits(mechanism: &Mechanism, found: &Found) -> Vec<Configuration<f64>> {
+    let inside = |at: &&At| {
+        let mut joints = at.at.joints.clone();
+        mechanism.turn_to_limits(&mut joints);
+        mechanism.outside_limits(&joints).next().is_none()
     };
-    let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
-    let mut steps = 0;
-    let end = walk.follow(curve, |curve, leg| {
-        if watch.stops(Stage::Steps, steps, None) {
-            return ControlFlow::Break(None);
-        }
-        steps += 1;
-        for (place, event) in &leg.events {
-            match event {
-                Event::Turning(joint) => found.turnings.push((*joint, place.clone())),
-                Event::Branches(point) => found.crossings.push((**point).clone()),
-                Event::Closed | Event::Limit { .. } => {
-                    found.length = leg.gone_at(curve, place);
-                    found.places.push(place.clone());
-                    found.whole = true;
-                    found.closed = matches!(event, Event::Closed);
-                    return ControlFlow::Break((!found.closed).then(|| place.clone()));
-                }
-                _ => {}
-            }
-        }
-        found.length = leg.gone_at(curve, &leg.to);
-        found.places.push(leg.to.clone());
-        match steps == settings.most_steps {
-            true => ControlFlow::Break(None),
-            false => ControlFlow::Continue(()),
-        }
-    });
-    (found, end.ok().flatten())
+    let pieces = found.places.chunk_by(|a, b| inside(&a) == inside(&b));
+    let middles = pieces.map(|piece| &piece[piece.len() / 2]);
+    // a piece between two places holds a place where a joint turns back
+    let turnings = found.turnings.iter().map(|(_, place)| place);
+    let seeds = middles.chain(turnings).filter(inside);
+    seeds.map(|place| place.at.clone()).collect()
 }
 
 fn described(
@@ -248,7 +158,6 @@ fn described(
     traced: &[Found],
     i: usize,
 ) -> Circuit {
-    const SAME: f64 = 1e-6;
     let found = &traced[i];
     let platforms: Vec<Course> = match input {
         Coordinate::Joint(_) => Vec::new(),
@@ -287,7 +196,7 @@ fn described(
             .map(|point| {
                 let joints = point.at.joints.iter().enumerate();
                 joints
-                    .map(|(joint, x)| mechanism.as_given(joint, *x))
+                    .map(|(joint, x)| mechanism.within_cycle(joint, *x))
                     .collect()
             })
             .collect(),

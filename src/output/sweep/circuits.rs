@@ -2,7 +2,7 @@
 
 use super::paths;
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion};
+use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion, Swept};
 use crate::description::{count, listed};
 use crate::number::sorting::sort_by;
 use crate::output::document::{Cell, Document, Section, Table};
@@ -11,22 +11,86 @@ use crate::output::report::Report;
 
 impl Report for CircuitsReport {
     fn document(&self) -> Document {
-        let seeds = format!(
-            "followed from {}: all assemblies at several values of {}{}",
-            count(self.seeds, "start"),
-            self.input,
-            match self.unusable {
-                0 => String::new(),
-                n => format!("; {n} of them outside limits or singular"),
-            }
-        );
         let whole = self.circuits.iter().all(|circuit| circuit.whole);
         Document::new(&self.mechanism, sentence(self))
             .yes_if(whole && !self.circuits.is_empty())
+            .notes(other_class(self))
             .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .sections(paths::sections(&self.paths, true))
-            .method(seeds)
+            .method(found(self))
+    }
+}
+
+/// How they were found, and whether there can be others.
+fn found(report: &CircuitsReport) -> String {
+    let Some(swept) = &report.swept else {
+        let unusable = match report.unusable {
+            0 => String::new(),
+            n => format!("; {n} of them outside limits or singular"),
+        };
+        return format!(
+            "followed from {}: all assemblies at several values of {}{unusable}; there may be others between these",
+            count(report.seeds, "start"),
+            report.input,
+        );
+    };
+    let Swept { joint, unit, .. } = swept;
+    let known = format!(
+        "{} at {joint} = {}, {} of them real, each followed {}, complex ones too",
+        count(swept.configurations, "configuration"),
+        quantity(swept.value, *unit),
+        swept.real,
+        match swept.range {
+            Some([from, to]) =>
+                format!("from {} to {}", quantity(from, *unit), quantity(to, *unit)),
+            None => format!("over all values of {joint}"),
+        }
+    );
+    let known = match &swept.poles[..] {
+        [] => known,
+        poles => {
+            let poles: Vec<String> = poles.iter().map(|x| quantity(*x, *unit)).collect();
+            let at = listed(&poles);
+            format!(
+                "{known}; beside {joint} = {at}, where complex ones go to infinity, from others beyond"
+            )
+        }
+    };
+    let gaps = swept.gaps.iter();
+    let gaps = gaps.map(|[from, to]| quantity::range(joint, *from, *to, *unit));
+    let gaps: Vec<String> = gaps.collect();
+    let uncovered = (!gaps.is_empty()).then(|| format!("not looked at: {}", listed(&gaps)));
+    let lost = match swept.lost {
+        0 => None,
+        n => Some(format!(
+            "{} of complex configurations lost",
+            count(n, "path")
+        )),
+    };
+    let doubtful = swept.doubtful.then(|| {
+        format!(
+            "`assemblies` may lack some of the configurations at {joint} = {}",
+            quantity(swept.value, *unit)
+        )
+    });
+    let exhausted = report
+        .exhausted
+        .then(|| "more curves than steps to follow them".to_owned());
+    let doubts: Vec<String> = [uncovered, lost, doubtful, exhausted]
+        .into_iter()
+        .flatten()
+        .collect();
+    match doubts.is_empty() {
+        true => format!(
+            "{known}: these are all circuits on which {joint} moves, if `assemblies` finds all configurations there"
+        ),
+        false => format!(
+            "{known}, and {} at several values of {}; circuits may be missing: {}",
+            count(report.seeds, "start"),
+            report.input,
+            doubts.join("; ")
+        ),
     }
 }
 
@@ -39,6 +103,26 @@ fn class(class: FourBarClass) -> &'static str {
         FourBarClass::ChangePoint => "4-bar with change points",
         FourBarClass::GearedFiveBar => "geared 5-bar",
     }
+}
+
+/// Where the circuits are not those of the class that the lengths have, by how little they have it.
+fn other_class(report: &CircuitsReport) -> Option<String> {
+    let of = report.grashof.filter(|of| report.class != Some(of.class))?;
+    let lengths = match of.class {
+        FourBarClass::ChangePoint => "as long as".to_owned(),
+        _ => {
+            let than = if of.excess > 0.0 { "longer" } else { "shorter" };
+            format!("{} {than} than", metres(of.excess.abs()))
+        }
+    };
+    let reason = match report.class {
+        Some(_) => "too near to its change point to be followed apart from it",
+        None => "circuits were not found, or not followed to their end",
+    };
+    Some(format!(
+        "by its lengths it is a {}, whose shortest and longest link together are {lengths} the other two: {reason}",
+        class(of.class)
+    ))
 }
 
 fn sentence(report: &CircuitsReport) -> String {
@@ -57,7 +141,14 @@ fn sentence(report: &CircuitsReport) -> String {
         Some(of) => format!(": a {}", class(of)),
         None => String::new(),
     };
-    format!("{what} with {branches} for {}{grashof}.", report.input)
+    let least = match report.is_whole() {
+        true => "",
+        false => "At least ",
+    };
+    format!(
+        "{least}{what} with {branches} for {}{grashof}.",
+        report.input
+    )
 }
 
 fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {

@@ -8,7 +8,7 @@ use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::sorting::sort_by;
-use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
+use crate::solve::{ALIGNED, BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
 
 type At = Place<Configuration<f64>>;
 
@@ -277,7 +277,11 @@ impl<'m> Walk<'m> {
             }
         }
         let gone = self.gone;
-        if let Some(place) = closed(curve, &self.start, &from, &to, gone, method) {
+        let back = match closed(curve, &self.start, &from, &to, gone, method) {
+            None if gone > 0.0 => passed_beside_a_crossing(curve, &self.start, &from, &to),
+            back => back,
+        };
+        if let Some(place) = back {
             events.push((place, Event::Closed));
         }
         let along = |p: &At| dot(&curve.difference(&from.at, &p.at), &from.tangent);
@@ -289,6 +293,28 @@ impl<'m> Walk<'m> {
             events,
         }
     }
+}
+
+/// The start, if it lies between a crossing and a place beside it, on the branch that joins them: there no step leads
+/// from one to the other. Branches are told apart by their directions, as where they are left.
+fn passed_beside_a_crossing(curve: &Curve, start: &At, from: &At, to: &At) -> Option<At> {
+    let crossing = [from, to].into_iter().find(|place| place.is_singular())?;
+    let way = curve.difference_but_turns(&crossing.at, &start.at);
+    let end = |place: &At| {
+        dot(
+            &curve.difference(&crossing.at, &place.at),
+            &crossing.tangent,
+        )
+    };
+    let (along, beside) = (dot(&way, &crossing.tangent), norm(&way));
+    let between = (along - end(from)) * (end(to) - along) >= 0.0;
+    let straight = along.abs() >= ALIGNED * beside && beside > 0.0;
+    let alike = dot(&start.tangent, &crossing.tangent) >= ALIGNED;
+    (between && straight && alike).then(|| {
+        let mut place = start.clone();
+        place.at = curve.displaced(&crossing.at, &way);
+        place
+    })
 }
 
 impl Segment {

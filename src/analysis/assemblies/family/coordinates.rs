@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{
-    Configuration, Dimensions, Mechanism, PlatformPose, PoseCoordinate, principal,
+    Configuration, Dimensions, Mechanism, PlatformPose, PoseCoordinate, principal, turns_to_repeat,
 };
 use crate::number::{Complex, Number};
 use crate::system::{Held, HeldPlatform, System};
@@ -77,12 +77,12 @@ impl Coordinates {
         let poses = held_poses.into_iter().map(Input::Pose);
         let dimensions = mechanism.dimensions();
         let turns: Vec<Option<f64>> = (0..mechanism.joints().len())
-            .map(|j| turns_to_repeat(mechanism, j).filter(|_| !slides(dimensions, j)))
+            .map(|j| turns_to_repeat(dimensions, j).filter(|_| !slides(dimensions, j)))
             .collect();
         let winding = free_joints.iter().copied();
         let (screws, incommensurate) = winding
             .filter(|&j| mechanism.joints()[j].kind.is_angle() && turns[j].is_none())
-            .partition(|&j| turns_to_repeat(mechanism, j).is_some());
+            .partition(|&j| turns_to_repeat(dimensions, j).is_some());
         Coordinates {
             legs: legs(&free_joints, &System::new(dimensions, held)),
             free_joints,
@@ -329,17 +329,4 @@ fn slides(dimensions: &Dimensions<f64>, joint: usize) -> bool {
     let lengths = dimensions.closures.iter().map(|c| &c.extension);
     let mut forms = rows.map(|row| &row.slide).chain(lengths);
     forms.any(|form| form.coefficient(joint) != 0.0)
-}
-
-/// After how many turns of a joint everything stands as it did, if it turns what it turns by fractions.
-fn turns_to_repeat(mechanism: &Mechanism, joint: usize) -> Option<f64> {
-    /// Gears have some dozen teeth.
-    const MOST: u32 = 120;
-    const ROUNDING: f64 = 1e-12;
-    let rows = mechanism.dimensions().chains.iter();
-    let rows = rows.flat_map(|chain| &chain.rows);
-    let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
-    let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();
-    let mut turns = (1..=MOST).map(f64::from);
-    turns.find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
 }

@@ -1,11 +1,21 @@
 //! The class of a 4-bar.
 
-use super::{Circuit, FourBarClass};
+use super::{Circuit, FourBarClass, Grashof};
 use crate::description::ClosureKind;
-use crate::mechanism::{Frame, JointKind, Mechanism};
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Frame, JointKind, Mechanism};
 
-/// The class of a planar 4-bar whose two joints on ground are joint variables.
-pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourBarClass> {
+/// The joints of a planar loop of three joint variables and a revolute closure, as (chain, row).
+struct Loop {
+    /// The two on ground.
+    grounded: [(usize, usize); 2],
+    /// The one between them, in the chain of the first of those or in one that stands on it.
+    between: (usize, usize),
+    /// Their joint variables: of those on ground, then of the other.
+    joints: [usize; 3],
+}
+
+fn planar_loop(mechanism: &Mechanism) -> Option<Loop> {
     let [closure] = mechanism.closures() else {
         return None;
     };
@@ -22,15 +32,41 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
         .map(|frame| mechanism.transform(Frame::Ground, frame, &home).rotation.0[2]);
     let axes: Vec<_> = axes.collect();
     let planar = axes.iter().all(|axis| axis.cross(&axes[0]).norm() < 1e-9);
-    let chains = mechanism
-        .chains()
-        .iter()
-        .zip(&mechanism.dimensions().chains);
-    let grounded: Vec<usize> = chains
-        .filter(|(_, of)| of.on == Frame::Ground)
-        .filter_map(|(_, of)| of.rows.first()?.turn.0.first().map(|(joint, _)| *joint))
-        .collect();
-    if !planar || grounded.len() != 2 || circuits.iter().any(|c| !c.whole) || circuits.is_empty() {
+    let chains = &mechanism.dimensions().chains;
+    let grounded = |chain: usize| chains[chain].on == Frame::Ground;
+    let mut on_ground = Vec::new();
+    let mut others = Vec::new();
+    for (chain, part) in chains.iter().enumerate() {
+        for (row, of) in part.rows.iter().enumerate() {
+            if let Some(&(joint, _)) = of.turn.0.first() {
+                match grounded(chain) && row == 0 {
+                    true => on_ground.push((chain, row, joint)),
+                    false => others.push((chain, row, joint)),
+                }
+            }
+        }
+    }
+    let ([mut a, mut b], [c]) = (<[_; 2]>::try_from(on_ground).ok()?, &others[..]) else {
+        return None;
+    };
+    let carrier = match chains[c.0].on {
+        Frame::Link { chain, .. } | Frame::Tip { chain } => chain,
+        _ => c.0,
+    };
+    if b.0 == carrier {
+        std::mem::swap(&mut a, &mut b);
+    }
+    planar.then_some(Loop {
+        grounded: [(a.0, a.1), (b.0, b.1)],
+        between: (c.0, c.1),
+        joints: [a.2, b.2, c.2],
+    })
+}
+
+/// The class of a planar 4-bar whose two joints on ground are joint variables.
+pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourBarClass> {
+    let [a, b, _] = planar_loop(mechanism)?.joints;
+    if circuits.iter().any(|c| !c.whole) || circuits.is_empty() {
         return None;
     }
     // ground and three links; with one more, a joint variable moves two of them
@@ -45,7 +81,7 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
     let turns = |joint: usize| circuits[0].joints.get(joint).is_some_and(|j| j.turns != 0);
     Some(
         match (
-            grounded.iter().filter(|&&joint| turns(joint)).count(),
+            [a, b].iter().filter(|&&joint| turns(joint)).count(),
             circuits.len(),
         ) {
             (2, 2) => FourBarClass::DoubleCrank,
@@ -56,4 +92,45 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
             _ => return None,
         },
     )
+}
+
+/// The class of a planar 4-bar by its lengths alone.
+///
+/// Source: F. Grashof, Theoretische Maschinenlehre, 1883.
+pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Option<Grashof> {
+    /// Lengths that add up this closely, in parts of the longest, are equal: rounding of what is written.
+    const EQUAL: f64 = 1e-12;
+    let loop_ = planar_loop(mechanism).filter(|_| mechanism.bodies().len() == 4)?;
+    let chains = &mechanism.dimensions().chains;
+    let place = |(chain, row): (usize, usize)| {
+        let before = mechanism.transform(Frame::Ground, Frame::Link { chain, row }, home);
+        (before * chains[chain].rows[row].before).position
+    };
+    let [a, b] = loop_.grounded.map(place);
+    let c = place(loop_.between);
+    let normal = mechanism.transform(
+        Frame::Ground,
+        Frame::Link {
+            chain: loop_.between.0,
+            row: 1 + loop_.between.1,
+        },
+        home,
+    );
+    let normal = normal.rotation.0[2];
+    let closure = mechanism.closures()[0].frames[0];
+    let d = mechanism.transform(Frame::Ground, closure, home).position;
+    let length = |from: Vector3<f64>, to: Vector3<f64>| (to - from).cross(&normal).norm();
+    let lengths = [length(a, b), length(a, c), length(c, d), length(d, b)];
+    let mut sorted = lengths;
+    sorted.sort_by(f64::total_cmp);
+    let [shortest, second, third, longest] = sorted;
+    let excess = shortest + longest - second - third;
+    let class = match excess {
+        x if x.abs() <= EQUAL * longest => FourBarClass::ChangePoint,
+        x if x > 0.0 => FourBarClass::TripleRocker,
+        _ if shortest == lengths[0] => FourBarClass::DoubleCrank,
+        _ if shortest == lengths[2] => FourBarClass::DoubleRocker,
+        _ => FourBarClass::CrankRocker,
+    };
+    Some(Grashof { class, excess })
 }

@@ -34,7 +34,7 @@ impl<'m> Course<'m> {
             mechanism,
             of: Coordinate::Joint(joint),
             closed: found.closed,
-            turns: match found.closed && mechanism.repeats(joint) {
+            turns: match found.closed && mechanism.turns_to_repeat(joint).is_some() {
                 true => turns(last - first) as i64,
                 false => 0,
             },
@@ -62,7 +62,8 @@ impl<'m> Course<'m> {
             false => value,
         };
         let mut values: Vec<f64> = Vec::with_capacity(found.places.len());
-        for place in &found.places {
+        let places = found.restored(curve, method);
+        for place in &places {
             let value = of.of(mechanism, &place.at);
             let before = values.last().copied();
             let value = before.map_or(value, |before| near(value, before));
@@ -71,7 +72,7 @@ impl<'m> Course<'m> {
             }
             values.push(value);
         }
-        let rates: Vec<f64> = (found.places.iter())
+        let rates: Vec<f64> = (places.iter())
             .map(|place| curve.rate(&place.at, &place.tangent, of))
             .collect();
         let moving: Vec<usize> = (0..rates.len())
@@ -88,7 +89,7 @@ impl<'m> Course<'m> {
                 1 => {
                     let mut rate =
                         |curve: &mut Curve, place: &At| curve.rate(&place.at, &place.tangent, of);
-                    let (from, to) = (&found.places[a], &found.places[b]);
+                    let (from, to) = (&places[a], &places[b]);
                     let turning = method.root(curve, from, to, &mut rate);
                     near(of.of(mechanism, &turning.at), values[a])
                 }
@@ -119,7 +120,7 @@ impl<'m> Course<'m> {
     fn centred(&self, low: f64, high: f64) -> (f64, f64) {
         let middle = 0.5 * (low + high);
         let shift = match self.of {
-            Coordinate::Joint(joint) => self.mechanism.as_given(joint, middle) - middle,
+            Coordinate::Joint(joint) => self.mechanism.within_cycle(joint, middle) - middle,
             of if of.is_angle(self.mechanism) => turn_near(middle, 0.0) - middle,
             _ => 0.0,
         };
@@ -140,8 +141,16 @@ impl<'m> Course<'m> {
         }
     }
 
-    /// Pieces between places where it turns back.
+    /// Pieces between places where it turns back; none where it stands still.
     pub fn branches(&self) -> Vec<Branch> {
+        const STILL: f64 = 1e-9;
+        if self
+            .values
+            .iter()
+            .all(|x| (x - self.values[0]).abs() < STILL)
+        {
+            return Vec::new();
+        }
         let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
         let piece = |a: f64, b: f64, turns: bool| {
             let (low, high) = self.centred(a.min(b), a.max(b));

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Swept;
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::PathReport;
 use crate::mechanism::{Mechanism, Role};
@@ -80,6 +81,15 @@ pub enum FourBarClass {
     GearedFiveBar,
 }
 
+/// The class of a planar 4-bar by its lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Grashof {
+    /// The class.
+    pub class: FourBarClass,
+    /// By how much the shortest and the longest link together are longer than the other two, in m.
+    pub excess: f64,
+}
+
 /// The circuits of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CircuitsReport {
@@ -89,12 +99,21 @@ pub struct CircuitsReport {
     pub input: String,
     /// The circuits in the order of their first seeds.
     pub circuits: Vec<Circuit>,
-    /// The class of a planar 4-bar.
+    /// The class of a planar 4-bar, as its circuits show it.
     pub class: Option<FourBarClass>,
+    /// The same by its lengths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grashof: Option<Grashof>,
     /// Assembled configurations from which curves were followed.
     pub seeds: usize,
-    /// Seeds where branches cross or that are not assembled; no curve was begun there.
+    /// Seeds that are not assembled or outside limits; no curve was begun there.
     pub unusable: usize,
+    /// How circuits on which no seed lies were looked for, if they were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub swept: Option<Swept>,
+    /// Whether there were more curves than steps to follow them.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub exhausted: bool,
     /// The characteristic length in m.
     pub characteristic_length: f64,
     /// Cusps and double points of the paths of points over all circuits.
@@ -106,6 +125,14 @@ pub struct CircuitsReport {
 }
 
 impl CircuitsReport {
+    /// Whether there are no other circuits on which [`Swept::joint`] moves, if all configurations at one value of it were
+    /// known.
+    pub fn is_whole(&self) -> bool {
+        let swept = self.swept.as_ref().is_some_and(Swept::is_whole);
+        let followed = self.circuits.iter().all(|circuit| circuit.whole);
+        swept && followed && !self.exhausted && !self.interrupted
+    }
+
     /// The joint that is followed by default: the driven one.
     pub fn input_of(mechanism: &Mechanism) -> Option<usize> {
         mechanism

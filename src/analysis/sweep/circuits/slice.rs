@@ -1,0 +1,397 @@
+//! A place on every circuit, by following complex configurations.
+//!
+//! At one value of a joint all configurations are known, real and complex. Followed along the real values of the joint,
+//! a conjugate pair becomes real where a circuit begins, that is where the joint turns back on it, and the real
+//! configurations become such a pair where it ends. So circuits that do not reach the value are met by the pairs, and
+//! those hidden behind others by the pairs that leave these.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use super::tracing::{SAME, Tracing};
+use crate::algebra::SiUnit;
+use crate::linear::norm;
+use crate::mechanism::{Configuration, turn_near};
+use crate::number::sorting::sort_by;
+use crate::number::{Complex, Number};
+use crate::solve::{Continuation, Place, Watch};
+use crate::system::{ComplexCurve, Curve, Held};
+
+type C = Complex<f64>;
+
+/// All assembled configurations at one value of a joint, real and complex.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slice {
+    /// The joint.
+    pub joint: usize,
+    /// Its value, rad or m.
+    pub value: f64,
+    /// How far from it the others are followed on either side, if the joint does not come back to it: rad or m.
+    pub reach: f64,
+    /// The real ones.
+    pub real: Vec<Configuration<f64>>,
+    /// The others.
+    pub complex: Vec<Configuration<C>>,
+    /// Whether the search for them ended with no sign that one was missed.
+    pub whole: bool,
+}
+
+/// How circuits were looked for beside those that seeds lie on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Swept {
+    /// The joint along whose values complex configurations were followed.
+    pub joint: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// The value at which all configurations were known.
+    pub value: f64,
+    /// How many there are, real or complex.
+    pub configurations: usize,
+    /// How many of them are real.
+    pub real: usize,
+    /// The values between which they were followed; `None` if the joint came back to where it was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// Values beyond which other configurations had to be known, because there some go to infinity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub poles: Vec<f64>,
+    /// Values that no path covers, from one to another: next to poles with no configurations known beyond.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<[f64; 2]>,
+    /// Paths that were lost, and dead points that none of them led to.
+    pub lost: usize,
+    /// Whether the search for the configurations may have missed some.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub doubtful: bool,
+}
+
+impl Swept {
+    /// Whether every circuit on which the joint moves was met, if all configurations at the one value were known.
+    pub fn is_whole(&self) -> bool {
+        self.lost == 0 && self.gaps.is_empty() && !self.doubtful
+    }
+}
+
+/// Where a path of complex configurations ended.
+enum End {
+    /// At a real configuration.
+    Real(Configuration<f64>),
+    /// Where the joint has gone all its way, or where a path came before.
+    Through,
+    /// At infinity, where the joint has this value.
+    Pole(f64),
+    /// Where other paths cross, on all that go on from there.
+    Crossing(Vec<Place<Configuration<C>>>),
+    Lost,
+}
+
+/// Follows all curves that slices at values of one joint lead to.
+pub(super) fn sweep(
+    slices: &[Slice],
+    held: &Held<f64>,
+    tracing: &mut Tracing,
+    watch: &Watch,
+) -> Option<Swept> {
+    let mechanism = tracing.mechanism;
+    let slice = slices.first()?;
+    let of = &mechanism.joints()[slice.joint];
+    let cycle = mechanism.turns_to_repeat(slice.joint);
+    let mut swept = Swept {
+        joint: of.name.clone(),
+        unit: SiUnit::of_coordinate(of.kind.is_angle()),
+        value: slice.value,
+        configurations: slice.real.len() + slice.complex.len(),
+        real: slice.real.len(),
+        range: (cycle.is_none()).then(|| [slice.value - slice.reach, slice.value + slice.reach]),
+        poles: Vec::new(),
+        gaps: Vec::new(),
+        lost: 0,
+        doubtful: !slices.iter().all(|slice| slice.whole),
+    };
+    // what they cover, as distances from the first
+    let mut covered = Vec::new();
+    for of in slices {
+        let Some([below, above]) = from_one(of, held, tracing, &mut swept, watch) else {
+            swept.doubtful = true;
+            continue;
+        };
+        for side in [below, above] {
+            if side.abs() < paths_reach(of, cycle) {
+                let pole = of.value + side;
+                swept
+                    .poles
+                    .push(cycle.map_or(pole, |turns| turns * turn_near(pole / turns, 0.0)));
+            }
+        }
+        let from = of.value - slice.value;
+        covered.push([from + below, from + above]);
+    }
+    let reach = paths_reach(slice, cycle);
+    swept.gaps = gaps(&covered, reach, cycle.is_some())
+        .map(|gap| gap.map(|from| slice.value + from))
+        .collect();
+    sort_by(&mut swept.poles, f64::total_cmp);
+    swept.poles.dedup_by(|a, b| (*a - *b).abs() < BESIDE_A_POLE);
+    Some(swept)
+}
+
+/// How far a pair is followed on either side.
+fn paths_reach(slice: &Slice, cycle: Option<f64>) -> f64 {
+    cycle.map_or(slice.reach, |turns| turns * PI)
+}
+
+/// Next to a pole what goes to infinity is complex.
+const BESIDE_A_POLE: f64 = 0.02;
+
+/// What intervals leave uncovered between −reach and reach, which are the same place if that is a whole cycle.
+fn gaps(covered: &[[f64; 2]], reach: f64, cycle: bool) -> impl Iterator<Item = [f64; 2]> {
+    let shifts: &[f64] = if cycle { &[-2.0, 0.0, 2.0] } else { &[0.0] };
+    let moved = |shift: &f64| {
+        let by = shift * reach;
+        covered.iter().map(move |[low, high]| [low + by, high + by])
+    };
+    let mut all: Vec<[f64; 2]> = shifts.iter().flat_map(moved).collect();
+    sort_by(&mut all, |a, b| a[0].total_cmp(&b[0]));
+    let mut gaps = Vec::new();
+    let mut end = -reach;
+    for [low, high] in all.into_iter().chain([[reach, reach]]) {
+        if low.min(reach) > end + BESIDE_A_POLE {
+            gaps.push([end, low.min(reach)]);
+        }
+        end = end.max(high);
+    }
+    gaps.into_iter()
+}
+
+/// Follows the curves that one slice leads to; how far below and above its value all paths went.
+fn from_one(
+    slice: &Slice,
+    held: &Held<f64>,
+    tracing: &mut Tracing,
+    swept: &mut Swept,
+    watch: &Watch,
+) -> Option<[f64; 2]> {
+    let mechanism = tracing.mechanism;
+    let cycle = mechanism.turns_to_repeat(slice.joint);
+    slice.real.iter().for_each(|seed| tracing.take(seed));
+    let complex = ComplexCurve::new(mechanism, held, slice.joint)?;
+    let mut paths = Paths {
+        // far from the real ones cosines and sines are large
+        method: Continuation {
+            tolerance: 1e-10,
+            ..tracing.method().clone()
+        },
+        value: slice.value,
+        reach: paths_reach(slice, cycle),
+        complex,
+        crossings: Vec::new(),
+        watch,
+    };
+    let mut waiting = Vec::new();
+    let mut pairs: Vec<&Configuration<C>> = Vec::new();
+    for at in &slice.complex {
+        let conjugate = at.map(|z| z.conj());
+        if (pairs.iter()).any(|known| paths.complex.apart(known, &conjugate) < SAME) {
+            continue;
+        }
+        pairs.push(at);
+        match paths.method.settle(&mut paths.complex, at.clone()) {
+            Ok(place) => {
+                for up in [false, true] {
+                    waiting.push((paths.complex.going(place.clone(), up), up));
+                }
+            }
+            Err(_) => swept.lost += 1,
+        }
+    }
+    let mut went = [-paths.reach, paths.reach];
+    // dead points that a path is to end at, and those that one did
+    let (mut wanted, mut reached) = (Vec::new(), Vec::new());
+    let mut seen = 0;
+    loop {
+        for found in &tracing.traced[seen..] {
+            for (fold, greatest) in &found.folds {
+                let from = fold.at.joints[slice.joint] - slice.value;
+                let from = cycle.map_or(from, |turns| turns * turn_near(from / turns, 0.0));
+                if from.abs() >= paths.reach {
+                } else if (from > 0.0) != *greatest {
+                    wanted.push((from, fold.at.clone()));
+                } else {
+                    let mut at = fold.at.map(C::from_f64);
+                    at.joints[slice.joint] = C::from_f64(slice.value + from);
+                    match paths.leaving(&at, &fold.tangent, *greatest) {
+                        Some(place) => waiting.push((place, *greatest)),
+                        None => swept.lost += 1,
+                    }
+                }
+            }
+        }
+        seen = tracing.traced.len();
+        let Some((place, up)) = waiting.pop() else {
+            break;
+        };
+        if watch.is_stopped() || tracing.is_exhausted() {
+            swept.lost += 1;
+            break;
+        }
+        match paths.follow(&mut tracing.curve, place, (up, slice.joint)) {
+            End::Real(at) => {
+                tracing.take(&at);
+                reached.push(at);
+            }
+            End::Through => {}
+            End::Pole(at) => match up {
+                true => went[1] = went[1].min(at - slice.value),
+                false => went[0] = went[0].max(at - slice.value),
+            },
+            End::Crossing(places) => waiting.extend(places.into_iter().map(|place| (place, up))),
+            End::Lost => swept.lost += 1,
+        }
+    }
+    // of the sets of angles of balls one is followed, and paths may end at another
+    let one_set = |at: &Configuration<f64>| mechanism.sets_of_angles(at).len() == 1;
+    let near = |a: &Configuration<f64>, b: &Configuration<f64>| {
+        norm(&tracing.curve.difference_but_turns(a, b)) < ARRIVED
+    };
+    let within = |from: f64| from > went[0] && from < went[1];
+    let missed = (wanted.iter()).filter(|(from, fold)| within(*from) && one_set(fold));
+    swept.lost += missed
+        .filter(|(_, fold)| !reached.iter().any(|at| near(fold, at)))
+        .count();
+    Some(went)
+}
+
+/// A path this near to real configurations has come to one, if it is a dead point.
+const ARRIVED: f64 = 1e-3;
+
+struct Paths<'a> {
+    complex: ComplexCurve,
+    method: Continuation,
+    value: f64,
+    reach: f64,
+    /// Those that a path came to, with the sense in which it went.
+    crossings: Vec<(Configuration<C>, bool)>,
+    watch: &'a Watch<'a>,
+}
+
+impl Paths<'_> {
+    /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
+    fn leaving(
+        &mut self,
+        fold: &Configuration<C>,
+        tangent: &[f64],
+        up: bool,
+    ) -> Option<Place<Configuration<C>>> {
+        let direction = self.complex.off_real(tangent);
+        let (place, _) = self.method.leave(&mut self.complex, fold, &direction)?;
+        let beyond = (self.complex.value(&place.at) > self.complex.value(fold)) == up;
+        beyond.then(|| self.complex.going(place, up))
+    }
+
+    /// Follows a path until it is real, or the joint has gone all its way.
+    fn follow(
+        &mut self,
+        real: &mut Curve,
+        mut place: Place<Configuration<C>>,
+        (up, joint): (bool, usize),
+    ) -> End {
+        const STEPS: usize = 20_000;
+        /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
+        const INFINITE: f64 = 9.0;
+        const FAR: f64 = 5.0;
+        let mut length = 0.1 * self.method.longest;
+        let mut before = 0.0;
+        let mut none_ahead = false;
+        for _ in 0..STEPS {
+            if self.watch.is_stopped() {
+                break;
+            }
+            let gone = self.complex.value(&place.at) - self.value;
+            if gone.abs() >= self.reach && (gone > 0.0) == up {
+                return End::Through;
+            }
+            match self.method.step(&mut self.complex, &place, length) {
+                Ok((to, changed)) => {
+                    length = self.method.next_length(length, changed, &to);
+                    place = to;
+                    none_ahead = false;
+                }
+                Err(_) if !none_ahead && length < 1e-3 * self.method.longest => {
+                    none_ahead = true;
+                    match self.beyond(real, &place, up) {
+                        Some(end) => return end,
+                        None => continue,
+                    }
+                }
+                Err(_) => {
+                    length *= 0.5;
+                    if length < self.method.shortest {
+                        let far = self.complex.split(&place.at).0 > FAR;
+                        return match far {
+                            true => End::Pole(self.complex.value(&place.at)),
+                            false => End::Lost,
+                        };
+                    }
+                    continue;
+                }
+            }
+            let (imaginary, beside) = self.complex.split(&place.at);
+            if imaginary < ARRIVED
+                && imaginary < before
+                && let Ok(dead) = self.method.settle(real, beside.clone())
+                && let column = real.column(joint).expect("the joint moves")
+                && dead.tangent[column].abs() < 0.1
+                && norm(&real.difference_but_turns(&beside, &dead.at)) < 0.1 * imaginary
+            {
+                return End::Real(dead.at);
+            }
+            if imaginary > INFINITE {
+                return End::Pole(self.complex.value(&place.at));
+            }
+            before = imaginary;
+        }
+        End::Lost
+    }
+
+    /// What is beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
+    /// another one does not; they leave with every loop turned by i that met its conjugate.
+    fn beyond(
+        &mut self,
+        real: &mut Curve,
+        place: &Place<Configuration<C>>,
+        up: bool,
+    ) -> Option<End> {
+        let (method, complex) = (&self.method, &mut self.complex);
+        let reach = 0.2 * method.longest;
+        let point = method.branch_point(complex, &place.at, reach)?;
+        let (imaginary, beside) = complex.split(&point.at);
+        if imaginary < SAME
+            && let Ok(dead) = method.settle(real, beside)
+        {
+            return Some(End::Real(dead.at));
+        }
+        let conjugate = point.at.map(|z| z.conj());
+        let same = |known: &Configuration<C>| {
+            complex
+                .apart(known, &point.at)
+                .min(complex.apart(known, &conjugate))
+                < SAME
+        };
+        if (self.crossings.iter()).any(|(known, sense)| *sense == up && same(known)) {
+            return Some(End::Through);
+        }
+        self.crossings.push((point.at.clone(), up));
+        let at = complex.value(&point.at);
+        let mut places = Vec::new();
+        for direction in &point.directions {
+            for sign in [1.0, -1.0] {
+                let direction: Vec<f64> = direction.iter().map(|x| sign * x).collect();
+                let left = method.leave(complex, &point.at, &direction);
+                let on = left.filter(|(to, _)| (complex.value(&to.at) > at) == up);
+                places.extend(on.map(|(to, _)| complex.going(to, up)));
+            }
+        }
+        (!places.is_empty()).then_some(End::Crossing(places))
+    }
+}
