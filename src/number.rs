@@ -9,6 +9,7 @@ mod folded;
 mod interval;
 mod real;
 pub(crate) mod sorting;
+mod taylor;
 pub(crate) mod trigonometry;
 mod widest;
 
@@ -19,6 +20,7 @@ pub use dual::Dual;
 pub(crate) use folded::Folded;
 pub use interval::Interval;
 pub use num_complex::Complex;
+pub(crate) use taylor::Taylor;
 pub(crate) use widest::widest;
 
 /// A number the kinematics can be evaluated over.
