@@ -7,6 +7,7 @@
 mod generator;
 mod invariants;
 mod kinematics;
+mod motions;
 mod questions;
 
 use std::path::{Path, PathBuf};

@@ -247,6 +247,7 @@ impl<'m> Course<'m> {
             noise: Vec::new(),
             rough: Vec::new(),
         };
+        let is_solved = samples.iter().all(|of| !of[self.names.len()][0].is_nan());
         for name in 0..=self.names.len() {
             let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
             if self.names.get(name).is_some_and(Name::turns) {
@@ -267,15 +268,15 @@ impl<'m> Course<'m> {
             let finite = |most: f64, x: f64| if x.is_finite() { most.max(x) } else { most };
             let largest = values.iter().map(|x| x.abs()).fold(0.0, finite);
             let noise = samples.iter().map(|of| of[name][1]).fold(0.0, finite);
-            let near = COMPARED.iter().all(|&place| {
-                let off = polynomial(&terms, places()[place]) - values[place];
-                off.abs() <= OFF * largest + 8.0 * noise
-            });
-            let nowhere = values.iter().all(|x| x.is_nan());
+            let off =
+                COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
+            let near = off.iter().all(|off| *off <= OFF * largest + 8.0 * noise);
+            // no value anywhere, though the configurations are known
+            let nowhere = values.iter().all(|x| x.is_nan()) && is_solved;
             piece
                 .terms
                 .push(if near { terms } else { [f64::NAN; TERMS] });
-            piece.noise.push(noise + OFF * largest);
+            piece.noise.push(noise + off.into_iter().fold(0.0, finite));
             piece.rough.push(!near && !nowhere);
         }
         piece

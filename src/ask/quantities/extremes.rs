@@ -77,8 +77,8 @@ impl Bounds {
 /// has.
 fn bounds(course: &Course, of: &Sought) -> Bounds {
     /// How many parts are looked at, beside the pieces themselves.
-    const PATIENCE: usize = 200_000;
-    /// Values that may be off more than this are no better than others.
+    const PATIENCE: usize = 400_000;
+    /// Values that may be off more than this, and more than is usual, are no better than others: they are near 0/0.
     const CLEAR: f64 = 1e-7;
     let mut bounds = Bounds {
         best: [None; 2],
@@ -107,8 +107,10 @@ fn bounds(course: &Course, of: &Sought) -> Bounds {
         sort_by(&mut sizes, f64::total_cmp);
         sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
     });
-    let usual = bounds.usual[0];
-    let clear = |value: f64, noise: f64| noise <= CLEAR * (value.abs() + usual);
+    let [usual, usually_off] = bounds.usual;
+    let clear = |value: f64, noise: f64| {
+        noise <= f64::max(CLEAR * (value.abs() + usual), 10.0 * usually_off)
+    };
     // an angle without jumps is known only along the way
     for (value, noise, piece, s) in seen.into_iter().filter(|_| !of.jumps) {
         if clear(value, noise) {
