@@ -10,6 +10,7 @@ mod interval;
 mod mark;
 mod real;
 pub(crate) mod sorting;
+mod taylor;
 pub(crate) mod trigonometry;
 mod widest;
 
@@ -21,6 +22,7 @@ pub(crate) use folded::Folded;
 pub use interval::Interval;
 pub(crate) use mark::mark;
 pub use num_complex::Complex;
+pub(crate) use taylor::Taylor;
 pub(crate) use widest::widest;
 
 /// A number the kinematics can be evaluated over.

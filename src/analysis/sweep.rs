@@ -19,7 +19,7 @@ mod rows;
 mod schedule;
 mod straightness;
 
-pub(crate) use between::Between;
+pub(crate) use between::{Passage, Stretch};
 use certified::Certifier;
 pub use certified::{Certificate, Uncertified};
 pub use circuits::{
@@ -27,7 +27,7 @@ pub use circuits::{
     Swept, circuits,
 };
 pub use dwell::Dwell;
-pub(crate) use dwell::dwell;
+pub(crate) use dwell::{Sample, dwell};
 pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
 pub use motion::{
@@ -98,6 +98,8 @@ pub struct Row<'a> {
     pub number: usize,
     /// The number of steps of the inputs' segment; `None` between two of them, and without inputs.
     pub step: Option<usize>,
+    /// The part of the time that is gone, where a table says it.
+    pub time: Option<f64>,
     /// The configuration: no closure row exceeds 1e-12 rad or characteristic lengths.
     pub configuration: &'a Configuration<f64>,
     /// Where the traced points are, in ground, in m.
@@ -116,6 +118,7 @@ impl<'a> Row<'a> {
         Row {
             number: 0,
             step: None,
+            time: None,
             configuration,
             points: &[],
             quantities: &[],
@@ -247,7 +250,9 @@ pub fn sweep(
     let mut certifier = (settings.certify && driven)
         .then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start, watch));
     let sink: &mut Flow = &mut |row| {
-        if let Some(Ok(certifier)) = &mut certifier {
+        if let Some(Ok(certifier)) = &mut certifier
+            && !row.between
+        {
             certifier.row(row.configuration);
         }
         sink(row);

@@ -1,17 +1,16 @@
 //! Motions that can begin, and their reports.
 
-use std::cell::Cell;
-use std::f64::consts::{PI, TAU};
-
-use super::quantities::{Block, Course, Extremes, Meter, Metered, Passage, Seen};
+use super::quantities::{Block, Course, Meter, Metered, Name, Sought, located};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
-    Columns, Dwell, Extremum, KeptRows, MotionReport, MotionsReport, Paths, Row, Schedule, Sink,
-    Straightness, SweepReport, SweepSettings, dwell, sweep,
+    Columns, Dwell, Extremum, KeptRows, MetKind, MotionReport, MotionsReport, Passage, Paths, Row,
+    Schedule, Sink, Straightness, SweepReport, SweepSettings, dwell, sweep,
 };
-use crate::mechanism::{Configuration, Mechanism, NamedPoint, Quantity, Variable};
+use crate::mechanism::{
+    Configuration, Measured, Mechanism, NamedPoint, Order, PoseCoordinate, Quantity, Variable,
+};
 use crate::solve::Watch;
-use crate::system::{Coordinate, Driven, Held, Moved};
+use crate::system::{Driven, Held, Moved};
 
 /// What is sought between the rows of a motion.
 #[derive(Default)]
@@ -59,41 +58,6 @@ impl Motions<'_> {
         let timed = !quantities.is_empty() && !self.metered.inputs.is_empty();
         let time = timed.then(|| Variable::new("time", SiUnit::SECOND));
         time.into_iter().chain(quantities).collect()
-    }
-
-    /// The part of the time that is gone where the inputs are; those that follow a table are past this number of steps.
-    fn time(&self, at: &Configuration<f64>, step: usize) -> f64 {
-        if let Some(schedule) = &self.settings.schedule {
-            let inputs = schedule.between(&self.metered.inputs, step, self.settings.steps);
-            let size = |of: &Driven| (of.to - of.from).abs() / of.coordinate.scale(self.mechanism);
-            let most = (inputs.iter()).max_by(|a, b| size(a).total_cmp(&size(b)));
-            let gone = most.map_or(0.0, |of| {
-                (of.coordinate.of(self.mechanism, at) - of.from) / (of.to - of.from)
-            });
-            let gone = if gone.is_finite() { gone } else { 0.0 };
-            return (step as f64 + gone.clamp(0.0, 1.0)) / self.settings.steps as f64;
-        }
-        let joint = |input: &&Driven| matches!(input.coordinate, Coordinate::Joint(_));
-        let measure = self
-            .metered
-            .inputs
-            .iter()
-            .find(joint)
-            .or(self.metered.inputs.first());
-        let part = measure.map_or(0.0, |input| {
-            let way = input.to - input.from;
-            let gone = input.coordinate.of(self.mechanism, at) - input.from;
-            match input.coordinate {
-                Coordinate::Joint(_) => gone / way,
-                // an angle of a platform is known modulo a turn
-                of if of.is_angle(self.mechanism) => {
-                    let middle = 0.5 * way;
-                    (middle + (gone - middle + PI).rem_euclid(TAU) - PI) / way
-                }
-                _ => gone / way,
-            }
-        });
-        self.settings.pace.law.inverse(part.clamp(0.0, 1.0))
     }
 
     /// The same with rows between those asked for, so near to one another that a line through them looks smooth.
@@ -162,23 +126,32 @@ impl Motions<'_> {
     ) -> (SweepReport, Located) {
         let wanted = self.settings.straightness || !self.dwells.is_empty();
         if self.metered.quantities.is_empty() && !wanted {
-            let moved = self.moved(start, sink, watch);
+            let moved = self.moved(start, &self.settings, sink, watch);
             return (moved, Located::default());
         }
         let mut meter = Meter::new(&self.metered, start);
-        let mut extremes = Extremes::new(self.metered.quantities.len());
         let timed = !self.metered.inputs.is_empty() && !self.metered.quantities.is_empty();
         let mut values = Vec::new();
-        let mut all: Vec<Seen> = Vec::new();
-        let steps = self.settings.steps as f64;
-        let latest = Cell::new(0);
+        let steps = self.settings.steps;
+        let (mut names, programs) = self.metered.programs();
+        let paths = self.points().iter().filter(|_| self.settings.straightness);
+        let paths: Vec<(&NamedPoint, [usize; 3])> = paths
+            .map(|of| {
+                let axes = [PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z];
+                names.extend(
+                    axes.map(|axis| Name::of(Measured::Place(of.point, axis, Order::Value))),
+                );
+                (of, std::array::from_fn(|k| names.len() - 3 + k))
+            })
+            .collect();
+        let schedule = self.settings.schedule.as_ref();
+        let inputs = &self.metered.inputs;
+        let how = (self.settings.pace, schedule);
+        let passage = Passage::new(self.mechanism, &self.held, inputs, how);
+        let mut course = Course::new(passage, names.clone());
         let mut take = |block: &Block| {
-            extremes.take(block);
             for i in 0..block.len() {
                 let (row, time) = block.row(i);
-                if wanted && !row.between {
-                    all.push(Seen::of(block, i));
-                }
                 values.clear();
                 values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
                 values.extend(block.values(i));
@@ -189,64 +162,89 @@ impl Motions<'_> {
             }
         };
         let mut measured = |row: &Row| {
-            let at = row.configuration;
-            latest.set(row.step.unwrap_or(latest.get()));
-            let time = row
-                .step
-                .map_or_else(|| self.time(at, latest.get()), |step| step as f64 / steps);
-            meter.read_row(row, time, &mut take);
+            let time = match row.step {
+                Some(step) => step as f64 / steps as f64,
+                None => (row.time).unwrap_or_else(|| course.time(row.configuration)),
+            };
+            // the places of the curve, which do not depend on the rows asked for
+            let ends = row.step.is_none_or(|step| step == 0 || step == steps);
+            let fold = matches!(row.special, Some(MetKind::Fold { .. }));
+            if ends && (schedule.is_none() || row.special.is_none()) {
+                course.reach(row, time, fold);
+            }
+            if !row.between || self.settings.between {
+                meter.read_row(row, time, &mut take);
+            }
         };
-        let report = self.moved(start, &mut measured, watch);
+        let settings = SweepSettings {
+            between: true,
+            ..self.settings.clone()
+        };
+        let mut report = self.moved(start, &settings, &mut measured, watch);
         meter.read_waiting(&mut take);
-        let passage = Passage {
-            mechanism: self.mechanism,
-            held: &self.held,
-            inputs: &self.metered.inputs,
-            schedule: self.settings.schedule.as_ref(),
-            time: &|at| self.time(at, latest.get()),
-        };
-        let dwells = self.dwells.iter().filter_map(|(quantity, tolerance)| {
-            let mut course = Course::new(passage, &all);
-            let (value, places) = dwell(all.len(), *tolerance, &mut |place| {
-                meter.settle(&course.row(place).values);
-                let (at, when) = course.at(place)?;
-                Some([when, meter.read(at, when)[*quantity]?])
+        let mut of_names = Meter::of_names(&self.metered, start, &names);
+        course.look(&mut of_names, watch);
+        report.interrupted |= watch.is_stopped();
+        let sought: Vec<Sought> = (self.metered.quantities.iter().zip(&programs))
+            .map(|(quantity, program)| Sought::new(quantity, program))
+            .collect();
+        let dwells = self.dwells.iter().filter_map(|&(quantity, tolerance)| {
+            let (samples, whole) = course.samples(&sought[quantity], tolerance);
+            let (value, places) = dwell(&samples, tolerance, &mut |place| {
+                let near = samples
+                    .partition_point(|of| of.0 < place)
+                    .min(samples.len() - 1);
+                let near = samples[near].1.or(samples[near.saturating_sub(1)].1)?;
+                meter.settle(quantity, near[1]);
+                let (at, when) = course.at_place(place)?;
+                Some([when, meter.read(at, when)[quantity]?])
             })?;
             let [begin, end] = places.map(|place| {
-                let found = course.at(place);
-                found.map(|(at, when)| (when, passage.inputs(at)))
+                let (at, when) = course.at_place(place)?;
+                let at = at.clone();
+                Some((when, course.inputs(&at)))
             });
             let ((begin, from), (end, to)) = (begin?, end?);
-            let of = &self.metered.quantities[*quantity];
+            let of = &self.metered.quantities[quantity];
             Some(Dwell {
                 name: of.name.clone(),
                 unit: of.unit,
-                tolerance: *tolerance,
+                tolerance,
                 value,
                 times: [begin, end],
                 inputs: [from, to],
+                at_least: !whole,
             })
         });
         let dwells = dwells.collect();
-        let points = self.points().iter().filter(|_| self.settings.straightness);
-        let straightness = points.filter_map(|named| {
+        let straightness = paths.into_iter().filter_map(|(named, axes)| {
             let mut paths = Paths::new(self.mechanism, std::slice::from_ref(named));
-            let mut course = Course::new(passage, &all);
-            Straightness::along(&named.name, all.len(), &mut |place| {
-                paths.place(course.at(place)?.0);
+            let path = course.path(axes);
+            let line = Straightness::along(&named.name, path, &mut |place| {
+                paths.place(course.at_place(place)?.0);
                 Some(paths.at[0])
+            })?;
+            Some(Straightness {
+                at_least: !course.whole,
+                ..line
             })
         });
         let located = Located {
             straightness: straightness.collect(),
             dwells,
-            extremes: extremes.located(&self.metered.quantities, passage, &mut meter),
+            extremes: located(&mut course, &self.metered.quantities, &sought, &mut meter),
         };
         (report, located)
     }
 
-    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
+    fn moved(
+        &self,
+        start: &Configuration<f64>,
+        settings: &SweepSettings,
+        sink: &mut Sink,
+        watch: &Watch,
+    ) -> SweepReport {
         let (mechanism, held, inputs) = (self.mechanism, &self.held, self.inputs());
-        sweep(mechanism, held, inputs, start, &self.settings, sink, watch)
+        sweep(mechanism, held, inputs, start, settings, sink, watch)
     }
 }

@@ -1,13 +1,13 @@
 //! Quantities over a motion: what is asked for, and what of it can be known.
 
+mod course;
 mod extremes;
 mod meter;
-mod passage;
 mod poles;
 
-pub(super) use extremes::Extremes;
-pub(super) use meter::{Block, Meter, Metered};
-pub(super) use passage::{Course, Passage, Seen};
+pub(super) use course::{Course, Sought};
+pub(super) use extremes::located;
+pub(super) use meter::{Block, Meter, Metered, Name};
 
 use super::{AskError, Item, Question, Role, Unmeasured};
 use crate::algebra::{Measure, SiUnit};

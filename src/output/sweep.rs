@@ -99,7 +99,14 @@ fn extremes(motion: &MotionReport) -> Section {
     let table = Table::of(&motion.extremes).words("quantity", |of| &of.name);
     let table = sides.into_iter().fold(table, |table, (word, side)| {
         let table = table.words(word, move |of| match side(of) {
-            Some(found) => quantity(found.value, of.unit),
+            Some(found) => {
+                let beyond = match (of.at_least, word) {
+                    (false, _) => "",
+                    (true, "least") => "at most ",
+                    (true, _) => "at least ",
+                };
+                format!("{beyond}{}", quantity(found.value, of.unit))
+            }
             None => match (of.constant, of.unbounded.is_empty()) {
                 (Some(value), _) if word == "least" => {
                     format!("constant: {}", quantity(value, of.unit))

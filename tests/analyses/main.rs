@@ -29,6 +29,7 @@ mod suspension;
 mod sweep;
 mod velocity;
 mod watched;
+mod whole_motions;
 mod workspace;
 
 /// The exit status of a command, its output and its messages.

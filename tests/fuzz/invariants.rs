@@ -14,7 +14,9 @@ use linkwork::output::Report;
 use linkwork::solve::{Progress, Watch};
 use linkwork::system::QuestionError;
 
+use crate::generator::Dice;
 use crate::kinematics::Placed;
+use crate::motions::motions;
 use crate::questions::Asked;
 
 /// What went wrong, in words.
@@ -37,7 +39,7 @@ pub struct Budget {
 
 impl Budget {
     /// The answer, and whether it was left unfinished.
-    fn spend<R>(&self, work: impl FnOnce(&Watch) -> R) -> (R, bool) {
+    pub fn spend<R>(&self, work: impl FnOnce(&Watch) -> R) -> (R, bool) {
         let steps = AtomicUsize::new(0);
         let observer = |_: Progress| match steps.fetch_add(1, Ordering::Relaxed) < self.steps {
             true => ControlFlow::Continue(()),
@@ -72,6 +74,13 @@ pub fn check(mechanism: &Mechanism, asked: &Asked, budget: &Budget) -> Broken {
     assemblies(&question, solved.as_ref(), budget)?;
     if let Some((at, true)) = &solved {
         rates(asked, mechanism, at, budget)?;
+        motions(
+            asked,
+            mechanism,
+            at,
+            budget,
+            &mut Dice::new(asked.line().len() as u64),
+        )?;
     }
     Ok(())
 }
@@ -471,7 +480,7 @@ fn rates(asked: &Asked, mechanism: &Mechanism, at: &Configuration<f64>, budget: 
 }
 
 /// Starts where the mechanism is assembled.
-fn near(question: Question, mechanism: &Mechanism, at: &Configuration<f64>) -> Question {
+pub fn near(question: Question, mechanism: &Mechanism, at: &Configuration<f64>) -> Question {
     let held = question
         .resolved()
         .map(|q| q.held())

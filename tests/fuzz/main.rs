@@ -8,6 +8,7 @@ mod circuits;
 mod generator;
 mod invariants;
 mod kinematics;
+mod motions;
 mod questions;
 
 use std::path::{Path, PathBuf};

@@ -1,145 +1,208 @@
-//! Configurations between rows that follow one another.
+//! Configurations anywhere on the curve of a motion.
 
-use super::Schedule;
+use std::f64::consts::{PI, TAU};
+
 use super::rows::holding;
+use super::{Pace, Schedule};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Newton;
 use crate::system::{Coordinate, Driven, Held, MotionTracker, System};
 
-/// Solves for configurations between three rows on one branch: the first is where 0 is, the last where 1 is.
-///
-/// What is prescribed are the inputs, where they go one way through the three; else, as at a dead point, the
-/// coordinate that moves most.
-pub struct Between {
-    tracker: MotionTracker,
-    moved: Vec<Driven>,
-    /// What the inputs follow, with the parts of the time at the first and the last row.
-    schedule: Option<(Schedule, [f64; 2])>,
-    middle: Configuration<f64>,
-    /// The part of the way where the middle row is.
-    part: f64,
-    /// How far, in rad and characteristic lengths, a configuration may be from that of the middle row.
+/// A short piece of the curve of a motion, between two places of one sure step.
+#[derive(Clone, Debug)]
+pub struct Stretch {
+    /// Where it begins and ends.
+    pub ends: [Configuration<f64>; 2],
+    /// The parts of the time that are gone there.
+    times: [f64; 2],
+    /// What is prescribed along it instead of the inputs: the coordinate that moves most.
+    along: Option<Driven>,
+    /// How far, in rad and characteristic lengths, a configuration may be from its ends.
     reach: f64,
-    scales: Vec<(Coordinate, f64)>,
 }
 
-impl Between {
-    /// Between three rows of a motion; `held` holds none of the inputs. None where nothing goes one way, as between
-    /// rows of a motion that turns back with several inputs.
+impl Stretch {
+    /// Whether it is no more than one place.
+    pub fn is_place(&self) -> bool {
+        self.reach < 1e-9 + 1e-11 && self.times[0] == self.times[1]
+    }
+}
+
+/// Solves for configurations on such pieces: at a part of the way between their ends, in time where the inputs are
+/// prescribed.
+pub struct Passage<'m> {
+    pub mechanism: &'m Mechanism,
+    held: &'m Held<f64>,
+    pub inputs: &'m [Driven],
+    pace: Pace,
+    schedule: Option<&'m Schedule>,
+    scales: Vec<(Coordinate, f64)>,
+    /// What solves with the inputs prescribed, or with a coordinate.
+    trackers: Vec<(Option<Coordinate>, MotionTracker)>,
+}
+
+impl<'m> Passage<'m> {
+    /// `held` holds none of the inputs.
     pub fn new(
-        mechanism: &Mechanism,
-        held: &Held<f64>,
-        inputs: &[Driven],
-        schedule: Option<(Schedule, [f64; 2])>,
-        rows: [&Configuration<f64>; 3],
-    ) -> Option<Self> {
-        let scales = Coordinate::all(mechanism).map(|c| (c, c.scale(mechanism)));
-        let scales: Vec<(Coordinate, f64)> = scales.collect();
-        let [first, middle, last] = rows;
-        let along = |of: Coordinate| Driven {
-            coordinate: of,
-            from: of.of(mechanism, first),
-            to: of.of(mechanism, last),
-        };
-        // how far it goes one way, at the slower side
-        let goes = |of: Coordinate| {
-            let steps = [
-                of.from_centre(middle) - of.from_centre(first),
-                of.from_centre(last) - of.from_centre(middle),
-            ];
-            match steps[0] * steps[1] > 0.0 {
-                true => steps[0].abs().min(steps[1].abs()) / of.scale(mechanism),
-                false => 0.0,
-            }
-        };
-        let prescribed = schedule.is_some()
-            || !inputs.is_empty() && inputs.iter().all(|input| goes(input.coordinate) > 1e-12);
-        let moved = match (prescribed, inputs) {
-            (true, _) => inputs.iter().map(|input| along(input.coordinate)).collect(),
-            (false, [] | [_]) => {
-                let all = Coordinate::all(mechanism);
-                let most = all.max_by(|a, b| goes(*a).total_cmp(&goes(*b)))?;
-                (goes(most) > 1e-12).then(|| vec![along(most)])?
-            }
-            _ => return None,
-        };
-        // rows that follow a schedule are equal parts of the time
-        let part = match (&schedule, &moved[..]) {
-            (
-                None,
-                [
-                    Driven {
-                        coordinate,
-                        from,
-                        to,
-                    },
-                    ..,
-                ],
-            ) => (coordinate.of(mechanism, middle) - from) / (to - from),
-            _ => 0.5,
-        };
-        let held = holding(held, &moved)?;
-        let system = System::reduced(mechanism, mechanism.dimensions(), &held);
-        let mut between = Between {
-            tracker: MotionTracker::new(system, middle.clone()),
-            moved,
+        mechanism: &'m Mechanism,
+        held: &'m Held<f64>,
+        inputs: &'m [Driven],
+        (pace, schedule): (Pace, Option<&'m Schedule>),
+    ) -> Self {
+        Passage {
+            mechanism,
+            held,
+            inputs,
+            pace,
             schedule,
-            middle: middle.clone(),
-            part,
-            reach: 0.0,
-            scales,
-        };
-        between.reach = 2.0 * (between.far(first) + between.far(last)) + 1e-9;
-        Some(between)
+            scales: Coordinate::all(mechanism)
+                .map(|of| (of, of.scale(mechanism)))
+                .collect(),
+            trackers: Vec::new(),
+        }
     }
 
-    fn far(&self, at: &Configuration<f64>) -> f64 {
-        let far = |(of, scale): &(Coordinate, f64)| {
-            (of.from_centre(at) - of.from_centre(&self.middle)).abs() / scale
-        };
+    /// The part of the time that is gone where the inputs are, unless a table says it.
+    pub fn time(&self, at: &Configuration<f64>) -> f64 {
+        let joint = |input: &&Driven| matches!(input.coordinate, Coordinate::Joint(_));
+        let measure = self.inputs.iter().find(joint).or(self.inputs.first());
+        let part = measure.map_or(0.0, |input| {
+            let way = input.to - input.from;
+            let gone = input.coordinate.of(self.mechanism, at) - input.from;
+            match input.coordinate {
+                Coordinate::Joint(_) => gone / way,
+                // an angle of a platform is known modulo a turn
+                of if of.is_angle(self.mechanism) => (0.5 * way + turned(gone - 0.5 * way)) / way,
+                _ => gone / way,
+            }
+        });
+        self.pace.law.inverse(part.clamp(0.0, 1.0))
+    }
+
+    /// The change of a coordinate; angles of platforms are known modulo a turn.
+    fn change(&self, of: Coordinate, [from, to]: [&Configuration<f64>; 2]) -> f64 {
+        let change = of.from_centre(to) - of.from_centre(from);
+        match of.platform().is_some() && of.is_angle(self.mechanism) {
+            true => turned(change),
+            false => change,
+        }
+    }
+
+    fn far(&self, ends: [&Configuration<f64>; 2]) -> f64 {
+        let far = |(of, scale): &(Coordinate, f64)| self.change(*of, ends).abs() / scale;
         self.scales.iter().map(far).fold(0.0, f64::max)
     }
 
-    /// The part of the time at a part of the way, where the inputs follow a schedule.
-    pub fn time(&self, part: f64) -> Option<f64> {
-        let (_, [from, to]) = self.schedule.as_ref()?;
-        Some(from + part * (to - from))
+    /// The piece between two places with the parts of the time there; beside a fold, where the inputs stand still, they
+    /// cannot be prescribed.
+    pub fn stretch(&self, ends: [Configuration<f64>; 2], times: [f64; 2], fold: bool) -> Stretch {
+        /// Inputs that move less than this part of what moves most are nearly at a fold.
+        const SLOW: f64 = 0.05;
+        let both = [&ends[0], &ends[1]];
+        let goes = |of: Coordinate, scale: f64| self.change(of, both).abs() / scale;
+        let most = (self.scales.iter()).max_by(|a, b| goes(a.0, a.1).total_cmp(&goes(b.0, b.1)));
+        let inputs = self.inputs.iter();
+        let slow = inputs
+            .map(|of| goes(of.coordinate, of.coordinate.scale(self.mechanism)))
+            .fold(0.0, f64::max)
+            <= most.map_or(0.0, |most| SLOW * goes(most.0, most.1));
+        let along = match (self.inputs, self.schedule) {
+            ([_], None) if !fold && !slow => None,
+            ([] | [_], None) => most.map(|(of, _)| Driven {
+                coordinate: *of,
+                from: of.of(self.mechanism, both[0]),
+                to: of.of(self.mechanism, both[0]) + self.change(*of, both),
+            }),
+            _ => None,
+        };
+        Stretch {
+            reach: 2.0 * self.far(both) + 1e-9,
+            ends,
+            times,
+            along,
+        }
     }
 
-    /// The part of the way where the middle row is.
-    pub fn middle(&self) -> f64 {
-        self.part
+    fn tracker(&mut self, stretch: &Stretch) -> Option<&mut MotionTracker> {
+        let key = stretch.along.map(|of| of.coordinate);
+        if let Some(known) = self.trackers.iter().position(|(of, _)| *of == key) {
+            return Some(&mut self.trackers[known].1);
+        }
+        let held = match &stretch.along {
+            Some(along) => holding(self.held, std::slice::from_ref(along)),
+            None => holding(self.held, self.inputs),
+        }?;
+        let system = System::reduced(self.mechanism, self.mechanism.dimensions(), &held);
+        let tracker = MotionTracker::new(system, stretch.ends[0].clone());
+        self.trackers.push((key, tracker));
+        self.trackers.last_mut().map(|(_, tracker)| tracker)
     }
 
-    /// The assembled configuration at a part of the way, if the branch of the rows has one there.
-    pub fn at(&mut self, part: f64) -> Option<&Configuration<f64>> {
-        /// Steps in which it is gone to from the middle row where one is too long.
+    /// The assembled configuration at a part of a piece, and the part of the time that is gone there; none where that
+    /// branch has none. `from` is a configuration near it, on the same piece, at the part given with it.
+    pub fn at(
+        &mut self,
+        stretch: &Stretch,
+        part: f64,
+        from: (f64, &Configuration<f64>),
+    ) -> Option<(&Configuration<f64>, f64)> {
+        /// Steps in which it is gone to where one is too long.
         const STEPS: u32 = 32;
-        self.tracker.restart(&self.middle);
-        if !self.go(part) {
-            self.tracker.restart(&self.middle);
-            let from = self.middle();
-            for k in 1..=STEPS {
-                if !self.go(from + (part - from) * f64::from(k) / f64::from(STEPS)) {
+        let (inputs, pace, schedule) = (self.inputs, self.pace, self.schedule);
+        let [begin, end] = stretch.times;
+        let go = |tracker: &mut MotionTracker, part: f64| match &stretch.along {
+            Some(along) => tracker.solve_at([along.coordinate].into_iter(), |_| along.at(part)),
+            None => {
+                let time = begin + part * (end - begin);
+                let [gone, ..] = pace.law.at(time);
+                let moved = inputs.iter().map(|input| input.coordinate);
+                tracker.solve_at(moved, |i| match schedule {
+                    Some(schedule) => schedule.at(i, time)[0],
+                    None => inputs[i].at(gone),
+                })
+            }
+        };
+        let tracker = self.tracker(stretch)?;
+        tracker.restart(from.1);
+        if part != from.0 || part != 0.0 && part != 1.0 {
+            if !go(tracker, part).solved {
+                tracker.restart(from.1);
+                let between = |k| from.0 + (part - from.0) * f64::from(k) / f64::from(STEPS);
+                if !(1..=STEPS).all(|k| go(tracker, between(k)).solved) {
                     return None;
                 }
             }
+            // slopes are taken of what is found here, so that it is solved as well as it can be
+            tracker.recover(&Newton {
+                tolerance: 1e-15,
+                ..Newton::default()
+            });
         }
-        // slopes are taken of what is found here, so that it is solved as well as it can be
-        self.tracker.recover(&Newton {
-            tolerance: 1e-15,
-            ..Newton::default()
-        });
-        Some(self.tracker.configuration())
+        let key = stretch.along.map(|of| of.coordinate);
+        let found = self
+            .trackers
+            .iter()
+            .find(|(of, _)| *of == key)?
+            .1
+            .configuration();
+        if stretch
+            .ends
+            .iter()
+            .any(|end| self.far([end, found]) > stretch.reach)
+        {
+            return None;
+        }
+        let time = match (&stretch.along, part) {
+            (_, 0.0) => begin,
+            (_, 1.0) => end,
+            (None, _) => begin + part * (end - begin),
+            (Some(_), _) => self.time(found),
+        };
+        Some((found, time))
     }
+}
 
-    /// Goes on to a part of the way, if that leads to a configuration near the rows.
-    fn go(&mut self, part: f64) -> bool {
-        let moved = self.moved.iter().map(|input| input.coordinate);
-        let report = self.tracker.solve_at(moved, |i| match &self.schedule {
-            Some((schedule, [from, to])) => schedule.at(i, from + part * (to - from))[0],
-            None => self.moved[i].at(part),
-        });
-        report.solved && self.far(self.tracker.configuration()) <= self.reach
-    }
+/// An angle but for whole turns.
+fn turned(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
 }

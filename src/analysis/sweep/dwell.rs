@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
+use crate::number::sorting::sort_by;
 use crate::solve::summit;
 
 /// The longest part of a motion over which a quantity stays within a tolerance of one value.
@@ -22,23 +23,43 @@ pub struct Dwell {
     pub times: [f64; 2],
     /// The inputs where it begins and where it ends, in m or rad.
     pub inputs: [Vec<f64>; 2],
+    /// Whether there may be a longer one, since not all of the curve could be looked at.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub at_least: bool,
 }
 
-/// The time and the value of a quantity at a place of a motion: from 0, its first row, to its last.
+/// The time and the value of a quantity at a place of a motion.
 type At<'f> = dyn FnMut(f64) -> Option<[f64; 2]> + 'f;
 
 /// A place with the time and the value there, if there is one.
-type Sample = (f64, Option<[f64; 2]>);
+pub(crate) type Sample = (f64, Option<[f64; 2]>);
 
 /// The longest stay within a band that is twice the tolerance wide: the middle of the band, and where the stay begins and
 /// ends, both located to rounding. None if there is no value anywhere.
 ///
-/// A window slides over samples so near to one another that a line between two is off by less than a quarter of the
-/// tolerance. Its band is then moved as far as the extremes inside allow, to where the stay is longest.
-pub(crate) fn dwell(rows: usize, tolerance: f64, at: &mut At) -> Option<(f64, [f64; 2])> {
+/// Samples are to be so near to one another that a line between two is off by far less than the tolerance, or leaves any
+/// band. A window slides over them; the band of each that may be the longest is then moved as far as the extremes inside
+/// allow, to where the stay is longest.
+pub(crate) fn dwell(samples: &[Sample], tolerance: f64, at: &mut At) -> Option<(f64, [f64; 2])> {
     let width = 2.0 * tolerance;
-    let samples = sampled(rows, 0.25 * tolerance, at);
-    let [first, last] = longest(&samples, width)?;
+    let stays = windows(samples, width);
+    let stays = stays
+        .into_iter()
+        .map(|window| stay(samples, window, tolerance, at));
+    let longest = stays.max_by(|a, b| a.0.total_cmp(&b.0));
+    longest.map(|(_, value, ends)| (value, ends))
+}
+
+/// The longest stay about a window of samples that is within a band: how long it is, the middle of its band, and its ends.
+fn stay(
+    samples: &[Sample],
+    [first, last]: [usize; 2],
+    tolerance: f64,
+    at: &mut At,
+) -> (f64, f64, [f64; 2]) {
+    /// Bands tried, before the best of them is moved on.
+    const BANDS: u32 = 32;
+    let width = 2.0 * tolerance;
     let value = |i: usize| samples[i].1.map_or(f64::NAN, |[_, value]| value);
     let core = (first + last) / 2;
     // the band holds the core and the extremes inside
@@ -57,16 +78,25 @@ pub(crate) fn dwell(rows: usize, tolerance: f64, at: &mut At) -> Option<(f64, [f
     }
     let (least, most) = ((high - width).min(low), low);
     let mut stay = |from: f64| {
-        let ends = ends(&samples, core, [from, from + width], at);
+        let ends = ends(samples, core, [from, from + width], at);
         let [begin, end] = ends.map(|place| at(place).map_or(f64::NAN, |[time, _]| time));
         (end - begin, ends)
     };
-    let middle = 0.5 * (least + most);
-    let found = summit(least, most, |base| Some(stay(base).0));
-    let bases = [least, most, found.map_or(middle, |(base, _)| base), middle];
-    let stays = bases.map(&mut stay);
-    let longest = (0..4).max_by(|&i, &j| stays[i].0.total_cmp(&stays[j].0))?;
-    let (base, (_, ends)) = (bases[longest], stays[longest]);
+    let mut bases: Vec<f64> = (0..=BANDS)
+        .map(|k| least + (most - least) * f64::from(k) / f64::from(BANDS))
+        .collect();
+    let mut stays: Vec<_> = bases.iter().map(|base| stay(*base)).collect();
+    let longest = |stays: &[(f64, [f64; 2])]| {
+        (0..stays.len()).max_by(|&i, &j| stays[i].0.total_cmp(&stays[j].0))
+    };
+    let rough = longest(&stays).unwrap_or(0);
+    let near = [rough.saturating_sub(1), (rough + 1).min(bases.len() - 1)].map(|k| bases[k]);
+    if let Some((base, _)) = summit(near[0], near[1], |base| Some(stay(base).0)) {
+        bases.push(base);
+        stays.push(stay(base));
+    }
+    let longest = longest(&stays).unwrap_or(0);
+    let (base, (length, ends)) = (bases[longest], stays[longest]);
     // where the values do not fill the band, their middle says more than that of the band
     let inside = samples
         .iter()
@@ -79,49 +109,20 @@ pub(crate) fn dwell(rows: usize, tolerance: f64, at: &mut At) -> Option<(f64, [f
         true => 0.5 * (low + high),
         false => base + tolerance,
     };
-    Some((value, ends))
+    (length, value, ends)
 }
 
-/// The rows, and between them so many places that straight lines are off by no more than a limit.
-fn sampled(rows: usize, limit: f64, at: &mut At) -> Vec<Sample> {
-    fn refine(
-        [a, b]: [(f64, [f64; 2]); 2],
-        (limit, depth): (f64, u32),
-        at: &mut At,
-        all: &mut Vec<Sample>,
-    ) {
-        const DEEPEST: u32 = 12;
-        let place = 0.5 * (a.0 + b.0);
-        let Some(found) = at(place) else { return };
-        let straight = (found[1] - 0.5 * (a.1[1] + b.1[1])).abs() <= limit;
-        let deeper = (limit, depth + 1);
-        if !straight && depth < DEEPEST {
-            refine([a, (place, found)], deeper, at, all);
-        }
-        all.push((place, Some(found)));
-        if !straight && depth < DEEPEST {
-            refine([(place, found), b], deeper, at, all);
-        }
-    }
-    let mut all: Vec<Sample> = Vec::new();
-    for row in 0..rows {
-        let here = (row as f64, at(row as f64));
-        if let (Some((place, Some(before))), Some(found)) = (all.last().copied(), here.1) {
-            refine([(place, before), (here.0, found)], (limit, 0), at, &mut all);
-        }
-        all.push(here);
-    }
-    all
-}
-
-/// The first and the last of the samples that are longest within a band of some width.
-fn longest(samples: &[Sample], width: f64) -> Option<[usize; 2]> {
+/// The windows of samples within a band of some width that may be the longest: from the first to the last of each. A
+/// stay may reach from a window to the samples beside it.
+fn windows(samples: &[Sample], width: f64) -> Vec<[usize; 2]> {
+    /// So many are compared: those of a periodic motion are equal.
+    const MOST: usize = 8;
     let [time, value] =
         [0, 1].map(|k| move |i: usize| samples[i].1.map_or(f64::NAN, |found| found[k]));
     // indices whose values may still be the least and the greatest
     let (mut least, mut most) = (VecDeque::new(), VecDeque::<usize>::new());
     let mut first = 0;
-    let mut best: Option<(f64, [usize; 2])> = None;
+    let mut all: Vec<[usize; 2]> = Vec::new();
     for (last, sample) in samples.iter().enumerate() {
         if sample.1.is_none() {
             least.clear();
@@ -145,12 +146,26 @@ fn longest(samples: &[Sample], width: f64) -> Option<[usize; 2]> {
                 }
             }
         }
-        let stays = time(last) - time(first);
-        if best.is_none_or(|(longest, _)| stays > longest) {
-            best = Some((stays, [first, last]));
+        match all.last_mut() {
+            Some(known) if known[0] == first => known[1] = last,
+            _ => all.push([first, last]),
         }
     }
-    best.map(|(_, range)| range)
+    let length = |[first, last]: [usize; 2]| time(last) - time(first);
+    let reach = |[first, last]: [usize; 2]| {
+        let beside = [
+            first.checked_sub(1),
+            Some(last + 1).filter(|i| *i < samples.len()),
+        ];
+        let [begin, end] = [(beside[0], first), (beside[1], last)]
+            .map(|(beside, own)| beside.filter(|i| samples[*i].1.is_some()).unwrap_or(own));
+        time(end) - time(begin)
+    };
+    let longest = all.iter().map(|of| length(*of)).fold(0.0, f64::max);
+    all.retain(|of| reach(*of) >= longest);
+    sort_by(&mut all, |a, b| length(*b).total_cmp(&length(*a)));
+    all.truncate(MOST);
+    all
 }
 
 /// Where a band is left, before and after a sample in it.
@@ -209,19 +224,17 @@ fn crossing([inside, outside]: [f64; 2], f: &mut dyn FnMut(f64) -> Option<f64>) 
 mod tests {
     use super::dwell;
 
-    /// Of a function of the time from 0 to 1 at so many rows.
-    fn of(rows: usize, tolerance: f64, f: fn(f64) -> f64) -> (f64, [f64; 2]) {
-        let time = |place: f64| place / (rows - 1) as f64;
-        let found = dwell(rows, tolerance, &mut |place| {
-            Some([time(place), f(time(place))])
-        });
-        let (value, places) = found.unwrap();
-        (value, places.map(time))
+    /// Of a function of the time from 0 to 1 with so many samples.
+    fn of(count: usize, tolerance: f64, f: fn(f64) -> f64) -> (f64, [f64; 2]) {
+        let at = |place: f64| Some([place, f(place)]);
+        let places = (0..count).map(|i| i as f64 / (count - 1) as f64);
+        let samples: Vec<_> = places.map(|place| (place, at(place))).collect();
+        dwell(&samples, tolerance, &mut |place| at(place)).unwrap()
     }
 
     #[test]
-    fn a_dwell_is_as_long_as_the_quantity_says_however_many_rows_there_are() {
-        for rows in [11, 20, 101] {
+    fn a_dwell_is_as_long_as_the_quantity_says_however_many_samples_there_are() {
+        for rows in [80, 101, 1000] {
             // within 0.01 over the vertex of a parabola: 0.1 to either side
             let (value, times) = of(rows, 0.005, |t| (t - 0.3).powi(2));
             assert!((value - 0.005).abs() < 1e-14, "{value}");
@@ -251,6 +264,6 @@ mod tests {
         // all of it
         let (value, times) = of(5, 2.0, |t| t);
         assert_eq!((value, times), (0.5, [0.0, 1.0]));
-        assert!(dwell(3, 1.0, &mut |_| None).is_none());
+        assert!(dwell(&[(0.0, None), (1.0, None)], 1.0, &mut |_| None).is_none());
     }
 }

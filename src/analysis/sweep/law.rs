@@ -94,11 +94,10 @@ impl Law {
 }
 
 impl Pace {
-    /// The part of the segment that is gone, its rate per s and its acceleration per s², where a part of the time is.
-    pub fn at<T: Number>(&self, u: T) -> [T; 3] {
-        let [s, rate, change] = self.law.at(u);
-        let duration = T::from_f64(self.duration);
-        [s, rate / duration, change / (duration * duration)]
+    /// The rate over that of a constant law where a part of the time is gone, and its change per s.
+    pub fn relative<T: Number>(&self, u: T) -> [T; 2] {
+        let [_, rate, change] = self.law.at(u);
+        [rate, change / T::from_f64(self.duration)]
     }
 }
 

@@ -5,6 +5,7 @@ use super::{
     MetKind, PathPoint, PathReport, Row, Sink, SweepEnd, SweepReport, SweepSettings, sweep,
 };
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::sorting::sort_by;
 use crate::solve::Watch;
 use crate::system::{Driven, Held};
 
@@ -75,20 +76,53 @@ impl Schedule {
         [rate, change]
     }
 
-    /// The inputs from where one of equal steps in time begins to where it ends.
-    pub fn between(&self, inputs: &[Driven], step: usize, steps: usize) -> Vec<Driven> {
-        let inputs = inputs.iter().enumerate().map(|(i, input)| {
-            let at = |step: usize| self.at(i, step as f64 / steps as f64)[0];
-            Driven {
-                from: at(step),
-                to: at(step + 1),
-                ..*input
-            }
+    /// The inputs from one part of the time to another.
+    fn span(&self, inputs: &[Driven], [from, to]: [f64; 2]) -> Vec<Driven> {
+        let inputs = inputs.iter().enumerate().map(|(i, input)| Driven {
+            from: self.at(i, from)[0],
+            to: self.at(i, to)[0],
+            ..*input
         });
         inputs.collect()
     }
 
-    /// Moves the inputs step by step, each step followed surely, so that no branch is changed between two rows.
+    /// Parts of the time between which every input goes one way, and no farther than a tenth of its unit; the last is 1.
+    fn turns(&self, units: &[f64]) -> Vec<f64> {
+        const LONGEST: f64 = 0.1;
+        const MOST: f64 = 1e4;
+        let mut parts = vec![0.0];
+        for i in 1..self.times.len() {
+            let h = self.times[i] - self.times[i - 1];
+            let begin = self.times[i - 1] - self.times[0];
+            // where a rate vanishes: a quadratic of the time v that is gone
+            let mut ends: Vec<f64> = vec![h];
+            for [values, curved] in &self.inputs {
+                let (a, b) = (curved[i - 1] / 6.0, curved[i] / 6.0);
+                let slope = (values[i] - values[i - 1]) / h - (b - a) * h - 3.0 * a * h;
+                let (square, line) = (3.0 * (b - a) / h, 3.0 * a);
+                let root = (line * line - square * slope).sqrt();
+                let far = -(line + root.copysign(line));
+                let roots = [far / square, slope / far];
+                ends.extend(roots.iter().filter(|v| **v > 0.0 && **v < h));
+            }
+            sort_by(&mut ends, f64::total_cmp);
+            let mut from = parts[parts.len() - 1];
+            for end in ends {
+                let to = (begin + end) / self.duration();
+                let ways = units.iter().enumerate().map(|(input, unit)| {
+                    (self.at(input, to)[0] - self.at(input, from)[0]).abs() / unit
+                });
+                let count = (ways.fold(0.0, f64::max) / LONGEST).ceil().clamp(1.0, MOST);
+                parts.extend((1..=count as usize).map(|k| from + (to - from) * k as f64 / count));
+                from = to;
+            }
+        }
+        parts.push(1.0);
+        parts
+    }
+
+    /// Moves the inputs from row to row, and to where one of them turns back between rows, each piece followed surely, so
+    /// that no branch is changed between two rows.
     pub(super) fn followed(
         &self,
         (mechanism, held, inputs): (&Mechanism, &Held<f64>, &[Driven]),
@@ -97,33 +131,63 @@ impl Schedule {
         sink: &mut Sink,
         watch: &Watch,
     ) -> SweepReport {
+        /// Parts of the time this near are one.
+        const SAME: f64 = 1e-9;
         let alone = SweepSettings {
             steps: 1,
             continuation: settings.continuation.clone(),
-            between: settings.between,
             points: settings.points.clone(),
             ..SweepSettings::default()
         };
+        let units: Vec<f64> = (inputs.iter())
+            .map(|input| input.coordinate.scale(mechanism))
+            .collect();
+        let mut turns = self.turns(&units).into_iter().peekable();
         let mut traced = Paths::new(mechanism, &settings.points);
         let mut at = start.clone();
         let mut whole = SweepReport::of(mechanism, inputs, SweepEnd::Complete);
-        for step in 0..settings.steps {
-            let moved = self.between(inputs, step, settings.steps);
+        let (mut gone, mut row_ahead) = (0.0, 1);
+        while row_ahead <= settings.steps {
+            let time_of_row = row_ahead as f64 / settings.steps as f64;
+            while turns.next_if(|turn| *turn < gone + SAME).is_some() {}
+            let turn = turns.peek().filter(|turn| **turn < time_of_row - SAME);
+            let (to, step) = match turn {
+                Some(turn) => (*turn, None),
+                None => (time_of_row, Some(row_ahead)),
+            };
+            row_ahead += usize::from(step.is_some());
+            let moved = self.span(inputs, [gone, to]);
             let begin = at.clone();
+            let most = (0..moved.len()).max_by(|&i, &j| {
+                let [a, b] = [i, j].map(|i| (moved[i].to - moved[i].from).abs() / units[i]);
+                a.total_cmp(&b)
+            });
             let mut take = |row: &Row| {
-                // a step begins where the one before ended
-                if row.step == Some(0) && step > 0 {
+                // a piece begins where the one before ended
+                if row.step == Some(0) && gone > 0.0 {
                     return;
                 }
+                let ends = row.step == Some(1);
+                let part = most.map(|i| &moved[i]).map_or(0.0, |of| {
+                    (of.coordinate.of(mechanism, row.configuration) - of.from) / (of.to - of.from)
+                });
+                let part = if part.is_finite() {
+                    part.clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
+                let between = ends && step.is_none();
                 traced.place(row.configuration);
                 sink(&Row {
                     number: whole.rows,
-                    step: row.step.map(|k| step + k),
+                    step: if ends { step } else { row.step },
+                    time: Some(if ends { to } else { gone + part * (to - gone) }),
                     points: &traced.at,
+                    between,
                     ..*row
                 });
-                whole.rows += 1;
-                if row.step == Some(1) {
+                whole.rows += usize::from(!between);
+                if ends {
                     at.clone_from(row.configuration);
                 }
             };
@@ -134,10 +198,11 @@ impl Schedule {
                         ..Row::of(&begin)
                     });
                 }
+                gone = to;
                 continue;
             }
             let report = sweep(mechanism, held, &moved, &begin, &alone, &mut take, watch);
-            let last = step + 1 == settings.steps || report.ending != SweepEnd::Complete;
+            let last = row_ahead > settings.steps || report.ending != SweepEnd::Complete;
             let met = report.met.into_iter();
             (whole.met).extend(met.filter(|met| last || met.kind != MetKind::End));
             whole.more_met += report.more_met;
@@ -149,6 +214,7 @@ impl Schedule {
             if last {
                 break;
             }
+            gone = to;
         }
         whole
     }

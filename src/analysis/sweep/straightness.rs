@@ -19,21 +19,21 @@ pub struct Straightness {
     pub length: f64,
     /// How far it is from the line where it is farthest, in m.
     pub deviation: f64,
+    /// Whether it may be farther, since not all of the curve could be looked at.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub at_least: bool,
 }
 
-/// Where a point is at a place of a motion: from 0, its first row, to its last.
+/// Where a point is at a place of a motion.
 type At<'f> = dyn FnMut(f64) -> Option<[f64; 3]> + 'f;
 
 impl Straightness {
-    /// Of the path over a motion with so many rows. Places where it is farthest from its line, sought between those known,
+    /// Of a path through places near to one another. Those where it is farthest from its line, sought between those known,
     /// join these until none is farther than they are: an exchange after Remez, for a line with both offset and direction free.
-    pub(crate) fn along(point: &str, rows: usize, at: &mut At) -> Option<Self> {
+    pub(crate) fn along(point: &str, mut known: Vec<(f64, [f64; 3])>, at: &mut At) -> Option<Self> {
         const ROUNDS: usize = 24;
         /// In parts of the length.
         const SAME: f64 = 1e-13;
-        let mut known: Vec<(f64, [f64; 3])> = (0..rows)
-            .filter_map(|row| Some((row as f64, at(row as f64)?)))
-            .collect();
         for _ in 0..ROUNDS {
             let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();
             let line = Straightness::of(point, &places)?;
@@ -130,6 +130,7 @@ impl Straightness {
             direction,
             length: 0.0,
             deviation: 0.0,
+            at_least: false,
         };
         let measures = places.iter().map(|place| line.apart(place));
         let (low, high, far) = measures.fold(

@@ -2,263 +2,313 @@
 
 use std::cmp::Ordering;
 
+use super::Meter;
+use super::course::{Course, Sought};
 use super::poles::{middle_of_gap, unbounded};
-use super::{Block, Meter, Passage, Seen};
-use crate::algebra::BATCH;
 use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
-use crate::mechanism::{Configuration, Measured, Order, Quantity};
-use crate::number::widest;
+use crate::mechanism::{Measured, Order, Quantity};
+use crate::number::sorting::sort_by;
 use crate::solve::summit;
-
-/// Watches rows and remembers where quantities are least and greatest.
-pub(in super::super) struct Extremes {
-    /// The last rows, three if there are so many.
-    rows: Vec<Seen>,
-    seen: usize,
-    quantities: Vec<Watched>,
-    /// The rows of a block that count.
-    kept: Vec<usize>,
-}
-
-/// What is remembered of a quantity.
-#[derive(Clone)]
-struct Watched {
-    sides: [Side; 2],
-    /// The range of values that all rows allow.
-    allowed: [f64; 2],
-}
-
-/// Rows where a quantity is greater than at their neighbours, or less: the best of them.
-#[derive(Clone, Default)]
-struct Side {
-    /// The greatest value at a row at all, and where and when it is.
-    most: Option<(f64, Configuration<f64>, f64)>,
-    peaks: Vec<Peak>,
-}
-
-#[derive(Clone)]
-struct Peak {
-    /// Times the sense: what is sought is the greatest.
-    height: f64,
-    rows: [Seen; 3],
-    /// The part of the way where the first or the last row has no value.
-    gap: Option<f64>,
-}
 
 /// The senses of least and greatest.
 const SENSES: [f64; 2] = [-1.0, 1.0];
 
-/// Peaks remembered: a lower row may have the higher peak beside it.
-const PEAKS: usize = 8;
+/// Values nearer than this to the least or the greatest, beside what is usual, are not told from them.
+const SAME: f64 = 1e-10;
 
-/// Two rows before those of a block, and these.
-const WATCHED: usize = BATCH + 2;
+/// What is known of a quantity over the whole curve.
+struct Bounds {
+    /// The least and the greatest value, and where they are: a piece and a place on it.
+    best: [Option<(f64, usize, f64)>; 2],
+    /// The values that all places looked at allow.
+    allowed: [f64; 2],
+    /// The usual size of the values, and how far one may be off.
+    usual: [f64; 2],
+    /// Places where no bound was found.
+    suspects: Vec<(usize, f64)>,
+    /// Whether there may be values beyond.
+    cut: bool,
+}
 
-impl Extremes {
-    pub fn new(quantities: usize) -> Self {
-        let none = Watched {
-            sides: Default::default(),
-            allowed: [f64::NEG_INFINITY, f64::INFINITY],
-        };
-        Extremes {
-            rows: Vec::new(),
-            seen: 0,
-            quantities: vec![none; quantities],
-            kept: Vec::with_capacity(BATCH),
-        }
+/// The extremes of quantities over a curve, with a meter that reads them.
+pub(in super::super) fn located(
+    course: &mut Course,
+    quantities: &[Quantity],
+    sought: &[Sought],
+    meter: &mut Meter,
+) -> Vec<Extremum> {
+    let all = quantities.iter().zip(sought).enumerate();
+    let all = all.map(|(i, (quantity, of))| {
+        let bounds = bounds(course, of);
+        extremum(course, meter, (i, quantity), bounds)
+    });
+    all.collect()
+}
+
+impl Bounds {
+    /// How much values may be beyond the best without being told from it.
+    fn slack(&self, best: f64) -> f64 {
+        SAME * (best.abs() + self.usual[0]) + 2.0 * self.usual[1]
     }
 
-    /// Takes in the next rows, but for those between the ones asked for.
-    pub fn take(&mut self, block: &Block) {
-        self.kept.clear();
-        let kept = (0..block.len()).filter(|&i| !block.row(i).0.between);
-        self.kept.extend(kept);
-        let kept = &self.kept;
-        let before = self.rows.len().min(2);
-        let earlier = &self.rows[self.rows.len() - before..];
-        let count = before + kept.len();
-        let seen = |i: usize| match earlier.get(i) {
-            Some(row) => row.clone(),
-            None => Seen::of(block, kept[i - before]),
-        };
-        let quantities = self.quantities.iter_mut().zip(block.columns());
-        for (number, (quantity, column)) in quantities.enumerate() {
-            let mut values = [f64::NAN; WATCHED];
-            let mut noise = [0.0; BATCH];
-            for (value, row) in values.iter_mut().zip(earlier) {
-                *value = row.values[number].unwrap_or(f64::NAN);
-            }
-            let latest = &mut values[before..before + BATCH];
-            for ((value, noise), &i) in latest.iter_mut().zip(&mut noise).zip(kept) {
-                (*value, *noise) = (column.values[i % BATCH], column.noise[i % BATCH]);
-            }
-            let mut most = [0.0; 4];
-            outermost(latest, &noise, &mut most);
-            let [least, greatest, low, high] = most;
-            let [known_low, known_high] = quantity.allowed;
-            quantity.allowed = [larger(low, known_low), -larger(high, -known_high)];
-            let sides = quantity.sides.iter_mut().zip(SENSES);
-            for ((side, sense), height) in sides.zip([least, greatest]) {
-                side.reach(height, sense, latest, |i| seen(before + i));
-            }
-            let mut bends = self.seen < 3;
-            if !bends {
-                turns(&values[..count], &mut bends);
-            }
-            if bends {
-                for middle in 1..count.max(1) - 1 {
-                    let near = [middle - 1, middle, middle + 1];
-                    let first = self.seen + middle + 2 == before + 3;
-                    quantity.bend(near.map(|i| values[i]), first, || near.map(seen));
-                }
-            }
-        }
-        self.seen += kept.len();
-        for &i in &kept[kept.len().saturating_sub(3)..] {
-            if self.rows.len() < 3 {
-                self.rows.push(Seen::of(block, i));
-            } else {
-                self.rows.rotate_left(1);
-                self.rows[2].put(block, i);
+    /// Takes in a value.
+    fn take(&mut self, value: f64, piece: usize, s: f64) {
+        for (best, sense) in self.best.iter_mut().zip(SENSES) {
+            if best.is_none_or(|(known, ..)| sense * value > sense * known) {
+                *best = Some((value, piece, s));
             }
         }
     }
 
-    /// The extremes, sought between rows too.
-    pub fn located(
-        mut self,
-        quantities: &[Quantity],
-        passage: Passage,
-        meter: &mut Meter,
-    ) -> Vec<Extremum> {
-        // beside the last row there may be more too, as beside the first
-        for (i, quantity) in self.quantities.iter_mut().enumerate() {
-            for (side, sense) in quantity.sides.iter_mut().zip(SENSES) {
-                if let Some([_, b, c]) = heights(&self.rows, i, sense)
-                    && c > b
-                {
-                    side.peak(c, None, || [0, 1, 2].map(|k| self.rows[k].clone()));
-                }
-            }
-        }
-        /// Rows are closed to so much of the characteristic length, and no value is known better beside the greatest.
-        const ROUNDING: f64 = 1e-12;
-        let mut all = Vec::new();
-        for (i, (watched, quantity)) in self.quantities.into_iter().zip(quantities).enumerate() {
-            let Watched { sides, allowed, .. } = watched;
-            let none = Extremum {
-                name: quantity.name.clone(),
-                unit: quantity.unit,
-                constant: None,
-                least: None,
-                greatest: None,
-                unbounded: Vec::new(),
-                missing: None,
-            };
-            let row = |k: usize| sides[k].most.as_ref().map(|most| SENSES[k] * most.0);
-            let (Some(least), Some(greatest)) = (row(0), row(1)) else {
-                all.push(Extremum {
-                    missing: Some(missing(quantity)),
-                    ..none
-                });
-                continue;
-            };
-            let largest = least.abs().max(greatest.abs());
-            let known = |value: f64| match value.abs() > ROUNDING * largest {
-                true => value,
-                false => 0.0,
-            };
-            // one value is within what rounding leaves open at every row
-            let [low, high] = allowed;
-            if self.seen > 1 && low <= high && high.is_finite() {
-                let zero = low <= 0.0 && high >= 0.0;
-                all.push(Extremum {
-                    constant: Some(if zero { 0.0 } else { 0.5 * (low + high) }),
-                    ..none
-                });
-                continue;
-            }
-            let mut poles: Vec<Pole> = Vec::new();
-            let [least, greatest] = std::array::from_fn::<_, 2, _>(|k| {
-                let (side, sense) = (&sides[k], SENSES[k]);
-                let mut best = side.most.clone()?;
-                for peak in &side.peaks {
-                    let rows = &peak.rows;
-                    let Some(mut between) = passage.between(rows.each_ref()) else {
-                        continue;
-                    };
-                    // the value at a part of the way, with how far it may be off
-                    let mut read = |part: f64| {
-                        let (at, when) = passage.at(&mut between, part)?;
-                        meter.settle(&rows[1].values);
-                        let value = meter.read(at, when)[i];
-                        Some((value, meter.noise()[i]))
-                    };
-                    let mut gap = None;
-                    let found = match peak.gap {
-                        Some(_) => None,
-                        None => summit(0.0, 1.0, |part| {
-                            let (value, _) = read(part)?;
-                            if value.is_none() {
-                                gap = Some(part);
-                            }
-                            Some(sense * value?)
-                        }),
-                    };
-                    let place = match (peak.gap, found, gap) {
-                        (Some(gap), ..) => gap,
-                        (None, Some((part, _)), _) => part,
-                        (None, None, Some(gap)) => {
-                            middle_of_gap(gap, &mut |part| read(part).and_then(|(value, _)| value))
-                        }
-                        (None, None, None) => continue,
-                    };
-                    let sides = unbounded(place, &mut |part| {
-                        let (value, noise) = read(part)?;
-                        // what is nothing but rounding grows where it is divided by little
-                        value.map(|x| if x.abs() > 4.0 * noise { x } else { 0.0 })
-                    });
-                    let Some((at, when)) = passage.at(&mut between, place) else {
-                        continue;
-                    };
-                    if sides.iter().any(Option::is_some) {
-                        let pole = Pole {
-                            time: (!passage.inputs.is_empty()).then_some(when),
-                            inputs: passage.inputs(at),
-                            joints: at.joints.clone(),
-                            upwards: sides,
-                        };
-                        merge(&mut poles, pole);
-                    } else if let Some((_, height)) = found
-                        && height > best.0
-                    {
-                        best = (height, at.clone(), when);
-                    }
-                }
-                Some(Extreme {
-                    value: known(sense * best.0),
-                    time: (!passage.inputs.is_empty()).then_some(best.2),
-                    inputs: passage.inputs(&best.1),
-                    joints: best.1.joints,
-                })
-            });
-            poles.sort_by(|a, b| a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal));
-            let bounded = |upwards: bool| {
-                let mut sides = poles.iter().flat_map(|pole| pole.upwards);
-                !sides.any(|side| side == Some(upwards))
-            };
-            all.push(Extremum {
-                least: least.filter(|_| bounded(false)),
-                greatest: greatest.filter(|_| bounded(true)),
-                unbounded: poles,
-                ..none
-            });
-        }
-        all
+    /// Whether values between two numbers may be beyond those known.
+    fn may_grow(&self, [low, high]: [f64; 2]) -> bool {
+        let beyond = |k: usize, end: f64| {
+            self.best[k].is_none_or(|(known, ..)| {
+                let most = SENSES[k] * known + self.slack(known);
+                // what is not a number may be anything
+                !(SENSES[k] * end <= most)
+            })
+        };
+        beyond(0, low) || beyond(1, high)
     }
 }
 
-/// Why a quantity has no value at any row.
+/// Branch and bound: pieces of the curve are halved until what the quantity may be on them is not beyond a value that it
+/// has.
+fn bounds(course: &Course, of: &Sought) -> Bounds {
+    /// How many parts are looked at, beside the pieces themselves.
+    const PATIENCE: usize = 400_000;
+    /// Values that may be off more than this, and more than is usual, are no better than others: they are near 0/0.
+    const CLEAR: f64 = 1e-7;
+    let mut bounds = Bounds {
+        best: [None; 2],
+        allowed: [f64::NEG_INFINITY, f64::INFINITY],
+        usual: [0.0; 2],
+        suspects: Vec::new(),
+        cut: !course.whole,
+    };
+    let mut sizes: [Vec<f64>; 2] = Default::default();
+    let mut seen = Vec::new();
+    for piece in 0..course.pieces.len() {
+        for s in [-1.0, -0.5, 0.0, 0.5, 1.0] {
+            let (Some(value), noise) = course.value(of, piece, s) else {
+                continue;
+            };
+            seen.push((value, noise, piece, s));
+            sizes[0].push(value.abs());
+            sizes[1].push(noise);
+            let off = 4.0 * noise.max(f64::EPSILON * value.abs());
+            let [low, high] = bounds.allowed;
+            bounds.allowed = [low.max(value - off), high.min(value + off)];
+        }
+        bounds.cut |= course.hides(of, piece);
+    }
+    bounds.usual = sizes.map(|mut sizes| {
+        sort_by(&mut sizes, f64::total_cmp);
+        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+    });
+    let [usual, usually_off] = bounds.usual;
+    let clear = |value: f64, noise: f64| {
+        noise <= f64::max(CLEAR * (value.abs() + usual), 10.0 * usually_off)
+    };
+    // an angle without jumps is known only along the way
+    for (value, noise, piece, s) in seen.into_iter().filter(|_| !of.jumps) {
+        if clear(value, noise) {
+            bounds.take(value, piece, s);
+        }
+    }
+    let patience = PATIENCE + 8 * course.pieces.len();
+    let whole = course.walk(of, patience, &mut |part, model| {
+        let Some(model) = model else {
+            if course.is_rough(of, part.piece) {
+                bounds.suspects.push((part.piece, part.middle));
+            }
+            return false;
+        };
+        if !bounds.may_grow(model.range()) {
+            return false;
+        }
+        if part.is_narrow() && !model.rest.is_finite() {
+            bounds.suspects.push((part.piece, part.middle));
+            return false;
+        }
+        for sense in SENSES {
+            let s = part.middle + part.radius * model.top(sense);
+            let (value, noise) = course.value(of, part.piece, s);
+            if let Some(value) = value
+                && clear(value, noise)
+            {
+                let value = match of.jumps {
+                    true => model.at(model.top(sense)),
+                    false => value,
+                };
+                bounds.take(value, part.piece, s);
+            }
+        }
+        bounds.may_grow(model.range())
+    });
+    bounds.cut |= !whole;
+    bounds
+}
+
+fn extremum(
+    course: &mut Course,
+    meter: &mut Meter,
+    (i, quantity): (usize, &Quantity),
+    bounds: Bounds,
+) -> Extremum {
+    /// Configurations are closed to so much of the characteristic length, and no value is known better beside the greatest.
+    const ROUNDING: f64 = 1e-12;
+    let none = Extremum {
+        name: quantity.name.clone(),
+        unit: quantity.unit,
+        constant: None,
+        least: None,
+        greatest: None,
+        unbounded: Vec::new(),
+        at_least: bounds.cut,
+        missing: None,
+    };
+    let [Some(least), Some(greatest)] = bounds.best else {
+        return Extremum {
+            missing: Some(missing(quantity)),
+            at_least: false,
+            ..none
+        };
+    };
+    // one value is within what rounding leaves open everywhere
+    let [low, high] = bounds.allowed;
+    let [least_value, greatest_value] = [least.0, greatest.0];
+    let differ = greatest_value - least_value;
+    if course.moves()
+        && low <= high
+        && differ <= 4.0 * bounds.slack(greatest_value).max(bounds.slack(least_value))
+    {
+        let zero = low <= 0.0 && high >= 0.0;
+        return Extremum {
+            constant: Some(if zero { 0.0 } else { 0.5 * (low + high) }),
+            ..none
+        };
+    }
+    let driven = course.is_driven();
+    let mut poles: Vec<Pole> = Vec::new();
+    let mut known: Vec<(usize, f64)> = Vec::new();
+    for (piece, s) in &bounds.suspects {
+        /// Places nearer than this are one.
+        const NEAR: f64 = 1e-9;
+        /// Poles sought at most.
+        const MOST: usize = 1000;
+        let (stretch, part) = course.place(*piece, *s);
+        let again = |(of, at): &(usize, f64)| *of == stretch && (at - part).abs() < NEAR;
+        if known.len() == MOST || known.iter().any(again) {
+            continue;
+        }
+        known.push((stretch, part));
+        let pole = pole(course, meter, i, (stretch, part), driven);
+        if let Some(pole) = pole {
+            merge(&mut poles, pole);
+        }
+    }
+    sort_by(&mut poles, |a, b| {
+        a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal)
+    });
+    let largest = least_value.abs().max(greatest_value.abs());
+    let [least, greatest] = [(least, -1.0), (greatest, 1.0)].map(|((value, piece, s), sense)| {
+        /// The part of a piece on either side where the best value is sought again, read exactly.
+        const BESIDE: f64 = 0.02;
+        let (stretch, part) = course.place(piece, s);
+        let beside = BESIDE * course.width(piece);
+        let mut read = |part: f64| {
+            let (at, time) = course.at(stretch, part)?;
+            meter.settle(i, value);
+            Some(sense * meter.read(at, time)[i]?)
+        };
+        let here = read(part).map(|height| (part, height));
+        let [from, to] = [part - beside, part + beside].map(|part| part.clamp(0.0, 1.0));
+        let top = summit(from, to, &mut read).filter(|top| here.is_none_or(|of| top.1 > of.1));
+        let (part, height) = top.or(here).unwrap_or((part, sense * value));
+        let value = sense * height;
+        let (at, time) = course.at(stretch, part)?;
+        let (at, time) = (at.clone(), time);
+        Some(Extreme {
+            value: if value.abs() > ROUNDING * largest {
+                value
+            } else {
+                0.0
+            },
+            time: driven.then_some(time),
+            inputs: course.inputs(&at),
+            joints: at.joints,
+        })
+    });
+    let bounded = |upwards: bool| {
+        let mut sides = poles.iter().flat_map(|pole| pole.upwards);
+        !sides.any(|side| side == Some(upwards))
+    };
+    Extremum {
+        least: least.filter(|_| bounded(false)),
+        greatest: greatest.filter(|_| bounded(true)),
+        unbounded: poles,
+        ..none
+    }
+}
+
+/// The place near one where no bound was found, if the quantity grows without bound there.
+fn pole(
+    course: &mut Course,
+    meter: &mut Meter,
+    i: usize,
+    (stretch, part): (usize, f64),
+    driven: bool,
+) -> Option<Pole> {
+    /// How far from there the place may be.
+    const BESIDE: f64 = 1e-7;
+    let mut read = |part: f64| {
+        let (at, time) = course.at(stretch, part)?;
+        let value = meter.read(at, time)[i];
+        Some((value, meter.noise()[i]))
+    };
+    let [from, to] = [part - BESIDE, part + BESIDE].map(|part| part.clamp(0.0, 1.0));
+    let mut gap = None;
+    let place = match part {
+        _ if part < BESIDE => 0.0,
+        _ if part > 1.0 - BESIDE => 1.0,
+        _ => {
+            let top = summit(from, to, |part| {
+                let value = read(part).and_then(|(value, _)| value);
+                if value.is_none() {
+                    gap = Some(part);
+                }
+                Some(value?.abs())
+            });
+            match (top, gap) {
+                (Some((part, _)), _) => part,
+                (None, Some(gap)) => {
+                    middle_of_gap(gap, &mut |part| read(part).and_then(|(value, _)| value))
+                }
+                (None, None) => part,
+            }
+        }
+    };
+    let upwards = unbounded(place, &mut |part| {
+        let (value, noise) = read(part)?;
+        // what is nothing but rounding grows where it is divided by little
+        value.map(|x| if x.abs() > 4.0 * noise { x } else { 0.0 })
+    });
+    if upwards == [None; 2] {
+        return None;
+    }
+    let (at, time) = course.at(stretch, place)?;
+    let at = at.clone();
+    Some(Pole {
+        time: driven.then_some(time),
+        inputs: course.inputs(&at),
+        joints: at.joints,
+        upwards,
+    })
+}
+
+/// Why a quantity has no value anywhere.
 fn missing(quantity: &Quantity) -> Missing {
     if (quantity.measured()).any(|of| matches!(of, Measured::Transmission(_))) {
         return Missing::PlanarLoop;
@@ -274,7 +324,7 @@ fn missing(quantity: &Quantity) -> Missing {
     }
 }
 
-/// Adds a pole to others; each is seen from either side, and in either sense.
+/// Adds a pole to others; each is seen from either side.
 fn merge(poles: &mut Vec<Pole>, pole: Pole) {
     /// In m and rad.
     const SAME: f64 = 1e-6;
@@ -288,106 +338,5 @@ fn merge(poles: &mut Vec<Pole>, pole: Pole) {
             }
         }
         None => poles.push(pole),
-    }
-}
-
-/// The values of a quantity at three rows times a sense, if it has all of them.
-fn heights(rows: &[Seen], quantity: usize, sense: f64) -> Option<[f64; 3]> {
-    let [a, b, c] = rows else { return None };
-    let [a, b, c] = [a, b, c].map(|row| row.values[quantity]);
-    Some([sense * a?, sense * b?, sense * c?])
-}
-
-widest! {
-    /// The greatest of −x, x, x − δ and −(x + δ) for values x that may be off by δ, a block of them. What is not a number
-    /// does not count.
-    fn outermost(values: &[f64], noise: &[f64], most: &mut [f64; 4]) runs outermost_in_lanes
-}
-
-#[inline(always)]
-fn outermost_in_lanes(values: &[f64], noise: &[f64], most: &mut [f64; 4]) {
-    const LANES: usize = 8;
-    let mut all = [[f64::NEG_INFINITY; LANES]; 4];
-    let (values, noise) = (values.as_chunks::<LANES>().0, noise.as_chunks::<LANES>().0);
-    for (values, noise) in values.iter().zip(noise) {
-        for i in 0..LANES {
-            let x = values[i];
-            let off = 4.0 * larger(noise[i], f64::EPSILON * x.abs());
-            for (most, y) in all.iter_mut().zip([-x, x, x - off, -x - off]) {
-                most[i] = larger(y, most[i]);
-            }
-        }
-    }
-    *most = all.map(|most| most.into_iter().fold(f64::NEG_INFINITY, larger));
-}
-
-/// The larger of two numbers, the second if one is none.
-#[inline(always)]
-fn larger(x: f64, y: f64) -> f64 {
-    if x > y { x } else { y }
-}
-
-widest! {
-    /// Whether one of some values is an extreme beside its neighbours, or one is missing.
-    fn turns(values: &[f64], found: &mut bool) runs turns_of_each
-}
-
-#[inline(always)]
-fn turns_of_each(values: &[f64], found: &mut bool) {
-    let neighbours = values.iter().zip(&values[1..]).zip(&values[2..]);
-    for ((a, b), c) in neighbours {
-        let beyond = (b >= a) & (b >= c) | (b <= a) & (b <= c);
-        let missing = a.is_nan() | b.is_nan() | c.is_nan();
-        *found |= missing | beyond & !((a == b) & (b == c));
-    }
-}
-
-impl Watched {
-    /// Takes in three neighbouring values; `first` says whether there are none before.
-    fn bend(&mut self, [a, b, c]: [f64; 3], first: bool, rows: impl Fn() -> [Seen; 3]) {
-        if ![a, b, c].iter().any(|x| x.is_nan()) {
-            for (side, sense) in self.sides.iter_mut().zip(SENSES) {
-                let [a, b, c] = [a, b, c].map(|x| sense * x);
-                if b >= a && b >= c && b > a.min(c) || first && a > b {
-                    side.peak(a.max(b), None, &rows);
-                }
-            }
-        } else if !b.is_nan() {
-            // it may grow towards a row where it is not known
-            let side = &mut self.sides[usize::from(b > 0.0)];
-            for (beyond, other, gap) in [(a, c, 0.0), (c, a, 1.0)] {
-                if beyond.is_nan() && (other.is_nan() || other.abs() < b.abs()) {
-                    side.peak(b.abs(), Some(gap), &rows);
-                }
-            }
-        }
-    }
-}
-
-impl Side {
-    /// Takes in values at rows with the greatest of them in this sense.
-    fn reach(&mut self, greatest: f64, sense: f64, values: &[f64], row: impl Fn(usize) -> Seen) {
-        let most = self.most.as_ref().map_or(f64::NEG_INFINITY, |most| most.0);
-        if greatest > most
-            && let Some(first) = values.iter().position(|x| sense * x == greatest)
-        {
-            let Seen { at, time, .. } = row(first);
-            self.most = Some((greatest, at, time));
-        }
-    }
-
-    fn peak(&mut self, height: f64, gap: Option<f64>, rows: impl Fn() -> [Seen; 3]) {
-        if self.peaks.len() == PEAKS {
-            let lowest =
-                (0..PEAKS).min_by(|&i, &j| self.peaks[i].height.total_cmp(&self.peaks[j].height));
-            match lowest {
-                Some(lowest) if self.peaks[lowest].height < height => {
-                    self.peaks.swap_remove(lowest);
-                }
-                _ => return,
-            }
-        }
-        let rows = rows();
-        self.peaks.push(Peak { height, rows, gap });
     }
 }

@@ -22,7 +22,8 @@ use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood}
 pub(in super::super) use block::Block;
 use found::Here;
 use probe::{Plan, Probe};
-use programs::{evaluated, turns};
+pub(in crate::ask) use programs::Name;
+pub(super) use programs::{evaluated, has_atan2, turns};
 use recorded::Recording;
 use wants::Wants;
 
@@ -76,7 +77,7 @@ pub(in super::super) struct Meter<'q> {
     before: Vec<Option<f64>>,
     values: Vec<Option<f64>>,
     /// What the names in the quantities stand for, each once, with the number of the point, if it is of one.
-    names: Vec<(Measured, usize)>,
+    names: Vec<(Name, usize)>,
     /// The quantities over the numbers of these names.
     programs: Vec<Expression<usize>>,
     /// The values of the names, and how far each may be off.
@@ -95,10 +96,28 @@ enum Spinning<'q> {
 }
 
 impl<'q> Meter<'q> {
+    /// Reads the quantities.
     pub fn new(of: &'q Metered<'q>, start: &Configuration<f64>) -> Self {
+        let turns = of.quantities.iter().map(turns).collect();
+        Meter::reading(of, start, of.programs(), turns)
+    }
+
+    /// Reads what names stand for, angles between −π and π.
+    pub fn of_names(of: &'q Metered<'q>, start: &Configuration<f64>, names: &[Name]) -> Self {
+        let programs = (0..names.len()).map(Expression::name).collect();
+        let turns = vec![false; names.len()];
+        Meter::reading(of, start, (names.to_vec(), programs), turns)
+    }
+
+    fn reading(
+        of: &'q Metered<'q>,
+        start: &Configuration<f64>,
+        (names, programs): (Vec<Name>, Vec<Expression<usize>>),
+        turns: Vec<bool>,
+    ) -> Self {
         let question = &of.question;
         let mechanism = question.mechanism();
-        let all = || of.quantities.iter().flat_map(Quantity::measured);
+        let all = || names.iter().map(|name| &name.of);
         let wants = Wants::of(all());
         let mut points: Vec<Point> = Vec::new();
         for measured in all() {
@@ -110,19 +129,6 @@ impl<'q> Meter<'q> {
                 points.push(*point);
             }
         }
-        let mut names: Vec<Measured> = Vec::new();
-        let mut number = |name: &Measured| {
-            let known = names.iter().position(|of| of == name);
-            known.unwrap_or_else(|| {
-                names.push(*name);
-                names.len() - 1
-            })
-        };
-        let programs = of.quantities.iter().map(|quantity| {
-            let program = (quantity.expression).try_resolve(|name, _| Ok::<_, ()>(number(name)));
-            program.expect("every name has a number")
-        });
-        let programs: Vec<Expression<usize>> = programs.collect();
         let coordinates = question.driven_coordinates();
         // about which lines links spin matters to a Jacobian and to rates of points alone
         let matters = wants.jacobian || wants.order > Order::Value && !points.is_empty();
@@ -147,16 +153,16 @@ impl<'q> Meter<'q> {
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
-        let numbered = names.iter().map(|name| match name {
+        let numbered = names.iter().map(|&name| match &name.of {
             Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
                 let number = points.iter().position(|known| known == point);
-                (*name, number.unwrap_or(0))
+                (name, number.unwrap_or(0))
             }
-            _ => (*name, 0),
+            _ => (name, 0),
         });
-        let names: Vec<(Measured, usize)> = numbered.collect();
+        let numbered: Vec<(Name, usize)> = numbered.collect();
         let held_by = |coordinate: &Coordinate| {
-            names.iter().any(|(name, _)| match *name {
+            names.iter().any(|name| match name.of {
                 Measured::Force(joint) => *coordinate == Coordinate::Joint(joint),
                 Measured::PlatformForce(platform, c) => {
                     *coordinate == Coordinate::Pose(platform, c)
@@ -166,9 +172,17 @@ impl<'q> Meter<'q> {
         };
         let wanted = coordinates.iter();
         let wanted = wanted.map(|of_it| wants.jacobian || held_by(of_it));
-        let angles = names.iter().filter_map(|(name, point)| match name {
-            Measured::Place(_, c, order) if c.is_angle() => Some((*point, *c, *order)),
-            _ => None,
+        // how an angle changes depends on how fast it turns
+        let angles = numbered.iter().flat_map(|(name, point)| {
+            let wanted = match name.of {
+                Measured::Place(_, c, order) if c.is_angle() => Some((c, order)),
+                _ => None,
+            };
+            let orders = wanted.into_iter().flat_map(|(c, order)| match order {
+                Order::Acceleration => vec![(c, Order::Velocity), (c, order)],
+                _ => vec![(c, order)],
+            });
+            orders.map(|(c, order)| (*point, c, order))
         });
         let mut plan = Plan {
             order: wants.order,
@@ -192,7 +206,7 @@ impl<'q> Meter<'q> {
         };
         Meter {
             ways: coordinates.iter().map(way).collect(),
-            turns: of.quantities.iter().map(turns).collect(),
+            turns,
             spinning: match held {
                 Some(held) if !spins.is_empty() => Spinning::Something(Box::new(held)),
                 _ => Spinning::Nothing(spins),
@@ -214,15 +228,15 @@ impl<'q> Meter<'q> {
             coordinates,
             plan,
             probe,
-            block: Block::new(of.quantities.len()),
+            block: Block::new(programs.len()),
             rows: 0,
             recording: None,
             failed: 0,
-            before: vec![None; of.quantities.len()],
-            values: vec![None; of.quantities.len()],
+            before: vec![None; programs.len()],
+            values: vec![None; programs.len()],
             known: vec![[0.0; 2]; names.len()],
-            noise: vec![0.0; of.quantities.len()],
-            names,
+            noise: vec![0.0; programs.len()],
+            names: numbered,
             programs,
             wants,
             of,
@@ -340,10 +354,7 @@ impl<'q> Meter<'q> {
 
     /// The values at one configuration, angles between −π and π.
     fn read_alone(&mut self, at: &Configuration<f64>, time: f64) {
-        for of in 0..self.ways.len() {
-            let driven = self.driven(of, time);
-            (self.driven.iter_mut().zip(driven)).for_each(|(to, x)| to[of] = x);
-        }
+        let pace = self.drive(time);
         match &mut self.spinning {
             Spinning::Nothing(spins) => self.probe.at(&self.plan, at, &self.driven, spins),
             Spinning::Something(held) => {
@@ -362,10 +373,10 @@ impl<'q> Meter<'q> {
             let of = |figure: &Figure| (*figure, classifier.distance(*figure, at));
             figures.extend(distances.iter().map(of));
         }
-        let here = Here::new(at, &found, &figures);
+        let both = Here::both(at, &found, &figures, pace);
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
-            *known = self.value(&here, name, *number);
+            *known = self.value(&both[usize::from(name.geometric)], &name.of, *number);
         }
         for (i, program) in self.programs.iter().enumerate() {
             (self.values[i], self.noise[i]) = evaluated(program, &known);
@@ -374,18 +385,27 @@ impl<'q> Meter<'q> {
         self.probe.found = found;
     }
 
-    /// Rate and acceleration of a held coordinate where a part of the time is gone.
-    fn driven(&self, of: usize, time: f64) -> [f64; 2] {
-        let Some((input, way)) = self.ways[of] else {
-            return [0.0; 2];
-        };
-        match &self.of.schedule {
-            None => {
-                let [_, rate, change] = self.of.pace.at(time);
-                [way * rate, way * change]
+    /// Sets rates and accelerations of the held coordinates where a part of the time is gone: those at a constant pace,
+    /// with the pace there, s′ and s″ over the duration; of a table its own, with the pace 1. Where a table is at rest its
+    /// accelerations are the rates: so it begins to move.
+    fn drive(&mut self, time: f64) -> [f64; 2] {
+        let [rates, changes] = &mut self.driven;
+        changes.fill(0.0);
+        let Some(schedule) = &self.of.schedule else {
+            for (rate, way) in rates.iter_mut().zip(&self.ways) {
+                *rate = way.map_or(0.0, |(_, way)| way / self.of.pace.duration);
             }
-            Some(schedule) => schedule.rates(input, time),
+            return self.of.pace.relative(time);
+        };
+        for (i, way) in self.ways.iter().enumerate() {
+            let driven = way.map_or([0.0; 2], |(input, _)| schedule.rates(input, time));
+            [rates[i], changes[i]] = driven;
         }
+        if rates.iter().any(|rate| *rate != 0.0) {
+            return [1.0, 0.0];
+        }
+        std::mem::swap(rates, changes);
+        [0.0, 1.0]
     }
 
     /// How far each value last read may be off.
@@ -393,8 +413,8 @@ impl<'q> Meter<'q> {
         &self.noise
     }
 
-    /// Angles are given near to these values from here on.
-    pub fn settle(&mut self, values: &[Option<f64>]) {
-        self.before.copy_from_slice(values);
+    /// An angle is given near to this value from here on.
+    pub fn settle(&mut self, quantity: usize, value: f64) {
+        self.before[quantity] = Some(value);
     }
 }

@@ -220,7 +220,7 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
         let why = match of.missing? {
             Missing::PlanarLoop => "no loop of it moves in a plane",
             Missing::Rates => "the held and driven coordinates do not determine the rates",
-            Missing::Expression => "its expression has none at any row",
+            Missing::Expression => "its expression has none anywhere on the curve",
         };
         Some(format!("{} has no value: {why}", of.name))
     });
@@ -228,15 +228,23 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
         let places = some(of.unbounded.iter().map(place));
         format!("{} grows without bound at {places}", of.name)
     });
-    said.chain(missing).collect()
+    let open = motion.extremes.iter().filter(|of| of.at_least);
+    let open = open.map(|of| {
+        format!(
+            "{} was not bounded on all of the curve: it varies too fast, or the motion is too long",
+            of.name
+        )
+    });
+    said.chain(missing).chain(open).collect()
 }
 
 /// How straight paths are, and where quantities dwell.
 pub(super) fn shapes(motion: &MotionReport) -> Vec<String> {
     let straight = motion.straightness.iter().map(|path| {
         format!(
-            "{} is at most {} from a straight line, over {} of it",
+            "{} is at {} {} from a straight line, over {} of it",
             path.point,
+            if path.at_least { "least" } else { "most" },
             quantity(path.deviation, SiUnit::METRE),
             metres(path.length)
         )
@@ -248,10 +256,11 @@ pub(super) fn shapes(motion: &MotionReport) -> Vec<String> {
             range(&input.name, from, to, input.unit)
         });
         format!(
-            "{} dwells within {} of {} for {} of the time: {}",
+            "{} dwells within {} of {} for {}{} of the time: {}",
             dwell.name,
             quantity(dwell.tolerance, dwell.unit),
             quantity(dwell.value, dwell.unit),
+            if dwell.at_least { "at least " } else { "" },
             number(dwell.times[1] - dwell.times[0]),
             listed(ranges)
         )

@@ -12,22 +12,43 @@ pub(super) struct Here<'a, T> {
     pub at: &'a Configuration<T>,
     pub found: &'a Found<T>,
     pub figures: &'a [(Figure, Option<T>)],
+    /// The pace over that of what was found, and its change per s.
+    pace: [T; 2],
     /// The largest rate and acceleration, in rad and characteristic lengths.
-    pub largest: [T; 2],
+    largest: [T; 2],
 }
 
 impl<'a, T: Number> Here<'a, T> {
-    pub fn new(
+    /// By the law of the motion, and at the pace of what was found.
+    pub fn both(
         at: &'a Configuration<T>,
         found: &'a Found<T>,
         figures: &'a [(Figure, Option<T>)],
-    ) -> Self {
-        Here {
-            at,
-            found,
-            figures,
-            largest: [0, 1].map(|order| largest(&found.rates[order])),
-        }
+        pace: [T; 2],
+    ) -> [Self; 2] {
+        let largest = [0, 1].map(|order| largest(&found.rates[order]));
+        [pace, [T::one(), T::zero()]].map(|pace| {
+            let [rate, change] = pace;
+            let accelerated = largest[1] * rate * rate + largest[0] * change.abs();
+            Here {
+                at,
+                found,
+                figures,
+                pace,
+                largest: [largest[0] * rate.abs(), accelerated],
+            }
+        })
+    }
+
+    /// A velocity at the pace.
+    fn fast(&self, velocity: T) -> T {
+        velocity * self.pace[0]
+    }
+
+    /// An acceleration at the pace: r² a + c v.
+    fn changing(&self, velocity: T, acceleration: T) -> T {
+        let [rate, change] = self.pace;
+        acceleration * rate * rate + velocity * change
     }
 
     fn tells(&self, order: Order) -> bool {
@@ -36,7 +57,15 @@ impl<'a, T: Number> Here<'a, T> {
 
     /// Where the point of that number is, or how it moves.
     fn moved(&self, i: usize, order: Order) -> Option<Vector3<T>> {
-        self.found.points[order as usize].get(i).copied()
+        let found = |order: Order| self.found.points[order as usize].get(i).copied();
+        Some(match order {
+            Order::Value => found(order)?,
+            Order::Velocity => found(order)?.map(|v| self.fast(v)),
+            Order::Acceleration => {
+                let (v, a) = (found(Order::Velocity)?, found(order)?);
+                Vector3(std::array::from_fn(|k| self.changing(v.0[k], a.0[k])))
+            }
+        })
     }
 }
 
@@ -98,8 +127,11 @@ impl Meter<'_> {
             }
             Measured::Joint(joint, Order::Value) => Some(here.at.joints[joint]),
             Measured::Joint(joint, order) => {
-                let rates = &here.found.rates[usize::from(order == Order::Acceleration)];
-                let rate = rates.get(joint).filter(|_| here.found.moves)?;
+                let known = |k: usize| here.found.rates[k].get(joint).filter(|_| here.found.moves);
+                let rate = match order {
+                    Order::Acceleration => here.changing(*known(0)?, *known(1)?),
+                    _ => here.fast(*known(0)?),
+                };
                 Some(rate.scale(mechanism.dimensions().joint_scales[joint]))
             }
             Measured::Place(point, coordinate, order) => {
@@ -166,9 +198,16 @@ impl Meter<'_> {
                 _ => of.0[c as usize],
             });
         }
-        let mut angles = self.plan.angles.iter();
-        let place = angles.position(|of| *of == (i, c, order))?;
-        here.found.angles.get(place).copied()
+        let found = |order: Order| {
+            let mut angles = self.plan.angles.iter();
+            let place = angles.position(|of| *of == (i, c, order))?;
+            here.found.angles.get(place).copied()
+        };
+        Some(match order {
+            Order::Value => found(order)?,
+            Order::Velocity => here.fast(found(order)?),
+            Order::Acceleration => here.changing(found(Order::Velocity)?, found(order)?),
+        })
     }
 
     fn force<T: Number>(&self, here: &Here<T>, of: Coordinate) -> Option<T> {

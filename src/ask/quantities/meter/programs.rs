@@ -1,8 +1,128 @@
 //! Values of quantities over those of the names in them.
 
+use super::Metered;
 use crate::algebra::{Expression, Function, Node, SiUnit};
+use crate::analysis::sweep::Law;
 use crate::mechanism::{Measured, Order, Quantity};
 use crate::number::{Dual, Number};
+
+/// What a name in a quantity stands for, and whether at a constant pace: what does not depend on the law has a value
+/// where that rests, too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::ask) struct Name {
+    pub of: Measured,
+    pub geometric: bool,
+}
+
+impl Metered<'_> {
+    /// What the names in the quantities stand for, each once, and the quantities over the numbers of these.
+    pub(in crate::ask) fn programs(&self) -> (Vec<Name>, Vec<Expression<usize>>) {
+        let mut names: Vec<Name> = Vec::new();
+        let mut number = |name: Name| {
+            let known = names.iter().position(|of| *of == name);
+            known.unwrap_or_else(|| {
+                names.push(name);
+                names.len() - 1
+            })
+        };
+        // of a constant law all are at a constant pace
+        let paced = self.schedule.is_some() || self.pace.law != Law::Constant;
+        let programs = self.quantities.iter().map(|quantity| {
+            let geometric = paced && is_geometric(&quantity.expression);
+            let program = (quantity.expression)
+                .try_resolve(|&of, _| Ok::<_, ()>(number(Name { of, geometric })));
+            program.expect("every name has a number")
+        });
+        let programs = programs.collect();
+        (names, programs)
+    }
+}
+
+/// Whether the law of a motion does not matter to a quantity: velocity ratios, curvatures and what else depends on the
+/// curve alone.
+///
+/// Where the pace is r times that of a constant law, and grows by c, velocities are r v and accelerations r² a + c v. That
+/// the quantity changes with neither r nor c is seen from its derivatives by them at random values of its names: those of
+/// an analytic function that vanish there vanish everywhere.
+fn is_geometric(expression: &Expression<Measured>) -> bool {
+    /// More than one, since kinks divide what names can be.
+    const DRAWS: u64 = 24;
+    let mut all: Vec<Measured> = Vec::new();
+    for (name, _) in expression.names() {
+        if !all.contains(name) {
+            all.push(*name);
+        }
+    }
+    let order = |of: &Measured| match of {
+        Measured::Joint(_, order) | Measured::Place(_, _, order) | Measured::Size(_, order) => {
+            *order
+        }
+        _ => Order::Value,
+    };
+    // accelerations with the velocities they are of
+    let velocity = |of: &Measured| match *of {
+        Measured::Joint(joint, _) => Measured::Joint(joint, Order::Velocity),
+        Measured::Place(point, c, _) => Measured::Place(point, c, Order::Velocity),
+        of => of,
+    };
+    if all.iter().all(|of| order(of) == Order::Value) {
+        return all.iter().any(|of| matches!(of, Measured::Curvature(_)));
+    }
+    // the size of an acceleration changes with more than its own velocity
+    if (all.iter()).any(|of| matches!(of, Measured::Size(_, Order::Acceleration))) {
+        return false;
+    }
+    let mut state = 0u64;
+    let mut random = || {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (state ^ (state >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (mixed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let mut decided = false;
+    for _ in 0..DRAWS {
+        let mut values: Vec<(Measured, f64)> = Vec::new();
+        for of in all.iter().flat_map(|of| [*of, velocity(of)]) {
+            let value = match of {
+                Measured::Size(..) => random().abs(),
+                _ => random(),
+            };
+            if values.iter().all(|(known, _)| *known != of) {
+                values.push((of, value));
+            }
+        }
+        let value = |of: &Measured| {
+            let known = values.iter().find(|(known, _)| known == of);
+            known.map_or(0.0, |(_, value)| *value)
+        };
+        for slope in [
+            |order: Order, value: f64, _: f64| f64::from(order as u8) * value,
+            |order: Order, _: f64, velocity: f64| match order {
+                Order::Acceleration => velocity,
+                _ => 0.0,
+            },
+        ] {
+            let along = expression.evaluate(&|of: &Measured| Dual {
+                value: value(of),
+                slope: slope(order(of), value(of), value(&velocity(of))),
+            });
+            let Ok(found) = along else { continue };
+            // beside what one name alone would change
+            let most = all.iter().map(|name| {
+                let alone = expression.evaluate(&|of: &Measured| Dual {
+                    value: value(of),
+                    slope: if of == name { 1.0 } else { 0.0 },
+                });
+                alone.map_or(0.0, |of| of.slope.abs())
+            });
+            if found.slope.abs() > 1e-9 * most.fold(0.0, f64::max) {
+                return false;
+            }
+            decided = true;
+        }
+    }
+    decided
+}
 
 /// The value of a quantity and how far it may be off, over those of names, as long as it is large beside that.
 pub(super) fn estimated<T: Number>(
@@ -34,7 +154,10 @@ pub(super) fn is_clear([value, noise]: [f64; 2]) -> bool {
 
 /// The value of a quantity, if it has one, and how far it may be off, over values of names that may be. A value that
 /// only rounding keeps finite, as that of 1/x where x is nothing but rounding, is none: away from it, it shrinks.
-pub(super) fn evaluated(program: &Expression<usize>, known: &[[f64; 2]]) -> (Option<f64>, f64) {
+pub(in super::super) fn evaluated(
+    program: &Expression<usize>,
+    known: &[[f64; 2]],
+) -> (Option<f64>, f64) {
     match estimated(program, known) {
         Some([value, noise]) if is_name(program) => {
             return (value.is_finite().then_some(value), noise);
@@ -62,12 +185,33 @@ pub(super) fn is_name(program: &Expression<usize>) -> bool {
 }
 
 /// Whether a quantity is an angle that is known but for whole turns.
-pub(super) fn turns(quantity: &Quantity) -> bool {
-    fn has_atan2(expression: &Expression<Measured>) -> bool {
-        matches!(expression.node, Node::Call(Function::Atan2, _))
-            || expression.operands().any(has_atan2)
-    }
-    let angle = |of: &Measured| matches!(of, Measured::Place(_, c, Order::Value) if c.is_angle());
+pub(in super::super) fn turns(quantity: &Quantity) -> bool {
     quantity.unit == SiUnit::RADIAN
-        && (quantity.measured().any(angle) || has_atan2(&quantity.expression))
+        && (quantity.measured().any(is_turned) || has_atan2(&quantity.expression))
+}
+
+/// Whether an expression has an angle in it that jumps by a turn.
+pub(in super::super) fn has_atan2(expression: &Expression<Measured>) -> bool {
+    matches!(expression.node, Node::Call(Function::Atan2, _))
+        || expression.operands().any(has_atan2)
+}
+
+/// Whether a name stands for an angle that is known but for whole turns.
+fn is_turned(of: &Measured) -> bool {
+    matches!(of, Measured::Place(_, c, Order::Value) if c.is_angle())
+}
+
+impl Name {
+    /// By the law of the motion.
+    pub fn of(of: Measured) -> Self {
+        Name {
+            of,
+            geometric: false,
+        }
+    }
+
+    /// Whether it is an angle that is known but for whole turns.
+    pub fn turns(&self) -> bool {
+        is_turned(&self.of)
+    }
 }

@@ -145,14 +145,16 @@ impl Meter<'_> {
                 .collect(),
         };
         let mut driven = [(); 2].map(|()| vec![Recorded::zero(); self.ways.len()]);
-        let pace = (self.of.schedule.is_none()).then(|| self.of.pace.at(next()));
+        let pace = match self.of.schedule {
+            None => self.of.pace.relative(next()),
+            Some(_) => [Recorded::one(), Recorded::zero()],
+        };
         for (of, way) in self.ways.iter().enumerate() {
             let Some((_, way)) = *way else { continue };
-            let [rate, change] = match pace {
-                Some([_, rate, change]) => [rate, change].map(|x| x.scale(way)),
-                None => [next(), next()],
+            [driven[0][of], driven[1][of]] = match self.of.schedule {
+                None => [way / self.of.pace.duration, 0.0].map(Recorded::from_f64),
+                Some(_) => [next(), next()],
             };
-            (driven[0][of], driven[1][of]) = (rate, change);
         }
         let mut probe = Probe::new(self.of, &self.plan);
         probe.at(&self.plan, &at, &driven, self.spins()?);
@@ -174,10 +176,10 @@ impl Meter<'_> {
             }
         };
         figures.extend(distances);
-        let here = Here::new(&at, found, &figures);
+        let both = Here::both(&at, found, &figures, pace);
         let names = self.names.iter();
         let known: Vec<[Recorded; 2]> = names
-            .map(|(name, number)| self.value(&here, name, *number))
+            .map(|(name, number)| self.value(&both[usize::from(name.geometric)], &name.of, *number))
             .collect();
         let written = self.programs.iter().map(|program| {
             let both = estimated(program, &known)?;

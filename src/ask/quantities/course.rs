@@ -1,0 +1,572 @@
+//! The curve of a motion, with polynomials of all that its quantities are made of.
+
+use std::f64::consts::{FRAC_PI_8, PI, TAU};
+
+use super::meter::{Block, Meter, Name, evaluated, has_atan2, turns};
+use crate::algebra::Expression;
+use crate::analysis::sweep::{Passage, Row, Sample, Stretch};
+use crate::mechanism::{Configuration, Quantity};
+use crate::number::sorting::sort_by;
+use crate::number::{Number, Taylor};
+use crate::solve::{Stage, Watch};
+
+/// The curve that a motion follows, whatever rows are asked for: pieces so short that all names in the quantities are
+/// polynomials there. What a quantity does between two places follows from these and its expression.
+pub(in super::super) struct Course<'m> {
+    passage: Passage<'m>,
+    stretches: Vec<Stretch>,
+    /// Where the last of them ends, with the part of the time, and whether the inputs turn back there.
+    last: Option<(Configuration<f64>, f64, bool)>,
+    names: Vec<Name>,
+    pub pieces: Vec<Piece>,
+    /// Whether all of it was looked at.
+    pub whole: bool,
+}
+
+/// A part of a stretch.
+pub(in super::super) struct Piece {
+    stretch: usize,
+    /// The parts of the stretch where it begins and ends.
+    span: [f64; 2],
+    ends: [Configuration<f64>; 2],
+    /// For each name, and the time at last, the terms of a polynomial of s from −1 to 1; not numbers where it has no value.
+    terms: Vec<[f64; TERMS]>,
+    /// How far each may be off.
+    noise: Vec<f64>,
+    /// Whether each is no such polynomial: it has a pole or a kink, or no value in places.
+    rough: Vec<bool>,
+}
+
+/// A piece that is to be looked at.
+struct Ahead {
+    stretch: usize,
+    span: [f64; 2],
+    ends: [Configuration<f64>; 2],
+    depth: u32,
+}
+
+/// A part of a piece, from s = middle − radius to middle + radius.
+#[derive(Clone, Copy)]
+pub(in super::super) struct Part {
+    pub piece: usize,
+    pub middle: f64,
+    pub radius: f64,
+}
+
+/// The polynomials are of eighth degree.
+const TERMS: usize = 9;
+
+/// Places on a piece, in order: the extremes of the Chebyshev polynomial of that degree, and two between them where the
+/// polynomial through these is compared.
+const PLACES: usize = TERMS + 2;
+const COMPARED: [usize; 2] = [3, 6];
+
+/// The place in the middle.
+const MIDDLE: usize = 5;
+
+/// How often a stretch is halved where a name has a kink or a pole.
+const DEEPEST: u32 = 40;
+
+impl<'m> Course<'m> {
+    pub fn new(passage: Passage<'m>, names: Vec<Name>) -> Self {
+        Course {
+            passage,
+            stretches: Vec::new(),
+            last: None,
+            names,
+            pieces: Vec::new(),
+            whole: true,
+        }
+    }
+
+    /// Goes on to the next place of the curve. `fold` says whether the inputs turn back there.
+    pub fn reach(&mut self, row: &Row, time: f64, fold: bool) {
+        /// Stretches of which the polynomials fit into memory.
+        const MOST: usize = 100_000;
+        let at = row.configuration;
+        if let Some((before, gone, folds)) = &mut self.last {
+            let ends = [before.clone(), at.clone()];
+            let stretch = self.passage.stretch(ends, [*gone, time], fold || *folds);
+            if stretch.is_place() {
+                *folds |= fold;
+                return;
+            }
+            match self.stretches.len() < MOST {
+                true => self.stretches.push(stretch),
+                false => self.whole = false,
+            }
+        }
+        self.last = Some((at.clone(), time, fold));
+    }
+
+    /// The part of the time that is gone where the inputs are, unless a table says it.
+    pub fn time(&self, at: &Configuration<f64>) -> f64 {
+        self.passage.time(at)
+    }
+
+    /// Whether there is more than one place.
+    pub fn moves(&self) -> bool {
+        self.stretches.iter().any(|of| !of.is_place())
+    }
+
+    /// Whether inputs move it.
+    pub fn is_driven(&self) -> bool {
+        !self.passage.inputs.is_empty()
+    }
+
+    /// The inputs at a configuration.
+    pub fn inputs(&self, at: &Configuration<f64>) -> Vec<f64> {
+        let inputs = self.passage.inputs.iter();
+        inputs
+            .map(|input| input.coordinate.of(self.passage.mechanism, at))
+            .collect()
+    }
+
+    /// Finds the polynomials of the names, which a meter reads.
+    pub fn look(&mut self, meter: &mut Meter, watch: &Watch) {
+        let lagrange = lagrange();
+        if let (true, Some((at, time, _))) = (self.stretches.is_empty(), &self.last) {
+            let ends = [at.clone(), at.clone()];
+            let stretch = self.passage.stretch(ends, [*time; 2], false);
+            self.stretches.push(stretch);
+        }
+        let stretches = self.stretches.iter().enumerate();
+        let mut ahead: Vec<Ahead> = stretches
+            .map(|(stretch, of)| Ahead {
+                stretch,
+                span: [0.0, 1.0],
+                ends: of.ends.clone(),
+                depth: 0,
+            })
+            .collect();
+        // how often pieces may be halved
+        let mut left = 20_000 + 8 * ahead.len();
+        while !ahead.is_empty() {
+            let (samples, middles) = self.sampled(&ahead, meter, watch);
+            let mut halves = Vec::new();
+            for ((of, samples), middle) in ahead.into_iter().zip(samples).zip(middles) {
+                let piece = self.fitted(&of, &samples, &lagrange);
+                match middle {
+                    Some(middle)
+                        if piece.rough.contains(&true) && of.depth < DEEPEST && left > 0 =>
+                    {
+                        left -= 1;
+                        let [begin, end] = of.ends;
+                        let half = 0.5 * (of.span[0] + of.span[1]);
+                        let sides = [
+                            ([begin, middle.clone()], [of.span[0], half]),
+                            ([middle, end], [half, of.span[1]]),
+                        ];
+                        halves.extend(sides.map(|(ends, span)| Ahead {
+                            stretch: of.stretch,
+                            span,
+                            ends,
+                            depth: of.depth + 1,
+                        }));
+                    }
+                    _ => self.pieces.push(piece),
+                }
+            }
+            ahead = halves;
+        }
+        let key = |of: &Piece| (of.stretch, of.span[0]);
+        let order = |a: &Piece, b: &Piece| {
+            let (a, b) = (key(a), key(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        };
+        sort_by(&mut self.pieces, order);
+        // angles go on without jumps
+        for name in (0..self.names.len()).filter(|name| self.names[*name].turns()) {
+            let mut before: Option<f64> = None;
+            for piece in &mut self.pieces {
+                let ends = [-1.0, 1.0].map(|s| polynomial(&piece.terms[name], s));
+                if let Some(before) = before.filter(|_| ends[0].is_finite()) {
+                    piece.terms[name][0] += TAU * ((before - ends[0]) / TAU).round();
+                }
+                let end = polynomial(&piece.terms[name], 1.0);
+                before = Some(end).filter(|end| end.is_finite()).or(before);
+            }
+        }
+    }
+
+    /// The names at the places of each piece, the time at last, and how far they may be off; and the configurations in
+    /// the middle.
+    fn sampled(
+        &mut self,
+        ahead: &[Ahead],
+        meter: &mut Meter,
+        watch: &Watch,
+    ) -> (Vec<Samples>, Vec<Option<Configuration<f64>>>) {
+        let count = self.names.len();
+        let mut read: Vec<[f64; 2]> = Vec::new();
+        let mut take = |block: &Block| {
+            for i in 0..block.len() {
+                let columns = block.columns().iter();
+                read.extend(columns.map(|of| [of.values[i], of.noise[i]]));
+            }
+        };
+        let mut order = Vec::new();
+        let mut middles = vec![None; ahead.len()];
+        let none = vec![[f64::NAN, 0.0]; count + 1];
+        let mut samples: Vec<Samples> = vec![std::array::from_fn(|_| none.clone()); ahead.len()];
+        for (k, of) in ahead.iter().enumerate() {
+            if k % 64 == 0 && watch.stops(Stage::Steps, k, Some(ahead.len())) {
+                self.whole = false;
+                break;
+            }
+            for (place, s) in places().into_iter().enumerate() {
+                let part = within(of.span, s);
+                let near = usize::from(s > 0.0);
+                let from = (of.span[near], &of.ends[near]);
+                let stretch = &self.stretches[of.stretch];
+                let Some((at, time)) = self.passage.at(stretch, part, from) else {
+                    continue;
+                };
+                if place == MIDDLE {
+                    middles[k] = Some(at.clone());
+                }
+                samples[k][place][count] = [time, f64::EPSILON];
+                order.push((k, place));
+                meter.read_row(&Row::of(at), time, &mut take);
+            }
+        }
+        meter.read_waiting(&mut take);
+        for ((k, place), values) in order.into_iter().zip(read.chunks_exact(count.max(1))) {
+            samples[k][place][..count].copy_from_slice(&values[..count]);
+        }
+        (samples, middles)
+    }
+
+    /// The polynomials through samples.
+    fn fitted(&self, of: &Ahead, samples: &Samples, lagrange: &[[f64; TERMS]; TERMS]) -> Piece {
+        /// How far beside a polynomial a name may be, beside its largest value on the piece.
+        const OFF: f64 = 1e-11;
+        let mut piece = Piece {
+            stretch: of.stretch,
+            span: of.span,
+            ends: of.ends.clone(),
+            terms: Vec::new(),
+            noise: Vec::new(),
+            rough: Vec::new(),
+        };
+        let is_solved = samples.iter().all(|of| !of[self.names.len()][0].is_nan());
+        for name in 0..=self.names.len() {
+            let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
+            if self.names.get(name).is_some_and(Name::turns) {
+                for i in 1..PLACES {
+                    let jump = values[i] - values[i - 1];
+                    if jump.is_finite() {
+                        values[i] -= TAU * (jump / TAU).round();
+                    }
+                }
+            }
+            let mut terms = [0.0; TERMS];
+            let through = (0..PLACES).filter(|place| !COMPARED.contains(place));
+            for (basis, place) in lagrange.iter().zip(through) {
+                for (term, of_basis) in terms.iter_mut().zip(basis) {
+                    *term += values[place] * of_basis;
+                }
+            }
+            let finite = |most: f64, x: f64| if x.is_finite() { most.max(x) } else { most };
+            let largest = values.iter().map(|x| x.abs()).fold(0.0, finite);
+            let noise = samples.iter().map(|of| of[name][1]).fold(0.0, finite);
+            let off =
+                COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
+            let near = off.iter().all(|off| *off <= OFF * largest + 8.0 * noise);
+            // no value anywhere, though the configurations are known
+            let nowhere = values.iter().all(|x| x.is_nan()) && is_solved;
+            piece
+                .terms
+                .push(if near { terms } else { [f64::NAN; TERMS] });
+            piece.noise.push(noise + off.into_iter().fold(0.0, finite));
+            piece.rough.push(!near && !nowhere);
+        }
+        piece
+    }
+
+    /// The value of an expression over the names at a place of a piece, if it has one, with how far it may be off.
+    pub fn value(&self, of: &Sought, piece: usize, s: f64) -> (Option<f64>, f64) {
+        let piece = &self.pieces[piece];
+        let known = self.names.iter().enumerate().map(|(name, what)| {
+            let value = polynomial(&piece.terms[name], s);
+            let turned = match what.turns() && !of.turns {
+                true => value - TAU * (value / TAU).round(),
+                false => value,
+            };
+            [turned, piece.noise[name]]
+        });
+        evaluated(of.program, &known.collect::<Vec<_>>())
+    }
+
+    /// A name over a part of a piece; the last is the time.
+    fn name(&self, name: usize, at: Part) -> Taylor {
+        let mut terms = self.pieces[at.piece].terms[name];
+        // the polynomial about the middle, by Horner's rule again and again
+        for k in 0..TERMS {
+            for i in (k..TERMS - 1).rev() {
+                terms[i] += at.middle * terms[i + 1];
+            }
+        }
+        let mut power = 1.0;
+        for term in &mut terms {
+            *term *= power;
+            power *= at.radius;
+        }
+        let mut model = Taylor::zero();
+        let count = model.terms.len();
+        model.terms.copy_from_slice(&terms[..count]);
+        model.rest = terms[count..].iter().map(|term| term.abs()).sum();
+        model
+    }
+
+    /// The part of the time that is gone at a place of a piece.
+    fn time_at(&self, piece: usize, s: f64) -> f64 {
+        polynomial(&self.pieces[piece].terms[self.names.len()], s)
+    }
+
+    /// A model of an expression over a part of a piece, if it has a value there.
+    fn model(&self, of: &Sought, at: Part) -> Option<Taylor> {
+        let names: Vec<Taylor> = (self.names.iter().enumerate())
+            .map(|(name, what)| {
+                let mut model = self.name(name, at);
+                if what.turns() && !of.turns {
+                    model.terms[0] -= TAU * (model.terms[0] / TAU).round();
+                    let [low, high] = model.range();
+                    if low < -PI || high > PI {
+                        model = Taylor::zero();
+                        model.rest = PI;
+                    }
+                }
+                model
+            })
+            .collect();
+        of.program.evaluate(&|name: &usize| names[*name]).ok()
+    }
+
+    /// Goes along the curve and halves pieces as long as the visitor wants it, who is given a model of an expression, if
+    /// it has a value there. Whether all was seen before the patience ended.
+    pub fn walk(
+        &self,
+        of: &Sought,
+        mut patience: usize,
+        visit: &mut dyn FnMut(Part, Option<&Taylor>) -> bool,
+    ) -> bool {
+        let mut before = (of.jumps).then(|| self.value(of, 0, -1.0).0).flatten();
+        for piece in 0..self.pieces.len() {
+            let mut parts = vec![Part {
+                piece,
+                middle: 0.0,
+                radius: 1.0,
+            }];
+            while let Some(part) = parts.pop() {
+                if patience == 0 {
+                    return false;
+                }
+                patience -= 1;
+                let mut model = self.model(of, part);
+                let mut vague = false;
+                if let (true, Some(model)) = (of.jumps, &mut model) {
+                    vague = model.rest > 0.5 && !part.is_narrow();
+                    if let Some(before) = before {
+                        model.terms[0] += TAU * ((before - model.at(-1.0)) / TAU).round();
+                    }
+                }
+                if (vague || visit(part, model.as_ref())) && !part.is_narrow() {
+                    let radius = 0.5 * part.radius;
+                    for middle in [part.middle + radius, part.middle - radius] {
+                        parts.push(Part {
+                            middle,
+                            radius,
+                            ..part
+                        });
+                    }
+                } else if let Some(model) = model.filter(|model| model.rest < 0.5) {
+                    before = Some(model.at(1.0));
+                }
+            }
+        }
+        true
+    }
+
+    /// Places between which an expression is off a straight line by far less than a tolerance, or changes by more than
+    /// twice that; and whether that is so everywhere.
+    pub fn samples(&self, of: &Sought, tolerance: f64) -> (Vec<Sample>, bool) {
+        /// How many parts are looked at, beside the pieces themselves.
+        const PATIENCE: usize = 1_000_000;
+        /// How far off, beside the tolerance.
+        const OFF: f64 = 1e-3;
+        let mut samples: Vec<Sample> = Vec::new();
+        let patience = PATIENCE + 8 * self.pieces.len();
+        let whole = self.walk(of, patience, &mut |part, model| {
+            let place = |t: f64| {
+                let s = part.middle + t * part.radius;
+                let (stretch, gone) = self.place(part.piece, s);
+                (stretch as f64 + gone, self.time_at(part.piece, s))
+            };
+            let Some(model) = model.filter(|model| model.rest.is_finite()) else {
+                let wanted = model.is_some() && !part.is_narrow();
+                if !wanted {
+                    samples.push((place(0.0).0, None));
+                }
+                return wanted;
+            };
+            let bend = model.bend();
+            let leaves = model.terms[1].abs() - bend > 2.0 * tolerance;
+            if bend > OFF * tolerance && !leaves && !part.is_narrow() {
+                return true;
+            }
+            for t in [-1.0, 1.0] {
+                let (place, time) = place(t);
+                if samples
+                    .last()
+                    .is_none_or(|(last, of)| *last < place || of.is_none())
+                {
+                    samples.push((place, Some([time, model.at(t)])));
+                }
+            }
+            false
+        });
+        let hidden = (0..self.pieces.len()).any(|piece| self.hides(of, piece));
+        (samples, whole && self.whole && !hidden)
+    }
+
+    /// The places of a point, of which the coordinates have these numbers, along the curve.
+    pub fn path(&self, axes: [usize; 3]) -> Vec<(f64, [f64; 3])> {
+        /// On each piece.
+        const COUNT: u32 = 32;
+        let pieces = 0..self.pieces.len();
+        let all = pieces.flat_map(|piece| {
+            (0..=COUNT).map(move |k| {
+                let s = 2.0 * f64::from(k) / f64::from(COUNT) - 1.0;
+                let (stretch, part) = self.place(piece, s);
+                let at = axes.map(|axis| polynomial(&self.pieces[piece].terms[axis], s));
+                (stretch as f64 + part, at)
+            })
+        });
+        all.filter(|(_, at)| at.iter().all(|x| x.is_finite()))
+            .collect()
+    }
+
+    /// Whether a piece may hide values of a quantity: a name in it is no polynomial there, and it is not a mere place.
+    pub fn hides(&self, of: &Sought, piece: usize) -> bool {
+        let [begin, end] = self.pieces[piece].span;
+        self.is_rough(of, piece) && end - begin > 1e-9
+    }
+
+    /// Whether a name in a quantity is no polynomial on a piece.
+    pub fn is_rough(&self, of: &Sought, piece: usize) -> bool {
+        let rough = &self.pieces[piece].rough;
+        of.program.names().any(|(name, _)| rough[*name])
+    }
+
+    /// A place of a piece among all, where 2.5 is half way along the third stretch.
+    pub fn place(&self, piece: usize, s: f64) -> (usize, f64) {
+        let of = &self.pieces[piece];
+        (of.stretch, within(of.span, s))
+    }
+
+    /// How long a piece is beside its stretch.
+    pub fn width(&self, piece: usize) -> f64 {
+        let [begin, end] = self.pieces[piece].span;
+        end - begin
+    }
+
+    /// The configuration at a part of a stretch, and the part of the time that is gone there.
+    pub fn at(&mut self, stretch: usize, part: f64) -> Option<(&Configuration<f64>, f64)> {
+        let after = (self.pieces).partition_point(|of| {
+            of.stretch < stretch || of.stretch == stretch && of.span[0] <= part
+        });
+        let piece = &self.pieces[after.checked_sub(1)?];
+        let near = usize::from(part - piece.span[0] > piece.span[1] - part);
+        let from = (piece.span[near], &piece.ends[near]);
+        self.passage.at(&self.stretches[stretch], part, from)
+    }
+
+    /// The same at a place that is one number.
+    pub fn at_place(&mut self, place: f64) -> Option<(&Configuration<f64>, f64)> {
+        let stretch = (place.floor() as usize).min(self.stretches.len() - 1);
+        self.at(stretch, place - stretch as f64)
+    }
+}
+
+/// For each place of a piece the names, the time at last, and how far they may be off.
+type Samples = [Vec<[f64; 2]>; PLACES];
+
+/// A quantity over the numbers of names.
+pub(in super::super) struct Sought<'e> {
+    pub program: &'e Expression<usize>,
+    /// Whether it is an angle that goes on without jumps.
+    pub turns: bool,
+    /// Whether its expression jumps all the same.
+    pub jumps: bool,
+}
+
+impl<'e> Sought<'e> {
+    pub fn new(quantity: &Quantity, program: &'e Expression<usize>) -> Self {
+        let turns = turns(quantity);
+        Sought {
+            program,
+            turns,
+            jumps: turns && has_atan2(&quantity.expression),
+        }
+    }
+}
+
+impl Part {
+    /// Whether names do not differ by more than rounding from one end to the other.
+    pub fn is_narrow(self) -> bool {
+        self.radius < 1e-13
+    }
+}
+
+/// The part of a span at s from −1 to 1, the ends without rounding.
+fn within([begin, end]: [f64; 2], s: f64) -> f64 {
+    match s {
+        -1.0 => begin,
+        1.0 => end,
+        _ => begin + 0.5 * (s + 1.0) * (end - begin),
+    }
+}
+
+fn polynomial(terms: &[f64; TERMS], s: f64) -> f64 {
+    terms.iter().rev().fold(0.0, |sum, term| sum * s + term)
+}
+
+/// The places on a piece, in order.
+fn places() -> [f64; PLACES] {
+    let at = |k: usize| -(FRAC_PI_8 * k as f64).sin_cos().1;
+    [
+        -1.0,
+        at(1),
+        at(2),
+        -0.55,
+        at(3),
+        0.0,
+        0.19,
+        at(5),
+        at(6),
+        at(7),
+        1.0,
+    ]
+}
+
+/// The terms of the polynomials that are 1 at one of the places and 0 at the others, but for those compared.
+fn lagrange() -> [[f64; TERMS]; TERMS] {
+    let all = places();
+    let through: Vec<f64> = (0..PLACES)
+        .filter(|place| !COMPARED.contains(place))
+        .map(|place| all[place])
+        .collect();
+    std::array::from_fn(|one| {
+        let mut terms = [0.0; TERMS];
+        terms[0] = 1.0;
+        for (_, other) in through.iter().enumerate().filter(|(k, _)| *k != one) {
+            let scale = 1.0 / (through[one] - other);
+            for i in (0..TERMS).rev() {
+                let lower = if i > 0 { terms[i - 1] } else { 0.0 };
+                terms[i] = scale * (lower - other * terms[i]);
+            }
+        }
+        terms
+    })
+}
