@@ -40,8 +40,8 @@ pub struct Closure<T> {
     pub(crate) movers: [Vec<Mover<T>>; 2],
     /// The platforms that carry sides A and B.
     pub(crate) platforms: [Option<usize>; 2],
-    length: T,
-    extension: LinearForm<T>,
+    pub(crate) length: T,
+    pub(crate) extension: LinearForm<T>,
     /// The natural sizes of the joint variables of the extension.
     extension_scales: Vec<f64>,
     inverse_length: f64,

@@ -59,6 +59,9 @@ pub(crate) struct Family {
     pub home: Configuration<f64>,
     /// Number of closure equations that do not vanish everywhere.
     pub varying_equations: usize,
+    /// Whether there are as many of them, with those of held coordinates, as unknowns. Where its solutions are isolated
+    /// they are independent, and stay solutions whatever numbers the dimensions become.
+    pub is_square: bool,
     /// The equations with these values, if all expressions have one.
     own: Option<System<C>>,
 }
@@ -122,13 +125,14 @@ impl Family {
             by_dimensions: false,
             home: mechanism.home(),
             varying_equations: mechanism.equations_that_vary(),
+            is_square: false,
             mechanism: mechanism.clone(),
             own: None,
         };
         let system = System::new(mechanism.dimensions(), held);
         let equations = family.varying_equations + system.hold_rows().len();
-        let is_square = system.unknowns().len() == equations;
-        let is_rigid = is_square
+        family.is_square = system.unknowns().len() == equations;
+        let is_rigid = family.is_square
             && Mobility::near(mechanism, &family.home).is_some_and(|near| near.count() == 0);
         family.by_dimensions = is_rigid || family.coordinates.inputs.is_empty();
         if is_rigid {
@@ -161,7 +165,13 @@ impl Family {
     pub fn system(&self, parameters: &[C]) -> Option<System<C>> {
         match &self.own {
             Some(own) if parameters == self.parameters => Some(own.clone()),
-            _ => Some(System::new(&self.dimensions(parameters)?, &self.held)),
+            _ => {
+                let dimensions = self.dimensions(parameters)?;
+                Some(match self.is_square {
+                    true => System::reduced(&self.mechanism, &dimensions, &self.held),
+                    false => System::new(&dimensions, &self.held),
+                })
+            }
         }
     }
 

@@ -1,10 +1,12 @@
 //! The equations at one parameter value of a homotopy.
 
+use std::sync::Arc;
+
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::solve::Equations;
-use crate::system::{System, Work};
+use crate::system::{Course, System, Work};
 
 /// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
@@ -46,12 +48,21 @@ pub(crate) struct MemberEquations {
     pub sound: bool,
     inputs: Vec<C>,
     s: Option<C>,
+    /// The way of the dimensions as numbers, where their relations need not be kept.
+    numbers: Option<Arc<Course<C>>>,
 }
 
 impl MemberEquations {
     /// At s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &Segment) -> Option<Self> {
-        let system = family.system(&course.from.parameters)?;
+        let mut system = family.system(&course.from.parameters)?;
+        let mut numbers = None;
+        if course.resized && family.is_square {
+            let end = family.system(&course.parameters(C::new(1.0, 0.0)))?;
+            if let Some((moving, way)) = system.towards(&end) {
+                (system, numbers) = (moving, Some(Arc::new(way)));
+            }
+        }
         let mut place = MemberEquations {
             work: system.work(),
             system,
@@ -59,6 +70,7 @@ impl MemberEquations {
             sound: true,
             inputs: course.from.inputs.clone(),
             s: None,
+            numbers,
         };
         place.go(family, course, C::new(0.0, 0.0));
         Some(place)
@@ -70,7 +82,9 @@ impl MemberEquations {
             return;
         }
         self.s = Some(s);
-        if course.resized {
+        if let Some(numbers) = &self.numbers {
+            self.system.go(numbers, s, &mut self.work);
+        } else if course.resized {
             let system = family.system(&course.parameters(s));
             self.sound = system.is_some();
             if let Some(system) = system {
@@ -128,6 +142,7 @@ impl MemberEquations {
                 system,
                 at,
                 s: None,
+                numbers: None,
                 ..self.clone()
             };
             apart.go(family, course, s);
