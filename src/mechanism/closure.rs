@@ -35,7 +35,7 @@ pub struct Closure<T> {
     pub kind: ClosureKind,
     kept: Kept,
     only_points: bool,
-    slots: [Slot; 2],
+    pub(crate) slots: [Slot; 2],
     /// The joints that move side A and side B.
     pub(crate) movers: [Vec<Mover<T>>; 2],
     /// The platforms that carry sides A and B.

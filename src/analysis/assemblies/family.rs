@@ -12,6 +12,7 @@ pub(super) use legwise::{LegwiseSolutions, count, learn};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use super::report::Traced;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Mechanism};
 use crate::number::Number;
@@ -24,10 +25,23 @@ pub(crate) struct Member {
     pub inputs: Vec<C>,
 }
 
+impl Member {
+    /// The member at a place of the straight way to another.
+    pub fn towards(&self, other: &Member, s: C) -> Member {
+        let between = |a: &[C], b: &[C]| a.iter().zip(b).map(|(a, b)| a + (b - a) * s).collect();
+        Member {
+            parameters: between(&self.parameters, &other.parameters),
+            inputs: between(&self.inputs, &other.inputs),
+        }
+    }
+}
+
 /// A way through the family along which solutions are algebraic in one variable t.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Direction {
-    /// Places of the flat inputs that move; none if the parameters do.
+    /// Places of the parameters that move.
+    parameters: Vec<usize>,
+    /// Places of the flat inputs that move.
     inputs: Vec<usize>,
     /// Turns after which the one angle that moves repeats: t is the exponential of i times the angle over them. Without
     /// an angle t is the way itself.
@@ -66,7 +80,7 @@ pub(crate) struct Family {
     own: Option<System<C>>,
 }
 
-/// A length that no parameter changes.
+/// A length that has a factor among the parameters.
 #[derive(Clone, Copy, Debug)]
 enum Length {
     /// Of the links before and after a joint.
@@ -142,7 +156,7 @@ impl Family {
         family
     }
 
-    /// Lengths that no parameter changes get factors. With nothing to vary a family has one member, and no loop goes
+    /// Rods, and other lengths that no parameter changes, get factors. With nothing to vary a family has one member, and no loop goes
     /// through it. Independent equations as many as unknowns keep their solutions when anything changes a little; of an
     /// overconstrained mechanism they would be lost.
     fn widen(&mut self) {
@@ -154,7 +168,8 @@ impl Family {
         let all: Vec<Length> = Length::all(&own).collect();
         let fixed = all.into_iter().filter(|length| {
             let (own, other) = (length.of(&mut own), length.of(&mut other));
-            own == other && own.iter().any(|x| **x != C::from_f64(0.0))
+            let is_rod = matches!(length, Length::Rod { .. });
+            (is_rod || own == other) && own.iter().any(|x| **x != C::from_f64(0.0))
         });
         self.lengths = fixed.collect();
         let factors = self.lengths.iter().map(|_| C::from_f64(1.0));
@@ -254,12 +269,27 @@ impl Family {
     }
 
     /// Directions that make up all motions of the inputs: lengths and poses together, each angle by itself; the
-    /// dimensions where they make the family. `None` if an angle never comes back to the same place.
+    /// rods, or without any all dimensions, where these make the family; none if nothing moves. `None` if an angle never
+    /// comes back to the same place.
     pub fn directions(&self) -> Option<Vec<Direction>> {
         let (mut straight, mut directions) = (Vec::new(), Vec::new());
+        if self.by_dimensions {
+            let all = 0..self.parameters.len();
+            let rods = all.clone().filter(|place| self.is_rod(*place));
+            let moving: Vec<usize> = match self.moved_by_trace() {
+                Traced::Rods => rods.collect(),
+                _ => all.collect(),
+            };
+            let direction = Direction {
+                parameters: moving,
+                ..Direction::default()
+            };
+            directions.push(direction);
+            directions.retain(|direction| !direction.parameters.is_empty());
+            return Some(directions);
+        }
         let mut places = 0..;
-        let inputs = self.coordinates.inputs.iter();
-        for &input in inputs.filter(|_| !self.by_dimensions) {
+        for &input in &self.coordinates.inputs {
             let turns = match input {
                 Input::Joint(j) => self.turns(j),
                 Input::Target(_, coordinate) => coordinate.is_angle().then_some(Some(1.0)),
@@ -271,16 +301,34 @@ impl Family {
                 Some(turns) => directions.push(Direction {
                     inputs: own.collect(),
                     turns: Some(turns?),
+                    ..Direction::default()
                 }),
             }
         }
-        if !straight.is_empty() || directions.is_empty() {
+        if !straight.is_empty() {
             directions.push(Direction {
                 inputs: straight,
-                turns: None,
+                ..Direction::default()
             });
         }
         Some(directions)
+    }
+
+    /// Whether a parameter is the factor of a rod.
+    fn is_rod(&self, place: usize) -> bool {
+        let named = self.parameters.len() - self.lengths.len();
+        let factor = place.checked_sub(named).map(|i| self.lengths[i]);
+        matches!(factor, Some(Length::Rod { .. }))
+    }
+
+    /// What the trace test moves.
+    pub fn moved_by_trace(&self) -> Traced {
+        let mut places = 0..self.parameters.len();
+        match self.by_dimensions {
+            false => Traced::Inputs,
+            true if places.any(|place| self.is_rod(place)) => Traced::Rods,
+            true => Traced::Parameters,
+        }
     }
 
     /// Another member in a direction.
@@ -289,7 +337,9 @@ impl Family {
         let inputs = self.random_inputs(rng, 1.0);
         (direction.inputs.iter()).for_each(|&place| to.inputs[place] = inputs[place]);
         if self.by_dimensions {
-            to.parameters = self.random_parameters(rng, 1.0);
+            let parameters = self.random_parameters(rng, 1.0);
+            let moving = direction.parameters.iter();
+            moving.for_each(|&place| to.parameters[place] = parameters[place]);
         }
         to
     }

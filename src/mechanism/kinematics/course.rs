@@ -13,6 +13,15 @@ pub(crate) struct Course<T> {
     turns: Vec<(usize, Quaternion<T>, Quaternion<T>)>,
 }
 
+impl<T: Number> Course<T> {
+    /// Multiplies all changes.
+    pub(crate) fn stretch(&mut self, factor: f64) {
+        let shifts = self.shifts.iter_mut().flat_map(|shift| &mut shift.2.0);
+        let turns = self.turns.iter_mut().flat_map(|turn| &mut turn.2.0);
+        shifts.chain(turns).for_each(|x| *x = x.scale(factor));
+    }
+}
+
 impl<T: Number> Step<T> {
     /// With products left out only if they are for the other too; `None` if more than the fixed displacement differs.
     fn beside(&self, other: &Self) -> Option<Self> {
@@ -76,6 +85,48 @@ impl<T: Number> Kinematics<T> {
             let at = std::array::from_fn(|k| from.0[k] + change.0[k] * s);
             self.steps[*i].fixed.rotation = Quaternion(at).normalised().rotation();
             self.ground(*i, placement);
+        }
+    }
+
+    /// Rotation rate and velocity of the origin in every slot, by those of the platforms, which are there, by the rates of
+    /// joints and by the way at s.
+    pub(crate) fn drift(
+        &self,
+        (joints, rates): (&[T], &[T]),
+        way: Option<(&Course<T>, T)>,
+        placement: &Placement<T>,
+        slots: &mut [(Vector3<T>, Vector3<T>)],
+    ) {
+        let mut shifts = way.map_or(&[][..], |(course, _)| &course.shifts).iter();
+        let mut turns = way.map_or(&[][..], |(course, _)| &course.turns).iter();
+        let s = way.map_or(T::zero(), |(_, s)| s);
+        let (mut shift, mut turn) = (shifts.next(), turns.next());
+        for (i, step) in self.steps.iter().enumerate() {
+            let slot = 1 + self.platforms + i;
+            let (parent, pose) = (placement.pose(step.parent), placement.pose(slot));
+            let z = pose.rotation.0[2];
+            let (mut omega, mut v) = slots[step.parent];
+            v += omega.cross(&(pose.position - parent.position));
+            if let Some((_, _, change)) = shift.filter(|shift| shift.0 == i) {
+                v += parent.rotation * *change;
+                shift = shifts.next();
+            }
+            if let Some((_, from, change)) = turn.filter(|turn| turn.0 == i) {
+                let at = std::array::from_fn(|k| from.0[k] + change.0[k] * s);
+                let turned = parent.rotation * Quaternion(at).turning(change);
+                omega += turned;
+                if !step.slide.0.is_empty() {
+                    v += turned.cross(&z.times(step.slide.at(joints)));
+                }
+                turn = turns.next();
+            }
+            if !step.turn.0.is_empty() {
+                omega += z.times(step.turn.at(rates));
+            }
+            if !step.slide.0.is_empty() {
+                v += z.times(step.slide.at(rates));
+            }
+            slots[slot] = (omega, v);
         }
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::Dual;
 use crate::solve::Equations;
 use crate::system::{Course, System, Work};
 
@@ -50,6 +51,10 @@ pub(crate) struct MemberEquations {
     s: Option<C>,
     /// The way of the dimensions as numbers, where their relations need not be kept.
     numbers: Option<Arc<Course<C>>>,
+    /// Rates of joints.
+    rates: Vec<C>,
+    /// Rotation rates and velocities of ground, platforms and all frames that are placed.
+    slots: Vec<(Vector3<C>, Vector3<C>)>,
 }
 
 impl MemberEquations {
@@ -71,6 +76,8 @@ impl MemberEquations {
             inputs: course.from.inputs.clone(),
             s: None,
             numbers,
+            rates: vec![C::new(0.0, 0.0); family.home.joints.len()],
+            slots: Vec::new(),
         };
         place.go(family, course, C::new(0.0, 0.0));
         Some(place)
@@ -112,6 +119,60 @@ impl MemberEquations {
                 }
             }
         }
+    }
+
+    /// ∂h/∂s where frames were last placed, in place of the residual; whether there is one.
+    pub fn drift(&mut self, family: &Family, course: &Segment) -> bool {
+        /// Over which dimensions are compared where their relations are kept.
+        const APART: f64 = 1e-7;
+        let s = self.s.unwrap_or(C::new(0.0, 0.0));
+        let still = (Vector3::zero(), Vector3::zero());
+        self.slots
+            .resize(self.system.placement(&self.work).0.len(), still);
+        let coordinates = &family.coordinates;
+        let quaternion = |x: &[C]| Quaternion([x[0], x[1], x[2], x[3]]);
+        let changes = || {
+            let changes = coordinates.split(&course.change.inputs);
+            coordinates.split(&self.inputs).zip(changes)
+        };
+        for ((input, x), (_, change)) in changes() {
+            match input {
+                Input::Joint(j) => self.rates[j] = change[0],
+                Input::Pose(p) => {
+                    let omega = quaternion(x).turning(&quaternion(change));
+                    self.slots[1 + p] = (omega, Vector3([change[4], change[5], change[6]]));
+                }
+                Input::Target(..) | Input::Orientation(_) => {}
+            }
+        }
+        let mut way = self.numbers.as_ref().map(|numbers| (numbers.clone(), s));
+        if course.resized && way.is_none() {
+            // from here to a little ahead, as so much of a way
+            let ahead = family.system(&course.parameters(s + APART));
+            let ahead = ahead.and_then(|ahead| self.system.towards(&ahead));
+            let Some((_, ahead)) = ahead else {
+                return false;
+            };
+            way = Some((Arc::new(ahead.stretched(1.0 / APART)), C::new(0.0, 0.0)));
+        }
+        let way = way.as_ref().map(|(course, s)| (&**course, *s));
+        let (system, work) = (&self.system, &mut self.work);
+        system.drift(&self.at, &self.rates, way, &mut self.slots, work);
+        for ((input, x), (_, change)) in changes() {
+            let dual = |i: usize| Dual {
+                value: x[i],
+                slope: change[i],
+            };
+            match input {
+                Input::Joint(_) | Input::Pose(_) => {}
+                Input::Target(p, c) => system.add_target_rate((p, c), dual(0), &self.at, work),
+                Input::Orientation(p) => {
+                    let wanted = Quaternion([0, 1, 2, 3].map(dual)).normalised().rotation();
+                    system.add_orientation_rate(p, &wanted, &self.at, work);
+                }
+            }
+        }
+        true
     }
 
     /// Whether the place last evaluated is one of infinitely many solutions, because a joint never comes back to the
