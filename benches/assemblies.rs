@@ -5,6 +5,10 @@
 
 // a bench prints its ratios
 #![allow(clippy::print_stdout)]
+// the yardsticks use intrinsics of the processor
+#![allow(unsafe_code)]
+
+mod limits;
 
 use std::hint::black_box;
 use std::path::Path;
@@ -25,7 +29,7 @@ criterion_group! {
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(2))
         .without_plots();
-    targets = searches, stored
+    targets = truss, searches, stored
 }
 criterion_main!(benches);
 
@@ -52,6 +56,37 @@ fn solver(mechanism: &Mechanism, seed: u64) -> AssemblySolver {
     let held = Question::new(mechanism).held();
     AssemblySolver::new(mechanism, &held, &settings, &Watch::none())
         .expect("dimensions have values")
+}
+
+/// The 13-link truss from nothing, beside a program written by hand for it.
+fn truss(criterion: &mut Criterion) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/truss_13.ron");
+    let (_, description) = load(&path).expect("the file is right");
+    let mechanism = Mechanism::new(&description).expect("the file is right");
+    let home = mechanism.home();
+    let (ends, paths, steps) = limits::truss::all(1);
+    println!(
+        "truss by hand: {} solutions, {paths} paths, {:.1} steps a path",
+        ends.len(),
+        steps as f64 / paths as f64
+    );
+    let mut group = criterion.benchmark_group("13-link truss");
+    group.sample_size(10);
+    let mut seed = 0;
+    group.bench_function("by hand, no trace test", |bencher| {
+        bencher.iter(|| {
+            seed += 1;
+            black_box(limits::truss::all(seed))
+        });
+    });
+    let mut seed = 0;
+    group.bench_function("first run", |bencher| {
+        bencher.iter(|| {
+            seed += 1;
+            black_box(solver(&mechanism, seed).at(&home, Wanted::default(), &Watch::none()))
+        });
+    });
+    group.finish();
 }
 
 /// The first run: seeds, loops, and the answer at home.

@@ -52,7 +52,7 @@ use crate::description::{Coordinates, Problem};
 
 pub(crate) use closure::{Closure, EVERY_ROW, Kept, Side, needs};
 pub(crate) use coordinate::orientation_rows;
-pub(crate) use kinematics::{Mover, Need};
+pub(crate) use kinematics::{Course as KinematicsCourse, Mover, Need};
 pub(crate) use letters::{Formal, Letters};
 pub(crate) use recut::Recut;
 pub(crate) use turns::{principal, turn_near, turns, turns_to_repeat};

@@ -24,11 +24,11 @@ pub use curve::{
     MotionTracker, NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
 pub(crate) use enclosure::Enclosure;
-pub(crate) use equations::solve;
 pub use equations::{
     BRANCH_CHANGE, BRANCH_STEP, ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts,
     HeldPlatform, Places, Spin, System, Unknown, Work, approach, independent_parts,
 };
+pub(crate) use equations::{Course, solve};
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
 pub use question::{

@@ -1,5 +1,5 @@
 //! The limits: for each of three mechanisms the fastest Newton solver we can write by hand for that
-//! one mechanism, in its fewest unknowns, on the stack. The general engine is measured against these.
+//! one mechanism, in its fewest unknowns, on the stack, and all assemblies of a truss. The general engine is measured against these.
 //!
 //! Every solver counts a step as one linear solve, and reports the residual *at the state it returns*.
 
@@ -13,6 +13,7 @@ pub mod lanes;
 pub mod stewart_gough;
 pub mod three_rps;
 pub mod trajectories;
+pub mod truss;
 
 /// Largest admitted residual: lengths for the 4-bar and the Stewart–Gough platform, squared lengths for the 3-RPS.
 pub const TOLERANCE: f64 = 1e-12;

@@ -233,7 +233,7 @@ impl AssemblySolver {
         let question = Question {
             mechanism: &self.mechanism,
             coordinates: &self.family.coordinates,
-            by_dimensions: self.family.by_dimensions,
+            moved: self.family.moved_by_trace(),
             held,
             asked,
             bound: self.bound.as_ref(),

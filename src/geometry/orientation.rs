@@ -42,6 +42,15 @@ impl<T: Number> Quaternion<T> {
         Quaternion([w * factor, x * factor, y * factor, z * factor])
     }
 
+    /// ω of the rotation of q/√(q·q) while q changes: 2 q̇ q⁻¹.
+    pub(crate) fn turning(&self, rate: &Self) -> Vector3<T> {
+        let [w, x, y, z] = self.0;
+        let [a, b, c, d] = rate.0;
+        let (v, change) = (Vector3([x, y, z]), Vector3([b, c, d]));
+        let turn = change.times(w) - v.times(a) + v.cross(&change);
+        turn.times(T::from_f64(2.0) / (w * w + x * x + y * y + z * z))
+    }
+
     /// The cosine of half the angle to another rotation; its sign depends on those of the quaternions.
     pub fn half_cosine(&self, other: &Self) -> T {
         let products = self.0.into_iter().zip(other.0).map(|(a, b)| a * b);

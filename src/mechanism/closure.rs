@@ -35,13 +35,13 @@ pub struct Closure<T> {
     pub kind: ClosureKind,
     kept: Kept,
     only_points: bool,
-    slots: [Slot; 2],
+    pub(crate) slots: [Slot; 2],
     /// The joints that move side A and side B.
     pub(crate) movers: [Vec<Mover<T>>; 2],
     /// The platforms that carry sides A and B.
     pub(crate) platforms: [Option<usize>; 2],
-    length: T,
-    extension: LinearForm<T>,
+    pub(crate) length: T,
+    pub(crate) extension: LinearForm<T>,
     /// The natural sizes of the joint variables of the extension.
     extension_scales: Vec<f64>,
     inverse_length: f64,

@@ -1,5 +1,6 @@
 //! Frames of a mechanism by chain products, over any number.
 
+mod course;
 mod step;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,6 +10,7 @@ use super::configuration::Configuration;
 use super::dimensions::{Dimensions, LinearForm};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
+pub(crate) use course::Course;
 use step::{Column, Shape, Step, is_level};
 
 /// A place in a [`Placement`]: ground first, then the platforms, then everything that moves.

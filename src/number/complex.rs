@@ -22,7 +22,7 @@ impl Number for Complex<f64> {
         )
     }
     functions!(|z|
-        sqrt: Complex::sqrt(z),
+        sqrt: root(z),
         asin: Complex::asin(z),
         acos: Complex::acos(z),
         atan: Complex::atan(z),
@@ -42,6 +42,17 @@ impl Number for Complex<f64> {
     #[inline(always)]
     fn scale(self, factor: f64) -> Self {
         Complex::new(self.re * factor, self.im * factor)
+    }
+}
+
+/// The root with a real part that is not negative, in roots of real numbers, which are the same everywhere.
+#[inline]
+fn root(z: Complex<f64>) -> Complex<f64> {
+    let t = (0.5 * (z.norm_sqr().sqrt() + z.re.abs())).sqrt();
+    match t > 0.0 {
+        true if z.re >= 0.0 => Complex::new(t, 0.5 * z.im / t),
+        true => Complex::new(0.5 * z.im.abs() / t, t.copysign(z.im)),
+        false => Complex::new(0.0, z.im),
     }
 }
 

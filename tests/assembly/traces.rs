@@ -2,6 +2,7 @@
 
 use linkwork::analysis::assemblies::{AssembliesReport, Traced, Wanted};
 use linkwork::ask::Question;
+use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::Report;
 use linkwork::solve::Watch;
@@ -45,4 +46,44 @@ fn a_known_bound_needs_no_trace_test() {
     let report = asked(shipped("planar_3rpr"), 1);
     assert_eq!((report.generic, report.bound), (6, Some(6)));
     assert_eq!(report.traced, None);
+}
+
+/// One crank between two rods that agree: more equations than unknowns and no parameters, so that nothing can move and no
+/// loop goes anywhere. That says nothing about other solutions.
+#[test]
+fn a_family_of_one_member_is_not_said_to_be_traced() {
+    let text = r#"Mechanism(
+        version: 1, name: "crank between rods", convention: Modified,
+        joints: { "q": Passive(home: "60 deg") },
+        chains: {
+            "tip": Chain(rows: [(theta: "q")], tip: [Tx(1)]),
+            "right": Chain(base: [Tx(2)]),
+            "top": Chain(base: [T(0, 2, 0)]),
+        },
+        closures: {
+            "a": Distance("tip", "right", "sqrt(3)"),
+            "b": Distance("tip", "top", "sqrt(5 - 2*sqrt(3))"),
+        },
+    )"#;
+    let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+    let report = asked(mechanism, 1);
+    assert_eq!((report.generic, report.real, report.traced), (1, 1, None));
+}
+
+/// Planar trusses without inputs: three bars close in two ways, and six ternary links on ground pivots with bars from each
+/// to the next (13 links, 7 loops) in 126: the degree published for this topology (Rojas and Thomas), and the mixed volume
+/// of its loop equations (Bernstein 1975). The sides of its triangles are parameters, and roots of them have branch points.
+#[test]
+fn a_truss_whose_triangles_have_roots_of_parameters_is_complete_for_every_seed() {
+    let mechanism = Mechanism::load(format!(
+        "{}/tests/data/truss_13.ron",
+        env!("CARGO_MANIFEST_DIR")
+    ));
+    let mechanism = mechanism.unwrap();
+    for seed in 1..=4 {
+        let report = asked(mechanism.clone(), seed);
+        assert_eq!((report.generic, report.real), (126, 70), "seed {seed}");
+        assert_eq!((report.lost, report.exhausted), (0, false), "seed {seed}");
+        assert_eq!(report.traced, Some(Traced::Rods), "seed {seed}");
+    }
 }

@@ -37,8 +37,8 @@ pub(super) type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + '
 pub(super) struct Question<'a> {
     pub mechanism: &'a Mechanism,
     pub coordinates: &'a Coordinates,
-    /// Whether the dimensions make the family.
-    pub by_dimensions: bool,
+    /// What the trace test moves.
+    pub moved: Traced,
     pub held: &'a Held<f64>,
     pub asked: &'a Configuration<f64>,
     pub bound: Option<&'a KnownBound>,
@@ -297,10 +297,7 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
-            traced: (generic.traced).then_some(match self.by_dimensions {
-                true => Traced::Parameters,
-                false => Traced::Inputs,
-            }),
+            traced: (generic.traced).then_some(self.moved),
             lost_in_loops: generic.lost_in_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,

@@ -3,10 +3,12 @@
 
 mod bound;
 mod coordinates;
+mod direction;
 mod legwise;
 
 pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, Input, size};
+pub(super) use direction::Direction;
 pub(super) use legwise::{LegwiseSolutions, count, learn};
 
 use rand::{Rng, SeedableRng};
@@ -22,25 +24,6 @@ use crate::system::{Held, HeldPlatform, Mobility, System};
 pub(crate) struct Member {
     pub parameters: Vec<C>,
     pub inputs: Vec<C>,
-}
-
-/// A way through the family along which solutions are algebraic in one variable t.
-#[derive(Clone, Debug)]
-pub(crate) struct Direction {
-    /// Places of the flat inputs that move; none if the parameters do.
-    inputs: Vec<usize>,
-    /// Turns after which the one angle that moves repeats: t is the exponential of i times the angle over them. Without
-    /// an angle t is the way itself.
-    turns: Option<f64>,
-}
-
-impl Direction {
-    /// The rate of log t on the way from one member to another, if t is an exponential.
-    pub fn turning(&self, from: &Member, to: &Member) -> Option<C> {
-        let place = *self.inputs.first()?;
-        let turns = self.turns?;
-        Some((to.inputs[place] - from.inputs[place]) * C::new(0.0, 1.0 / turns))
-    }
 }
 
 /// All members of the family of one question.
@@ -59,11 +42,14 @@ pub(crate) struct Family {
     pub home: Configuration<f64>,
     /// Number of closure equations that do not vanish everywhere.
     pub varying_equations: usize,
+    /// Whether there are as many of them, with those of held coordinates, as unknowns. Where its solutions are isolated
+    /// they are independent, and stay solutions whatever numbers the dimensions become.
+    pub is_square: bool,
     /// The equations with these values, if all expressions have one.
     own: Option<System<C>>,
 }
 
-/// A length that no parameter changes.
+/// A length that has a factor among the parameters.
 #[derive(Clone, Copy, Debug)]
 enum Length {
     /// Of the links before and after a joint.
@@ -122,13 +108,14 @@ impl Family {
             by_dimensions: false,
             home: mechanism.home(),
             varying_equations: mechanism.equations_that_vary(),
+            is_square: false,
             mechanism: mechanism.clone(),
             own: None,
         };
         let system = System::new(mechanism.dimensions(), held);
         let equations = family.varying_equations + system.hold_rows().len();
-        let is_square = system.unknowns().len() == equations;
-        let is_rigid = is_square
+        family.is_square = system.unknowns().len() == equations;
+        let is_rigid = family.is_square
             && Mobility::near(mechanism, &family.home).is_some_and(|near| near.count() == 0);
         family.by_dimensions = is_rigid || family.coordinates.inputs.is_empty();
         if is_rigid {
@@ -138,7 +125,7 @@ impl Family {
         family
     }
 
-    /// Lengths that no parameter changes get factors. With nothing to vary a family has one member, and no loop goes
+    /// Rods, and other lengths that no parameter changes, get factors. With nothing to vary a family has one member, and no loop goes
     /// through it. Independent equations as many as unknowns keep their solutions when anything changes a little; of an
     /// overconstrained mechanism they would be lost.
     fn widen(&mut self) {
@@ -150,7 +137,8 @@ impl Family {
         let all: Vec<Length> = Length::all(&own).collect();
         let fixed = all.into_iter().filter(|length| {
             let (own, other) = (length.of(&mut own), length.of(&mut other));
-            own == other && own.iter().any(|x| **x != C::from_f64(0.0))
+            let is_rod = matches!(length, Length::Rod { .. });
+            (is_rod || own == other) && own.iter().any(|x| **x != C::from_f64(0.0))
         });
         self.lengths = fixed.collect();
         let factors = self.lengths.iter().map(|_| C::from_f64(1.0));
@@ -161,7 +149,13 @@ impl Family {
     pub fn system(&self, parameters: &[C]) -> Option<System<C>> {
         match &self.own {
             Some(own) if parameters == self.parameters => Some(own.clone()),
-            _ => Some(System::new(&self.dimensions(parameters)?, &self.held)),
+            _ => {
+                let dimensions = self.dimensions(parameters)?;
+                Some(match self.is_square {
+                    true => System::reduced(&self.mechanism, &dimensions, &self.held),
+                    false => System::new(&dimensions, &self.held),
+                })
+            }
         }
     }
 
@@ -241,47 +235,6 @@ impl Family {
     pub fn turns(&self, joint: usize) -> Option<Option<f64>> {
         let is_angle = self.mechanism.joints()[joint].kind.is_angle();
         is_angle.then(|| self.coordinates.turns[joint])
-    }
-
-    /// Directions that make up all motions of the inputs: lengths and poses together, each angle by itself; the
-    /// dimensions where they make the family. `None` if an angle never comes back to the same place.
-    pub fn directions(&self) -> Option<Vec<Direction>> {
-        let (mut straight, mut directions) = (Vec::new(), Vec::new());
-        let mut places = 0..;
-        let inputs = self.coordinates.inputs.iter();
-        for &input in inputs.filter(|_| !self.by_dimensions) {
-            let turns = match input {
-                Input::Joint(j) => self.turns(j),
-                Input::Target(_, coordinate) => coordinate.is_angle().then_some(Some(1.0)),
-                Input::Pose(_) | Input::Orientation(_) => None,
-            };
-            let own = places.by_ref().take(input.width());
-            match turns {
-                None => straight.extend(own),
-                Some(turns) => directions.push(Direction {
-                    inputs: own.collect(),
-                    turns: Some(turns?),
-                }),
-            }
-        }
-        if !straight.is_empty() || directions.is_empty() {
-            directions.push(Direction {
-                inputs: straight,
-                turns: None,
-            });
-        }
-        Some(directions)
-    }
-
-    /// Another member in a direction.
-    pub fn moved(&self, from: &Member, direction: &Direction, rng: &mut Pcg64) -> Member {
-        let mut to = from.clone();
-        let inputs = self.random_inputs(rng, 1.0);
-        (direction.inputs.iter()).for_each(|&place| to.inputs[place] = inputs[place]);
-        if self.by_dimensions {
-            to.parameters = self.random_parameters(rng, 1.0);
-        }
-        to
     }
 
     /// A random complex point, far from assembled. `reach` says how far out, as for inputs: complex

@@ -123,6 +123,8 @@ pub enum Traced {
     Inputs,
     /// Those of the parameters, where there are no inputs.
     Parameters,
+    /// Those of the lengths of the rods, where there are no inputs.
+    Rods,
 }
 
 /// Assemblies that are connected, infinitely many, at the target inputs.

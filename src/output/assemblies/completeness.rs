@@ -88,6 +88,7 @@ fn searched(report: &AssembliesReport) -> String {
         let moved = match traced {
             Traced::Inputs => "the inputs",
             Traced::Parameters => "the parameters",
+            Traced::Rods => "the lengths of the rods",
         };
         parts.push(format!(
             "the trace test holds: no loop of {moved} leads from these to others"

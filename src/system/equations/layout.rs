@@ -233,7 +233,9 @@ impl Layout {
         // the first unknowns may belong to one block alone; for a sparse matrix every closure is a block and all are
         // shared
         let sparse = unknowns.len() > T::Sparse::ABOVE;
-        let owned = if sparse { 0 } else { joints };
+        // one block of all would be the border itself, which over complex numbers elimination is fastest for
+        let whole = !T::REAL && unknowns.len() == joints;
+        let owned = if sparse || whole { 0 } else { joints };
         let unknowns_of = |closure: &Closure<T>| {
             let joints = closure.joints().into_iter();
             joints.filter_map(|joint| places_of_unknowns.of(Unknown::Joint(joint)))

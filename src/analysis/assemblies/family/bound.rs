@@ -12,7 +12,7 @@ use super::coordinates::C;
 use crate::geometry::Vector3;
 use crate::mechanism::{ClosureKind, Dimensions, Frame, JointKind, Mechanism};
 use crate::number::Number;
-use crate::system::{ClosureAxes, HeldPlatform};
+use crate::system::{ClosureAxes, HeldPlatform, System};
 
 /// The largest number of isolated complex solutions that a structure has.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,10 +75,10 @@ impl<'a> Structure<'a> {
         let dimensions = family.dimensions(&member.parameters)?;
         let mut way = family.homotopy(&member, &member)?;
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
-        let here = &mut way.here;
-        let axes = here.system.axes(&here.at, &mut here.work);
+        let system = System::new(&dimensions, &family.held);
+        let axes = system.axes(&way.here.at, &mut system.work());
         let closures = dimensions.closures.iter();
-        let links = closures.zip(here.system.joints_of_closures());
+        let links = closures.zip(system.joints_of_closures());
         let small = SMALL * dimensions.characteristic_length;
         let links = links.zip(axes).map(|((closure, mut joints), axes)| {
             // a closure does not see a turn about the origin of its frame, or about the axis of that

@@ -107,7 +107,7 @@ fn search_one(
         doubtful: DOUBTFUL,
     };
     search.found.exhausted = search.run()?;
-    search.found.traced = search.traced == Some(search.found.count());
+    search.found.traced = search.is_traced();
     if bound == Some(search.found.count()) {
         // no more are possible, so that what seemed to be others were these
         search.found.multiple = 0;
@@ -170,7 +170,7 @@ impl Search<'_> {
             if self.found.quiet_loops > 0
                 && !self.mirror(&still)
                 && !self.close_legs(&still)
-                && !self.look_far_out(&still)
+                && (self.is_traced() || !self.look_far_out(&still))
             {
                 return Some(false);
             }
@@ -240,15 +240,23 @@ impl Search<'_> {
         new
     }
 
+    fn is_traced(&self) -> bool {
+        self.traced == Some(self.found.count())
+    }
+
     /// Runs the trace test where loops begin to bring nothing new.
     fn trace(&mut self) {
-        const QUIET: usize = 3;
-        const MOST: usize = 300;
+        const MOST: usize = 5000;
         let count = self.found.count();
-        if self.found.quiet_loops == QUIET
-            && self.traced != Some(count)
+        // where a bound is known more are expected
+        let quiet = if self.bound.is_some() { [3, 6] } else { [1, 4] };
+        // combinations of ways of legs would be followed one by one
+        let combined = self.found.legwise.iter().any(|s| s.count() > s.spanning());
+        let most = if combined { MOST / 16 } else { MOST };
+        if quiet.contains(&self.found.quiet_loops)
+            && !self.is_traced()
             && self.bound != Some(count)
-            && count <= MOST
+            && count <= most
         {
             let points = self.found.legwise.iter();
             let points = points.flat_map(|s| s.points(&self.family.coordinates));
@@ -262,11 +270,12 @@ impl Search<'_> {
     }
 
     /// Where the known bound is reached, one loop confirms it; below it the end is doubted, unless the trace test holds:
-    /// then loops through other dimensions, every sixth one, may bring more.
+    /// then only loops through other dimensions, every sixth one where there are any, may bring more.
     fn enough_loops(&self) -> usize {
         let quiet = self.settings.quiet_loops.max(1);
-        if self.traced == Some(self.found.count()) {
-            return quiet.min(RESIZED);
+        if self.is_traced() {
+            let resizes = !(self.family.by_dimensions || self.family.parameters.is_empty());
+            return quiet.min(if resizes { RESIZED } else { 1 });
         }
         match self.bound.map(|bound| self.found.count().cmp(&bound)) {
             Some(std::cmp::Ordering::Equal) => 1,

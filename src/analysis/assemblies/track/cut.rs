@@ -74,6 +74,8 @@ pub(crate) struct Cut<'f> {
     form: Form,
     from: C,
     pub to: C,
+    /// How far the way between the levels is bent aside.
+    pub bend: C,
     /// dx/ds where it was last asked for.
     along: Vec<C>,
 }
@@ -87,14 +89,19 @@ impl<'f> Cut<'f> {
             form,
             from: zero,
             to: zero,
+            bend: zero,
         }
     }
 
-    /// The rate of the form along the curve, dx/ds.
-    fn rate(&mut self, y: &[C]) -> Option<C> {
+    /// df/ds along the curve.
+    pub fn rate(&mut self, y: &[C]) -> Option<C> {
         let (s, x) = y.split_last()?;
         let moving = self.way.velocity(*s, x, &mut self.along);
         moving.then(|| self.form.at(x, &self.along).1)
+    }
+
+    fn level(&self, sigma: C) -> C {
+        self.from + (self.to - self.from) * sigma + self.bend * sigma * (1.0 - sigma)
     }
 
     /// Points of the curve at s, from solutions at its start.
@@ -118,32 +125,6 @@ impl<'f> Cut<'f> {
         });
         ends.into_iter().flatten().collect()
     }
-
-    /// df/ds along the curve: by Cauchy's formula on a circle of s, for differences leave too few digits.
-    pub fn slope(&mut self, y: &[C]) -> Option<C> {
-        const POINTS: usize = 6;
-        const RADIUS: f64 = 2e-3;
-        let (s, x) = y.split_last()?;
-        self.rate(y)?;
-        let speeds = self.along.iter().zip(x);
-        let speeds = speeds.map(|(v, x)| v.norm() / x.norm().max(1.0));
-        let radius = RADIUS / speeds.fold(1.0, f64::max);
-        let mut sum = C::from_f64(0.0);
-        for k in 0..POINTS {
-            let step = C::from_polar(radius, std::f64::consts::TAU * k as f64 / POINTS as f64);
-            let mut beside: Vec<C> = x
-                .iter()
-                .zip(&self.along)
-                .map(|(x, v)| x + v * step)
-                .collect();
-            self.way.settle(&mut beside);
-            if !polish(&mut self.way, s + step, &mut beside) {
-                return None;
-            }
-            sum += self.form.at(&beside, x).0 / step;
-        }
-        Some(sum / POINTS as f64)
-    }
 }
 
 fn arrives(
@@ -163,11 +144,11 @@ impl Homotopy for Cut<'_> {
         self.way.settle(&mut y[..last]);
     }
 
-    fn velocity(&mut self, _: C, y: &[C], out: &mut [C]) -> bool {
+    fn velocity(&mut self, sigma: C, y: &[C], out: &mut [C]) -> bool {
         let Some(rate) = self.rate(y) else {
             return false;
         };
-        let ds = (self.to - self.from) / rate;
+        let ds = (self.to - self.from + self.bend * (1.0 - sigma * 2.0)) / rate;
         let (last, out) = out.split_last_mut().expect("one for s");
         *last = ds;
         out.iter_mut()
@@ -183,7 +164,7 @@ impl Homotopy for Cut<'_> {
             return f64::NAN;
         }
         let (value, rate) = self.form.at(x, &self.along);
-        let ds = (self.from + (self.to - self.from) * sigma - value) / rate;
+        let ds = (self.level(sigma) - value) / rate;
         *s += ds;
         let mut moved = ds.norm();
         for (x, v) in x.iter_mut().zip(&self.along) {
@@ -198,7 +179,7 @@ impl Homotopy for Cut<'_> {
     fn residual(&mut self, sigma: C, y: &[C]) -> f64 {
         let (s, x) = y.split_last().expect("one for s");
         let value = self.form.at(x, x).0;
-        let gap = self.from + (self.to - self.from) * sigma - value;
+        let gap = self.level(sigma) - value;
         self.way
             .residual(*s, x)
             .max(gap.norm() / value.norm().max(1.0))

@@ -15,10 +15,8 @@ impl Family {
         Some(ParameterHomotopy {
             family: self,
             factors: vec![1.0; rows.len()],
-            rates: rows.clone(),
             residual: rows,
             here,
-            ahead: None,
             course,
         })
     }
@@ -30,9 +28,6 @@ pub(crate) struct ParameterHomotopy<'f> {
     pub family: &'f Family,
     /// Where the equations were last evaluated.
     pub here: MemberEquations,
-    /// A little ahead of it, for ∂h/∂s.
-    ahead: Option<Box<MemberEquations>>,
-    rates: Vec<C>,
     residual: Vec<C>,
     /// By what the equations last factorised were multiplied.
     factors: Vec<f64>,
@@ -201,24 +196,16 @@ impl ParameterHomotopy<'_> {
         self.here.system.nullity(tolerance, &self.here.work)
     }
 
-    /// dx/ds = −J⁺ ∂h/∂s by the factors last made and the residual last noted. A forward difference
-    /// over 1e-7 is good enough for a prediction.
-    fn velocity_from_residual(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        const APART: f64 = 1e-7;
-        let here = &self.here;
-        let ahead = self.ahead.get_or_insert_with(|| Box::new(here.clone()));
-        ahead.go(self.family, &self.course, s + APART);
-        self.family.coordinates.unflatten(x, &mut ahead.at);
-        ahead.system.residual(&ahead.at, &mut ahead.work);
-        let after = ahead.system.residual_of(&ahead.work);
-        for ((rate, after), before) in self.rates.iter_mut().zip(after).zip(&self.residual) {
-            *rate = (after - before) / APART;
+    /// dx/ds = −J⁺ ∂h/∂s by the factors last made, where frames were last placed.
+    fn velocity_here(&mut self, x: &[C], out: &mut [C]) -> bool {
+        let moves = self.here.drift(self.family, &self.course);
+        let here = &mut self.here;
+        let rates = here.system.residual_mut(&mut here.work);
+        for (rate, factor) in rates.iter_mut().zip(&self.factors) {
+            *rate *= *factor;
         }
-        let sound = ahead.sound;
-        let mut rates = std::mem::take(&mut self.rates);
-        let longest = self.step_for(&mut rates);
-        self.rates = rates;
-        if !longest.is_finite() || !sound {
+        let longest = here.system.step(&mut here.work);
+        if !longest.is_finite() || !moves {
             return false;
         }
         let step = self.here.system.step_of(&self.here.work);
@@ -245,17 +232,14 @@ impl Homotopy for ParameterHomotopy<'_> {
     }
 
     fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.linearise(s, x).is_finite()
-            && self.here.sound
-            && self.velocity_from_residual(s, x, out)
+        self.linearise(s, x).is_finite() && self.here.sound && self.velocity_here(x, out)
     }
 
     fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
         self.load(s, x);
         let here = &mut self.here;
-        here.residual();
-        (self.residual).copy_from_slice(here.system.residual_of(&here.work));
-        here.sound && self.velocity_from_residual(s, x, out)
+        here.system.place(&here.at, &mut here.work);
+        here.sound && self.velocity_here(x, out)
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {

@@ -1,10 +1,13 @@
 //! The equations at one parameter value of a homotopy.
 
+use std::sync::Arc;
+
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::Dual;
 use crate::solve::Equations;
-use crate::system::{System, Work};
+use crate::system::{Course, System, Work};
 
 /// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
@@ -46,12 +49,25 @@ pub(crate) struct MemberEquations {
     pub sound: bool,
     inputs: Vec<C>,
     s: Option<C>,
+    /// The way of the dimensions as numbers, where their relations need not be kept.
+    numbers: Option<Arc<Course<C>>>,
+    /// Rates of joints.
+    rates: Vec<C>,
+    /// Rotation rates and velocities of ground, platforms and all frames that are placed.
+    slots: Vec<(Vector3<C>, Vector3<C>)>,
 }
 
 impl MemberEquations {
     /// At s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &Segment) -> Option<Self> {
-        let system = family.system(&course.from.parameters)?;
+        let mut system = family.system(&course.from.parameters)?;
+        let mut numbers = None;
+        if course.resized && family.is_square {
+            let end = family.system(&course.parameters(C::new(1.0, 0.0)))?;
+            if let Some((moving, way)) = system.towards(&end) {
+                (system, numbers) = (moving, Some(Arc::new(way)));
+            }
+        }
         let mut place = MemberEquations {
             work: system.work(),
             system,
@@ -59,6 +75,9 @@ impl MemberEquations {
             sound: true,
             inputs: course.from.inputs.clone(),
             s: None,
+            numbers,
+            rates: vec![C::new(0.0, 0.0); family.home.joints.len()],
+            slots: Vec::new(),
         };
         place.go(family, course, C::new(0.0, 0.0));
         Some(place)
@@ -70,7 +89,9 @@ impl MemberEquations {
             return;
         }
         self.s = Some(s);
-        if course.resized {
+        if let Some(numbers) = &self.numbers {
+            self.system.go(numbers, s, &mut self.work);
+        } else if course.resized {
             let system = family.system(&course.parameters(s));
             self.sound = system.is_some();
             if let Some(system) = system {
@@ -102,6 +123,60 @@ impl MemberEquations {
         }
     }
 
+    /// ∂h/∂s where frames were last placed, in place of the residual; whether there is one.
+    pub fn drift(&mut self, family: &Family, course: &Segment) -> bool {
+        /// Over which dimensions are compared where their relations are kept.
+        const APART: f64 = 1e-7;
+        let s = self.s.unwrap_or(C::new(0.0, 0.0));
+        let still = (Vector3::zero(), Vector3::zero());
+        self.slots
+            .resize(self.system.placement(&self.work).0.len(), still);
+        let coordinates = &family.coordinates;
+        let quaternion = |x: &[C]| Quaternion([x[0], x[1], x[2], x[3]]);
+        let changes = || {
+            let changes = coordinates.split(&course.change.inputs);
+            coordinates.split(&self.inputs).zip(changes)
+        };
+        for ((input, x), (_, change)) in changes() {
+            match input {
+                Input::Joint(j) => self.rates[j] = change[0],
+                Input::Pose(p) => {
+                    let omega = quaternion(x).turning(&quaternion(change));
+                    self.slots[1 + p] = (omega, Vector3([change[4], change[5], change[6]]));
+                }
+                Input::Target(..) | Input::Orientation(_) => {}
+            }
+        }
+        let mut way = self.numbers.as_ref().map(|numbers| (numbers.clone(), s));
+        if course.resized && way.is_none() {
+            // from here to a little ahead, as so much of a way
+            let ahead = family.system(&course.parameters(s + APART));
+            let ahead = ahead.and_then(|ahead| self.system.towards(&ahead));
+            let Some((_, ahead)) = ahead else {
+                return false;
+            };
+            way = Some((Arc::new(ahead.stretched(1.0 / APART)), C::new(0.0, 0.0)));
+        }
+        let way = way.as_ref().map(|(course, s)| (&**course, *s));
+        let (system, work) = (&self.system, &mut self.work);
+        system.drift(&self.at, &self.rates, way, &mut self.slots, work);
+        for ((input, x), (_, change)) in changes() {
+            let dual = |i: usize| Dual {
+                value: x[i],
+                slope: change[i],
+            };
+            match input {
+                Input::Joint(_) | Input::Pose(_) => {}
+                Input::Target(p, c) => system.add_target_rate((p, c), dual(0), &self.at, work),
+                Input::Orientation(p) => {
+                    let wanted = Quaternion([0, 1, 2, 3].map(dual)).normalised().rotation();
+                    system.add_orientation_rate(p, &wanted, &self.at, work);
+                }
+            }
+        }
+        true
+    }
+
     /// Whether the place last evaluated is one of infinitely many solutions, because a joint never comes back to the
     /// same place.
     ///
@@ -130,6 +205,7 @@ impl MemberEquations {
                 system,
                 at,
                 s: None,
+                numbers: None,
                 ..self.clone()
             };
             apart.go(family, course, s);

@@ -123,6 +123,10 @@ impl Search<'_> {
             return false;
         };
         let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
+        if coordinates.legs.len() == 1 && coordinates.free_platforms.is_empty() {
+            // seeds have done the same
+            return false;
+        }
         let known: Vec<Vec<C>> = (self.found.legwise.iter())
             .map(|solutions_at_pose| {
                 solutions_at_pose
