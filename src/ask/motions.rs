@@ -169,7 +169,12 @@ impl Motions<'_> {
             // the places of the curve, which do not depend on the rows asked for
             let ends = row.step.is_none_or(|step| step == 0 || step == steps);
             let fold = matches!(row.special, Some(MetKind::Fold { .. }));
-            if ends && (schedule.is_none() || row.special.is_none()) {
+            // beside those of a table only what may end it: inputs that follow one are not where a straight line has them
+            let passed = matches!(
+                row.special,
+                Some(MetKind::Cusp { .. } | MetKind::Turning { .. })
+            );
+            if ends && !(schedule.is_some() && passed) {
                 course.reach(row, time, fold);
             }
             if !row.between || self.settings.between {

@@ -364,12 +364,12 @@ impl<'m> Course<'m> {
                 let mut model = self.model(of, part);
                 let mut vague = false;
                 if let (true, Some(model)) = (of.jumps, &mut model) {
-                    vague = model.rest > 0.5 && !part.is_narrow();
+                    vague = model.rest > 0.5 && !self.is_narrow(part);
                     if let Some(before) = before {
                         model.terms[0] += TAU * ((before - model.at(-1.0)) / TAU).round();
                     }
                 }
-                if (vague || visit(part, model.as_ref())) && !part.is_narrow() {
+                if (vague || visit(part, model.as_ref())) && !self.is_narrow(part) {
                     let radius = 0.5 * part.radius;
                     for middle in [part.middle + radius, part.middle - radius] {
                         parts.push(Part {
@@ -402,7 +402,7 @@ impl<'m> Course<'m> {
                 (stretch as f64 + gone, self.time_at(part.piece, s))
             };
             let Some(model) = model.filter(|model| model.rest.is_finite()) else {
-                let wanted = model.is_some() && !part.is_narrow();
+                let wanted = model.is_some() && !self.is_narrow(part);
                 if !wanted {
                     samples.push((place(0.0).0, None));
                 }
@@ -410,7 +410,7 @@ impl<'m> Course<'m> {
             };
             let bend = model.bend();
             let leaves = model.terms[1].abs() - bend > 2.0 * tolerance;
-            if bend > OFF * tolerance && !leaves && !part.is_narrow() {
+            if bend > OFF * tolerance && !leaves && !self.is_narrow(part) {
                 return true;
             }
             for t in [-1.0, 1.0] {
@@ -463,6 +463,11 @@ impl<'m> Course<'m> {
         (of.stretch, within(of.span, s))
     }
 
+    /// Whether names do not differ by more than rounding from one end of a part to the other.
+    pub fn is_narrow(&self, of: Part) -> bool {
+        of.radius * self.width(of.piece) < 1e-13
+    }
+
     /// How long a piece is beside its stretch.
     pub fn width(&self, piece: usize) -> f64 {
         let [begin, end] = self.pieces[piece].span;
@@ -507,13 +512,6 @@ impl<'e> Sought<'e> {
             turns,
             jumps: turns && has_atan2(&quantity.expression),
         }
-    }
-}
-
-impl Part {
-    /// Whether names do not differ by more than rounding from one end to the other.
-    pub fn is_narrow(self) -> bool {
-        self.radius < 1e-13
     }
 }
 

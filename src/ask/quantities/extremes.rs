@@ -24,6 +24,8 @@ struct Bounds {
     allowed: [f64; 2],
     /// The usual size of the values, and how far one may be off.
     usual: [f64; 2],
+    /// The same of values that rounding may have made, near 0/0 or without bound.
+    murky: [Option<f64>; 2],
     /// Places where no bound was found.
     suspects: Vec<(usize, f64)>,
     /// Whether there may be values beyond.
@@ -60,10 +62,18 @@ impl Bounds {
         }
     }
 
-    /// Whether values between two numbers may be beyond those known.
-    fn may_grow(&self, [low, high]: [f64; 2]) -> bool {
+    /// Whether values between two numbers may be beyond those known, or among murky ones beyond these.
+    fn may_grow(&self, [low, high]: [f64; 2], murky: bool) -> bool {
         let beyond = |k: usize, end: f64| {
-            self.best[k].is_none_or(|(known, ..)| {
+            let best = self.best[k].map(|(value, ..)| value);
+            let known = match murky {
+                true => [best, self.murky[k]]
+                    .into_iter()
+                    .flatten()
+                    .reduce(|a: f64, b: f64| if SENSES[k] * a < SENSES[k] * b { b } else { a }),
+                false => best,
+            };
+            known.is_none_or(|known| {
                 let most = SENSES[k] * known + self.slack(known);
                 // what is not a number may be anything
                 !(SENSES[k] * end <= most)
@@ -82,6 +92,7 @@ fn bounds(course: &Course, of: &Sought) -> Bounds {
     const CLEAR: f64 = 1e-7;
     let mut bounds = Bounds {
         best: [None; 2],
+        murky: [None; 2],
         allowed: [f64::NEG_INFINITY, f64::INFINITY],
         usual: [0.0; 2],
         suspects: Vec::new(),
@@ -125,27 +136,33 @@ fn bounds(course: &Course, of: &Sought) -> Bounds {
             }
             return false;
         };
-        if !bounds.may_grow(model.range()) {
+        if !bounds.may_grow(model.range(), false) {
             return false;
         }
-        if part.is_narrow() && !model.rest.is_finite() {
+        if course.is_narrow(part) && !model.rest.is_finite() {
             bounds.suspects.push((part.piece, part.middle));
             return false;
         }
-        for sense in SENSES {
+        let mut murky = false;
+        for (k, sense) in SENSES.into_iter().enumerate() {
             let s = part.middle + part.radius * model.top(sense);
-            let (value, noise) = course.value(of, part.piece, s);
-            if let Some(value) = value
-                && clear(value, noise)
-            {
-                let value = match of.jumps {
-                    true => model.at(model.top(sense)),
-                    false => value,
-                };
-                bounds.take(value, part.piece, s);
+            let (Some(value), noise) = course.value(of, part.piece, s) else {
+                continue;
+            };
+            let here = if of.jumps {
+                model.at(model.top(sense))
+            } else {
+                value
+            };
+            if clear(value, noise) {
+                bounds.take(here, part.piece, s);
+            } else {
+                murky = true;
+                let known = bounds.murky[k].filter(|known| sense * known > sense * here);
+                bounds.murky[k] = known.or(Some(here));
             }
         }
-        bounds.may_grow(model.range())
+        bounds.may_grow(model.range(), murky)
     });
     bounds.cut |= !whole;
     bounds
@@ -192,6 +209,15 @@ fn extremum(
     }
     let driven = course.is_driven();
     let mut poles: Vec<Pole> = Vec::new();
+    let mut best = [least, greatest].map(|(value, piece, s)| {
+        let (stretch, part) = course.place(piece, s);
+        Found {
+            value,
+            stretch,
+            part,
+            beside: BESIDE * course.width(piece),
+        }
+    });
     let mut known: Vec<(usize, f64)> = Vec::new();
     for (piece, s) in &bounds.suspects {
         /// Places nearer than this are one.
@@ -204,35 +230,36 @@ fn extremum(
             continue;
         }
         known.push((stretch, part));
-        let pole = pole(course, meter, i, (stretch, part), driven);
-        if let Some(pole) = pole {
-            merge(&mut poles, pole);
+        match pole(course, meter, i, (stretch, part), driven) {
+            Some(pole) => merge(&mut poles, pole),
+            // a kink, where there may be more than beside it
+            None => {
+                for (best, sense) in best.iter_mut().zip(SENSES) {
+                    let found = Found {
+                        stretch,
+                        part,
+                        beside: KINK,
+                        ..*best
+                    };
+                    let found = found.refined(course, meter, i, sense);
+                    if found.is_some_and(|of| sense * of.value > sense * best.value) {
+                        *best = found.unwrap_or(*best);
+                    }
+                }
+            }
         }
     }
     sort_by(&mut poles, |a, b| {
         a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal)
     });
     let largest = least_value.abs().max(greatest_value.abs());
-    let [least, greatest] = [(least, -1.0), (greatest, 1.0)].map(|((value, piece, s), sense)| {
-        /// The part of a piece on either side where the best value is sought again, read exactly.
-        const BESIDE: f64 = 0.02;
-        let (stretch, part) = course.place(piece, s);
-        let beside = BESIDE * course.width(piece);
-        let mut read = |part: f64| {
-            let (at, time) = course.at(stretch, part)?;
-            meter.settle(i, value);
-            Some(sense * meter.read(at, time)[i]?)
-        };
-        let here = read(part).map(|height| (part, height));
-        let [from, to] = [part - beside, part + beside].map(|part| part.clamp(0.0, 1.0));
-        let top = summit(from, to, &mut read).filter(|top| here.is_none_or(|of| top.1 > of.1));
-        let (part, height) = top.or(here).unwrap_or((part, sense * value));
-        let value = sense * height;
-        let (at, time) = course.at(stretch, part)?;
+    let mut sides = best.into_iter().zip(SENSES).map(|(best, sense)| {
+        let found = best.refined(course, meter, i, sense).unwrap_or(best);
+        let (at, time) = course.at(found.stretch, found.part)?;
         let (at, time) = (at.clone(), time);
         Some(Extreme {
-            value: if value.abs() > ROUNDING * largest {
-                value
+            value: if found.value.abs() > ROUNDING * largest {
+                found.value
             } else {
                 0.0
             },
@@ -241,6 +268,7 @@ fn extremum(
             joints: at.joints,
         })
     });
+    let [least, greatest] = [sides.next().flatten(), sides.next().flatten()];
     let bounded = |upwards: bool| {
         let mut sides = poles.iter().flat_map(|pole| pole.upwards);
         !sides.any(|side| side == Some(upwards))
@@ -253,6 +281,53 @@ fn extremum(
     }
 }
 
+/// The part of a piece on either side where the best value is sought again, read exactly.
+const BESIDE: f64 = 0.02;
+
+/// The part of a stretch on either side of a kink or a pole where it may be.
+const KINK: f64 = 1e-7;
+
+/// The best value so far, at a part of a stretch.
+#[derive(Clone, Copy)]
+struct Found {
+    value: f64,
+    stretch: usize,
+    part: f64,
+    /// How far from there the place may be.
+    beside: f64,
+}
+
+impl Found {
+    /// The value read exactly, where it is best near the place.
+    fn refined(self, course: &mut Course, meter: &mut Meter, i: usize, sense: f64) -> Option<Self> {
+        let mut read = |part: f64| {
+            // the motion goes no farther
+            if !(0.0..=1.0).contains(&part) {
+                return None;
+            }
+            let (at, time) = course.at(self.stretch, part)?;
+            meter.settle(i, self.value);
+            Some(sense * meter.read(at, time)[i]?)
+        };
+        let here = read(self.part).map(|height| (self.part, height));
+        let ends = [self.part - self.beside, self.part + self.beside];
+        let [from, to] = ends.map(|part| part.clamp(0.0, 1.0));
+        let ends = [from, to].map(|part| Some((part, read(part)?)));
+        // beyond an edge there is no value
+        let top = summit(from, to, |part| {
+            Some(read(part).unwrap_or(f64::NEG_INFINITY))
+        });
+        let all = [here, top].into_iter().chain(ends).flatten();
+        let best = all.reduce(|a, b| if b.1 > a.1 { b } else { a });
+        best.filter(|of| of.1.is_finite())
+            .map(|(part, height)| Found {
+                value: sense * height,
+                part,
+                ..self
+            })
+    }
+}
+
 /// The place near one where no bound was found, if the quantity grows without bound there.
 fn pole(
     course: &mut Course,
@@ -261,18 +336,16 @@ fn pole(
     (stretch, part): (usize, f64),
     driven: bool,
 ) -> Option<Pole> {
-    /// How far from there the place may be.
-    const BESIDE: f64 = 1e-7;
     let mut read = |part: f64| {
         let (at, time) = course.at(stretch, part)?;
         let value = meter.read(at, time)[i];
         Some((value, meter.noise()[i]))
     };
-    let [from, to] = [part - BESIDE, part + BESIDE].map(|part| part.clamp(0.0, 1.0));
+    let [from, to] = [part - KINK, part + KINK].map(|part| part.clamp(0.0, 1.0));
     let mut gap = None;
     let place = match part {
-        _ if part < BESIDE => 0.0,
-        _ if part > 1.0 - BESIDE => 1.0,
+        _ if part < KINK => 0.0,
+        _ if part > 1.0 - KINK => 1.0,
         _ => {
             let top = summit(from, to, |part| {
                 let value = read(part).and_then(|(value, _)| value);
