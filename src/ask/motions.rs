@@ -188,7 +188,12 @@ impl Motions<'_> {
         let mut report = self.moved(start, &settings, &mut measured, watch);
         meter.read_waiting(&mut take);
         let mut of_names = Meter::of_names(&self.metered, start, &names);
-        course.look(&mut of_names, watch);
+        // what was followed before an interruption is looked at all the same
+        let none = Watch::none();
+        course.look(
+            &mut of_names,
+            if watch.is_stopped() { &none } else { watch },
+        );
         report.interrupted |= watch.is_stopped();
         let sought: Vec<Sought> = (self.metered.quantities.iter().zip(&programs))
             .map(|(quantity, program)| Sought::new(quantity, program))

@@ -51,7 +51,7 @@ fn extremum(
     };
     let [Some(least), Some(greatest)] = bounds.best else {
         return Extremum {
-            missing: Some(missing(quantity)),
+            missing: course.whole.then(|| missing(quantity)),
             at_least: false,
             ..none
         };
