@@ -169,7 +169,12 @@ impl Motions<'_> {
             // the places of the curve, which do not depend on the rows asked for
             let ends = row.step.is_none_or(|step| step == 0 || step == steps);
             let fold = matches!(row.special, Some(MetKind::Fold { .. }));
-            if ends && (schedule.is_none() || row.special.is_none()) {
+            // beside those of a table only what may end it: inputs that follow one are not where a straight line has them
+            let passed = matches!(
+                row.special,
+                Some(MetKind::Cusp { .. } | MetKind::Turning { .. })
+            );
+            if ends && !(schedule.is_some() && passed) {
                 course.reach(row, time, fold);
             }
             if !row.between || self.settings.between {
@@ -183,7 +188,12 @@ impl Motions<'_> {
         let mut report = self.moved(start, &settings, &mut measured, watch);
         meter.read_waiting(&mut take);
         let mut of_names = Meter::of_names(&self.metered, start, &names);
-        course.look(&mut of_names, watch);
+        // what was followed before an interruption is looked at all the same
+        let none = Watch::none();
+        course.look(
+            &mut of_names,
+            if watch.is_stopped() { &none } else { watch },
+        );
         report.interrupted |= watch.is_stopped();
         let sought: Vec<Sought> = (self.metered.quantities.iter().zip(&programs))
             .map(|(quantity, program)| Sought::new(quantity, program))

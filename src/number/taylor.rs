@@ -170,7 +170,7 @@ impl Number for Taylor {
         if self.reach() > 2.0 {
             return (whole, whole);
         }
-        let (s, c) = self.terms[0].sin_cos();
+        let (s, c) = Number::sin_cos(self.terms[0]);
         let sin = [s, c, -s / 2.0, -c / 6.0, s / 24.0, c / 120.0];
         let cos = [c, -s, -c / 2.0, s / 6.0, c / 24.0, -s / 120.0];
         [sin, cos]
@@ -206,7 +206,7 @@ impl Number for Taylor {
             let cos = 1.0 / (1.0 + at * at).sqrt();
             let series = std::array::from_fn(|n| match n {
                 0 => angle,
-                n => cos.powi(n as i32) * (n as f64 * (angle + FRAC_PI_2)).sin_cos().0 / n as f64,
+                n => cos.powi(n as i32) * Number::sin_cos(n as f64 * (angle + FRAC_PI_2)).0 / n as f64,
             });
             let [low, high] = [at - reach, at + reach].map(pxfm::f_atan);
             match reach < 2.0 {
@@ -252,7 +252,7 @@ impl Number for Taylor {
     /// On the branch that is continuous about its constant term.
     fn atan2(self, x: Self) -> Self {
         let (at_y, at_x) = (self.terms[0], x.terms[0]);
-        let angle = at_y.atan2(at_x);
+        let angle = Number::atan2(at_y, at_x);
         let along = x.scale(at_x) + self.scale(at_y);
         let across = self.scale(at_x) - x.scale(at_y);
         match along.range()[0] > 0.0 {

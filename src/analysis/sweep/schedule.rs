@@ -168,20 +168,24 @@ impl Schedule {
                     return;
                 }
                 let ends = row.step == Some(1);
-                let part = most.map(|i| &moved[i]).map_or(0.0, |of| {
-                    (of.coordinate.of(mechanism, row.configuration) - of.from) / (of.to - of.from)
-                });
-                let part = if part.is_finite() {
-                    part.clamp(0.0, 1.0)
-                } else {
-                    0.0
+                // the input that moves most says when it is elsewhere: it goes one way
+                let time = match most.filter(|_| row.step.is_none()) {
+                    Some(i) => {
+                        let of = &moved[i];
+                        let wanted = of.coordinate.of(mechanism, row.configuration);
+                        let before =
+                            |time: f64| (self.at(i, time)[0] < wanted) == (of.from < of.to);
+                        halved([gone, to], before)
+                    }
+                    None if ends => to,
+                    None => gone,
                 };
                 let between = ends && step.is_none();
                 traced.place(row.configuration);
                 sink(&Row {
                     number: whole.rows,
                     step: if ends { step } else { row.step },
-                    time: Some(if ends { to } else { gone + part * (to - gone) }),
+                    time: Some(time),
                     points: &traced.at,
                     between,
                     ..*row
@@ -218,6 +222,18 @@ impl Schedule {
         }
         whole
     }
+}
+
+/// Where something ceases to hold between two numbers.
+fn halved([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match holds(middle) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// Adds what was met on paths in one step; what was passed before is the same point. Paths that cross in different

@@ -1,14 +1,14 @@
 //! The curve of a motion, with polynomials of all that its quantities are made of.
 
-use std::f64::consts::{FRAC_PI_8, PI, TAU};
+mod pieces;
 
-use super::meter::{Block, Meter, Name, evaluated, has_atan2, turns};
+use std::f64::consts::{PI, TAU};
+
+use super::meter::{Name, evaluated, has_atan2, turns};
 use crate::algebra::Expression;
 use crate::analysis::sweep::{Passage, Row, Sample, Stretch};
 use crate::mechanism::{Configuration, Quantity};
-use crate::number::sorting::sort_by;
 use crate::number::{Number, Taylor};
-use crate::solve::{Stage, Watch};
 
 /// The curve that a motion follows, whatever rows are asked for: pieces so short that all names in the quantities are
 /// polynomials there. What a quantity does between two places follows from these and its expression.
@@ -37,14 +37,6 @@ pub(in super::super) struct Piece {
     rough: Vec<bool>,
 }
 
-/// A piece that is to be looked at.
-struct Ahead {
-    stretch: usize,
-    span: [f64; 2],
-    ends: [Configuration<f64>; 2],
-    depth: u32,
-}
-
 /// A part of a piece, from s = middle − radius to middle + radius.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Part {
@@ -55,17 +47,6 @@ pub(in super::super) struct Part {
 
 /// The polynomials are of eighth degree.
 const TERMS: usize = 9;
-
-/// Places on a piece, in order: the extremes of the Chebyshev polynomial of that degree, and two between them where the
-/// polynomial through these is compared.
-const PLACES: usize = TERMS + 2;
-const COMPARED: [usize; 2] = [3, 6];
-
-/// The place in the middle.
-const MIDDLE: usize = 5;
-
-/// How often a stretch is halved where a name has a kink or a pole.
-const DEEPEST: u32 = 40;
 
 impl<'m> Course<'m> {
     pub fn new(passage: Passage<'m>, names: Vec<Name>) -> Self {
@@ -120,168 +101,6 @@ impl<'m> Course<'m> {
         inputs
             .map(|input| input.coordinate.of(self.passage.mechanism, at))
             .collect()
-    }
-
-    /// Finds the polynomials of the names, which a meter reads.
-    pub fn look(&mut self, meter: &mut Meter, watch: &Watch) {
-        let lagrange = lagrange();
-        if let (true, Some((at, time, _))) = (self.stretches.is_empty(), &self.last) {
-            let ends = [at.clone(), at.clone()];
-            let stretch = self.passage.stretch(ends, [*time; 2], false);
-            self.stretches.push(stretch);
-        }
-        let stretches = self.stretches.iter().enumerate();
-        let mut ahead: Vec<Ahead> = stretches
-            .map(|(stretch, of)| Ahead {
-                stretch,
-                span: [0.0, 1.0],
-                ends: of.ends.clone(),
-                depth: 0,
-            })
-            .collect();
-        // how often pieces may be halved
-        let mut left = 20_000 + 8 * ahead.len();
-        while !ahead.is_empty() {
-            let (samples, middles) = self.sampled(&ahead, meter, watch);
-            let mut halves = Vec::new();
-            for ((of, samples), middle) in ahead.into_iter().zip(samples).zip(middles) {
-                let piece = self.fitted(&of, &samples, &lagrange);
-                match middle {
-                    Some(middle)
-                        if piece.rough.contains(&true) && of.depth < DEEPEST && left > 0 =>
-                    {
-                        left -= 1;
-                        let [begin, end] = of.ends;
-                        let half = 0.5 * (of.span[0] + of.span[1]);
-                        let sides = [
-                            ([begin, middle.clone()], [of.span[0], half]),
-                            ([middle, end], [half, of.span[1]]),
-                        ];
-                        halves.extend(sides.map(|(ends, span)| Ahead {
-                            stretch: of.stretch,
-                            span,
-                            ends,
-                            depth: of.depth + 1,
-                        }));
-                    }
-                    _ => self.pieces.push(piece),
-                }
-            }
-            ahead = halves;
-        }
-        let key = |of: &Piece| (of.stretch, of.span[0]);
-        let order = |a: &Piece, b: &Piece| {
-            let (a, b) = (key(a), key(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        };
-        sort_by(&mut self.pieces, order);
-        // angles go on without jumps
-        for name in (0..self.names.len()).filter(|name| self.names[*name].turns()) {
-            let mut before: Option<f64> = None;
-            for piece in &mut self.pieces {
-                let ends = [-1.0, 1.0].map(|s| polynomial(&piece.terms[name], s));
-                if let Some(before) = before.filter(|_| ends[0].is_finite()) {
-                    piece.terms[name][0] += TAU * ((before - ends[0]) / TAU).round();
-                }
-                let end = polynomial(&piece.terms[name], 1.0);
-                before = Some(end).filter(|end| end.is_finite()).or(before);
-            }
-        }
-    }
-
-    /// The names at the places of each piece, the time at last, and how far they may be off; and the configurations in
-    /// the middle.
-    fn sampled(
-        &mut self,
-        ahead: &[Ahead],
-        meter: &mut Meter,
-        watch: &Watch,
-    ) -> (Vec<Samples>, Vec<Option<Configuration<f64>>>) {
-        let count = self.names.len();
-        let mut read: Vec<[f64; 2]> = Vec::new();
-        let mut take = |block: &Block| {
-            for i in 0..block.len() {
-                let columns = block.columns().iter();
-                read.extend(columns.map(|of| [of.values[i], of.noise[i]]));
-            }
-        };
-        let mut order = Vec::new();
-        let mut middles = vec![None; ahead.len()];
-        let none = vec![[f64::NAN, 0.0]; count + 1];
-        let mut samples: Vec<Samples> = vec![std::array::from_fn(|_| none.clone()); ahead.len()];
-        for (k, of) in ahead.iter().enumerate() {
-            if k % 64 == 0 && watch.stops(Stage::Steps, k, Some(ahead.len())) {
-                self.whole = false;
-                break;
-            }
-            for (place, s) in places().into_iter().enumerate() {
-                let part = within(of.span, s);
-                let near = usize::from(s > 0.0);
-                let from = (of.span[near], &of.ends[near]);
-                let stretch = &self.stretches[of.stretch];
-                let Some((at, time)) = self.passage.at(stretch, part, from) else {
-                    continue;
-                };
-                if place == MIDDLE {
-                    middles[k] = Some(at.clone());
-                }
-                samples[k][place][count] = [time, f64::EPSILON];
-                order.push((k, place));
-                meter.read_row(&Row::of(at), time, &mut take);
-            }
-        }
-        meter.read_waiting(&mut take);
-        for ((k, place), values) in order.into_iter().zip(read.chunks_exact(count.max(1))) {
-            samples[k][place][..count].copy_from_slice(&values[..count]);
-        }
-        (samples, middles)
-    }
-
-    /// The polynomials through samples.
-    fn fitted(&self, of: &Ahead, samples: &Samples, lagrange: &[[f64; TERMS]; TERMS]) -> Piece {
-        /// How far beside a polynomial a name may be, beside its largest value on the piece.
-        const OFF: f64 = 1e-11;
-        let mut piece = Piece {
-            stretch: of.stretch,
-            span: of.span,
-            ends: of.ends.clone(),
-            terms: Vec::new(),
-            noise: Vec::new(),
-            rough: Vec::new(),
-        };
-        let is_solved = samples.iter().all(|of| !of[self.names.len()][0].is_nan());
-        for name in 0..=self.names.len() {
-            let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
-            if self.names.get(name).is_some_and(Name::turns) {
-                for i in 1..PLACES {
-                    let jump = values[i] - values[i - 1];
-                    if jump.is_finite() {
-                        values[i] -= TAU * (jump / TAU).round();
-                    }
-                }
-            }
-            let mut terms = [0.0; TERMS];
-            let through = (0..PLACES).filter(|place| !COMPARED.contains(place));
-            for (basis, place) in lagrange.iter().zip(through) {
-                for (term, of_basis) in terms.iter_mut().zip(basis) {
-                    *term += values[place] * of_basis;
-                }
-            }
-            let finite = |most: f64, x: f64| if x.is_finite() { most.max(x) } else { most };
-            let largest = values.iter().map(|x| x.abs()).fold(0.0, finite);
-            let noise = samples.iter().map(|of| of[name][1]).fold(0.0, finite);
-            let off =
-                COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
-            let near = off.iter().all(|off| *off <= OFF * largest + 8.0 * noise);
-            // no value anywhere, though the configurations are known
-            let nowhere = values.iter().all(|x| x.is_nan()) && is_solved;
-            piece
-                .terms
-                .push(if near { terms } else { [f64::NAN; TERMS] });
-            piece.noise.push(noise + off.into_iter().fold(0.0, finite));
-            piece.rough.push(!near && !nowhere);
-        }
-        piece
     }
 
     /// The value of an expression over the names at a place of a piece, if it has one, with how far it may be off.
@@ -366,12 +185,12 @@ impl<'m> Course<'m> {
                 let mut model = self.model(of, part);
                 let mut vague = false;
                 if let (true, Some(model)) = (of.jumps, &mut model) {
-                    vague = model.rest > 0.5 && !part.is_narrow();
+                    vague = model.rest > 0.5 && !self.is_narrow(part);
                     if let Some(before) = before {
                         model.terms[0] += TAU * ((before - model.at(-1.0)) / TAU).round();
                     }
                 }
-                if (vague || visit(part, model.as_ref())) && !part.is_narrow() {
+                if (vague || visit(part, model.as_ref())) && !self.is_narrow(part) {
                     let radius = 0.5 * part.radius;
                     for middle in [part.middle + radius, part.middle - radius] {
                         parts.push(Part {
@@ -404,7 +223,7 @@ impl<'m> Course<'m> {
                 (stretch as f64 + gone, self.time_at(part.piece, s))
             };
             let Some(model) = model.filter(|model| model.rest.is_finite()) else {
-                let wanted = model.is_some() && !part.is_narrow();
+                let wanted = model.is_some() && !self.is_narrow(part);
                 if !wanted {
                     samples.push((place(0.0).0, None));
                 }
@@ -412,7 +231,7 @@ impl<'m> Course<'m> {
             };
             let bend = model.bend();
             let leaves = model.terms[1].abs() - bend > 2.0 * tolerance;
-            if bend > OFF * tolerance && !leaves && !part.is_narrow() {
+            if bend > OFF * tolerance && !leaves && !self.is_narrow(part) {
                 return true;
             }
             for t in [-1.0, 1.0] {
@@ -465,6 +284,11 @@ impl<'m> Course<'m> {
         (of.stretch, within(of.span, s))
     }
 
+    /// Whether names do not differ by more than rounding from one end of a part to the other.
+    pub fn is_narrow(&self, of: Part) -> bool {
+        of.radius * self.width(of.piece) < 1e-13
+    }
+
     /// How long a piece is beside its stretch.
     pub fn width(&self, piece: usize) -> f64 {
         let [begin, end] = self.pieces[piece].span;
@@ -489,9 +313,6 @@ impl<'m> Course<'m> {
     }
 }
 
-/// For each place of a piece the names, the time at last, and how far they may be off.
-type Samples = [Vec<[f64; 2]>; PLACES];
-
 /// A quantity over the numbers of names.
 pub(in super::super) struct Sought<'e> {
     pub program: &'e Expression<usize>,
@@ -512,13 +333,6 @@ impl<'e> Sought<'e> {
     }
 }
 
-impl Part {
-    /// Whether names do not differ by more than rounding from one end to the other.
-    pub fn is_narrow(self) -> bool {
-        self.radius < 1e-13
-    }
-}
-
 /// The part of a span at s from −1 to 1, the ends without rounding.
 fn within([begin, end]: [f64; 2], s: f64) -> f64 {
     match s {
@@ -530,43 +344,4 @@ fn within([begin, end]: [f64; 2], s: f64) -> f64 {
 
 fn polynomial(terms: &[f64; TERMS], s: f64) -> f64 {
     terms.iter().rev().fold(0.0, |sum, term| sum * s + term)
-}
-
-/// The places on a piece, in order.
-fn places() -> [f64; PLACES] {
-    let at = |k: usize| -(FRAC_PI_8 * k as f64).sin_cos().1;
-    [
-        -1.0,
-        at(1),
-        at(2),
-        -0.55,
-        at(3),
-        0.0,
-        0.19,
-        at(5),
-        at(6),
-        at(7),
-        1.0,
-    ]
-}
-
-/// The terms of the polynomials that are 1 at one of the places and 0 at the others, but for those compared.
-fn lagrange() -> [[f64; TERMS]; TERMS] {
-    let all = places();
-    let through: Vec<f64> = (0..PLACES)
-        .filter(|place| !COMPARED.contains(place))
-        .map(|place| all[place])
-        .collect();
-    std::array::from_fn(|one| {
-        let mut terms = [0.0; TERMS];
-        terms[0] = 1.0;
-        for (_, other) in through.iter().enumerate().filter(|(k, _)| *k != one) {
-            let scale = 1.0 / (through[one] - other);
-            for i in (0..TERMS).rev() {
-                let lower = if i > 0 { terms[i - 1] } else { 0.0 };
-                terms[i] = scale * (lower - other * terms[i]);
-            }
-        }
-        terms
-    })
 }

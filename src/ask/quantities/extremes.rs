@@ -1,5 +1,7 @@
 //! The least and greatest values of quantities over a motion, and where they have no bound.
 
+mod bounds;
+
 use std::cmp::Ordering;
 
 use super::Meter;
@@ -9,26 +11,10 @@ use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
 use crate::mechanism::{Measured, Order, Quantity};
 use crate::number::sorting::sort_by;
 use crate::solve::summit;
+use bounds::{Bounds, bounds};
 
 /// The senses of least and greatest.
 const SENSES: [f64; 2] = [-1.0, 1.0];
-
-/// Values nearer than this to the least or the greatest, beside what is usual, are not told from them.
-const SAME: f64 = 1e-10;
-
-/// What is known of a quantity over the whole curve.
-struct Bounds {
-    /// The least and the greatest value, and where they are: a piece and a place on it.
-    best: [Option<(f64, usize, f64)>; 2],
-    /// The values that all places looked at allow.
-    allowed: [f64; 2],
-    /// The usual size of the values, and how far one may be off.
-    usual: [f64; 2],
-    /// Places where no bound was found.
-    suspects: Vec<(usize, f64)>,
-    /// Whether there may be values beyond.
-    cut: bool,
-}
 
 /// The extremes of quantities over a curve, with a meter that reads them.
 pub(in super::super) fn located(
@@ -43,112 +29,6 @@ pub(in super::super) fn located(
         extremum(course, meter, (i, quantity), bounds)
     });
     all.collect()
-}
-
-impl Bounds {
-    /// How much values may be beyond the best without being told from it.
-    fn slack(&self, best: f64) -> f64 {
-        SAME * (best.abs() + self.usual[0]) + 2.0 * self.usual[1]
-    }
-
-    /// Takes in a value.
-    fn take(&mut self, value: f64, piece: usize, s: f64) {
-        for (best, sense) in self.best.iter_mut().zip(SENSES) {
-            if best.is_none_or(|(known, ..)| sense * value > sense * known) {
-                *best = Some((value, piece, s));
-            }
-        }
-    }
-
-    /// Whether values between two numbers may be beyond those known.
-    fn may_grow(&self, [low, high]: [f64; 2]) -> bool {
-        let beyond = |k: usize, end: f64| {
-            self.best[k].is_none_or(|(known, ..)| {
-                let most = SENSES[k] * known + self.slack(known);
-                // what is not a number may be anything
-                !(SENSES[k] * end <= most)
-            })
-        };
-        beyond(0, low) || beyond(1, high)
-    }
-}
-
-/// Branch and bound: pieces of the curve are halved until what the quantity may be on them is not beyond a value that it
-/// has.
-fn bounds(course: &Course, of: &Sought) -> Bounds {
-    /// How many parts are looked at, beside the pieces themselves.
-    const PATIENCE: usize = 400_000;
-    /// Values that may be off more than this, and more than is usual, are no better than others: they are near 0/0.
-    const CLEAR: f64 = 1e-7;
-    let mut bounds = Bounds {
-        best: [None; 2],
-        allowed: [f64::NEG_INFINITY, f64::INFINITY],
-        usual: [0.0; 2],
-        suspects: Vec::new(),
-        cut: !course.whole,
-    };
-    let mut sizes: [Vec<f64>; 2] = Default::default();
-    let mut seen = Vec::new();
-    for piece in 0..course.pieces.len() {
-        for s in [-1.0, -0.5, 0.0, 0.5, 1.0] {
-            let (Some(value), noise) = course.value(of, piece, s) else {
-                continue;
-            };
-            seen.push((value, noise, piece, s));
-            sizes[0].push(value.abs());
-            sizes[1].push(noise);
-            let off = 4.0 * noise.max(f64::EPSILON * value.abs());
-            let [low, high] = bounds.allowed;
-            bounds.allowed = [low.max(value - off), high.min(value + off)];
-        }
-        bounds.cut |= course.hides(of, piece);
-    }
-    bounds.usual = sizes.map(|mut sizes| {
-        sort_by(&mut sizes, f64::total_cmp);
-        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
-    });
-    let [usual, usually_off] = bounds.usual;
-    let clear = |value: f64, noise: f64| {
-        noise <= f64::max(CLEAR * (value.abs() + usual), 10.0 * usually_off)
-    };
-    // an angle without jumps is known only along the way
-    for (value, noise, piece, s) in seen.into_iter().filter(|_| !of.jumps) {
-        if clear(value, noise) {
-            bounds.take(value, piece, s);
-        }
-    }
-    let patience = PATIENCE + 8 * course.pieces.len();
-    let whole = course.walk(of, patience, &mut |part, model| {
-        let Some(model) = model else {
-            if course.is_rough(of, part.piece) {
-                bounds.suspects.push((part.piece, part.middle));
-            }
-            return false;
-        };
-        if !bounds.may_grow(model.range()) {
-            return false;
-        }
-        if part.is_narrow() && !model.rest.is_finite() {
-            bounds.suspects.push((part.piece, part.middle));
-            return false;
-        }
-        for sense in SENSES {
-            let s = part.middle + part.radius * model.top(sense);
-            let (value, noise) = course.value(of, part.piece, s);
-            if let Some(value) = value
-                && clear(value, noise)
-            {
-                let value = match of.jumps {
-                    true => model.at(model.top(sense)),
-                    false => value,
-                };
-                bounds.take(value, part.piece, s);
-            }
-        }
-        bounds.may_grow(model.range())
-    });
-    bounds.cut |= !whole;
-    bounds
 }
 
 fn extremum(
@@ -171,7 +51,7 @@ fn extremum(
     };
     let [Some(least), Some(greatest)] = bounds.best else {
         return Extremum {
-            missing: Some(missing(quantity)),
+            missing: course.whole.then(|| missing(quantity)),
             at_least: false,
             ..none
         };
@@ -192,6 +72,15 @@ fn extremum(
     }
     let driven = course.is_driven();
     let mut poles: Vec<Pole> = Vec::new();
+    let mut best = [least, greatest].map(|(value, piece, s)| {
+        let (stretch, part) = course.place(piece, s);
+        Found {
+            value,
+            stretch,
+            part,
+            beside: BESIDE * course.width(piece),
+        }
+    });
     let mut known: Vec<(usize, f64)> = Vec::new();
     for (piece, s) in &bounds.suspects {
         /// Places nearer than this are one.
@@ -204,35 +93,36 @@ fn extremum(
             continue;
         }
         known.push((stretch, part));
-        let pole = pole(course, meter, i, (stretch, part), driven);
-        if let Some(pole) = pole {
-            merge(&mut poles, pole);
+        match pole(course, meter, i, (stretch, part), driven) {
+            Some(pole) => merge(&mut poles, pole),
+            // a kink, where there may be more than beside it
+            None => {
+                for (best, sense) in best.iter_mut().zip(SENSES) {
+                    let found = Found {
+                        stretch,
+                        part,
+                        beside: KINK,
+                        ..*best
+                    };
+                    let found = found.refined(course, meter, i, sense);
+                    if found.is_some_and(|of| sense * of.value > sense * best.value) {
+                        *best = found.unwrap_or(*best);
+                    }
+                }
+            }
         }
     }
     sort_by(&mut poles, |a, b| {
         a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal)
     });
     let largest = least_value.abs().max(greatest_value.abs());
-    let [least, greatest] = [(least, -1.0), (greatest, 1.0)].map(|((value, piece, s), sense)| {
-        /// The part of a piece on either side where the best value is sought again, read exactly.
-        const BESIDE: f64 = 0.02;
-        let (stretch, part) = course.place(piece, s);
-        let beside = BESIDE * course.width(piece);
-        let mut read = |part: f64| {
-            let (at, time) = course.at(stretch, part)?;
-            meter.settle(i, value);
-            Some(sense * meter.read(at, time)[i]?)
-        };
-        let here = read(part).map(|height| (part, height));
-        let [from, to] = [part - beside, part + beside].map(|part| part.clamp(0.0, 1.0));
-        let top = summit(from, to, &mut read).filter(|top| here.is_none_or(|of| top.1 > of.1));
-        let (part, height) = top.or(here).unwrap_or((part, sense * value));
-        let value = sense * height;
-        let (at, time) = course.at(stretch, part)?;
+    let mut sides = best.into_iter().zip(SENSES).map(|(best, sense)| {
+        let found = best.refined(course, meter, i, sense).unwrap_or(best);
+        let (at, time) = course.at(found.stretch, found.part)?;
         let (at, time) = (at.clone(), time);
         Some(Extreme {
-            value: if value.abs() > ROUNDING * largest {
-                value
+            value: if found.value.abs() > ROUNDING * largest {
+                found.value
             } else {
                 0.0
             },
@@ -241,6 +131,7 @@ fn extremum(
             joints: at.joints,
         })
     });
+    let [least, greatest] = [sides.next().flatten(), sides.next().flatten()];
     let bounded = |upwards: bool| {
         let mut sides = poles.iter().flat_map(|pole| pole.upwards);
         !sides.any(|side| side == Some(upwards))
@@ -253,6 +144,53 @@ fn extremum(
     }
 }
 
+/// The part of a piece on either side where the best value is sought again, read exactly.
+const BESIDE: f64 = 0.02;
+
+/// The part of a stretch on either side of a kink or a pole where it may be.
+const KINK: f64 = 1e-7;
+
+/// The best value so far, at a part of a stretch.
+#[derive(Clone, Copy)]
+struct Found {
+    value: f64,
+    stretch: usize,
+    part: f64,
+    /// How far from there the place may be.
+    beside: f64,
+}
+
+impl Found {
+    /// The value read exactly, where it is best near the place.
+    fn refined(self, course: &mut Course, meter: &mut Meter, i: usize, sense: f64) -> Option<Self> {
+        let mut read = |part: f64| {
+            // the motion goes no farther
+            if !(0.0..=1.0).contains(&part) {
+                return None;
+            }
+            let (at, time) = course.at(self.stretch, part)?;
+            meter.settle(i, self.value);
+            Some(sense * meter.read(at, time)[i]?)
+        };
+        let here = read(self.part).map(|height| (self.part, height));
+        let ends = [self.part - self.beside, self.part + self.beside];
+        let [from, to] = ends.map(|part| part.clamp(0.0, 1.0));
+        let ends = [from, to].map(|part| Some((part, read(part)?)));
+        // beyond an edge there is no value
+        let top = summit(from, to, |part| {
+            Some(read(part).unwrap_or(f64::NEG_INFINITY))
+        });
+        let all = [here, top].into_iter().chain(ends).flatten();
+        let best = all.reduce(|a, b| if b.1 > a.1 { b } else { a });
+        best.filter(|of| of.1.is_finite())
+            .map(|(part, height)| Found {
+                value: sense * height,
+                part,
+                ..self
+            })
+    }
+}
+
 /// The place near one where no bound was found, if the quantity grows without bound there.
 fn pole(
     course: &mut Course,
@@ -261,18 +199,16 @@ fn pole(
     (stretch, part): (usize, f64),
     driven: bool,
 ) -> Option<Pole> {
-    /// How far from there the place may be.
-    const BESIDE: f64 = 1e-7;
     let mut read = |part: f64| {
         let (at, time) = course.at(stretch, part)?;
         let value = meter.read(at, time)[i];
         Some((value, meter.noise()[i]))
     };
-    let [from, to] = [part - BESIDE, part + BESIDE].map(|part| part.clamp(0.0, 1.0));
+    let [from, to] = [part - KINK, part + KINK].map(|part| part.clamp(0.0, 1.0));
     let mut gap = None;
     let place = match part {
-        _ if part < BESIDE => 0.0,
-        _ if part > 1.0 - BESIDE => 1.0,
+        _ if part < KINK => 0.0,
+        _ if part > 1.0 - KINK => 1.0,
         _ => {
             let top = summit(from, to, |part| {
                 let value = read(part).and_then(|(value, _)| value);
