@@ -215,7 +215,9 @@ fn from_one(
                 let from = fold.at.joints[slice.joint] - slice.value;
                 let from = cycle.map_or(from, |turns| turns * turn_near(from / turns, 0.0));
                 if from.abs() >= paths.reach {
-                } else if (from > 0.0) != *greatest {
+                    continue;
+                }
+                if (from > 0.0) != *greatest {
                     wanted.push((from, fold.at.clone()));
                 } else {
                     let mut at = fold.at.map(C::from_f64);
