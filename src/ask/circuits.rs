@@ -8,7 +8,7 @@ use crate::analysis::sweep::{CircuitsReport, CircuitsSettings, Slice, Swept, cir
 use crate::description;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, turn_near};
 use crate::solve::{Stage, Watch};
-use crate::system::{self, Coordinate, QuestionError, check_count, sampling_range};
+use crate::system::{self, Coordinate, check_count, sampling_range};
 
 impl Question {
     /// All circuits and branches of a mechanism with one freedom, with the cusps and double points of the paths of the
