@@ -7,6 +7,7 @@
 
 mod class;
 mod course;
+mod pairs;
 mod report;
 mod slice;
 mod tracing;

@@ -77,7 +77,11 @@ fn found(report: &CircuitsReport) -> String {
     let exhausted = report
         .exhausted
         .then(|| "more curves than steps to follow them".to_owned());
-    let doubts: Vec<String> = [uncovered, lost, doubtful, exhausted]
+    let ends = (report.circuits.iter())
+        .filter(|circuit| !circuit.whole)
+        .count();
+    let ends = (ends > 0).then(|| format!("{} not followed to the end", count(ends, "circuit")));
+    let doubts: Vec<String> = [uncovered, lost, doubtful, ends, exhausted]
         .into_iter()
         .flatten()
         .collect();

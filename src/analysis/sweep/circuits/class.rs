@@ -5,14 +5,14 @@ use crate::description::ClosureKind;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, JointKind, Mechanism};
 
-/// The joints of a planar loop of three joint variables and a revolute closure, as (chain, row).
+/// A joint as chain, row and variable.
+type Placed = (usize, usize, usize);
+
+/// The joints of a planar loop of three joint variables and a revolute closure.
 struct Loop {
     /// The two on ground.
-    grounded: [(usize, usize); 2],
-    /// The one between them, in the chain of the first of those or in one that stands on it.
-    between: (usize, usize),
-    /// Their joint variables: of those on ground, then of the other.
-    joints: [usize; 3],
+    grounded: [Placed; 2],
+    others: Vec<Placed>,
 }
 
 fn planar_loop(mechanism: &Mechanism) -> Option<Loop> {
@@ -46,26 +46,13 @@ fn planar_loop(mechanism: &Mechanism) -> Option<Loop> {
             }
         }
     }
-    let ([mut a, mut b], [c]) = (<[_; 2]>::try_from(on_ground).ok()?, &others[..]) else {
-        return None;
-    };
-    let carrier = match chains[c.0].on {
-        Frame::Link { chain, .. } | Frame::Tip { chain } => chain,
-        _ => c.0,
-    };
-    if b.0 == carrier {
-        std::mem::swap(&mut a, &mut b);
-    }
-    planar.then_some(Loop {
-        grounded: [(a.0, a.1), (b.0, b.1)],
-        between: (c.0, c.1),
-        joints: [a.2, b.2, c.2],
-    })
+    let grounded = <[_; 2]>::try_from(on_ground).ok()?;
+    planar.then_some(Loop { grounded, others })
 }
 
 /// The class of a planar 4-bar whose two joints on ground are joint variables.
 pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourBarClass> {
-    let [a, b, _] = planar_loop(mechanism)?.joints;
+    let grounded = planar_loop(mechanism)?.grounded;
     if circuits.iter().any(|c| !c.whole) || circuits.is_empty() {
         return None;
     }
@@ -81,7 +68,9 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
     let turns = |joint: usize| circuits[0].joints.get(joint).is_some_and(|j| j.turns != 0);
     Some(
         match (
-            [a, b].iter().filter(|&&joint| turns(joint)).count(),
+            (grounded.iter())
+                .filter(|(_, _, joint)| turns(*joint))
+                .count(),
             circuits.len(),
         ) {
             (2, 2) => FourBarClass::DoubleCrank,
@@ -100,22 +89,30 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
 pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Option<Grashof> {
     /// Lengths that add up this closely, in parts of the longest, are equal: rounding of what is written.
     const EQUAL: f64 = 1e-12;
-    let loop_ = planar_loop(mechanism).filter(|_| mechanism.bodies().len() == 4)?;
+    let Loop { grounded, others } = planar_loop(mechanism)?;
+    let ([(chain, row, _)], 4) = (&others[..], mechanism.bodies().len()) else {
+        return None;
+    };
     let chains = &mechanism.dimensions().chains;
     let place = |(chain, row): (usize, usize)| {
         let before = mechanism.transform(Frame::Ground, Frame::Link { chain, row }, home);
         (before * chains[chain].rows[row].before).position
     };
-    let [a, b] = loop_.grounded.map(place);
-    let c = place(loop_.between);
-    let normal = mechanism.transform(
-        Frame::Ground,
-        Frame::Link {
-            chain: loop_.between.0,
-            row: 1 + loop_.between.1,
-        },
-        home,
-    );
+    let [mut a, mut b] = grounded.map(|(chain, row, _)| place((chain, row)));
+    // the first is the one that the third joint stands on
+    let carrier = match chains[*chain].on {
+        Frame::Link { chain, .. } | Frame::Tip { chain } => chain,
+        _ => *chain,
+    };
+    if grounded[1].0 == carrier {
+        std::mem::swap(&mut a, &mut b);
+    }
+    let c = place((*chain, *row));
+    let link = Frame::Link {
+        chain: *chain,
+        row: *row,
+    };
+    let normal = mechanism.transform(Frame::Ground, link, home);
     let normal = normal.rotation.0[2];
     let closure = mechanism.closures()[0].frames[0];
     let d = mechanism.transform(Frame::Ground, closure, home).position;

@@ -9,14 +9,15 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use super::pairs::{ARRIVED, End, Paths};
 use super::tracing::{SAME, Tracing};
 use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, turn_near};
 use crate::number::sorting::sort_by;
 use crate::number::{Complex, Number};
-use crate::solve::{Continuation, Place, Watch};
-use crate::system::{ComplexCurve, Curve, Held};
+use crate::solve::{Continuation, Watch};
+use crate::system::{ComplexCurve, Held};
 
 type C = Complex<f64>;
 
@@ -71,19 +72,6 @@ impl Swept {
     pub fn is_whole(&self) -> bool {
         self.lost == 0 && self.gaps.is_empty() && !self.doubtful
     }
-}
-
-/// Where a path of complex configurations ended.
-enum End {
-    /// At a real configuration.
-    Real(Configuration<f64>),
-    /// Where the joint has gone all its way, or where a path came before.
-    Through,
-    /// At infinity, where the joint has this value.
-    Pole(f64),
-    /// Where other paths cross, on all that go on from there.
-    Crossing(Vec<Place<Configuration<C>>>),
-    Lost,
 }
 
 /// Follows all curves that slices at values of one joint lead to.
@@ -180,12 +168,14 @@ fn from_one(
         // far from the real ones cosines and sines are large
         method: Continuation {
             tolerance: 1e-10,
+            shortest: 1e-7,
             ..tracing.method().clone()
         },
         value: slice.value,
         reach: paths_reach(slice, cycle),
         complex,
         crossings: Vec::new(),
+        steps: 0,
         watch,
     };
     let mut waiting = Vec::new();
@@ -215,7 +205,9 @@ fn from_one(
                 let from = fold.at.joints[slice.joint] - slice.value;
                 let from = cycle.map_or(from, |turns| turns * turn_near(from / turns, 0.0));
                 if from.abs() >= paths.reach {
-                } else if (from > 0.0) != *greatest {
+                    continue;
+                }
+                if (from > 0.0) != *greatest {
                     wanted.push((from, fold.at.clone()));
                 } else {
                     let mut at = fold.at.map(C::from_f64);
@@ -260,138 +252,4 @@ fn from_one(
         .filter(|(_, fold)| !reached.iter().any(|at| near(fold, at)))
         .count();
     Some(went)
-}
-
-/// A path this near to real configurations has come to one, if it is a dead point.
-const ARRIVED: f64 = 1e-3;
-
-struct Paths<'a> {
-    complex: ComplexCurve,
-    method: Continuation,
-    value: f64,
-    reach: f64,
-    /// Those that a path came to, with the sense in which it went.
-    crossings: Vec<(Configuration<C>, bool)>,
-    watch: &'a Watch<'a>,
-}
-
-impl Paths<'_> {
-    /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
-    fn leaving(
-        &mut self,
-        fold: &Configuration<C>,
-        tangent: &[f64],
-        up: bool,
-    ) -> Option<Place<Configuration<C>>> {
-        let direction = self.complex.off_real(tangent);
-        let (place, _) = self.method.leave(&mut self.complex, fold, &direction)?;
-        let beyond = (self.complex.value(&place.at) > self.complex.value(fold)) == up;
-        beyond.then(|| self.complex.going(place, up))
-    }
-
-    /// Follows a path until it is real, or the joint has gone all its way.
-    fn follow(
-        &mut self,
-        real: &mut Curve,
-        mut place: Place<Configuration<C>>,
-        (up, joint): (bool, usize),
-    ) -> End {
-        const STEPS: usize = 20_000;
-        /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
-        const INFINITE: f64 = 9.0;
-        const FAR: f64 = 5.0;
-        let mut length = 0.1 * self.method.longest;
-        let mut before = 0.0;
-        let mut none_ahead = false;
-        for _ in 0..STEPS {
-            if self.watch.is_stopped() {
-                break;
-            }
-            let gone = self.complex.value(&place.at) - self.value;
-            if gone.abs() >= self.reach && (gone > 0.0) == up {
-                return End::Through;
-            }
-            match self.method.step(&mut self.complex, &place, length) {
-                Ok((to, changed)) => {
-                    length = self.method.next_length(length, changed, &to);
-                    place = to;
-                    none_ahead = false;
-                }
-                Err(_) if !none_ahead && length < 1e-3 * self.method.longest => {
-                    none_ahead = true;
-                    match self.beyond(real, &place, up) {
-                        Some(end) => return end,
-                        None => continue,
-                    }
-                }
-                Err(_) => {
-                    length *= 0.5;
-                    if length < self.method.shortest {
-                        let far = self.complex.split(&place.at).0 > FAR;
-                        return match far {
-                            true => End::Pole(self.complex.value(&place.at)),
-                            false => End::Lost,
-                        };
-                    }
-                    continue;
-                }
-            }
-            let (imaginary, beside) = self.complex.split(&place.at);
-            if imaginary < ARRIVED
-                && imaginary < before
-                && let Ok(dead) = self.method.settle(real, beside.clone())
-                && let column = real.column(joint).expect("the joint moves")
-                && dead.tangent[column].abs() < 0.1
-                && norm(&real.difference_but_turns(&beside, &dead.at)) < 0.1 * imaginary
-            {
-                return End::Real(dead.at);
-            }
-            if imaginary > INFINITE {
-                return End::Pole(self.complex.value(&place.at));
-            }
-            before = imaginary;
-        }
-        End::Lost
-    }
-
-    /// What is beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
-    /// another one does not; they leave with every loop turned by i that met its conjugate.
-    fn beyond(
-        &mut self,
-        real: &mut Curve,
-        place: &Place<Configuration<C>>,
-        up: bool,
-    ) -> Option<End> {
-        let (method, complex) = (&self.method, &mut self.complex);
-        let reach = 0.2 * method.longest;
-        let point = method.branch_point(complex, &place.at, reach)?;
-        let (imaginary, beside) = complex.split(&point.at);
-        if imaginary < SAME
-            && let Ok(dead) = method.settle(real, beside)
-        {
-            return Some(End::Real(dead.at));
-        }
-        let conjugate = point.at.map(|z| z.conj());
-        let same = |known: &Configuration<C>| {
-            complex
-                .apart(known, &point.at)
-                .min(complex.apart(known, &conjugate))
-                < SAME
-        };
-        if (self.crossings.iter()).any(|(known, sense)| *sense == up && same(known)) {
-            return Some(End::Through);
-        }
-        self.crossings.push((point.at.clone(), up));
-        let at = complex.value(&point.at);
-        let mut places = Vec::new();
-        for direction in &point.directions {
-            for sign in [1.0, -1.0] {
-                let direction: Vec<f64> = direction.iter().map(|x| sign * x).collect();
-                let left = method.leave(complex, &point.at, &direction);
-                let on = left.filter(|(to, _)| (complex.value(&to.at) > at) == up);
-                places.extend(on.map(|(to, _)| complex.going(to, up)));
-            }
-        }
-        (!places.is_empty()).then_some(End::Crossing(places))
-    }
 }

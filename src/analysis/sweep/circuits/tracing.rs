@@ -148,15 +148,22 @@ impl<'a> Tracing<'a> {
         }
     }
 
-    /// A place on the same branch where steps are long: beside a crossing none leads from place to place.
+    /// A place on the same branch where steps are long and no joint turns back: beside a crossing no step leads from place
+    /// to place, and at a dead point rounding decides whether the curve begins before or behind it.
     fn clear(&mut self, place: At) -> At {
         const CLEAR: f64 = 0.02;
+        const TURNING: f64 = 1e-3;
         const STEPS: usize = 60;
+        let joints = 0..self.mechanism.joints().len();
+        let columns: Vec<usize> = joints
+            .filter_map(|joint| self.curve.column(joint))
+            .collect();
+        let turns = |place: &At| columns.iter().any(|j| place.tangent[*j].abs() < TURNING);
         let clearance = |place: &At| place.least() / place.largest();
-        let mut best = place.clone();
+        let (mut best, mut turning) = (place.clone(), turns(&place));
         let mut walk = Walk::new(self.mechanism, &self.curve, place, self.method().clone());
-        for _ in 0..STEPS {
-            if clearance(&best) >= CLEAR {
+        for steps in 0..STEPS {
+            if clearance(&best) >= CLEAR && (!turning || steps > 3) {
                 break;
             }
             let Ok(leg) = walk.advance(&mut self.curve) else {
@@ -165,8 +172,10 @@ impl<'a> Tracing<'a> {
             if leg.events.iter().any(|(_, event)| event.ends()) {
                 break;
             }
-            if clearance(&leg.to) > clearance(&best) {
+            // where joints stand still anything is better than where one turns back
+            if clearance(&leg.to) > clearance(&best) || turning && clearance(&leg.to) >= CLEAR {
                 best = leg.to;
+                turning = turns(&best);
             }
         }
         best

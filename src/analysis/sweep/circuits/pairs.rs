@@ -1,0 +1,162 @@
+//! Pairs of conjugate configurations followed until they are real.
+
+use super::tracing::SAME;
+use crate::linear::norm;
+use crate::mechanism::Configuration;
+use crate::number::Complex;
+use crate::solve::{Continuation, Place, Watch};
+use crate::system::{ComplexCurve, Curve};
+
+type C = Complex<f64>;
+
+/// Where a path of complex configurations ended.
+pub(super) enum End {
+    /// At a real configuration.
+    Real(Configuration<f64>),
+    /// Where the joint has gone all its way, or where a path came before.
+    Through,
+    /// At infinity, where the joint has this value.
+    Pole(f64),
+    /// Where other paths cross, on all that go on from there.
+    Crossing(Vec<Place<Configuration<C>>>),
+    Lost,
+}
+
+/// A path this near to real configurations has come to one, if it is a dead point.
+pub(super) const ARRIVED: f64 = 1e-3;
+
+pub(super) struct Paths<'a> {
+    pub complex: ComplexCurve,
+    pub method: Continuation,
+    pub value: f64,
+    pub reach: f64,
+    /// Those that a path came to, with the sense in which it went.
+    pub crossings: Vec<(Configuration<C>, bool)>,
+    pub steps: usize,
+    pub watch: &'a Watch<'a>,
+}
+
+impl Paths<'_> {
+    /// Steps after which a path is given up, and after which all are.
+    const STEPS: usize = 4_000;
+    const ALL_STEPS: usize = 50_000;
+
+    /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
+    pub fn leaving(
+        &mut self,
+        fold: &Configuration<C>,
+        tangent: &[f64],
+        up: bool,
+    ) -> Option<Place<Configuration<C>>> {
+        let direction = self.complex.off_real(tangent);
+        let (place, _) = self.method.leave(&mut self.complex, fold, &direction)?;
+        let beyond = (self.complex.value(&place.at) > self.complex.value(fold)) == up;
+        beyond.then(|| self.complex.going(place, up))
+    }
+
+    /// Follows a path until it is real, or the joint has gone all its way.
+    pub fn follow(
+        &mut self,
+        real: &mut Curve,
+        mut place: Place<Configuration<C>>,
+        (up, joint): (bool, usize),
+    ) -> End {
+        /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
+        const INFINITE: f64 = 9.0;
+        const FAR: f64 = 5.0;
+        let mut length = 0.1 * self.method.longest;
+        let mut before = 0.0;
+        let mut none_ahead = false;
+        for _ in 0..Self::STEPS {
+            self.steps += 1;
+            if self.watch.is_stopped() || self.steps > Self::ALL_STEPS {
+                break;
+            }
+            let gone = self.complex.value(&place.at) - self.value;
+            if gone.abs() >= self.reach && (gone > 0.0) == up {
+                return End::Through;
+            }
+            match self.method.step(&mut self.complex, &place, length) {
+                Ok((to, changed)) => {
+                    length = self.method.next_length(length, changed, &to);
+                    place = to;
+                    none_ahead = false;
+                }
+                Err(_) if !none_ahead && length < 1e-3 * self.method.longest => {
+                    none_ahead = true;
+                    match self.beyond(real, &place, up) {
+                        Some(end) => return end,
+                        None => continue,
+                    }
+                }
+                Err(_) => {
+                    length *= 0.5;
+                    if length < self.method.shortest {
+                        let far = self.complex.split(&place.at).0 > FAR;
+                        return match far {
+                            true => End::Pole(self.complex.value(&place.at)),
+                            false => End::Lost,
+                        };
+                    }
+                    continue;
+                }
+            }
+            let (imaginary, beside) = self.complex.split(&place.at);
+            if imaginary < ARRIVED
+                && imaginary < before
+                && let Ok(dead) = self.method.settle(real, beside.clone())
+                && let column = real.column(joint).expect("the joint moves")
+                && dead.tangent[column].abs() < 0.1
+                && norm(&real.difference_but_turns(&beside, &dead.at)) < 0.1 * imaginary
+            {
+                return End::Real(dead.at);
+            }
+            if imaginary > INFINITE {
+                return End::Pole(self.complex.value(&place.at));
+            }
+            before = imaginary;
+        }
+        End::Lost
+    }
+
+    /// What is beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
+    /// another one does not; they leave with every loop turned by i that met its conjugate.
+    fn beyond(
+        &mut self,
+        real: &mut Curve,
+        place: &Place<Configuration<C>>,
+        up: bool,
+    ) -> Option<End> {
+        let (method, complex) = (&self.method, &mut self.complex);
+        let reach = 0.2 * method.longest;
+        let point = method.branch_point(complex, &place.at, reach)?;
+        let (imaginary, beside) = complex.split(&point.at);
+        if imaginary < SAME
+            && let Ok(dead) = method.settle(real, beside)
+        {
+            return Some(End::Real(dead.at));
+        }
+        let conjugate = point.at.map(|z| z.conj());
+        let same = |known: &Configuration<C>| {
+            complex
+                .apart(known, &point.at)
+                .min(complex.apart(known, &conjugate))
+                < SAME
+        };
+        if (self.crossings.iter()).any(|(known, sense)| *sense == up && same(known)) {
+            return Some(End::Through);
+        }
+        self.crossings.push((point.at.clone(), up));
+        let at = complex.value(&point.at);
+        let mut places = Vec::new();
+        for direction in &point.directions {
+            for sign in [1.0, -1.0] {
+                let direction: Vec<f64> = direction.iter().map(|x| sign * x).collect();
+                let left = method.leave(complex, &point.at, &direction);
+                let on = left.filter(|(to, _)| (complex.value(&to.at) > at) == up);
+                places.extend(on.map(|(to, _)| complex.going(to, up)));
+            }
+        }
+        (!places.is_empty()).then_some(End::Crossing(places))
+    }
+}
