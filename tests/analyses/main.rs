@@ -26,6 +26,7 @@ mod statics;
 mod stretched;
 mod suspension;
 mod sweep;
+mod turns;
 mod velocity;
 mod watched;
 mod workspace;
