@@ -6,6 +6,7 @@
 //! [`question`](Question) says what is held, [`search`](Search) assembles, and [`curve`](Curve)
 //! follows one-parameter curves of configurations.
 
+mod branch;
 mod closed_form;
 mod curve;
 mod enclosure;
@@ -18,6 +19,7 @@ mod sets;
 mod tangent;
 
 pub use crate::mechanism::{PointError, Value, ValueError};
+pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
     Bound, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
@@ -26,8 +28,8 @@ pub use curve::{
 pub(crate) use enclosure::Enclosure;
 pub(crate) use equations::solve;
 pub use equations::{
-    BRANCH_CHANGE, BRANCH_STEP, ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts,
-    HeldPlatform, Places, Spin, System, Unknown, Work, approach, independent_parts,
+    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,
+    System, Unknown, Work, approach, independent_parts,
 };
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
