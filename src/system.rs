@@ -6,6 +6,7 @@
 //! [`question`](Question) says what is held, [`search`](Search) assembles, and [`curve`](Curve)
 //! follows one-parameter curves of configurations.
 
+mod branch;
 mod closed_form;
 mod curve;
 mod enclosure;
@@ -18,6 +19,7 @@ mod sets;
 mod tangent;
 
 pub use crate::mechanism::{PointError, Value, ValueError};
+pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
     Bound, ComplexCurve, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor,
@@ -25,8 +27,8 @@ pub use curve::{
 };
 pub(crate) use enclosure::Enclosure;
 pub use equations::{
-    BRANCH_CHANGE, BRANCH_STEP, ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts,
-    HeldPlatform, Places, Spin, System, Unknown, Work, approach, independent_parts,
+    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,
+    System, Unknown, Work, approach, independent_parts,
 };
 pub(crate) use equations::{Course, solve};
 pub use joint_space::Unfit;

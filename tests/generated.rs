@@ -12,9 +12,11 @@ use std::process::Command;
 use linkwork::algebra::SiUnit;
 use linkwork::analysis::solver::{Component, NoSolver, Solver};
 use linkwork::ask::{Example, Question};
+use linkwork::description::Description;
+use linkwork::linear::singular_values;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::solver::{Code, Language, Precision};
-use linkwork::solve::Watch;
+use linkwork::solve::{Equations, Watch};
 
 /// Configurations that every solver is run through.
 const CONFIGURATIONS: usize = 10_000;
@@ -625,6 +627,152 @@ int main(void)
             .unwrap();
         assert!(worst < 1e-7, "{name}: {worst:e}");
     }
+}
+
+/// A crank that moves nothing else: a closure does not depend on the input, so that functions do not use it.
+#[test]
+fn code_without_a_use_of_its_inputs_compiles() {
+    let text = r#"Mechanism(version: 1, name: "m", convention: Modified,
+        joints: { "t": Actuated(home: 0.3), "a": Passive(home: 0.6), "b": Passive(home: 1.2) },
+        chains: { "crank": Chain(rows: [(theta: "t")], tip: [Tx(1)]),
+            "L": Chain(rows: [(theta: "a"), (a: 1, theta: "b")], tip: [Tx(1)]),
+            "P": Chain(base: [Tx(1.5)]) },
+        closures: { "k": Revolute("L", "P") })"#;
+    let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+    let question = Question::new(mechanism);
+    let solver = written(&question).unwrap();
+    let folder = folder("unused");
+    let solvers = [("unused".to_owned(), question, solver)];
+    let data = folder.join("examples");
+    examples(&solvers, &data);
+    judged(
+        &all_rust(&folder, &solvers, CONFIGURATIONS),
+        &data,
+        &solvers,
+        1e-12,
+    );
+    if has_cc() {
+        judged(
+            &all_c(&folder, &solvers, CONFIGURATIONS),
+            &data,
+            &solvers,
+            1e-12,
+        );
+    }
+}
+
+/// Rates against differences of states, the margin against the singular values of the library's Jacobian, and limits.
+#[test]
+fn rates_margins_and_limits_are_those_of_the_mechanism() {
+    if !has_cc() {
+        return;
+    }
+    for name in ["four_bar", "three_rps", "stewart_gough_6sps", "planar_3rpr"] {
+        let question = load(name);
+        let mut solver = written(&question).unwrap();
+        let folder = folder(&format!("rates_{name}"));
+        // the first input may not go farther than a little above the start
+        let input = &mut solver.inputs[0];
+        input.limits = Some((input.value - 1.0, input.value + 1e-3));
+        let text = code(Language::C, "made").solver(&solver);
+        fs::write(folder.join("made.h"), text).unwrap();
+        fs::write(
+            folder.join("main.c"),
+            r#"#include <stdio.h>
+#include "made.h"
+int main(void)
+{
+    const double h = 1e-4;
+    static double rate[MADE_STATE][MADE_INPUTS];
+    double worst = 0, u[MADE_INPUTS], x[MADE_STATE];
+    int k, i, side;
+    if (!made_rates(made_start_inputs, made_start_state, rate)) return 1;
+    for (k = 0; k < MADE_INPUTS; ++k) {
+        double at[2][MADE_STATE];
+        for (side = 0; side < 2; ++side) {
+            for (i = 0; i < MADE_INPUTS; ++i) u[i] = made_start_inputs[i] + (i == k ? (2 * side - 1) * h : 0);
+            for (i = 0; i < MADE_STATE; ++i) at[side][i] = made_start_state[i];
+            if (made_solve(u, at[side]) != MADE_SOLVED) return 2;
+        }
+        for (i = 0; i < MADE_STATE; ++i) {
+            worst = made_larger(worst, (at[1][i] - at[0][i]) / (2 * h) - rate[i][k]);
+        }
+    }
+    for (i = 0; i < MADE_INPUTS; ++i) u[i] = made_start_inputs[i] + (i == 0 ? 2e-3 : 0);
+    for (i = 0; i < MADE_STATE; ++i) x[i] = made_start_state[i];
+    printf("%.3e %.17e %d\n", worst, made_margin(made_start_inputs, made_start_state), made_solve(u, x));
+    return 0;
+}
+"#,
+        )
+        .unwrap();
+        let program = folder.join("main");
+        let main = folder.join("main.c");
+        compiled(cc().arg(main).arg("-o").arg(&program).arg("-lm"));
+        let output = Command::new(&program).output().unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        let words: Vec<f64> = said
+            .split_whitespace()
+            .map(|x| x.parse().unwrap())
+            .collect();
+        let [worst, margin, verdict] = words[..] else {
+            panic!("{name}: {said} {}", output.status);
+        };
+        assert!(worst < 1e-5, "{name}: {worst:e}");
+        // beyond the limits: the sixth verdict
+        assert_eq!(verdict, 5.0, "{name}");
+        if solver.placed.is_empty() {
+            let least = least_singular_value(&question);
+            let unknowns = solver.unknowns as f64;
+            let within =
+                margin <= least * (1.0 + 1e-6) && margin >= least / unknowns.sqrt() * (1.0 - 1e-6);
+            assert!(within, "{name}: {margin} beside {least}");
+        }
+    }
+}
+
+/// Of the Jacobian at the start of the solver.
+fn least_singular_value(question: &Question) -> f64 {
+    let of = question.resolved().unwrap();
+    let report = linkwork::analysis::assembly::assemble(&of, &Default::default(), &Watch::none());
+    let (system, at) = (of.system(), report.unwrap().configuration());
+    let mut work = system.work();
+    system.linearise(&at, &mut work);
+    let (rows, unknowns) = (system.rows(), system.unknowns().len());
+    let jacobian = system.dense_jacobian(&work);
+    *singular_values(rows, unknowns, &jacobian).last().unwrap()
+}
+
+/// After inputs changed by 1.1 mm Newton's method ended at another assembly, far from any singularity.
+#[test]
+fn a_platform_whose_assemblies_are_close_is_followed_on_its_branch() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/close_assemblies.ron");
+    let question = Question::new(Mechanism::load(path).unwrap());
+    let solver = written(&question).unwrap();
+    let examples = question.examples(100, &Watch::none()).unwrap();
+    assert_eq!(examples.len(), 100);
+    let folder = folder("close_assemblies");
+    let code = code(Language::Rust, "close");
+    fs::write(folder.join("close.rs"), code.solver(&solver)).unwrap();
+    let run = |examples: &[Example]| {
+        let program = rust_program(&folder, &code.test(&solver, examples));
+        let output = Command::new(program).output().unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        (output.status.code(), said)
+    };
+    let (status, said) = run(&examples);
+    let right =
+        "close: 100 configurations, 0 searches failed, 0 configurations differ by more than 1e-9";
+    assert!(status == Some(0) && said.starts_with(right), "{said}");
+    // a wrong configuration among them is counted, and said
+    let mut wrong = examples;
+    wrong[7].1[6] += 1e-3;
+    let (status, said) = run(&wrong);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(
+        said.contains("1 configurations differ") && said.contains("FAILED"),
+        "{said}"
+    );
 }
 
 /// However few are asked for, so that a solver that starts at one finds the next and no other assembly.

@@ -8,6 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use super::{AskError, Question, Role};
 use crate::algebra::BATCH;
 use crate::analysis::solver::{Follower, Following};
+use crate::linear::DENSE_LIMIT;
 use crate::solve::{Watch, each};
 use crate::system::{self, Coordinate, HeldPlatform, check_count};
 use rows::{Block, Rows};
@@ -35,8 +36,9 @@ impl Question {
     /// The configuration for each row of values of the named coordinates, which are held: `values` are row by row, in m
     /// and rad.
     ///
-    /// The path begins at the configuration of the question, in its mode, and goes straight from row to row, so each row is
-    /// on the branch of the row before it unless the path between them is lost; after at most 256 rows it begins again.
+    /// The path begins at the configuration of the question, in its mode, and goes straight from row to row, in steps that
+    /// are certain to keep to the branch, so each row is on the branch of the row before it unless the path between them
+    /// is lost; after at most 256 rows it begins again.
     /// Unsorted values of one coordinate, most of them far from the one before, are followed from the least to the greatest.
     /// Where there are 1,000 rows and more, 32 paths are followed at a time in the widest vector registers of the processor,
     /// on all cores, with the same results on any number of cores and in registers of any width. A row to which no path
@@ -116,7 +118,8 @@ impl Question {
         };
         all.order = all.order(rows);
         let settings = Following::default();
-        let follower = (rows >= FEW)
+        // of many unknowns no program makes the inverse by which motions are certain to keep to their branches
+        let follower = (rows >= FEW && all.system.unknowns().len() <= DENSE_LIMIT)
             .then(|| Follower::new(&question, &all.start, &coordinates, settings).ok())
             .flatten();
         let most = ROWS * follower.as_ref().map_or(1, |_| BATCH);

@@ -62,7 +62,7 @@ impl Question {
     }
 }
 
-/// Configurations as long as Newton's method closes from one to the next.
+/// Configurations as long as Newton's method closes from one to the next on its branch, and joints stay within limits.
 fn follow(
     question: &system::Question,
     start: &Configuration<f64>,
@@ -94,6 +94,7 @@ fn follow(
         });
         values.collect::<Vec<_>>()
     };
+    let outside = |at: &Configuration<f64>| mechanism.outside_limits(&at.joints).count();
     let newton = Newton::default();
     let mut found: Vec<Example> = Vec::with_capacity(count);
     let (mut system, mut at, mut trial) = (question.system(), start.clone(), start.clone());
@@ -116,7 +117,9 @@ fn follow(
         }
         trial.clone_from(&at);
         let report = newton.solve(&system, &mut at, &mut trial, &mut work);
-        if report.stop != Stop::Solved || !system.is_on_branch_of(&before, &at, &mut work) {
+        let leaves = outside(&at) > outside(start);
+        if report.stop != Stop::Solved || leaves || !system.is_on_branch_of(&before, &at, &mut work)
+        {
             break;
         }
         found.push(values(question, &at));

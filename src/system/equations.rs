@@ -1,5 +1,4 @@
 mod approach;
-mod branch;
 mod closure_gap;
 mod closures;
 mod coordinate;
@@ -14,7 +13,6 @@ mod settle;
 mod spin;
 
 pub use approach::approach;
-pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
 pub use closure_gap::Gap;
 pub use closures::{ClosureAxes, ClosureWrenches};
 pub use coordinate::Coordinate;

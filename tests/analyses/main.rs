@@ -27,6 +27,7 @@ mod statics;
 mod stretched;
 mod suspension;
 mod sweep;
+mod turns;
 mod velocity;
 mod watched;
 mod whole_motions;

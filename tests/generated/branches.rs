@@ -4,9 +4,7 @@
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use linkwork::algebra::BATCH;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};

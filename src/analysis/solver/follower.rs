@@ -5,15 +5,14 @@
 
 mod certain;
 mod past;
+mod recording;
 
 use super::curvature::Curvature;
-use super::iteration::{Iteration, numbered, places};
-use super::{LEAST_PIVOT, NoSolver, Plan, Variable};
-use crate::algebra::{BATCH, Batch, Place, Recorded, Registers, eliminate, record};
-use crate::linear::DENSE_LIMIT;
+use super::{NoSolver, Plan, Variable};
+use crate::algebra::{BATCH, Batch, Place, Registers, record};
 use crate::mechanism::Configuration;
-use crate::number::{Number, widest};
-use crate::system::{Coordinate, Question, System};
+use crate::number::widest;
+use crate::system::{Coordinate, Question};
 use certain::{Certain, Jacobians};
 use past::{Mask, Past};
 
@@ -386,91 +385,5 @@ fn trust_each(motions: &mut Mask, doubt: &[f64; BATCH]) {
 fn agree_each(motions: &mut Mask, numbers: &[f64; BATCH], negative: bool) {
     for i in 0..BATCH {
         motions[i] &= bits((numbers[i] < 0.0) == negative);
-    }
-}
-
-impl Plan<'_> {
-    /// Records the iteration and what follows from it. The inputs are the held values that change, then the state.
-    fn recorded(
-        &self,
-        changing: &[usize],
-        values: &[f64],
-        longest: f64,
-    ) -> Result<Results<Place>, NoSolver> {
-        let input = |(i, &value): (usize, &f64)| match changing.iter().position(|of| *of == i) {
-            Some(number) => Recorded::input(number),
-            None => Recorded::from_f64(value),
-        };
-        let inputs: Vec<Recorded> = values.iter().enumerate().map(input).collect();
-        let state = (0..self.state.len()).map(|i| Recorded::input(changing.len() + i));
-        let mut state: Vec<Recorded> = state.collect();
-        let (held, at) = self.posed(&inputs, &state);
-        let dimensions = self.dimensions();
-        let system = System::new(&dimensions, &held);
-        let Iteration {
-            rows,
-            step,
-            pivots,
-            placed,
-            placing,
-            jacobian,
-        } = match self.placing(&system, held, &dimensions, &at) {
-            Some(few) => few,
-            None => self.on_all(&system, &at)?,
-        };
-        let unknowns = step.len();
-        let unit = |row: usize| {
-            let entries = (0..rows.len()).map(|i| if i == row { 1.0 } else { 0.0 });
-            entries.map(Recorded::from_f64).collect()
-        };
-        let units = (0..rows.len()).map(unit).collect();
-        let columns = match unknowns <= DENSE_LIMIT {
-            true => eliminate(jacobian.clone(), units, unknowns).map_or_else(|_| vec![], |of| of.0),
-            false => Vec::new(),
-        };
-        let inverse = (0..unknowns)
-            .map(|k| columns.iter().map(|column| column[k].place()).collect())
-            .collect();
-        let squares = |of: Vec<Recorded>| {
-            let all = of.into_iter();
-            all.fold(Recorded::zero(), |sum, x| sum + x * x)
-        };
-        let size = squares(
-            rows.iter()
-                .map(|(row, factor)| row.scale(*factor))
-                .collect(),
-        );
-        let too_long = step.iter().map(|(_, x)| x.scale(1.0 / longest));
-        let too_small = (pivots.iter()).map(|pivot| pivot.inverse.scale(pivot.scale * LEAST_PIVOT));
-        let doubt = squares(too_long.chain(too_small).collect());
-        // what is made of their pivots is their root
-        let small = placing.iter().map(|pivot| {
-            let least = Recorded::from_f64(pivot.scale * LEAST_PIVOT);
-            least / (pivot.inverse * pivot.inverse)
-        });
-        let small = squares(small.collect());
-        let mut along = vec![Recorded::zero(); system.unknowns().len()];
-        step.iter().for_each(|&(i, x)| along[i] = x);
-        let moved = system.displaced(&at, &along);
-        let moved = self.state.iter().enumerate().filter_map(|(i, variable)| {
-            let free = placed.iter().all(|(of, _)| *of != i);
-            free.then(|| variable.of(self.mechanism, &moved))
-        });
-        let moved: Vec<Recorded> = moved.collect();
-        placed.iter().for_each(|&(i, x)| state[i] = x);
-        let (_, reached) = self.posed(&inputs, &state);
-        let columns =
-            Coordinate::all(self.mechanism).map(|of| of.of(self.mechanism, &reached).place());
-        Ok(Results {
-            size: size.place(),
-            doubt: doubt.place(),
-            moved: places(&moved),
-            placed: numbered(&placed),
-            placing: small.place(),
-            columns: columns.collect(),
-            decided: Recorded::decisions(),
-            jacobian: jacobian.iter().map(|row| places(row)).collect(),
-            inverse,
-        })
     }
 }
