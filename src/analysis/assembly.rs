@@ -177,7 +177,12 @@ impl Reporter<'_> {
             frames: frames.collect(),
             centre: mechanism.dimensions().centre,
             platforms: platforms
-                .map(|(part, pose)| (part.name.clone(), PlatformRecord::of(&mechanism.in_ground(pose))))
+                .map(|(part, pose)| {
+                    (
+                        part.name.clone(),
+                        PlatformRecord::of(&mechanism.in_ground(pose)),
+                    )
+                })
                 .collect(),
             gaps: (mechanism.closures().iter().zip(gaps))
                 .map(|(closure, gap)| (closure.name.clone(), gap))

@@ -390,7 +390,10 @@ mod tests {
             (driven[5], 0.1),
         ] {
             let to = of.of(steering.mechanism(), steering.at()) + way;
-            let before: Vec<f64> = driven.iter().map(|of| of.of(steering.mechanism(), steering.at())).collect();
+            let before: Vec<f64> = driven
+                .iter()
+                .map(|of| of.of(steering.mechanism(), steering.at()))
+                .collect();
             let report = steering.move_to(&[(of, to)], watch);
             assert_eq!(report.ending, SweepEnd::Complete);
             for (other, before) in driven.iter().zip(before) {

@@ -77,7 +77,10 @@ impl Question {
         let Some(home) = closed(own.resolved()?, RESTARTS) else {
             return Ok(None);
         };
-        let values: Vec<f64> = axes.iter().map(|axis| axis.coordinate.of(&self.mechanism, &home)).collect();
+        let values: Vec<f64> = axes
+            .iter()
+            .map(|axis| axis.coordinate.of(&self.mechanism, &home))
+            .collect();
         let question = self.with_inputs(self.released()?, &values)?;
         let question = match self.hold.is_empty() {
             true => question.near(&home),

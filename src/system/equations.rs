@@ -344,9 +344,10 @@ pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<Hold
     let mut rows = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {
         let single = held.coordinates().iter();
-        rows.extend(single.map(|&(c, value)| {
-            HoldRow::Coordinate(platform, c, c.from_centre(value, centre))
-        }));
+        rows.extend(
+            single
+                .map(|&(c, value)| HoldRow::Coordinate(platform, c, c.from_centre(value, centre))),
+        );
         rows.extend((held.orientation()).map(|wanted| HoldRow::Orientation(platform, wanted)));
         rows.extend(held.spins().iter().copied().map(HoldRow::Spin));
     }

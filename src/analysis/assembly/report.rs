@@ -6,9 +6,7 @@ use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::system::{
-    FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin,
-};
+use crate::system::{FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin};
 
 /// Freedoms that nothing held decides.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

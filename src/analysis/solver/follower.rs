@@ -380,7 +380,8 @@ impl Plan<'_> {
         let moved: Vec<Recorded> = moved.collect();
         placed.iter().for_each(|&(i, x)| state[i] = x);
         let (_, reached) = self.posed(&inputs, &state);
-        let columns = Coordinate::all(self.mechanism).map(|of| of.of(self.mechanism, &reached).place());
+        let columns =
+            Coordinate::all(self.mechanism).map(|of| of.of(self.mechanism, &reached).place());
         Ok(Results {
             size: size.place(),
             doubt: doubt.place(),

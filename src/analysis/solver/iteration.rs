@@ -131,9 +131,9 @@ impl Plan<'_> {
             .iter()
             .enumerate()
             .filter_map(|(i, variable)| match variable {
-                Variable::Orientation(platform, _) | Variable::Position(platform, _) => {
-                    own.contains(platform).then(|| (i, variable.of(self.mechanism, &reached)))
-                }
+                Variable::Orientation(platform, _) | Variable::Position(platform, _) => own
+                    .contains(platform)
+                    .then(|| (i, variable.of(self.mechanism, &reached))),
                 _ => None,
             });
         Some(Iteration {

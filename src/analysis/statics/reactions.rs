@@ -48,7 +48,11 @@ pub(super) fn of(
     };
     let mut acting: Vec<(Body, [Vector3<f64>; 2])> = Vec::new();
     for &(point, force, moment) in &load.wrenches {
-        let wrench = at_origin(mechanism.to_centre(point.at(mechanism, at)), Vector3(force), Vector3(moment));
+        let wrench = at_origin(
+            mechanism.to_centre(point.at(mechanism, at)),
+            Vector3(force),
+            Vector3(moment),
+        );
         acting.push((mechanism.body(point.frame), wrench));
     }
     let mut reactions = Vec::new();

@@ -43,7 +43,10 @@ impl Between {
         };
         // how far it goes one way, at the slower side
         let goes = |of: Coordinate| {
-            let steps = [of.from_centre(middle) - of.from_centre(first), of.from_centre(last) - of.from_centre(middle)];
+            let steps = [
+                of.from_centre(middle) - of.from_centre(first),
+                of.from_centre(last) - of.from_centre(middle),
+            ];
             match steps[0] * steps[1] > 0.0 {
                 true => steps[0].abs().min(steps[1].abs()) / of.scale(mechanism),
                 false => 0.0,
@@ -62,9 +65,17 @@ impl Between {
         };
         // rows that follow a schedule are equal parts of the time
         let part = match (&schedule, &moved[..]) {
-            (None, [Driven { coordinate, from, to }, ..]) => {
-                (coordinate.of(mechanism, middle) - from) / (to - from)
-            }
+            (
+                None,
+                [
+                    Driven {
+                        coordinate,
+                        from,
+                        to,
+                    },
+                    ..,
+                ],
+            ) => (coordinate.of(mechanism, middle) - from) / (to - from),
             _ => 0.5,
         };
         let held = holding(held, &moved)?;
@@ -83,7 +94,9 @@ impl Between {
     }
 
     fn far(&self, at: &Configuration<f64>) -> f64 {
-        let far = |(of, scale): &(Coordinate, f64)| (of.from_centre(at) - of.from_centre(&self.middle)).abs() / scale;
+        let far = |(of, scale): &(Coordinate, f64)| {
+            (of.from_centre(at) - of.from_centre(&self.middle)).abs() / scale
+        };
         self.scales.iter().map(far).fold(0.0, f64::max)
     }
 

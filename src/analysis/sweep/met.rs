@@ -169,7 +169,10 @@ impl<'m> Record<'m> {
             return;
         }
         let part = (!self.inputs.is_empty()).then(|| curve.part(at));
-        let inputs = self.inputs.iter().map(|input| input.coordinate.of(self.mechanism, at));
+        let inputs = self
+            .inputs
+            .iter()
+            .map(|input| input.coordinate.of(self.mechanism, at));
         self.so_far.met.push(Met {
             kind,
             part,

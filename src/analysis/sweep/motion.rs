@@ -150,7 +150,10 @@ impl Columns {
             let [.., roll, pitch, yaw] = PoseCoordinate::all_of(&platform.pose());
             let [x, y, z] = (platform.position + centre).0;
             let quaternion = platform.orientation.0.into_iter();
-            [x, y, z].into_iter().chain(quaternion).chain([roll, pitch, yaw])
+            [x, y, z]
+                .into_iter()
+                .chain(quaternion)
+                .chain([roll, pitch, yaw])
         });
         let points = row.points.iter().flatten().copied();
         let quantities = row.quantities.iter().map(|value| value.unwrap_or(f64::NAN));

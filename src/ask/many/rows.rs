@@ -126,7 +126,10 @@ impl Rows<'_> {
     }
 
     fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
-        self.coordinates.iter().map(|of| of.of(self.question.mechanism(), at)).collect()
+        self.coordinates
+            .iter()
+            .map(|of| of.of(self.question.mechanism(), at))
+            .collect()
     }
 
     /// The rows of a block in as many paths as there are motions side by side.

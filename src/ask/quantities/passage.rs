@@ -69,7 +69,9 @@ impl Passage<'_> {
     /// The inputs at a configuration.
     pub fn inputs(&self, at: &Configuration<f64>) -> Vec<f64> {
         let inputs = self.inputs.iter();
-        inputs.map(|input| input.coordinate.of(self.mechanism, at)).collect()
+        inputs
+            .map(|input| input.coordinate.of(self.mechanism, at))
+            .collect()
     }
 }
 

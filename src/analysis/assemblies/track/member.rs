@@ -92,7 +92,9 @@ impl MemberEquations {
                         position: Vector3([x[4], x[5], x[6]]),
                     }
                 }
-                Input::Target(p, coordinate) => self.system.set_target_from_centre(p, coordinate, x[0]),
+                Input::Target(p, coordinate) => {
+                    self.system.set_target_from_centre(p, coordinate, x[0])
+                }
                 Input::Orientation(p) => {
                     self.system.set_orientation(p, quaternion(x).rotation());
                 }

@@ -204,7 +204,8 @@ pub(crate) fn probe(
 fn nearest(problem: &MapProblem, grid: &Grid, at: &Configuration<f64>) -> Option<usize> {
     let (mut node, mut stride) = (0, 1);
     for (i, axis) in problem.axes.iter().enumerate() {
-        let place = ((axis.coordinate.of(problem.mechanism, at) - axis.from) / grid.spacing(i)).round();
+        let place =
+            ((axis.coordinate.of(problem.mechanism, at) - axis.from) / grid.spacing(i)).round();
         if !(place >= 0.0 && place < grid.count(i) as f64) {
             return None;
         }

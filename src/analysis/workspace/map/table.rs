@@ -54,7 +54,10 @@ impl Map<'_> {
                 bring(self.problem, joints, false);
                 let mut values = values.iter_mut();
                 for of_platform in following.chunk_by(|(a, _), (b, _)| a == b) {
-                    let pose = self.problem.mechanism.in_ground(&at.platforms[of_platform[0].0]);
+                    let pose = self
+                        .problem
+                        .mechanism
+                        .in_ground(&at.platforms[of_platform[0].0]);
                     let all = PoseCoordinate::all_of(&pose);
                     for ((_, c), value) in of_platform.iter().zip(&mut values) {
                         *value = all[*c as usize];

@@ -195,7 +195,13 @@ impl Targets {
     pub fn numbers(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let single = self.single.iter().map(|&(_, _, axis)| values[axis]);
         let turned = self.turned();
-        let turned = turned.flat_map(|whole| whole.at(values, &self.centre).rotation.0.map(|column| column.0));
+        let turned = turned.flat_map(|whole| {
+            whole
+                .at(values, &self.centre)
+                .rotation
+                .0
+                .map(|column| column.0)
+        });
         single.chain(turned.flatten())
     }
 
