@@ -333,7 +333,9 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
     names
         .iter()
         .filter_map(|name| Some((name, named(name)?)))
-        .fold(asked, |asked, (name, of)| asked.hold(name, of.of(mechanism, at)))
+        .fold(asked, |asked, (name, of)| {
+            asked.hold(name, of.of(mechanism, at))
+        })
 }
 
 /// A report as the command line prints it, with the configurations that it lists. It may be long: it is written once.

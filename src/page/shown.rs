@@ -63,7 +63,14 @@ pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
                 (range, joint_of.limits, driven)
             }
             _ if angle => ((-std::f64::consts::PI, std::f64::consts::PI), None, false),
-            _ => ((of.of(mechanism, &home) - length, of.of(mechanism, &home) + length), None, false),
+            _ => (
+                (
+                    of.of(mechanism, &home) - length,
+                    of.of(mechanism, &home) + length,
+                ),
+                None,
+                false,
+            ),
         };
         json!({
             "name": of.name(mechanism),
