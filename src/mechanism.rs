@@ -1,6 +1,7 @@
 //! The valid, immutable mechanism, and its kinematics over any number.
 
 mod build;
+mod centre;
 mod closure;
 mod configuration;
 mod coordinate;

@@ -228,7 +228,7 @@ impl Page {
             None => {
                 let steering = self.steering()?;
                 let values = steering.driven().iter();
-                let values = values.map(|of| (of.name(mechanism), of.of(steering.at())));
+                let values = values.map(|of| (of.name(mechanism), of.of(mechanism, steering.at())));
                 values.fold(asked, |asked, (name, value)| {
                     asked.let_go(&name).guess(name, value)
                 })
@@ -333,7 +333,9 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
     names
         .iter()
         .filter_map(|name| Some((name, named(name)?)))
-        .fold(asked, |asked, (name, of)| asked.hold(name, of.of(at)))
+        .fold(asked, |asked, (name, of)| {
+            asked.hold(name, of.of(mechanism, at))
+        })
 }
 
 /// A report as the command line prints it, with the configurations that it lists. It may be long: it is written once.

@@ -94,6 +94,7 @@ pub fn solver(
         mechanism: mechanism.name().into(),
         inputs: components(&plan.inputs, &inputs),
         state: components(&plan.state, &state),
+        centre: mechanism.dimensions().centre,
         operations,
         ..written
     })

@@ -195,7 +195,7 @@ mod tests {
         let mut steering = asked.steering(watch).unwrap();
         assert!(steering.gained(watch).unwrap().is_none());
         let rocker = steering.driven()[0];
-        let home = rocker.of(steering.at());
+        let home = rocker.of(steering.mechanism(), steering.at());
         steering.move_to(&[(rocker, home + 2.0)], watch);
         assert!(steering.is_stopped());
         let gained = steering.gained(watch).unwrap().unwrap();

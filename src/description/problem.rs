@@ -201,6 +201,16 @@ pub enum ProblemKind {
     /// A joint variable that moves no closure.
     #[error("the joint `{name}` moves no closure")]
     JointOutsideClosures { name: String },
+    /// Lengths in ground keep few digits of the mechanism's size.
+    #[error(
+        "the mechanism is {distance:.0e} m from the origin of ground and {size} m in size: positions in ground keep \
+         {digits} digits of its size"
+    )]
+    FarFromOrigin {
+        distance: f64,
+        size: f64,
+        digits: u32,
+    },
     /// A link length below zero: the x axis points the other way. Rows count from 1.
     #[error("row {row} of chain `{chain}` has the negative link length {a} m")]
     NegativeLinkLength {
@@ -249,6 +259,7 @@ impl ProblemKind {
             | Self::UnusedPlatform { .. }
             | Self::JointOutsideClosures { .. }
             | Self::NegativeLinkLength { .. }
+            | Self::FarFromOrigin { .. }
             | Self::HomeOutsideLimits { .. } => Severity::Warning,
             Self::Axes(problem) if problem.is_warning() => Severity::Warning,
             _ => Severity::Error,

@@ -182,7 +182,12 @@ impl Mechanism {
         }
         if !builder.problems.iter().any(refused) {
             match mechanism.centred(&builder.values) {
-                Ok(dimensions) => mechanism.set_dimensions(dimensions),
+                Ok(dimensions) => {
+                    mechanism.set_dimensions(dimensions);
+                    if let Some(kind) = mechanism.far_away() {
+                        builder.refuse(kind, &description.name.span);
+                    }
+                }
                 // the parts were evaluated one by one above; only their combination can fail
                 Err(error) => builder.refuse(ProblemKind::NoValue(error.kind), &error.span),
             }

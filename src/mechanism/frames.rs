@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::configuration::{Configuration, PlatformPose};
+use super::configuration::Configuration;
 use super::kinematics::Kinematics;
 use super::model::{
     Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Row, Symbol,
@@ -10,8 +10,7 @@ use super::model::{
 use super::{Dimensions, Frame, Mechanism, Quantity};
 use crate::algebra::Affine;
 use crate::description::{Coordinates, GROUND, Problem};
-use crate::geometry::{Pose, Vector3};
-use crate::number::Number;
+use crate::geometry::Pose;
 
 /// A rigid body: what is fixed to one another whatever the joints do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -188,52 +187,6 @@ impl Mechanism {
     pub fn transform(&self, relative_to: Frame, of: Frame, at: &Configuration<f64>) -> Pose<f64> {
         let poses = self.poses_about_centre(&[relative_to, of], at);
         poses[0].inverse() * poses[1]
-    }
-
-    /// The pose of a platform in ground, positions in m: that of a configuration is given from the
-    /// [centre](Dimensions::centre).
-    pub fn in_ground<T: Number>(&self, platform: &PlatformPose<T>) -> Pose<T> {
-        self.shifted(platform.pose())
-    }
-
-    /// The pose in a configuration of a platform with this pose in ground.
-    pub fn from_ground(&self, pose: &Pose<f64>) -> PlatformPose<f64> {
-        let mut from_centre = *pose;
-        from_centre.position = self.to_centre(pose.position);
-        PlatformPose::from_pose(&from_centre)
-    }
-
-    /// From the centre to ground.
-    pub(crate) fn shifted<T: Number>(&self, mut pose: Pose<T>) -> Pose<T> {
-        pose.position = self.to_ground(pose.position);
-        pose
-    }
-
-    /// A place in ground from one given from the centre.
-    pub(crate) fn to_ground<T: Number>(&self, place: Vector3<T>) -> Vector3<T> {
-        match self.dimensions.centre == [0.0; 3] {
-            true => place,
-            false => place + Vector3(self.dimensions.centre.map(T::from_f64)),
-        }
-    }
-
-    /// The place in ground of an axis that is nearest to its origin, given that nearest to the centre and its direction.
-    pub(crate) fn foot(&self, place: Vector3<f64>, along: &Vector3<f64>) -> Vector3<f64> {
-        match self.dimensions.centre == [0.0; 3] {
-            true => place,
-            false => {
-                let place = self.to_ground(place);
-                place - along.times(place.dot(along) / along.dot(along))
-            }
-        }
-    }
-
-    /// The same place from the centre.
-    pub(crate) fn to_centre<T: Number>(&self, place: Vector3<T>) -> Vector3<T> {
-        match self.dimensions.centre == [0.0; 3] {
-            true => place,
-            false => place - Vector3(self.dimensions.centre.map(T::from_f64)),
-        }
     }
 
     /// Ground from the frame of that name, positions in m; `None` if there is no such frame.

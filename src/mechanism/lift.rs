@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::centre::nearest;
 use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
@@ -156,33 +157,6 @@ impl Mechanism {
         Ok(dimensions)
     }
 
-    /// The dimensions for given values of the parameters about a centre that is near to the bases there: the one there is,
-    /// or the origin, or else the place of the box round the bases that is nearest to it.
-    pub(super) fn centred(&self, parameters: &[f64]) -> Result<Dimensions<f64>, EvaluationError> {
-        /// Within so many characteristic lengths no more than a digit is lost.
-        const NEAR: f64 = 10.0;
-        let dimensions = self.dimensions_over(parameters)?;
-        let near = NEAR * dimensions.characteristic_length;
-        let mut places: Vec<[f64; 3]> = places_on_ground(&dimensions)
-            .into_iter()
-            .map(|(_, place)| place)
-            .collect();
-        if places.is_empty() {
-            let homes = self.home().platforms.into_iter();
-            places.extend(homes.map(|pose| pose.position.0));
-        }
-        let from_centre = Vector3(nearest(&places));
-        if from_centre.norm() <= near {
-            return Ok(dimensions);
-        }
-        let centre = Vector3(dimensions.centre) + from_centre;
-        let centre = match centre.norm() <= near {
-            true => [0.0; 3],
-            false => centre.0,
-        };
-        self.dimensions_about(centre, parameters)
-    }
-
     /// The same mechanism with the characteristic length that belongs to its dimensions and to lengths that are held,
     /// in m; `None` if it has that already.
     ///
@@ -264,20 +238,9 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
     distances.collect::<Vec<_>>().into_iter()
 }
 
-/// The place of the box round some places that is nearest to the centre.
-fn nearest(places: &[[f64; 3]]) -> [f64; 3] {
-    std::array::from_fn(|axis| {
-        let along = places.iter().map(|place| place[axis]);
-        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-            [low.min(x), high.max(x)]
-        });
-        low.max(high.min(0.0))
-    })
-}
-
 /// The bases of chains on the ground, and ground where closures join it, from the centre; those of one part of the
 /// mechanism have one number.
-fn places_on_ground<T: Number>(dimensions: &Dimensions<T>) -> Vec<(usize, [f64; 3])> {
+pub(super) fn places_on_ground<T: Number>(dimensions: &Dimensions<T>) -> Vec<(usize, [f64; 3])> {
     let chains = &dimensions.chains;
     let platform = |platform: usize| Some(chains.len() + platform);
     let body = |frame: Frame| match frame {

@@ -126,6 +126,10 @@ impl Code {
         let mut state = solver.state.iter();
         if state.any(|component| component.unit.to_string().is_empty()) {
             lines += "qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.\n";
+            if solver.centre != [0.0; 3] {
+                let [x, y, z] = solver.centre;
+                lines += &format!("Its position is from ({x}, {y}, {z}) m in ground.\n");
+            }
         }
         if !solver.frames.is_empty() {
             lines += "\nFrames:\n";

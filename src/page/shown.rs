@@ -63,7 +63,14 @@ pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
                 (range, joint_of.limits, driven)
             }
             _ if angle => ((-std::f64::consts::PI, std::f64::consts::PI), None, false),
-            _ => ((of.of(&home) - length, of.of(&home) + length), None, false),
+            _ => (
+                (
+                    of.of(mechanism, &home) - length,
+                    of.of(mechanism, &home) + length,
+                ),
+                None,
+                false,
+            ),
         };
         json!({
             "name": of.name(mechanism),
@@ -87,7 +94,7 @@ pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
 /// The coordinates as they are, in the order of [`mechanism`]: in rad or m, and as they are read.
 pub fn values(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Value> {
     let values = Coordinate::all(mechanism).map(|of| {
-        let value = of.of(at);
+        let value = of.of(mechanism, at);
         let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
         json!([value, quantity(value, unit)])
     });

@@ -869,3 +869,80 @@ fn what_is_locked_stands_where_the_mechanism_is_closed() {
     };
     assert_eq!((item.role, item.index), (ask::Role::Lock, 0));
 }
+
+/// Cranks on a line, each joined to the next by a coupler: with every crank and coupler at 0 all bars lie on that line. The
+/// first crank is at an angle.
+fn cranks_in_a_row(lengths: &[[f64; 2]], angle: f64) -> Mechanism {
+    let (mut joints, mut chains, mut closures) = (String::new(), String::new(), String::new());
+    let mut pivot = 0.0;
+    for (i, [crank, coupler]) in lengths.iter().enumerate() {
+        let role = if i == 0 { "Actuated" } else { "Passive" };
+        let parallel = lengths.iter().all(|of| of == &lengths[0]);
+        let home = if i == 0 || parallel { angle } else { 0.0 };
+        joints += &format!("\"t{i}\": {role}(home: {home:?}), ");
+        chains += &format!(
+            "\"c{i}\": Chain(base: [Tx({pivot:?})], rows: [(theta: \"t{i}\")], tip: [Tx({crank:?})]), "
+        );
+        if let Some([next, _]) = lengths.get(i + 1) {
+            let home = if parallel { -angle } else { 0.0 };
+            joints += &format!("\"f{i}\": Passive(home: {home:?}), ");
+            chains += &format!(
+                "\"k{i}\": Chain(on: \"c{i}\", rows: [(theta: \"f{i}\")], tip: [Tx({coupler:?})]), "
+            );
+            closures += &format!("\"j{i}\": Revolute(\"k{i}\", \"c{}\"), ", i + 1);
+            pivot += crank + coupler - next;
+        }
+    }
+    read(&format!(
+        "Mechanism(version: 1, name: \"cranks in a row\", convention: Modified, joints: {{ {joints} }}, \
+         chains: {{ {chains} }}, closures: {{ {closures} }})"
+    ))
+}
+
+#[test]
+fn no_pose_near_a_singular_one_has_more_finite_freedoms_than_infinitesimal_ones() {
+    let rows = [
+        vec![[0.5, 1.0]; 6],
+        vec![[0.5, 1.0]; 4],
+        vec![
+            [1.0, 2.0],
+            [-0.7, 1.1],
+            [0.4, -1.6],
+            [1.3, 0.9],
+            [0.6, 2.2],
+            [0.8, 1.0],
+        ],
+        vec![
+            [1.0, 3.0],
+            [2.0, 1.5],
+            [0.9, 2.5],
+            [1.7, 1.2],
+            [0.8, 3.1],
+            [1.1, 1.0],
+        ],
+        vec![[0.3, 1.0], [0.9, 2.0], [0.5, 0.7], [1.5, 1.0]],
+    ];
+    for (which, lengths) in rows.iter().enumerate() {
+        for k in 1..=9 {
+            let mechanism = cranks_in_a_row(lengths, 10f64.powi(-k));
+            let question = Question::new(&mechanism);
+            let answer = mobility(&question, &MobilitySettings::default(), &Watch::none());
+            let Some(report) = answer.closed() else {
+                continue;
+            };
+            let said = format!(
+                "row {which} at 1e-{k}: {:?} {}",
+                report.character, report.mobility
+            );
+            assert!(report.mobility <= report.infinitesimal, "{said}");
+            assert_eq!(
+                report.rank + report.infinitesimal,
+                report.unknowns,
+                "{said}"
+            );
+            for branch in &report.branches {
+                assert!(branch.mobility <= report.infinitesimal, "{said}");
+            }
+        }
+    }
+}

@@ -5,6 +5,7 @@ mod certain;
 mod cold_starts;
 mod conjugates;
 mod endless;
+mod far;
 mod large;
 mod printed_assemblies;
 mod proofs;

@@ -12,7 +12,7 @@ use linkwork::solve::Watch;
 
 const SCALES: [f64; 4] = [1e-9, 1e-6, 1e3, 1e9];
 
-fn files() -> Vec<String> {
+pub fn files() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
     let within = |subfolder: &'static str| {
         let files = folder.join(subfolder).read_dir().unwrap();
@@ -27,7 +27,7 @@ fn files() -> Vec<String> {
     names
 }
 
-fn read(name: &str) -> Description {
+pub fn read(name: &str) -> Description {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"));
     let mut description = Description::read(&std::fs::read_to_string(path).unwrap()).unwrap();
     // printed in letters and numbers of the file's own size

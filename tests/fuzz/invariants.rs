@@ -411,14 +411,14 @@ fn rates(asked: &Asked, mechanism: &Mechanism, at: &Configuration<f64>, budget: 
         } else {
             length
         };
-        let here = coordinate.of(at);
+        let here = coordinate.of(mechanism, at);
         let mut fixed = Question::new(mechanism.clone()).free("actuated");
         for other in resolved.held_names() {
             let Ok((of, _)) = resolved.value(&other, "home") else {
                 continue;
             };
             if other != name {
-                fixed = fixed.hold(&other, of.of(at));
+                fixed = fixed.hold(&other, of.of(mechanism, at));
             }
         }
         let still = near(fixed.clone().hold(&name, here), mechanism, at);

@@ -93,7 +93,7 @@ pub(super) struct Search<'s, 'm> {
 impl Search<'_, '_> {
     pub fn find(&mut self, tangent: &Tangent) -> Finite {
         let freedoms = tangent.motions.len();
-        let whole = self.free(tangent);
+        let whole = self.finite(&vec![true; tangent.columns()], tangent);
         let gap = match &whole {
             Ok((_, gap)) | Err(gap) => *gap,
         };
@@ -156,7 +156,7 @@ impl Search<'_, '_> {
 
     /// The branches of an independent part, which is known to be singular if it is the `only` one.
     fn part(&mut self, own: &[bool], tangent: &Tangent, only: bool) -> Part {
-        if !only && let Ok((moved, _)) = self.free(tangent) {
+        if !only && let Ok((moved, _)) = self.finite(own, tangent) {
             let branch = Branch {
                 freedoms: tangent.motions.len(),
                 motions: tangent.motions.clone(),
@@ -257,9 +257,13 @@ impl Search<'_, '_> {
             }
         }
         // joints that were seen to move since
-        let (branches, share) = branches(&cone, n, &walk.seen, &limits);
+        let (mut branches, share) = branches(&cone, n, &walk.seen, &limits);
+        let seen = branches.len();
+        // what has more freedoms than there are infinitesimal ones here does not pass through here
+        branches.retain(|branch| branch.freedoms <= n);
+        let single = matches!(&branches[..], [one] if one.freedoms == n && !one.cone);
         Part {
-            regular: false,
+            regular: branches.len() < seen && single,
             // a function of one variable that vanishes nowhere nearby has no zero there
             complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
             branches,

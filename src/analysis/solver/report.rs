@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::{Operation, Pivot, Place, SiUnit};
+use crate::system::is_origin;
 
 /// A component of the arrays that go in and out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,6 +83,9 @@ pub struct Solver {
     pub inputs: Vec<Component>,
     /// By which numbers a configuration is kept.
     pub state: Vec<Component>,
+    /// The place in ground, in m, from which positions of platforms in the state are measured.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub centre: [f64; 3],
     /// How many unknowns a step has: one for each free joint, six for each free platform.
     pub unknowns: usize,
     /// All operations; operands stand before what uses them.

@@ -95,6 +95,9 @@ impl ProblemKind {
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
             SameBody { .. } => "a closure within one body is either always or never satisfied".into(),
             JointOutsideClosures { .. } => "its value is arbitrary; remove it, or close the chain that it moves".into(),
+            FarFromOrigin { .. } => {
+                "give it an origin of its own, or write what is far off as a first step of its bases".into()
+            }
             NegativeLinkLength { turned: None, .. } => "it may stay as it is".into(),
             NegativeLinkLength { row, turned: Some(turned), .. } => positive(*row, turned),
             ZeroDistance { .. } => "use `Spherical` for two points that coincide".into(),

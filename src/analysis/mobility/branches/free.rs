@@ -11,6 +11,9 @@ const DIRECTIONS: usize = 3;
 /// What a joint moves by at least in a finite step: at a dead point it moves to second order only.
 const MOVED: f64 = 1e-7;
 
+/// What moves, and the gap that is left where steps were made; else the gap of one.
+type Free = Result<(Vec<bool>, Option<f64>), Option<f64>>;
+
 impl Search<'_, '_> {
     /// A regular configuration beside one in gimbal lock, where nothing is locked: of three the one with the fewest
     /// motions. Angles that turn without moving anything make branches that are none of the bodies.
@@ -23,11 +26,31 @@ impl Search<'_, '_> {
         beside.min_by_key(|tangent| tangent.motions.len())
     }
 
-    /// What moves, and the gap that is left where steps were made, if all directions are free; else the gap of one.
-    pub(super) fn free(
-        &mut self,
-        tangent: &Tangent,
-    ) -> Result<(Vec<bool>, Option<f64>), Option<f64>> {
+    /// What moves, and the gap that is left where steps were made, if all motions of an independent part are finite; else
+    /// the gap of one. Where its equations are independent they are, however near a singular configuration is where steps
+    /// do not lead back; shorter ones do.
+    pub(super) fn finite(&mut self, own: &[bool], tangent: &Tangent) -> Free {
+        /// How much shorter each step is, and how often.
+        const SHORTER: f64 = 0.1;
+        const TIMES: usize = 4;
+        let steps = self.free(tangent, STEP);
+        if steps.is_ok() || self.near.system().is_large() || !self.near.is_regular(&tangent.at, own)
+        {
+            return steps;
+        }
+        let shorter =
+            (1..=TIMES).find_map(|k| self.free(tangent, STEP * SHORTER.powi(k as i32)).ok());
+        Ok(shorter.unwrap_or_else(|| {
+            let mut moved = vec![false; tangent.columns()];
+            for motion in &tangent.motions {
+                see(&mut moved, motion, MOVED);
+            }
+            (moved, None)
+        }))
+    }
+
+    /// The same by steps of a length along random directions.
+    fn free(&mut self, tangent: &Tangent, length: f64) -> Free {
         let mut moved = vec![false; tangent.columns()];
         let mut gap: f64 = 0.0;
         let directions = match tangent.motions.is_empty() {
@@ -36,7 +59,7 @@ impl Search<'_, '_> {
         };
         for _ in 0..directions {
             let direction = combination(&tangent.motions, &mut self.rng);
-            let step = match self.near.free_step(tangent, &direction, STEP) {
+            let step = match self.near.free_step(tangent, &direction, length) {
                 Err(None) if self.is_independent(tangent) => {
                     for motion in &tangent.motions {
                         // along a row motions die away to less than rounding of the largest
