@@ -1,5 +1,6 @@
 //! The closed forms of a mechanism checked against its chains: proved or refuted in letters, and compared with numbers.
 
+mod conditions;
 mod consequence;
 mod elimination;
 mod formula;
@@ -13,14 +14,15 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::EvaluationError;
-use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
-use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{FormulaNames, Named};
-use formula::{Values, identity};
+use conditions::Conditions;
+pub use conditions::Divisor;
+use formula::{Values, measured};
 pub use proof::{Difference, Proof, Reason};
 use samples::Samples;
+use variables::formulas;
 
 /// The relative difference that a proved identity may show at configurations solved to a residual of 1e-12: where the
 /// closure is singular, joint values are off by the root of the residual.
@@ -102,7 +104,9 @@ pub enum Verdict {
     Agrees,
     /// It disagrees at some sample.
     Disagrees,
-    /// It has no value at any sample, or no sample assembles.
+    /// Some component has no value at any sample.
+    Undefined,
+    /// No sample assembles.
     NotTried,
 }
 
@@ -113,9 +117,9 @@ pub struct ComponentReport {
     pub name: String,
     /// What kind of quantity it is.
     pub quantity: Quantity,
-    /// Whether it agrees at every sample at which it has a value, and has one somewhere.
+    /// True if it agrees at every sample at which it has a value, has one somewhere, and is not refuted.
     pub agree: bool,
-    /// What was proved of it, without any sample.
+    /// The proof that it holds wherever it has a value. Samples show only that there are such configurations.
     pub proof: Proof,
     /// The largest difference: m, or without unit.
     pub max_difference: f64,
@@ -125,6 +129,9 @@ pub struct ComponentReport {
     pub samples: usize,
     /// Samples at which it has none, as when it divides by zero.
     pub without_value: usize,
+    /// Formulas that must not be zero for it to have a value, and are not shown never to be.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub divisors: Vec<Divisor>,
     /// The sample with the largest difference.
     pub worst: Option<WorstSample>,
 }
@@ -228,6 +235,7 @@ fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
 struct Checked<'a> {
     form: &'a ClosedForm,
     components: Vec<ComponentReport>,
+    conditions: Vec<Conditions>,
 }
 
 impl<'a> Checked<'a> {
@@ -256,10 +264,14 @@ impl<'a> Checked<'a> {
             relative: 0.0,
             samples: 0,
             without_value: 0,
+            divisors: Vec::new(),
             worst: None,
         };
+        let formulas = formulas(form).into_iter().zip(&proofs);
+        let conditions = formulas.map(|(of, proof)| Conditions::new(mechanism, form, of, proof));
         Checked {
             form,
+            conditions: conditions.collect(),
             components: named.into_iter().zip(proofs).map(new).collect(),
         }
     }
@@ -290,13 +302,15 @@ impl<'a> Checked<'a> {
             }
             Given::Identities(identities) => (identities.iter())
                 .map(|(_, formula)| {
-                    let (value, size) = identity(mechanism, form, formula, joints)?;
-                    Ok([value, 0.0, size])
+                    let found = measured(mechanism, form, formula, joints)?;
+                    Ok([found.value, 0.0, found.size()])
                 })
                 .collect(),
         };
-        for (component, compared) in self.components.iter_mut().zip(compared) {
-            let Ok([closed_form, chains, size]) = compared else {
+        let components = self.components.iter_mut().zip(&mut self.conditions);
+        for ((component, conditions), compared) in components.zip(compared) {
+            let holds = conditions.hold(mechanism, form, joints);
+            let Some([closed_form, chains, size]) = compared.ok().filter(|_| holds) else {
                 component.without_value += 1;
                 continue;
             };
@@ -320,13 +334,18 @@ impl<'a> Checked<'a> {
         let Checked {
             form,
             mut components,
+            conditions,
         } = self;
+        for (component, conditions) in components.iter_mut().zip(conditions) {
+            conditions.settle(mechanism, form, component, tolerance);
+        }
         for component in components.iter_mut().filter(|c| c.worst.is_some()) {
             // what is proved may still be off by what solving leaves near singular configurations, and beside terms that
             // all vanish there
             let relative = component.relative;
             let off = relative > NEAR_SINGULAR && component.max_difference > tolerance;
-            component.agree = relative <= tolerance || component.proof.proved() && !off;
+            let refuted = matches!(component.proof, Proof::Different(_));
+            component.agree = !refuted && relative <= tolerance || component.proof.proved() && !off;
         }
         let refuted = |component: &ComponentReport| {
             let open = component.proof == Proof::undecided(Reason::NeedsElimination);
@@ -345,6 +364,12 @@ impl<'a> Checked<'a> {
         let verdict = match components.iter().all(|component| component.agree) {
             _ if tried().any(|component| !component.agree) => Verdict::Disagrees,
             true if !components.is_empty() => Verdict::Agrees,
+            _ if components
+                .iter()
+                .any(|c| c.samples == 0 && c.without_value > 0) =>
+            {
+                Verdict::Undefined
+            }
             _ => Verdict::NotTried,
         };
         let worst = tried()
@@ -359,16 +384,6 @@ impl<'a> Checked<'a> {
             source: form.source.clone(),
             worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
             components,
-        }
-    }
-}
-
-impl MatrixEntry {
-    /// The entry of a pose.
-    fn of<T: Number>(self, pose: &Pose<T>) -> T {
-        match self {
-            MatrixEntry::Position(i) => pose.position.0[i],
-            MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
         }
     }
 }

@@ -24,7 +24,7 @@ impl Report for CompareReport {
             .then(|| "the mechanism cannot be assembled from its home configuration".to_owned());
         let remarks = self.closed_forms.iter().flat_map(|form| {
             let components = form.components.iter();
-            let remarks = components.flat_map(|component| remark(self, form, component));
+            let remarks = components.flat_map(|own| remark(self, &notation, form, own));
             exact(&notation, form).into_iter().chain(remarks)
         });
         let title = "Closed forms compared with the chains";
@@ -70,6 +70,7 @@ fn table(report: &CompareReport) -> TableOf<&FormReport> {
         .words("verdict", |form| match form.verdict {
             Verdict::Agrees => "agrees",
             Verdict::Disagrees => "disagrees",
+            Verdict::Undefined => "undefined",
             Verdict::NotTried => "not tried",
         })
         .words("proof", proof)
@@ -162,7 +163,14 @@ fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
     }
     lines.extend(undecided.into_iter().map(|(reason, names)| {
         let (form, names, why) = (&form.name, names.join(", "), why(reason));
-        format!("{form}, {names}: not proved, because {why}; it was compared numerically only.")
+        match reason {
+            Reason::Undefined | Reason::NoValue => {
+                format!("{form}, {names}: not proved, because {why}.")
+            }
+            _ => format!(
+                "{form}, {names}: not proved, because {why}; it was compared numerically only."
+            ),
+        }
     }));
     lines
 }
@@ -179,11 +187,7 @@ fn different(notation: &Notation, component: &ComponentReport, of: &Difference) 
         (true, false) => format!("the form lacks {theirs}"),
         _ => format!("the form has {own} where the {given} give {theirs}"),
     };
-    let below = match component.agree {
-        true => " The difference is below the tolerance of the numerical comparison.",
-        false => "",
-    };
-    format!("{said}; difference {difference}.{below}")
+    format!("{said}; difference {difference}.")
 }
 
 fn why(reason: Reason) -> &'static str {
@@ -194,6 +198,8 @@ fn why(reason: Reason) -> &'static str {
         Reason::NeedsElimination => {
             "it holds only when assembled and is not a linear combination of the closure equations"
         }
+        Reason::Undefined => "it is undefined (0/0 on every configuration)",
+        Reason::NoValue => "it has a value at no configuration that was looked at",
         Reason::NeedsPlatform => "it depends on the pose of a platform when assembled",
         Reason::TooLong => "it is too long to be expanded",
         Reason::Interrupted => "the work was interrupted",
@@ -201,17 +207,40 @@ fn why(reason: Reason) -> &'static str {
 }
 
 /// The remarks on a component that does not simply agree; none on others.
-fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport) -> Vec<String> {
+fn remark(
+    report: &CompareReport,
+    notation: &Notation,
+    form: &FormReport,
+    component: &ComponentReport,
+) -> Vec<String> {
     let (name, quantity) = (&component.name, component.quantity);
     let (samples, without_value) = (component.samples, component.without_value);
+    let of = samples + without_value;
     let form = &form.name;
+    let proved = component.proof.proved();
+    let divisors = component.divisors.iter();
+    let divisors = divisors.filter(|own| own.vanishes || own.zeros > 0 || proved);
+    let mut lines: Vec<String> = divisors
+        .map(|own| {
+            let zero = notation.print(&own.formula);
+            let lacks = if proved { "proved except" } else { "no value" };
+            match own.zeros {
+                _ if own.vanishes => {
+                    format!("no value where {zero} is zero: on every configuration")
+                }
+                0 => format!("{lacks} where {zero} is zero; it is so at none of {of} samples"),
+                zeros => format!("{lacks} where {zero} is zero, as at {zeros} of {of} samples"),
+            }
+        })
+        .map(|said| format!("{form}, {name}: {said}."))
+        .collect();
     if samples == 0 {
-        return vec![match without_value {
+        lines.push(match without_value {
             0 => format!("{form}, {name}: not tried, as no assembled configuration was found."),
             _ => format!("{form}, {name}: has no value at any of {without_value} samples."),
-        }];
+        });
+        return lines;
     }
-    let mut lines = Vec::new();
     if let Some(worst) = component.worst.as_ref().filter(|_| !component.agree) {
         let six = |value: f64| with_unit(&format!("{value:.6}"), unit(quantity));
         let (own, theirs) = (six(worst.closed_form), six(worst.chains));
@@ -220,14 +249,17 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
             _ => format!("the form gives {own}, the chains {theirs},"),
         };
         let joints = values_of(&report.names.joints, worst.joints.values());
-        lines.push(format!(
-            "{form}, {name}: differs by up to {}: {values} at {}.",
-            self::quantity(component.max_difference, unit(quantity)),
-            joints.join(", ")
-        ));
+        let joints = joints.join(", ");
+        let most = match below(report, component) {
+            true => with_unit(&size(component.max_difference), unit(quantity)),
+            false => self::quantity(component.max_difference, unit(quantity)),
+        };
+        lines.push(match below(report, component) {
+            true => format!("{form}, {name}: differs by up to {most} at {joints}."),
+            false => format!("{form}, {name}: differs by up to {most}: {values} at {joints}."),
+        });
     }
     if without_value > 0 {
-        let of = samples + without_value;
         lines.push(format!(
             "{form}, {name}: has no value at {without_value} of {of} samples."
         ));
@@ -235,19 +267,71 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
     lines
 }
 
+/// True if the difference of a component is below the tolerance, so that only letters can refute it.
+fn below(report: &CompareReport, component: &ComponentReport) -> bool {
+    component.relative <= report.tolerance
+}
+
 fn sentence(report: &CompareReport) -> String {
     let forms = &report.closed_forms;
-    let having = |verdict: Verdict| forms.iter().filter(|form| form.verdict == verdict).count();
-    let (disagree, untried) = (having(Verdict::Disagrees), having(Verdict::NotTried));
+    let having = |verdict: Verdict| forms.iter().filter(move |form| form.verdict == verdict);
     let all = count(forms.len(), "closed form");
-    let verb = form(disagree, "disagrees", "disagree");
-    let outcome = match (disagree, untried, forms.len()) {
-        (0, 0, 1) => "The closed form agrees with the chains".into(),
-        (0, 0, 2) => "Both closed forms agree with the chains".into(),
-        (0, 0, _) => format!("All {all} agree with the chains"),
-        (0, ..) => format!("{untried} of {all} could not be tried"),
-        (_, 0, _) => format!("{disagree} of {all} {verb} with the chains"),
-        _ => format!("{disagree} of {all} {verb} with the chains, {untried} could not be tried"),
+    let disagree = having(Verdict::Disagrees).count();
+    let is_small = |form: &&FormReport| {
+        let mut wrong = form.components.iter().filter(|c| !c.agree && c.samples > 0);
+        wrong.all(|component| below(report, component))
+    };
+    let tolerance = report.tolerance;
+    let small = match having(Verdict::Disagrees).filter(is_small).count() {
+        0 => String::new(),
+        n if n == disagree => format!(" by less than the tolerance of {tolerance:e}"),
+        n => format!(" ({n} of them by less than the tolerance of {tolerance:e})"),
+    };
+    let reason = Reason::Undefined;
+    let in_one = |has: &dyn Fn(&ComponentReport) -> bool| {
+        having(Verdict::Undefined).all(|form| form.components.iter().any(has))
+    };
+    let why = match in_one(&|own| own.proof == Proof::NotDecided { reason }) {
+        true => "0/0 on every configuration",
+        _ if in_one(&|own| own.divisors.iter().any(|by| by.vanishes)) => {
+            "division by zero on every configuration"
+        }
+        false => "no value at any sample",
+    };
+    let kinds = [
+        (
+            disagree,
+            "disagrees with the chains",
+            "disagree with the chains",
+            small,
+        ),
+        (
+            having(Verdict::Undefined).count(),
+            "is undefined",
+            "are undefined",
+            format!(" ({why}), not proved"),
+        ),
+        (
+            having(Verdict::NotTried).count(),
+            "could not be tried",
+            "could not be tried",
+            String::new(),
+        ),
+    ];
+    let mut parts: Vec<String> = Vec::new();
+    for (n, one, many, more) in kinds.into_iter().filter(|(n, ..)| *n > 0) {
+        let of = if parts.is_empty() {
+            format!(" of {all}")
+        } else {
+            String::new()
+        };
+        parts.push(format!("{n}{of} {}{more}", form(n, one, many)));
+    }
+    let outcome = match (parts.is_empty(), forms.len()) {
+        (false, _) => parts.join(", "),
+        (_, 1) => "The closed form agrees with the chains".into(),
+        (_, 2) => "Both closed forms agree with the chains".into(),
+        _ => format!("All {all} agree with the chains"),
     };
     format!("{outcome} (seed {}).", report.seed)
 }

@@ -7,6 +7,7 @@ use num_traits::Zero;
 use rustc_hash::FxHashMap;
 
 use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
+use crate::mechanism::Letters;
 use crate::number::sorting::sort_by_key;
 
 /// Rows of the elimination at most.
@@ -197,22 +198,24 @@ fn multiplied(
     (2 * generators.len() <= MOST_ROWS).then_some(generators)
 }
 
-/// Whether a formula, perhaps times a product of letters, is Σ tₖ gₖ where the gₖ are the equations and the tₖ combinations
+/// Whether a formula, perhaps times a product of lengths that are not zero, is Σ tₖ gₖ where the gₖ are the equations and the tₖ combinations
 /// of the terms that occur in these: enough to square and add equations, as one does to eliminate an angle or a platform.
 pub(super) fn follows(
     formula: &Trigonometric,
     equations: &[Trigonometric],
-    first_platform: u32,
+    letters: Letters,
     budget: &mut Budget,
 ) -> bool {
-    let Some(generators) = multiplied(equations, first_platform, budget) else {
+    let Some(generators) = multiplied(equations, letters.platform(0, 0), budget) else {
         return false;
     };
     let mut span = Span::new(&generators);
-    candidates(formula, &generators).iter().any(|factor| {
-        let product = formula.times(factor, budget);
-        product.is_some_and(|product| span.contains(&product))
-    })
+    candidates(formula, &generators, letters)
+        .iter()
+        .any(|factor| {
+            let product = formula.times(factor, budget);
+            product.is_some_and(|product| span.contains(&product))
+        })
 }
 
 /// A part of the formula without which, times some number, the rest follows: the slip of a formula that does not. It is one
@@ -220,13 +223,13 @@ pub(super) fn follows(
 pub(super) fn slip(
     formula: &Trigonometric,
     equations: &[Trigonometric],
-    first_platform: u32,
+    letters: Letters,
     budget: &mut Budget,
 ) -> Option<Trigonometric> {
-    let generators = multiplied(equations, first_platform, budget);
+    let generators = multiplied(equations, letters.platform(0, 0), budget);
     let generators = generators.unwrap_or_else(|| equations.to_vec());
     let mut span = Span::new(&generators);
-    for factor in candidates(formula, &generators) {
+    for factor in candidates(formula, &generators, letters) {
         let left = span.rest(&formula.times(&factor, budget)?);
         for term in factors(std::slice::from_ref(formula)) {
             let part = span.rest(&term.times(&factor, budget)?);
@@ -247,8 +250,19 @@ pub(super) fn slip(
     None
 }
 
-/// Products of letters that bring a term of the formula to a term of the generators.
-fn candidates(formula: &Trigonometric, generators: &[Trigonometric]) -> Vec<Trigonometric> {
+/// Products of letters that bring a term of the formula to a term of the generators. None of them is zero in the mechanism, for
+/// what vanishes times zero need not vanish.
+fn candidates(
+    formula: &Trigonometric,
+    generators: &[Trigonometric],
+    letters: Letters,
+) -> Vec<Trigonometric> {
+    let parameters = letters.0.parameters();
+    let is_zero = |(atom, power): (&Atom, &i32)| match atom {
+        _ if *power <= 0 => false,
+        Atom::Symbol(symbol) => (parameters.get(*symbol as usize)).is_none_or(|p| p.value == 0.0),
+        _ => true,
+    };
     let mut found: BTreeSet<Powers> = BTreeSet::from([Powers::new()]);
     let Some((lead, _)) = formula.terms().next() else {
         return vec![];
@@ -261,7 +275,9 @@ fn candidates(formula: &Trigonometric, generators: &[Trigonometric]) -> Vec<Trig
         for (atom, power) in &lead.powers {
             *ratio.entry(atom.clone()).or_default() -= power;
         }
-        found.insert(ratio.into_iter().filter(|(_, power)| *power != 0).collect());
+        if !ratio.iter().any(is_zero) {
+            found.insert(ratio.into_iter().filter(|(_, power)| *power != 0).collect());
+        }
     }
     let mut found: Vec<Powers> = found.into_iter().collect();
     sort_by_key(&mut found, |powers| {

@@ -1,7 +1,9 @@
 //! The values of a closed form's formulas.
 
+use super::NEAR_SINGULAR;
 use crate::algebra::{EvaluationError, Node, Operator};
-use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
+use crate::geometry::Pose;
+use crate::mechanism::{ClosedForm, Formula, MatrixEntry, Mechanism, Symbol};
 use crate::number::{Dual, Number};
 
 /// What the names in a closed form stand for at some joint values.
@@ -56,29 +58,55 @@ impl<T: Number> Values<T> {
     }
 }
 
-/// The value of an identity and the size it is to be compared with: the absolute terms of the sum
-/// together with the change for a joint motion of natural size, Σ |∂f/∂qⱼ| sⱼ. A value of ε times that
-/// is an error of ε in a joint.
-pub(super) fn identity(
+/// Below this part of the terms of a sum its value is that of rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// The value of a formula with what it is to be compared with.
+pub(super) struct Measured {
+    pub value: f64,
+    /// The absolute terms of its sum.
+    terms: f64,
+    /// The change for a joint motion of natural size, Σ |∂f/∂qⱼ| sⱼ: ε times that is an error of ε in a joint.
+    motion: f64,
+}
+
+impl Measured {
+    /// The size beside which the value of an identity is small.
+    pub fn size(&self) -> f64 {
+        self.terms + self.motion
+    }
+
+    /// True if it may be zero at the configuration that this one was solved for.
+    pub fn is_zero(&self) -> bool {
+        self.value.abs() <= NEAR_SINGULAR * self.motion + ROUNDING * self.terms
+    }
+}
+
+/// The value of a formula at joint values.
+pub(super) fn measured(
     mechanism: &Mechanism,
     form: &ClosedForm,
-    identity: &Formula,
+    formula: &Formula,
     joints: &[f64],
-) -> Result<(f64, f64), EvaluationError> {
+) -> Result<Measured, EvaluationError> {
     let values = Values::at(mechanism, form, joints);
-    let value = values.of(identity)?;
-    let mut size = terms(&values, identity)?;
+    let (value, terms) = (values.of(formula)?, terms(&values, formula)?);
+    let mut motion = 0.0;
     let mut moving: Vec<Dual<f64>> = joints.iter().map(|&x| Dual::constant(x)).collect();
     let scales = &mechanism.dimensions().joint_scales;
     for (joint, scale) in scales.iter().enumerate() {
         moving[joint].slope = *scale;
         // a slope that is not finite says nothing
-        if let Ok(moved) = Values::at(mechanism, form, &moving).of(identity) {
-            size += moved.slope.abs();
+        if let Ok(moved) = Values::at(mechanism, form, &moving).of(formula) {
+            motion += moved.slope.abs();
         }
         moving[joint].slope = 0.0;
     }
-    Ok((value, size))
+    Ok(Measured {
+        value,
+        terms,
+        motion,
+    })
 }
 
 /// The sum of the absolute values of the terms an expression adds up.
@@ -89,5 +117,15 @@ fn terms(values: &Values<f64>, formula: &Formula) -> Result<f64, EvaluationError
         }
         Node::Negate(x) => terms(values, x),
         _ => Ok(values.of(formula)?.abs()),
+    }
+}
+
+impl MatrixEntry {
+    /// The entry of a pose.
+    pub(super) fn of<T: Number>(self, pose: &Pose<T>) -> T {
+        match self {
+            MatrixEntry::Position(i) => pose.position.0[i],
+            MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
+        }
     }
 }

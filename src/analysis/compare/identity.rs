@@ -8,7 +8,7 @@ use num_traits::Signed;
 use super::consequence::{Span, follows, slip};
 use super::elimination::{self, eliminated, has_plain_angles};
 use super::proof::{Difference, MOST_PRODUCTS, MOST_TERMS, Proof, Reason, Setting};
-use crate::algebra::{Atom, Budget, Symbolic, Trigonometric};
+use crate::algebra::{Atom, Budget, Function, Node, Operator, Symbolic, Trigonometric};
 use crate::mechanism::Formula;
 
 /// Pairs of closures from which an identity is tried to be derived.
@@ -59,16 +59,15 @@ impl Setting<'_> {
         equations: &[Trigonometric],
         budget: &mut Budget,
     ) -> bool {
-        let first = self.letters.platform(0, 0);
         // two closures are enough for what holds between two legs
         let count = self.letters.0.closures().len();
         let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
         let mut pairs = pairs.take(if count > 2 { MOST_PAIRS } else { 0 });
         Span::new(equations).contains(form)
-            || follows(form, equations, first, budget)
+            || follows(form, equations, self.letters, budget)
             || pairs.any(|pair| {
                 let own = pair.map(|closure| self.of_closure(closure)).concat();
-                follows(form, &own, first, budget)
+                follows(form, &own, self.letters, budget)
             })
             || has_plain_angles(equations, self.letters.joint(0))
                 && eliminated(form, &elimination::equations(self.letters.0, &self.formal))
@@ -84,16 +83,38 @@ impl Setting<'_> {
         let mut budget = Budget {
             products: MOST_PRODUCTS,
         };
-        let first = self.letters.platform(0, 0);
-        let difference = match slip(&form, equations, first, &mut budget) {
-            Some(slip) => slip,
-            None => (*form).clone(),
-        };
+        let slipped = self.slipped(&form, equations, &mut budget);
+        slipped.or_else(|| self.differing(&form, (*form).clone()))
+    }
+
+    /// The one term without which an identity would follow.
+    fn slipped(
+        &self,
+        form: &Trigonometric,
+        equations: &[Trigonometric],
+        budget: &mut Budget,
+    ) -> Option<Difference> {
+        self.differing(form, slip(form, equations, self.letters, budget)?)
+    }
+
+    /// A part of an identity that is no consequence, unless it is long.
+    fn differing(&self, form: &Trigonometric, difference: Trigonometric) -> Option<Difference> {
         (difference.len() <= MOST_TERMS).then(|| {
             let own = form.restricted_to(&difference);
             let theirs = own.minus(&difference);
             self.written(&own, &theirs, &difference)
         })
+    }
+
+    /// True if a formula is zero on every configuration.
+    pub(super) fn is_zero(&self, formula: &Formula, equations: &[Trigonometric]) -> bool {
+        let zero = |of: &Formula| self.is_zero(of, equations);
+        match &formula.node {
+            Node::Call(Function::Hypot | Function::Sqrt | Function::Abs, of) => of.iter().all(zero),
+            Node::Binary(Operator::Multiply, x, y) => zero(x) || zero(y),
+            Node::Binary(Operator::Divide | Operator::Power, x, _) | Node::Negate(x) => zero(x),
+            _ => self.vanishing(formula, equations).proved(),
+        }
     }
 
     pub(super) fn vanishing(&self, formula: &Formula, equations: &[Trigonometric]) -> Proof {
@@ -109,7 +130,8 @@ impl Setting<'_> {
         if Span::new(equations).contains(&form) {
             return Proof::FollowsFromClosures;
         }
-        let Some(form) = form.without_denominators(&mut budget) else {
+        let given = form;
+        let Some(form) = given.without_denominators(&mut budget) else {
             return Proof::undecided(Reason::TooLong);
         };
         if self.consequence(&form, equations, &mut budget) {
@@ -126,11 +148,14 @@ impl Setting<'_> {
             .min_by_key(|multiple| form.minus(multiple).len());
         match nearest {
             Some(nearest) if 2 * form.minus(&nearest).len() <= form.len() => {
-                match self.decided(&form, &nearest) {
-                    different @ Proof::Different(_) => different,
-                    _ => Proof::undecided(Reason::NeedsElimination),
+                if let different @ Proof::Different(_) = self.decided(&form, &nearest) {
+                    return different;
                 }
             }
+            _ => {}
+        }
+        match self.slipped(&form, equations, &mut budget) {
+            Some(difference) if form == *given => Proof::Different(Box::new(difference)),
             _ => Proof::undecided(Reason::NeedsElimination),
         }
     }

@@ -61,6 +61,10 @@ pub enum Reason {
     NeedsElimination,
     /// It depends on the pose of a platform, which follows from the closures only.
     NeedsPlatform,
+    /// It is 0/0 on every configuration: what it divides by vanishes there.
+    Undefined,
+    /// It has a value at no configuration that was looked at.
+    NoValue,
     /// It is too long.
     TooLong,
     /// The work was stopped before.
@@ -123,6 +127,33 @@ pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Optio
         Some(formulas.iter().map(refuted).collect())
     });
     refutations.unwrap_or_else(|| vec![None; formulas.len()])
+}
+
+/// For each of some formulas of a form, true if chains or closures make it zero on every configuration.
+pub(super) fn vanishing(
+    mechanism: &Mechanism,
+    form: &ClosedForm,
+    formulas: &[&Formula],
+) -> Vec<bool> {
+    let mut zero = vec![false; formulas.len()];
+    for numbers in [false, true] {
+        if zero.iter().all(|zero| *zero) {
+            break;
+        }
+        over_letters(mechanism, form, || {
+            let Some(setting) = Setting::new(mechanism, form, numbers) else {
+                return;
+            };
+            let equations = match must_be_assembled(mechanism, form) {
+                true => setting.equations(),
+                false => vec![],
+            };
+            for (zero, formula) in zero.iter_mut().zip(formulas) {
+                *zero |= setting.is_zero(formula, &equations);
+            }
+        });
+    }
+    zero
 }
 
 /// Runs some work over the letters of a mechanism and a form.
