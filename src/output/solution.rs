@@ -69,6 +69,10 @@ fn sentence(report: &AssemblyReport) -> String {
             }
             text + "."
         }
+        Outcome::CannotBeAssembled { worst, .. } if is_fixed(report) => format!(
+            "Cannot be assembled with these inputs: nothing is free, and closure {worst} is open by {}.",
+            gap(worst)
+        ),
         Outcome::CannotBeAssembled {
             worst,
             local_minimum,
@@ -87,6 +91,13 @@ fn sentence(report: &AssemblyReport) -> String {
             gap(worst)
         ),
     }
+}
+
+/// True if everything is held.
+fn is_fixed(report: &AssemblyReport) -> bool {
+    let mut platforms = report.platforms.0.iter();
+    report.variables.iter().all(|joint| joint.held)
+        && platforms.all(|(name, _)| report.held.contains(name))
 }
 
 /// Freedoms that nothing held decides, and what would.

@@ -17,6 +17,9 @@ const LEVEL: f64 = 1e-6;
 /// minimum: the gradient of the squared gaps vanishes and their curvature is nowhere negative.
 pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configuration<f64>, bool) {
     let unknowns = system.unknowns().len();
+    if unknowns == 0 {
+        return (start.clone(), true);
+    }
     let work = RefCell::new(system.work());
     let held = system.hold_rows();
     let mut multipliers = vec![0.0; held.len()];
@@ -56,7 +59,7 @@ pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configurat
     let symmetric = (&curvature + curvature.transpose()) * 0.5;
     let eigenvalues = symmetric.symmetric_eigenvalues();
     let largest = eigenvalues.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
-    (at, unknowns == 0 || eigenvalues.min() >= -CURVED * largest)
+    (at, eigenvalues.min() >= -CURVED * largest)
 }
 
 /// Walks down to where the weighted squares no longer fall.
