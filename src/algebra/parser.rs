@@ -275,6 +275,10 @@ impl Parser<'_> {
         if !value.is_finite() {
             return Err(ParseErrorKind::NumberTooLarge.at(span));
         }
+        if self.peek() == Some('°') {
+            span.end = self.advance('°'.len_utf8()).end;
+            return Ok((Node::Quantity(value, Unit::Degree).at(span), 1));
+        }
         if !self.peek().is_some_and(starts_name) {
             return Ok((Node::Number(value).at(span), 1));
         }

@@ -25,6 +25,9 @@ use crate::system::{self, Coordinate, QuestionError, check_count};
 /// The number of real assemblies, which is no quantity of one configuration.
 const ASSEMBLIES: &str = "assemblies";
 
+/// Rows computed at once at most: they are kept until all are done, and take some 200 bytes each.
+const MOST_ROWS: usize = 10_000_000;
+
 /// What a study asks.
 #[derive(Clone)]
 pub struct Study {
@@ -102,15 +105,23 @@ fn parameter<'m>(
     Ok(found)
 }
 
-/// A value that a parameter is given.
+/// A value that a parameter is given, with any unit that fits where it stands.
 fn number(
     mechanism: &Mechanism,
-    parameter: &Parameter,
+    parameter: usize,
     value: &system::Value,
 ) -> Result<f64, StudyError> {
-    let number = value.number(mechanism, parameter.measure);
+    let number = match mechanism.measure_in_use(parameter) {
+        Measure::Number | Measure::Open => {
+            let units = [Measure::Length, Measure::Angle].into_iter();
+            let mut read = units.map(|measure| value.number(mechanism, measure));
+            read.find(Result::is_ok)
+                .unwrap_or_else(|| value.number(mechanism, Measure::Number))
+        }
+        known => value.number(mechanism, known),
+    };
     number.map_err(|error| StudyError::Value {
-        name: parameter.name.to_string(),
+        name: mechanism.parameters()[parameter].name.to_string(),
         text: value.to_string(),
         why: error.to_string(),
     })
@@ -134,7 +145,7 @@ impl Study {
         let (mut varied, mut ranges) = (Vec::new(), Vec::new());
         for (index, (name, from, to)) in vary.iter().enumerate() {
             if let Some((index, parameter)) = parameter(&mechanism, name)? {
-                let number = |value| number(&mechanism, parameter, value);
+                let number = |value| number(&mechanism, index, value);
                 ranges.push(Spread::Even(number(from)?, number(to)?));
                 varied.push(Varied::parameter(index, parameter));
                 continue;
@@ -151,7 +162,7 @@ impl Study {
             let (value, deviation) = match parameter(&mechanism, name)? {
                 Some((index, parameter)) => {
                     varied.push(Varied::parameter(index, parameter));
-                    (parameter.value, number(&mechanism, parameter, deviation)?)
+                    (parameter.value, number(&mechanism, index, deviation)?)
                 }
                 None => {
                     let held = question.hold.iter().rfind(|(held, _)| held == name);
@@ -224,17 +235,25 @@ impl Study {
     /// The rows of a shard, from 1, of so many: all have the same number of rows but for one.
     ///
     /// # Errors
-    /// If there is no such shard.
+    /// If there is no such shard, or it has more rows than are computed at once.
     pub fn shard(&self, shard: usize, of: usize) -> Result<Range<usize>, StudyError> {
         if shard == 0 || shard > of {
             return Err(StudyError::Shard(shard, of));
         }
         // in 128 bits, where the product of two counts has room
         let end = |shard: usize| (self.count() as u128 * shard as u128 / of as u128) as usize;
-        Ok(end(shard - 1)..end(shard))
+        let rows = end(shard - 1)..end(shard);
+        match rows.len() {
+            0..=MOST_ROWS => Ok(rows),
+            len => Err(StudyError::TooLong {
+                rows: len,
+                most: MOST_ROWS,
+                shards: self.count().div_ceil(MOST_ROWS),
+            }),
+        }
     }
 
-    /// The rows of these numbers, on all cores.
+    /// The rows of these numbers, those of a [`shard`](Self::shard), on all cores.
     pub fn rows(&self, range: Range<usize>, watch: &Watch) -> StudyRows {
         let done = AtomicUsize::new(0);
         let of = Some(range.len());

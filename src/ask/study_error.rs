@@ -45,11 +45,25 @@ pub enum StudyError {
         wanted: usize,
     },
     /// No points, or more than can be counted.
-    #[error("a study has one point or more, and at most 2³² of Sobol's")]
+    #[error(
+        "a study has one point or more, no more than can be counted, and at most 2³² of Sobol's"
+    )]
     Count,
     /// Points in more dimensions than there are.
     #[error("Sobol's points have at most {0} coordinates")]
     Sobol(usize),
+    /// More rows than are computed at once.
+    #[error(
+        "{rows} rows at once are too many, at most {most}: compute the study in {shards} shards or more"
+    )]
+    TooLong {
+        /// The rows asked for.
+        rows: usize,
+        /// The most at once.
+        most: usize,
+        /// The fewest shards in which the whole study can be computed.
+        shards: usize,
+    },
     /// A shard that is none of so many.
     #[error("there is no shard {0} of {1}: they are 1/{1} to {1}/{1}")]
     Shard(usize, usize),

@@ -5,8 +5,10 @@ use std::collections::HashSet;
 use super::frames::joints_of;
 use super::model::{FixedStep, Formula, Given, Symbol};
 use super::{Frame, Mechanism};
+use crate::algebra::Measure;
 use crate::description::{
-    AxisCondition, Beside, ClosureKind, Convention, Description, Problem, ProblemKind, Turned,
+    AxisCondition, Beside, ClosureKind, Convention, Description, Displacement, Problem,
+    ProblemKind, Turned,
 };
 
 pub(super) fn inspect(
@@ -47,7 +49,7 @@ pub(super) fn inspect(
 
 fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<Problem>) {
     let mut used: HashSet<Symbol> = HashSet::new();
-    mechanism.for_each_formula(&mut |formula: &Formula| {
+    mechanism.for_each_formula(&mut |formula: &Formula, _: Measure| {
         used.extend(formula.names().map(|(symbol, _)| *symbol));
     });
     let entries = mechanism.affine_entries();
@@ -122,17 +124,53 @@ impl Mechanism {
         })
     }
 
-    fn for_each_formula(&self, visit: &mut impl FnMut(&Formula)) {
-        let fixed = |steps: &[FixedStep], visit: &mut dyn FnMut(&Formula)| {
+    /// The dimension of a parameter: that of the units in its definition, otherwise the only one that fits all places where
+    /// it stands.
+    pub(crate) fn measure_in_use(&self, parameter: usize) -> Measure {
+        let own = self.parameters[parameter].measure;
+        if matches!(own, Measure::Length | Measure::Angle) {
+            return own;
+        }
+        let fits = |measure: Measure| {
+            let of = |symbol: &Symbol| match *symbol {
+                Symbol::Parameter(i) if i == parameter => measure,
+                Symbol::Parameter(i) => self.parameters[i].measure,
+                Symbol::Joint(_) | Symbol::Local(_) => Measure::Open,
+            };
+            let mut fits = true;
+            self.for_each_formula(&mut |formula: &Formula, wanted: Measure| {
+                fits &= wanted == Measure::Open || formula.check_measure(wanted, &of).is_ok();
+            });
+            fits
+        };
+        match (fits(Measure::Length), fits(Measure::Angle)) {
+            (true, false) => Measure::Length,
+            (false, true) => Measure::Angle,
+            _ => own,
+        }
+    }
+
+    /// Visits every formula, with the dimension that it must have; open where it may have any.
+    fn for_each_formula(&self, visit: &mut impl FnMut(&Formula, Measure)) {
+        let fixed = |steps: &[FixedStep], visit: &mut dyn FnMut(&Formula, Measure)| {
             for step in steps {
-                step.entries().iter().for_each(&mut *visit);
+                let wanted = match step {
+                    Displacement::Rotate(..) => Measure::Angle,
+                    Displacement::Translate(..) | Displacement::TranslateBy(_) => Measure::Length,
+                };
+                step.entries().iter().for_each(|entry| visit(entry, wanted));
             }
         };
         for parameter in &self.parameters {
-            visit(&parameter.definition);
+            visit(&parameter.definition, Measure::Open);
         }
-        for (home, limits) in &self.homes.joints {
-            limits.iter().flatten().chain([home]).for_each(&mut *visit);
+        for (joint, (home, limits)) in self.joints.iter().zip(&self.homes.joints) {
+            let wanted = match joint.kind.is_angle() {
+                true => Measure::Angle,
+                false => Measure::Length,
+            };
+            let values = limits.iter().flatten().chain([home]);
+            values.for_each(|value| visit(value, wanted));
         }
         for home in &self.homes.platforms {
             fixed(home, visit);
@@ -141,8 +179,10 @@ impl Mechanism {
             fixed(&chain.base, visit);
             fixed(&chain.tip, visit);
             for row in &chain.rows {
-                visit(&row.alpha);
-                visit(&row.a);
+                visit(&row.alpha, Measure::Angle);
+                visit(&row.a, Measure::Length);
+                visit(&row.d.constant, Measure::Length);
+                visit(&row.theta.constant, Measure::Angle);
             }
         }
         for (_, steps) in self
@@ -152,15 +192,17 @@ impl Mechanism {
         {
             fixed(steps, visit);
         }
-        for affine in self.affine_entries() {
-            visit(&affine.constant);
-            affine.terms.iter().for_each(|(_, factor)| visit(factor));
+        for length in self.closures.iter().filter_map(|of| of.length.as_ref()) {
+            visit(&length.constant, Measure::Length);
         }
+        let mut open = |formula: &Formula| visit(formula, Measure::Open);
+        let terms = self.affine_entries().flat_map(|affine| &affine.terms);
+        terms.for_each(|(_, factor)| open(factor));
         for form in self.closed_forms.iter() {
-            form.locals.iter().for_each(|(_, formula)| visit(formula));
+            form.locals.iter().for_each(|(_, formula)| open(formula));
             match &form.gives {
-                Given::Pose { entries, .. } => entries.iter().for_each(|(_, f)| visit(f)),
-                Given::Identities(identities) => identities.iter().for_each(|(_, f)| visit(f)),
+                Given::Pose { entries, .. } => entries.iter().for_each(|(_, f)| open(f)),
+                Given::Identities(identities) => identities.iter().for_each(|(_, f)| open(f)),
             }
         }
     }
