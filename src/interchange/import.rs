@@ -1,5 +1,6 @@
 //! URDF or MJCF → description.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -134,10 +135,9 @@ pub fn import(
     } = describe(&tree, settings.convention, &kept, source).map_err(whole)?;
     remarks.extend(more);
     if let Some(loops) = loops {
-        let references = references
-            .iter()
-            .map(|(name, reference)| (fit(name), reference.clone()));
-        add(&mut description, loops, &references.collect::<Vec<_>>());
+        let references = references.into_iter().rev();
+        let references = references.map(|(name, reference)| (fit(&name), reference));
+        add(&mut description, loops, &references.collect());
     }
     let links = tree.bodies.iter().flat_map(|body| &body.frames);
     Ok(Imported {
@@ -182,9 +182,9 @@ fn kept_frames(
 }
 
 /// Adds the contents of a file of loops; its names of links become names of frames.
-fn add(description: &mut Description, loops: &Description, references: &[(String, String)]) {
+fn add(description: &mut Description, loops: &Description, references: &HashMap<String, String>) {
     let frame = |name: &mut String| {
-        if let Some((_, reference)) = references.iter().find(|(known, _)| known == name) {
+        if let Some(reference) = references.get(name) {
             name.clone_from(reference);
         }
     };

@@ -208,10 +208,6 @@ impl Tree {
         self.bodies.iter().flat_map(|body| &body.joints)
     }
 
-    pub(super) fn body(&self, name: &str) -> Option<usize> {
-        self.bodies.iter().position(|body| body.name == name)
-    }
-
     /// Ground from every body, with each joint at the value `of` gives it; floating bodies stay as placed.
     pub fn poses(&self, of: impl Fn(&Joint) -> f64) -> Vec<Pose<f64>> {
         self.placed(|_| None, of)

@@ -9,14 +9,14 @@
 mod closures;
 mod relations;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use relations::{carriers, leaders, within_reason};
 
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Coupling, Motion, Tree};
+use super::tree::{Attachment, Coupling, Joint, Motion, Tree};
 use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
@@ -50,6 +50,7 @@ pub(super) fn describe(
         variables: HashMap::new(),
         names: Names::default(),
         needs: Vec::new(),
+        tips: HashMap::new(),
         places: HashMap::new(),
         chains: Vec::new(),
         references: Vec::new(),
@@ -57,6 +58,7 @@ pub(super) fn describe(
     };
     unroller.variables();
     unroller.needs(kept);
+    unroller.tips();
     let platforms = unroller.platforms();
     unroller.chains();
     let (platforms, closures) = unroller.closures(platforms);
@@ -106,6 +108,8 @@ struct Unroller<'a> {
     names: Names,
     /// Frames that must have a name: the name, the carrier, the pose in it.
     needs: Vec<(String, usize, Pose<f64>)>,
+    /// The frame at the end of the chain that ends with a body: its name and its pose in the body.
+    tips: HashMap<usize, (String, Pose<f64>)>,
     places: HashMap<usize, Placed>,
     chains: Vec<Named<ChainDescription>>,
     references: Vec<(String, String)>,
@@ -150,20 +154,39 @@ impl Unroller<'_> {
 
     /// Names for the frames of loops and the requested frames.
     fn needs(&mut self, kept: &[String]) {
+        let mut named: HashMap<&str, Vec<(usize, Pose<f64>)>> = HashMap::new();
+        for (body, &(carrier, own)) in self.tree.bodies.iter().zip(&self.carriers) {
+            for (frame, pose) in &body.frames {
+                let places = named.entry(frame).or_default();
+                places.push((carrier, own * *pose));
+            }
+        }
         let mut found = Vec::new();
         for name in kept {
-            for (body, &(carrier, own)) in self.tree.bodies.iter().zip(&self.carriers) {
-                let named = body.frames.iter().filter(|(frame, _)| frame == name);
-                found.extend(named.map(|(frame, pose)| (frame.clone(), carrier, own * *pose)));
-            }
+            let places = named.get(name.as_str()).into_iter().flatten();
+            found.extend(places.map(|&(carrier, pose)| (name.clone(), carrier, pose)));
         }
         for side in self.tree.loops.iter().flat_map(|l| &l.sides) {
             let (carrier, pose) = self.carried(side);
             found.push((side.frame.clone(), carrier, pose));
         }
-        for frame in found {
-            if self.needs.iter().all(|(other, ..)| *other != frame.0) {
-                self.needs.push(frame);
+        let mut seen = HashSet::new();
+        found.retain(|(name, ..)| seen.insert(name.clone()));
+        self.needs = found;
+    }
+
+    /// The frames at the ends of chains: the first that must have a name, or a part fixed to the last link that has no
+    /// children.
+    fn tips(&mut self) {
+        for (name, carrier, pose) in &self.needs {
+            let tip = || (name.clone(), *pose);
+            self.tips.entry(*carrier).or_insert_with(tip);
+        }
+        let children = self.tree.children();
+        for (i, &(carrier, pose)) in self.carriers.iter().enumerate() {
+            if i != carrier && children[i].is_empty() {
+                let tip = || (self.tree.bodies[i].name.clone(), pose);
+                self.tips.entry(carrier).or_insert_with(tip);
             }
         }
     }
@@ -212,16 +235,8 @@ impl Unroller<'_> {
 
     /// A name for the end of a chain, and the pose of that frame in the last link.
     fn tip(&self, last: usize) -> (String, Pose<f64>) {
-        if let Some((name, _, pose)) = self.needs.iter().find(|(_, carrier, _)| *carrier == last) {
-            return (name.clone(), *pose);
-        }
-        // a part fixed to the link that has no children, if any
-        let bodies = &self.tree.bodies;
-        let is_end = |i: &usize| {
-            self.carriers[*i].0 == last && bodies.iter().all(|body| body.parent != Some(*i))
-        };
-        let end = (last + 1..bodies.len()).find(is_end).unwrap_or(last);
-        (bodies[end].name.clone(), self.carriers[end].1)
+        let own = || (self.tree.bodies[last].name.clone(), Pose::identity());
+        self.tips.get(&last).cloned().unwrap_or_else(own)
     }
 
     fn chain(&mut self, on: usize, links: &[usize]) {
@@ -329,17 +344,21 @@ impl Unroller<'_> {
     /// The joint variables: those of joints that lead, within the limits of all that follow.
     fn joints(&self) -> Vec<Named<JointDescription>> {
         let mut joints = Vec::new();
+        let mut followers: HashMap<&str, Vec<(&Joint, &Coupling)>> = HashMap::new();
+        for follower in self.tree.joints() {
+            if let Some(coupling) = self.leaders.get(&follower.name) {
+                let of = followers.entry(&coupling.leader).or_default();
+                of.push((follower, coupling));
+            }
+        }
         for joint in self.tree.joints() {
             let Some(variable) = self.variables.get(&joint.name) else {
                 continue;
             };
             let (mut limits, mut actuated) = (joint.limits, joint.actuated);
             let mut angle = joint.motion == Motion::Turn;
-            let coupled = self.tree.joints().filter_map(|follower| {
-                let coupling = self.leaders.get(&follower.name)?;
-                (coupling.leader == joint.name).then_some((follower, coupling))
-            });
-            for (follower, coupling) in coupled {
+            let coupled = followers.get(joint.name.as_str());
+            for &(follower, coupling) in coupled.into_iter().flatten() {
                 actuated |= follower.actuated;
                 angle |= follower.motion == Motion::Turn;
                 if let (Some((low, high)), true) = (follower.limits, coupling.factor != 0.0) {

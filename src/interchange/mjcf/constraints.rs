@@ -1,5 +1,7 @@
 //! Equality constraints of MJCF → loops and couplings.
 
+use std::collections::{HashMap, HashSet};
+
 use mjcf_rs::Model;
 use roxmltree::Node;
 
@@ -9,7 +11,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Coupling, Extent, Loop, Tree};
+use crate::interchange::tree::{Attachment, Coupling, Extent, Joint, Loop, Tree};
 
 /// Adds the constraints of a file to its tree.
 pub(super) fn read(
@@ -21,10 +23,15 @@ pub(super) fn read(
     remarks: &mut Vec<Remark>,
 ) {
     let poses = tree.poses(|joint| joint.reference);
+    let mut joints = HashMap::new();
+    for joint in tree.joints() {
+        joints.entry(joint.name.as_str()).or_insert(joint);
+    }
     let mut reader = Constraints {
         root,
         model,
         tree,
+        joints,
         parts,
         poses,
         problems,
@@ -55,9 +62,10 @@ pub(super) fn read(
             }
         }
     }
-    for i in 1..loops.len() {
-        while loops[..i].iter().any(|other| other.name == loops[i].name) {
-            loops[i].name += "_";
+    let mut names = HashSet::new();
+    for part in &mut loops {
+        while !names.insert(part.name.clone()) {
+            part.name += "_";
         }
     }
     tree.loops = hinges(loops);
@@ -68,6 +76,7 @@ struct Constraints<'a, 'r, 'i> {
     root: Node<'r, 'i>,
     model: &'a Model,
     tree: &'a Tree,
+    joints: HashMap<&'a str, &'a Joint>,
     parts: &'a [Parts],
     /// Ground from every body where the joints have their references.
     poses: Vec<Pose<f64>>,
@@ -175,7 +184,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// The reference of a joint that turns or slides.
     fn reference(&mut self, node: Node, attribute: &str, name: &str) -> Option<f64> {
-        let found = self.tree.joints().find(|joint| joint.name == name);
+        let found = self.joints.get(name).copied();
         let known = self.tree.joints().map(|joint| joint.name.as_str());
         let found = (self.problems).known(found, (node, attribute), ("joint", name), known)?;
         if found.motion.floats() {

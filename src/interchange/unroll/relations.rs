@@ -29,21 +29,27 @@ pub(super) fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportPr
             return Err(ImportProblemKind::FollowsTwo { joint });
         }
     }
-    let mut leaders = HashMap::new();
+    let mut leaders: HashMap<String, Coupling> = HashMap::new();
     for coupling in &tree.couplings {
-        let mut total = coupling.clone();
-        let mut steps = 0;
-        while let Some(next) = direct.get(total.leader.as_str()) {
-            total.offset += total.factor * next.offset;
-            total.factor *= next.factor;
-            total.leader = next.leader.clone();
-            steps += 1;
-            if steps > direct.len() {
+        // up to a joint that leads, or whose leader is known
+        let (mut way, mut at) = (Vec::new(), &coupling.joint);
+        while let (Some(next), false) = (direct.get(at.as_str()), leaders.contains_key(at)) {
+            way.push(*next);
+            at = &next.leader;
+            if way.len() > direct.len() {
                 let joint = coupling.joint.clone();
                 return Err(ImportProblemKind::FollowsItself { joint });
             }
         }
-        leaders.insert(coupling.joint.clone(), total);
+        for own in way.into_iter().rev() {
+            let mut total = own.clone();
+            if let Some(next) = leaders.get(&own.leader) {
+                total.offset += total.factor * next.offset;
+                total.factor *= next.factor;
+                total.leader = next.leader.clone();
+            }
+            leaders.insert(own.joint.clone(), total);
+        }
     }
     Ok(leaders)
 }

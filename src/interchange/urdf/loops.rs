@@ -8,6 +8,8 @@
 //! | `drake:ball_constraint` | Drake |
 //! | `joint` in `gazebo`, as in SDFormat | Gazebo's tutorial of kinematic loops |
 
+use std::collections::{HashMap, HashSet};
+
 use roxmltree::Node;
 
 use super::motion::AXIS;
@@ -48,9 +50,12 @@ pub(super) fn read(
     problems: &mut Problems,
     remarks: &mut Vec<Remark>,
 ) -> Vec<Loop> {
+    let links = tree.bodies.iter().enumerate();
     let mut reader = LoopReader {
         tree,
+        bodies: links.map(|(i, body)| (body.name.as_str(), i)).collect(),
         problems,
+        names: HashSet::new(),
         loops: Vec::new(),
     };
     let elements = robot.children().filter(|node| node.is_element());
@@ -75,7 +80,8 @@ pub(super) fn read(
         let halves = |link: &str| {
             let name = link.strip_suffix("_1")?;
             let other = format!("{name}_2");
-            let found = name.starts_with("closing_") && tree.body(&other).is_some();
+            let known = reader.bodies.contains_key(other.as_str());
+            let found = name.starts_with("closing_") && known;
             found.then_some(other)
         };
         for body in &tree.bodies {
@@ -92,7 +98,10 @@ type Closing = (ClosureKind, [(usize, Pose<f64>); 2]);
 
 struct LoopReader<'a> {
     tree: &'a Tree,
+    /// The body of each link.
+    bodies: HashMap<&'a str, usize>,
     problems: &'a mut Problems,
+    names: HashSet<String>,
     loops: Vec<Loop>,
 }
 
@@ -100,14 +109,14 @@ impl LoopReader<'_> {
     /// The link of that name.
     fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
         let links = self.tree.bodies.iter().map(|body| body.name.as_str());
-        let found = self.tree.body(name);
+        let found = self.bodies.get(name).copied();
         (self.problems).known(found, (node, attribute), ("link", name), links)
     }
 
     fn close(&mut self, node: Node, kind: ClosureKind, ends: [(usize, Pose<f64>); 2]) {
         let own = node.attribute("name").map(str::to_owned);
         let mut name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
-        while self.loops.iter().any(|other| other.name == name) {
+        while !self.names.insert(name.clone()) {
             name += "_";
         }
         let sides = Loop::sides(&name, ends);

@@ -30,6 +30,7 @@ pub(crate) fn read(text: &str) -> Read {
         remarks: Vec::new(),
         version: version(robot),
         links: Vec::new(),
+        known: HashSet::new(),
         joints: Vec::new(),
     };
     reader.elements(robot);
@@ -50,6 +51,7 @@ struct Reader<'a, 'i> {
     remarks: Vec<Remark>,
     version: (u32, u32),
     links: Vec<String>,
+    known: HashSet<String>,
     joints: Vec<(Node<'a, 'i>, String)>,
 }
 
@@ -97,6 +99,7 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn finish(mut self, robot: Node<'a, 'i>) -> Read {
         let joints: Vec<(Node, String)> = std::mem::take(&mut self.joints);
+        self.known = self.links.iter().cloned().collect();
         let hangs: Vec<Option<Hanging>> = joints
             .iter()
             .map(|(node, name)| self.hanging(*node, name))
@@ -215,7 +218,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let ends = ["parent", "child"].map(|end| {
             let part = self.problems.needed_child(node, end)?;
             let link = self.problems.needed(part, "link")?;
-            let found = self.links.iter().find(|known| *known == link);
+            let found = self.known.get(link);
             let links = self.links.iter().map(String::as_str);
             let found = (self.problems).known(found, (part, "link"), ("link", link), links);
             found.cloned()
@@ -251,14 +254,19 @@ impl<'a, 'i> Reader<'a, 'i> {
             parent_of.insert(child, (i, parent));
             below.entry(parent).or_default().push(child);
         }
+        let named: HashSet<&str> = joints.iter().map(|(_, name)| name.as_str()).collect();
         for (node, name) in joints {
             let mimic = child(*node, "mimic");
             let Some((mimic, leader)) = mimic.and_then(|m| Some((m, m.attribute("joint")?))) else {
                 continue;
             };
             let known = joints.iter().map(|(_, name)| name.as_str());
-            let found = known.clone().find(|other| *other == leader);
-            (self.problems).known(found, (mimic, "joint"), ("joint", leader), known);
+            (self.problems).known(
+                named.get(leader),
+                (mimic, "joint"),
+                ("joint", leader),
+                known,
+            );
             if leader == name {
                 let problem = ImportProblemKind::FollowsItself {
                     joint: name.clone(),
