@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::linear::{RANK_TOLERANCE, add, norm};
+use crate::linear::{RANK_TOLERANCE, add, norm, rank_of};
 use crate::mechanism::Mechanism;
 use crate::solve::Watch;
 use crate::system::{
@@ -42,6 +42,9 @@ pub struct StaticsReport {
     /// How many independent states of stress need no load: 0 if all forces are determined. What is not `unique` is then
     /// the choice of least norm of all reactions, forces times the normalising length taken with moments.
     pub self_stresses: usize,
+    /// The number of these that act across the plane of a planar mechanism only.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub across_plane: usize,
     /// Ratio of the largest to the smallest singular value that counts, of the equilibrium equations.
     pub condition: f64,
     /// The length that makes forces comparable with moments, in m.
@@ -73,6 +76,10 @@ pub struct Force {
     pub force: f64,
     /// Whether equilibrium determines it.
     pub unique: bool,
+}
+
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Finds the forces that balance a load at the assembled configuration near the start of a question.
@@ -117,6 +124,18 @@ pub fn statics(
         .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
         .collect();
     let length = mechanism.characteristic_length();
+    let drives = stresses.iter().map(|stress| &stress[rows..]);
+    let across_plane = mechanism.plane_of_motion().map_or(0, |normal| {
+        let in_plane = changes.iter().zip(drives);
+        let in_plane: Vec<f64> = in_plane
+            .flat_map(|(change, drives)| {
+                let reactions = reactions::in_plane(change, normal, length);
+                reactions.chain(drives.iter().copied())
+            })
+            .collect();
+        let entries = in_plane.len() / stresses.len().max(1);
+        stresses.len() - rank_of(entries, stresses.len(), &in_plane)
+    });
     // in a large mechanism closures alone are loaded least: its states of stress are not all known
     if !near.system().is_large() {
         let found = reactions::of(&mut near, at, load, &forces[..rows]);
@@ -169,6 +188,7 @@ pub fn statics(
         closures,
         joints,
         self_stresses: rows + held.len() - rank,
+        across_plane,
         condition,
         normalising_length: mechanism.characteristic_length(),
         pose: closed.pose(mechanism),

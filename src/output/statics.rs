@@ -19,6 +19,7 @@ impl Report for StaticsReport {
                 size(self.condition),
                 metres(length)
             ))
+            .notes(across(self))
             .notes(closing::notes(&self.pose))
             .table("Loads", loads(self))
             .table("Loads on joints", forces(&self.joint_loads, [0.0; 2]))
@@ -55,14 +56,32 @@ fn balance(report: &StaticsReport) -> String {
     if report.loads.is_empty() && report.joint_loads.is_empty() {
         return "No load: all forces are zero.".into();
     }
-    match report.self_stresses {
-        0 => "In equilibrium; all forces are determined.".into(),
+    let across = report.across_plane;
+    match report.self_stresses - across {
+        0 if across == 0 => "In equilibrium; all forces are determined.".into(),
+        0 => "In equilibrium; all forces in the plane of motion are determined.".into(),
         stresses => format!(
-            "In equilibrium, but not uniquely: {} can be added; values marked * are \
+            "In equilibrium, but not uniquely: {}{} can be added; values marked * are \
              the minimum-norm choice.",
-            count(stresses, "state of self-stress")
+            count(stresses, "state of self-stress"),
+            if across > 0 {
+                " in the plane of motion"
+            } else {
+                ""
+            }
         ),
     }
+}
+
+/// A note on forces that are not determined across the plane of a planar mechanism.
+fn across(report: &StaticsReport) -> Option<String> {
+    (report.across_plane > 0).then(|| {
+        format!(
+            "across the plane of motion the mechanism is overconstrained: {} can be added there, and values marked * are \
+             the minimum-norm choice",
+            count(report.across_plane, "state of self-stress")
+        )
+    })
 }
 
 /// The force (N) and the moment (N·m) that are rounding beside the largest of a report.

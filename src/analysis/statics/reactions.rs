@@ -136,6 +136,20 @@ pub(super) fn least(found: &[Reaction], stresses: &[Vec<Reaction>], length: f64)
     Decomposition::of(opposite.len(), stresses.len(), &columns).solve(&opposite)
 }
 
+/// The parts of reactions in a plane: forces along it, times the length, and moments about its normal.
+pub(super) fn in_plane(
+    reactions: &[Reaction],
+    normal: Vector3<f64>,
+    length: f64,
+) -> impl Iterator<Item = f64> {
+    reactions.iter().flat_map(move |reaction| {
+        let force = Vector3(reaction.force);
+        let along = force - normal.times(normal.dot(&force));
+        let moment = normal.dot(&Vector3(reaction.moment));
+        (along.times(length).0.into_iter()).chain([moment])
+    })
+}
+
 fn stacked(reactions: &[Reaction], length: f64) -> impl Iterator<Item = f64> {
     reactions.iter().flat_map(move |reaction| {
         let force = reaction.force.map(|f| f * length);

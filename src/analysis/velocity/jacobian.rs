@@ -10,7 +10,11 @@ use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
 use crate::number::Number;
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
-/// Rates of outputs for unit rates of the inputs, one at a time.
+/// Along an axis of ground is the normal of a plane up to this (1 less the cosine of the angle between them).
+const ALONG: f64 = 1e-9;
+
+/// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane of ground it
+/// has no rows across that plane: a platform has two velocities and one angular velocity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputOutput {
     /// The outputs.
@@ -84,6 +88,44 @@ fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
     }
 }
 
+/// For each row of an output false if it is zero in every motion, as across the plane of a planar mechanism; `normal` is
+/// the axis of ground along the normal of the plane, if it is one.
+fn kept(output: Lock, normal: Option<usize>) -> Vec<bool> {
+    let in_plane =
+        |is_turn: bool, axis: usize| normal.is_none_or(|normal| is_turn == (axis == normal));
+    let three = |is_turn| [0, 1, 2].map(|axis| in_plane(is_turn, axis));
+    match output {
+        Lock::Frame(_) => [three(true), three(false)].concat(),
+        Lock::Point(_) => three(false).to_vec(),
+        Lock::Coordinate(Coordinate::Turn(_, axis)) => vec![in_plane(true, axis as usize)],
+        // roll and pitch may both change where the plane is not across z
+        Lock::Coordinate(Coordinate::Pose(_, c)) if !c.is_angle() || normal == Some(2) => {
+            vec![in_plane(c.is_angle(), c as usize % 3)]
+        }
+        Lock::Coordinate(_) => vec![true],
+    }
+}
+
+/// For each row of some outputs true if the Jacobian has it.
+fn rows_kept(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<bool> {
+    let plane = mechanism.plane_of_motion();
+    let normal = plane.and_then(|normal| (0..3).find(|&k| normal.0[k].abs() > 1.0 - ALONG));
+    let rows = outputs.iter().flat_map(|&output| kept(output, normal));
+    rows.collect()
+}
+
+/// The number of rows of the dimensionless Jacobian of some outputs.
+pub(crate) fn row_count(mechanism: &Mechanism, outputs: &[Lock]) -> usize {
+    let is_point = |output: &Lock| matches!(output, Lock::Point(_));
+    let (points, others): (Vec<Lock>, Vec<Lock>) = outputs.iter().copied().partition(is_point);
+    let [points, others] = [points, others].map(|of| rows_kept(mechanism, &of));
+    let count = |rows: Vec<bool>| rows.into_iter().filter(|kept| *kept).count();
+    match count(others) {
+        0 => count(points),
+        others => others,
+    }
+}
+
 /// The determinant of a square matrix, by elimination with the largest pivot of each column; none where such a pivot is
 /// small, if many matrices are eliminated in the order of one.
 fn determinant<T: Number>(size: usize, entries: &[T]) -> Option<T> {
@@ -123,6 +165,8 @@ pub(crate) struct Outputs<'m, T = f64> {
     mechanism: &'m Mechanism,
     outputs: Vec<Lock>,
     twists: FrameTwists<T>,
+    /// Of the rows of all outputs those that the Jacobian has.
+    kept: Vec<bool>,
     /// Scales of the rows, then of the columns.
     scales: [Vec<f64>; 2],
     /// How many rows at the end belong to points followed.
@@ -204,19 +248,26 @@ impl<'m, T: Factorable> Outputs<'m, T> {
         let twists = FrameTwists::sharing(motion.kinematics(), &dimensions, unknowns, &points);
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
+        let kept = rows_kept(mechanism, &outputs);
         let rows = outputs
             .iter()
-            .flat_map(|&output| rows_of(mechanism, output));
+            .flat_map(|&output| rows_of(mechanism, output))
+            .zip(&kept)
+            .filter_map(|(row, kept)| kept.then_some(row));
+        let followed: Vec<Lock> = (outputs.iter().copied())
+            .filter(|output| matches!(output, Lock::Point(_)))
+            .collect();
         let columns = motion.coordinates().iter();
         Outputs {
             scales: [
                 rows.map(|(_, is_angle)| scale(is_angle)).collect(),
                 columns.map(|of| scale(of.is_angle(mechanism))).collect(),
             ],
-            followed: 3 * outputs
+            followed: rows_kept(mechanism, &followed)
                 .iter()
-                .filter(|output| matches!(output, Lock::Point(_)))
+                .filter(|kept| **kept)
                 .count(),
+            kept,
             twists,
             outputs,
             mechanism,
@@ -290,6 +341,12 @@ impl<'m, T: Factorable> Outputs<'m, T> {
         for (rates, input) in rates.iter().zip(inputs) {
             let first = known.given.len();
             self.add(&mut known.given, at, placement, rates, spins);
+            let mut next = first;
+            for (i, _) in self.kept.iter().enumerate().filter(|(_, kept)| **kept) {
+                known.given[next] = known.given[first + i];
+                next += 1;
+            }
+            known.given.truncate(next);
             let entries = known.given[first..].iter().zip(rows).take(known.rows);
             (known.entries)
                 .extend(entries.map(|(entry, row)| entry.scale(*input) / T::from_f64(*row)));
@@ -310,6 +367,7 @@ impl Outputs<'_> {
         let values = (normalised.singular_values()).expect("reals are known");
         let mechanism = self.mechanism;
         let rows = (self.outputs.iter()).flat_map(|&output| rows_of(mechanism, output));
+        let rows = rows.zip(&self.kept).filter(|(_, kept)| **kept);
         let inputs = motion.coordinates().iter();
         let count = self.scales[0].len();
         let columns = normalised.given.chunks_exact(count.max(1));
@@ -322,7 +380,7 @@ impl Outputs<'_> {
             manipulability: values.iter().product(),
             determinant: normalised.determinant(),
             rows: rows
-                .map(|(name, is_angle)| Axis::new(name, is_angle))
+                .map(|((name, is_angle), _)| Axis::new(name, is_angle))
                 .collect(),
             columns: inputs
                 .map(|input| Axis::new(input.name(mechanism), input.is_angle(mechanism)))
