@@ -17,6 +17,7 @@ use super::asked::{Asked, Forces, Posed};
 use super::pictures::{keep, view};
 use super::search::{Search, mode};
 use super::source::Source;
+use super::written::file;
 use super::{Answer, Refusal, lines};
 
 /// Draw the assembled mechanism as SVG, PNG or GLB.
@@ -72,13 +73,13 @@ pub struct Draw {
     #[command(flatten)]
     search: Search,
     /// Write the picture as SVG to a file instead of stdout
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
     svg: Option<PathBuf>,
     /// Write the picture as PNG, at twice the resolution of the SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["png"]))]
     png: Option<PathBuf>,
     /// Write the mechanism as a solid for Blender, presentations and model viewers
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["all_modes", "ghosts"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["all_modes", "ghosts"], value_parser = file(&["glb"]))]
     glb: Option<PathBuf>,
 }
 

@@ -9,7 +9,7 @@ use linkwork::output::{Report, closing, text};
 
 use super::asked::Asked;
 use super::source::Source;
-use super::written::written;
+use super::written::{fits, written};
 use super::{Answer, Refusal, lines};
 
 /// Write a mechanism as a file for another program.
@@ -45,6 +45,14 @@ enum To {
 
 impl Export {
     pub fn run(&self) -> Result<Answer, Refusal> {
+        let endings: &[&str] = match self.to {
+            To::Urdf => &["urdf", "xml"],
+            To::Mjcf => &["xml", "mjcf"],
+        };
+        let output = self.output.as_deref();
+        output
+            .map_or(Ok(()), |path| fits(path, endings))
+            .map_err(Refusal::error)?;
         let posed = self.asked.pose(&self.source)?;
         let mechanism = &posed.loaded.mechanism;
         let closed = match posed.ask(Question::closed)? {
@@ -66,7 +74,7 @@ impl Export {
         said.extend(more);
         let outside = closing::outside_limits(&closed.outside_limits(mechanism));
         let said = lines("warning", outside) + &remarks(&said);
-        let data = written(text, self.output.as_deref())?;
+        let data = written(text, output)?;
         Ok(Answer::yes(data, posed.loaded.warnings() + &said))
     }
 }

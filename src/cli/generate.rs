@@ -9,7 +9,7 @@ use linkwork::output::solver::{Code, Language, Precision};
 
 use super::asked::{self, Asked};
 use super::source::Source;
-use super::written::{save, written};
+use super::written::{fits, save, written};
 use super::{Answer, Refusal};
 
 /// Write a solver for one question as source code, C or Rust, without dependencies.
@@ -49,6 +49,14 @@ pub struct Generate {
 
 impl Generate {
     pub fn run(&self) -> Result<Answer, Refusal> {
+        let endings: &[&str] = match self.lang {
+            Language::C => &["h", "c"],
+            Language::Rust => &["rs"],
+        };
+        let output = self.output.as_deref();
+        output
+            .map_or(Ok(()), |path| fits(path, endings))
+            .map_err(Refusal::error)?;
         let mut posed = self.asked.pose(&self.source)?;
         posed.mode(self.mode);
         let mechanism = posed.question.mechanism().clone();
@@ -68,7 +76,7 @@ impl Generate {
             let path = path.with_file_name(test);
             save(&path, code.test(&solver, &examples).as_bytes())?;
         }
-        let data = written(code.solver(&solver), self.output.as_deref())?;
+        let data = written(code.solver(&solver), output)?;
         Ok(Answer::yes(data, posed.loaded.warnings()))
     }
 }

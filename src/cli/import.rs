@@ -9,7 +9,7 @@ use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
 
 use super::export::remarks;
-use super::written::written;
+use super::written::{file, written};
 use super::{Answer, Refusal, style};
 
 /// Read a URDF or MJCF file as a mechanism.
@@ -37,7 +37,7 @@ pub struct Import {
     #[arg(long, value_enum, default_value_t = Convention::Modified)]
     convention: Convention,
     /// Write to this file instead of stdout
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["ron"]))]
     output: Option<PathBuf>,
 }
 

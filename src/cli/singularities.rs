@@ -12,7 +12,7 @@ use super::format::{Format, with_rows};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::words::Ranged;
-use super::written::save;
+use super::written::{file, save};
 use super::{Answer, Refusal};
 
 /// Find singularities: at a configuration, along inputs, or as curves in two inputs.
@@ -61,7 +61,7 @@ pub struct Singularities {
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
     /// Draw the loci to a file
-    #[arg(long, value_name = "FILE", requires = "locus")]
+    #[arg(long, value_name = "FILE", requires = "locus", value_parser = file(&["svg"]))]
     svg: Option<PathBuf>,
 }
 

@@ -12,7 +12,7 @@ use super::search::Search;
 use super::source::{Assignment, Source, once};
 use super::watched::watched;
 use super::words::Ranged;
-use super::written::save;
+use super::written::{file, save};
 use super::{Answer, Refusal, lines};
 
 /// Compute quantities over many values of parameters and coordinates.
@@ -73,7 +73,7 @@ pub struct Study {
     #[arg(long, conflicts_with = "shard")]
     spread: bool,
     /// Write to a file, which appears only when it is complete
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = file(&["csv", "txt"]))]
     output: Option<PathBuf>,
 }
 

@@ -20,7 +20,7 @@ use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
 use super::words::{self, Ranged};
-use super::written::{Lines, save, unwritten};
+use super::written::{Lines, file, save, unwritten};
 use super::{Answer, Refusal, lines};
 
 /// Move the inputs through their ranges: positions, rates, forces and other quantities; never switches branch silently.
@@ -108,16 +108,16 @@ pub struct Sweep {
     format: Format,
     /// Draw the mechanism in several places with the traced paths, then the quantities or else the joints over the input,
     /// to a file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
     svg: Option<PathBuf>,
     /// Write the same picture as PNG, at twice the resolution of the SVG
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["png"]))]
     png: Option<PathBuf>,
     /// Draw the mechanism moving, as an animated GIF of 4 s, there and back if the motion does not close
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["gif"]))]
     animate: Option<PathBuf>,
     /// Write the mechanism moving as a GLB solid for Blender, presentations and model viewers
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["glb"]))]
     glb: Option<PathBuf>,
     /// Viewpoint: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
     #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]

@@ -8,7 +8,7 @@ use linkwork::output::view::{Viewed, page};
 
 use super::served::serve;
 use super::source::{Assignment, Source};
-use super::written::save;
+use super::written::{file, save};
 use super::{Answer, Refusal};
 
 /// Write a page in which the mechanism can be moved, with the solver inside.
@@ -27,7 +27,7 @@ pub struct View {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
     /// File to write the page to [default: beside the mechanism file, or linkwork.html without one]
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = file(&["html", "htm"]))]
     output: Option<PathBuf>,
     /// Serve the page to this machine only, and reload the file whenever it is saved, until Ctrl-C
     #[arg(long, conflicts_with = "output")]

@@ -12,7 +12,7 @@ use super::format::{Format, beside_rows, with_rows};
 use super::search::Search;
 use super::source::{Assignment, Source};
 use super::words::{self, Ranged};
-use super::written::{rows, save};
+use super::written::{file, rows, save};
 use super::{Answer, Refusal, lines, style};
 
 /// Map where the mechanism reaches, in which modes, and what bounds it.
@@ -56,7 +56,7 @@ pub struct Workspace {
     #[arg(long)]
     boundary: bool,
     /// Draw the map to a file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
     svg: Option<PathBuf>,
 }
 

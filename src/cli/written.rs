@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use linkwork::output::Rows;
 use linkwork::output::csv::Csv;
 
@@ -90,6 +91,33 @@ pub fn rows(all: Rows) -> Result<bool, Refusal> {
     }
     csv.finish().map_err(unwritten)?.finish()?;
     Ok(whole)
+}
+
+/// Endings of files that tell what is in them.
+const ENDINGS: [&str; 32] = [
+    "svg", "png", "gif", "glb", "html", "htm", "csv", "json", "md", "ron", "urdf", "xml", "mjcf",
+    "c", "h", "rs", "py", "js", "tex", "txt", "jpg", "jpeg", "webp", "apng", "bmp", "tif", "tiff",
+    "pdf", "eps", "mp4", "gltf", "stl",
+];
+
+/// Refuses a file whose ending says that something else is in it than what is written there.
+pub fn fits(path: &Path, own: &[&str]) -> Result<(), String> {
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some(ending) if ENDINGS.contains(&ending) && !own.contains(&ending) => Err(format!(
+            "this is written as {}, and the name ends in `.{ending}`: end it in `.{}`",
+            own[0].to_uppercase(),
+            own[0]
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// A file to write, whose ending fits.
+pub fn file(own: &'static [&'static str]) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path: PathBuf| fits(&path, own).map(|()| path))
 }
 
 /// A file beside another, of this process alone.
