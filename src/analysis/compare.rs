@@ -14,9 +14,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::EvaluationError;
-use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
-use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{FormulaNames, Named};
 use conditions::Conditions;
@@ -119,9 +117,9 @@ pub struct ComponentReport {
     pub name: String,
     /// What kind of quantity it is.
     pub quantity: Quantity,
-    /// Whether it agrees at every sample at which it has a value, has one somewhere, and is not refuted.
+    /// True if it agrees at every sample at which it has a value, has one somewhere, and is not refuted.
     pub agree: bool,
-    /// What was proved of it wherever it has a value. Samples show only that there are such configurations.
+    /// The proof that it holds wherever it has a value. Samples show only that there are such configurations.
     pub proof: Proof,
     /// The largest difference: m, or without unit.
     pub max_difference: f64,
@@ -131,7 +129,7 @@ pub struct ComponentReport {
     pub samples: usize,
     /// Samples at which it has none, as when it divides by zero.
     pub without_value: usize,
-    /// What must not be zero for it to have a value, as far as it is not shown that it never is.
+    /// Formulas that must not be zero for it to have a value, and are not shown never to be.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub divisors: Vec<Divisor>,
     /// The sample with the largest difference.
@@ -386,16 +384,6 @@ impl<'a> Checked<'a> {
             source: form.source.clone(),
             worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
             components,
-        }
-    }
-}
-
-impl MatrixEntry {
-    /// The entry of a pose.
-    fn of<T: Number>(self, pose: &Pose<T>) -> T {
-        match self {
-            MatrixEntry::Position(i) => pose.position.0[i],
-            MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
         }
     }
 }

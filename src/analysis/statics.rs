@@ -42,7 +42,7 @@ pub struct StaticsReport {
     /// How many independent states of stress need no load: 0 if all forces are determined. What is not `unique` is then
     /// the choice of least norm of all reactions, forces times the normalising length taken with moments.
     pub self_stresses: usize,
-    /// How many of these act across the plane of a planar mechanism only: as many more than the forces in the plane need.
+    /// The number of these that act across the plane of a planar mechanism only.
     #[serde(default, skip_serializing_if = "is_none")]
     pub across_plane: usize,
     /// Ratio of the largest to the smallest singular value that counts, of the equilibrium equations.

@@ -22,7 +22,7 @@ use crate::system::{
 pub use centres::InstantCentre;
 pub(crate) use frames::Spins;
 pub use jacobian::{Axis, InputOutput};
-pub(crate) use jacobian::{Normalised, Outputs, condition};
+pub(crate) use jacobian::{Normalised, Outputs, condition, row_count};
 pub use planar::Transmission;
 pub(crate) use planar::TransmissionAngles;
 

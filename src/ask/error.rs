@@ -165,6 +165,18 @@ pub enum AskError {
     /// A coordinate that comes round again is mapped, or an angle of a platform moved, over more than a turn.
     #[error("the range of `{0}` is wider than a full turn")]
     MoreThanATurn(String),
+    /// An input that turns more often than is followed.
+    #[error("`{name}` would turn {} times, and at most {most} turns are followed", turns.round())]
+    TooManyTurns {
+        /// The input.
+        item: Item,
+        /// Its name.
+        name: String,
+        /// The turns it would make.
+        turns: f64,
+        /// The turns it may make.
+        most: f64,
+    },
     /// Nothing moves, though a joint may be driven.
     #[error("no input moves")]
     NothingMoves(Option<String>),
@@ -312,6 +324,7 @@ impl AskError {
             | AskError::Quantity { item, .. }
             | AskError::Unmeasured { item, .. }
             | AskError::Twice { item, .. }
+            | AskError::TooManyTurns { item, .. }
             | AskError::OutsideLimits { item, .. } => Some(*item),
             _ => None,
         }

@@ -11,8 +11,9 @@ pub(super) use meter::{Block, Meter, Metered, Name};
 
 use super::{AskError, Item, Question, Role, Unmeasured};
 use crate::algebra::{Measure, SiUnit};
+use crate::analysis::velocity::row_count;
 use crate::mechanism::{Figure, Measured, NamedPoint, Order, Quantity};
-use crate::system::{self, Coordinate, Lock, QuestionError, free_outputs};
+use crate::system::{self, Coordinate, QuestionError, free_outputs};
 
 impl Question {
     /// The quantities that are asked for; without any those that the file names and that can be known where what is held
@@ -159,15 +160,7 @@ impl Question {
             let of = match *measured {
                 Measured::Figure(Figure::Determinant) => {
                     let outputs = free_outputs(&self.mechanism, &held.driven_coordinates(), &[]);
-                    let counted = |point: bool| -> usize {
-                        let is_point = |of: &Lock| matches!(of, Lock::Point(_));
-                        let of_kind = outputs.iter().filter(|of| is_point(of) == point);
-                        of_kind.map(|of| of.rows()).sum()
-                    };
-                    let rows = match counted(false) {
-                        0 => counted(true),
-                        rows => rows,
-                    };
+                    let rows = row_count(&self.mechanism, &outputs);
                     let columns = held.driven_coordinates().len();
                     return (rows != columns).then_some(Unmeasured::NotSquare { rows, columns });
                 }

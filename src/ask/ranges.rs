@@ -1,8 +1,13 @@
 //! Coordinates that move or are mapped, with their ranges.
 
+use std::f64::consts::TAU;
+
 use super::{AskError, Question, Role};
 use crate::mechanism::Mechanism;
 use crate::system::{self, Coordinate, Driven, Held, QuestionError};
+
+/// Turns of an input at most: the curve is followed through each, a thousand in about a second.
+const MOST_TURNS: f64 = 10_000.0;
 
 impl Question {
     /// The inputs with their ranges; `refuse` tells whether a range is no use.
@@ -36,6 +41,22 @@ impl Question {
             });
         }
         Ok(ranges)
+    }
+
+    /// Refuses inputs that turn so often that nobody waits for it.
+    pub(super) fn few_turns(&self, inputs: &[Driven]) -> Result<(), AskError> {
+        for (index, input) in inputs.iter().enumerate() {
+            let turns = (input.to - input.from).abs() / TAU;
+            if input.coordinate.is_angle(&self.mechanism) && turns > MOST_TURNS {
+                return Err(AskError::TooManyTurns {
+                    item: Role::Input.item(index),
+                    name: self.inputs[index].name.clone(),
+                    turns,
+                    most: MOST_TURNS,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// A question with the inputs held too, at these values in m or rad.

@@ -44,6 +44,7 @@ impl Question {
     ) -> Result<AlongReport, AskError> {
         let settings = self.with_outputs(settings)?;
         let moved = self.driven(|from, to| from == to)?;
+        self.few_turns(&moved)?;
         let begin: Vec<f64> = moved.iter().map(|input| input.from).collect();
         let (question, held) = self.holding(&begin)?;
         let inputs = inputs(&question)?;

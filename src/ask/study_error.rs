@@ -57,9 +57,9 @@ pub enum StudyError {
         "{rows} rows at once are too many, at most {most}: compute the study in {shards} shards or more"
     )]
     TooLong {
-        /// How many rows are asked for.
+        /// The rows asked for.
         rows: usize,
-        /// How many may be.
+        /// The most at once.
         most: usize,
         /// The fewest shards in which the whole study can be computed.
         shards: usize,

@@ -52,6 +52,7 @@ impl Question {
         if let Some(input) = inputs.iter().filter(angle).find(wide) {
             return Err(AskError::MoreThanATurn(input.coordinate.name(mechanism)));
         }
+        self.few_turns(&inputs)?;
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
         let mut question = self.with_inputs(self.resolved()?, &begin)?;
         for (index, input) in inputs.iter().enumerate() {

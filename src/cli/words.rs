@@ -130,6 +130,10 @@ pub fn complaint(
         AskError::MoreThanATurn(name) => {
             said.help(format!("one turn covers all values, e.g. {name}=-180deg..180deg"))
         }
+        AskError::TooManyTurns { name, .. } => {
+            let help = format!("a motion repeats after few turns, often after one: --input {name}=0deg..360deg");
+            said.label("too far").at(Part::WholeValue).help(help)
+        }
         AskError::NothingMoves(driven) => {
             let name = driven.as_deref().unwrap_or("NAME");
             said.help(format!(

@@ -90,18 +90,17 @@ pub struct SerialAxes {
 }
 
 impl SerialAxes {
-    /// A typical length of the axes: the largest distance between given points, 1 m if there is none.
+    /// A typical length of the axes: the largest distance of a given point from the first, which is at least half of that
+    /// between any two; 1 m if there is none.
     pub fn length(&self) -> f64 {
         let placed = self.joints.iter().filter(|joint| !joint.is_prismatic());
         let ends = [&self.base, &self.tool].into_iter().flatten();
         let points = placed.map(|joint| joint.line.point);
-        let points: Vec<Vector3<f64>> = points.chain(ends.map(|pose| pose.position)).collect();
-        let apart = |p: &Vector3<f64>| {
-            let distances = points.iter().map(|q| (*p - *q).norm());
-            distances.fold(0.0, f64::max)
-        };
+        let mut points = points.chain(ends.map(|pose| pose.position));
+        let first = points.next().unwrap_or_else(Vector3::zero);
+        let distances = points.map(|point| (point - first).norm());
         let slides = self.joints.iter().map(|joint| joint.home_motion().1.abs());
-        let largest = points.iter().map(apart).chain(slides).fold(0.0, f64::max);
+        let largest = distances.chain(slides).fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     }
 }

@@ -267,7 +267,7 @@ fn remark(
     lines
 }
 
-/// Whether a component is refuted in letters only: its difference is below the tolerance.
+/// True if the difference of a component is below the tolerance, so that only letters can refute it.
 fn below(report: &CompareReport, component: &ComponentReport) -> bool {
     component.relative <= report.tolerance
 }

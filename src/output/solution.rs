@@ -95,7 +95,7 @@ fn sentence(report: &AssemblyReport) -> String {
     }
 }
 
-/// Whether everything is held.
+/// True if everything is held.
 fn is_fixed(report: &AssemblyReport) -> bool {
     let mut platforms = report.platforms.0.iter();
     report.variables.iter().all(|joint| joint.held)

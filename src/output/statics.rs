@@ -73,7 +73,7 @@ fn balance(report: &StaticsReport) -> String {
     }
 }
 
-/// What is not determined across the plane of a planar mechanism.
+/// A note on forces that are not determined across the plane of a planar mechanism.
 fn across(report: &StaticsReport) -> Option<String> {
     (report.across_plane > 0).then(|| {
         format!(

@@ -2,7 +2,9 @@
 #![cfg(feature = "cli")]
 
 use linkwork::algebra::{Expression, Node, Operator};
-use linkwork::analysis::compare::{CompareReport, CompareSettings, Proof, Reason, compare};
+use linkwork::analysis::compare::{
+    CompareReport, CompareSettings, Proof, Reason, Verdict, compare,
+};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::{Report, json, text};
@@ -351,4 +353,144 @@ fn a_file_without_closed_forms_says_so_and_agrees() {
         text::render(&report.document()),
         "Dietmaier's platform with 40 real postures\nThe file has no closed forms to compare.\n"
     );
+}
+
+/// A crank-rocker, 5, 1, 3, 4 m, with one identity; `e` is zero. X and Y are its closure equations.
+fn identity(form: &str) -> (CompareReport, String) {
+    let form = form
+        .replace('X', "(a*cos(t) + b*cos(t + f) - c*cos(s) - g)")
+        .replace('Y', "(a*sin(t) + b*sin(t + f) - c*sin(s))");
+    let report = compared(&format!(
+        r#"Mechanism(
+            version: 1, name: "p", convention: Modified, parameters: {{ "g": 5, "a": 1, "b": 3, "c": 4, "e": 0 }},
+            joints: {{ "t": Actuated(home: 1.05), "f": Passive(home: -0.2), "s": Passive(home: 2.25) }},
+            chains: {{
+                "L": Chain(rows: [(theta: "t"), (a: "a", theta: "f")], tip: [Tx("b")]),
+                "R": Chain(base: [Tx("g")], rows: [(theta: "s")], tip: [Tx("c")]),
+            }},
+            closures: {{ "k": Revolute("L", "R") }},
+            closed_forms: {{ "f": ({form}) }},
+        )"#
+    ));
+    let said = text::render(&report.document());
+    (report, said)
+}
+
+#[test]
+fn what_divides_by_zero_on_every_configuration_is_undefined_and_not_proved() {
+    let zero_over_zero = [
+        "identity: \"(sin(s) + 2)*Y/X\"",
+        "identity: \"sin(s)/X - sin(s)/X\"",
+        "identity: \"Y*X^(-1)\"",
+        "identity: \"Y^2/(X^2 + Y^2)\"",
+        "identity: \"Y/((sin(s) + 2)*X*Y)\"",
+        "identity: \"Y/(1/X)\"",
+        "identity: \"sin(atan2(Y, X))\"",
+        "identity: \"0*ln(X^2)\"",
+        "identity: \"abs(X)/abs(X) - 1\"",
+        "identity: \"(sin(s) + 2)*e/e - (sin(s) + 2)\"",
+        "where: { \"D\": \"X\", \"q\": \"Y/D\" }, identity: \"q*sin(s)\"",
+        "where: { \"u\": \"90 deg - t\" }, \
+         identity: \"Y/(a*sin(u) + b*cos(t + f) - c*cos(s) - g)\"",
+    ];
+    let others = [
+        "identity: \"1/X\"",
+        "identity: \"0*tan(pi/2 + X)\"",
+        "identity: \"0*sin(s)/(sin(t)^2 + cos(t)^2 - 1)\"",
+        "identity: \"Y/max(X, X)\"",
+    ];
+    for form in zero_over_zero.into_iter().chain(others) {
+        let (report, said) = identity(form);
+        let component = &report.closed_forms[0].components[0];
+        assert!(!report.agree && !component.proof.proved(), "{form}: {said}");
+        assert_eq!(component.samples, 0, "{form}: {said}");
+        assert_eq!(report.closed_forms[0].verdict, Verdict::Undefined);
+        assert!(said.contains("1 of 1 closed form is undefined ("), "{said}");
+        assert!(said.contains("), not proved (seed 1)."), "{said}");
+        let everywhere = said.contains("undefined (0/0 on every configuration), not proved");
+        assert_eq!(everywhere, !others.contains(&form), "{form}: {said}");
+    }
+}
+
+#[test]
+fn what_divides_by_zero_at_some_configurations_is_proved_at_the_others() {
+    for (form, exception) in [
+        ("identity: \"Y/(sin(s) + 2)\"", None),
+        ("identity: \"Y/sin(s)\"", Some("sin s")),
+        ("identity: \"tan(t)*cos(t) - sin(t)\"", Some("cos t")),
+        ("identity: \"sin(asin(1 + X)) - 1\"", None),
+    ] {
+        let (report, said) = identity(form);
+        assert!(
+            report.agree && said.contains("It is proved."),
+            "{form}: {said}"
+        );
+        let excepted = exception.map(|zero| format!("proved except where {zero} is zero"));
+        match excepted {
+            Some(excepted) => assert!(said.contains(&excepted), "{said}"),
+            None => assert!(!said.contains("except"), "{said}"),
+        }
+    }
+    // a parallelogram keeps the divisor zero on one circuit and not on the other
+    let report = compared(
+        r#"Mechanism(
+            version: 1, name: "parallelogram", convention: Modified, parameters: { "g": 5, "a": 2 },
+            joints: { "t": Actuated(home: "60 deg"), "f": Passive(home: "-60 deg"), "s": Passive(home: "60 deg") },
+            chains: {
+                "L": Chain(rows: [(theta: "t"), (a: "a", theta: "f")], tip: [Tx("g")]),
+                "R": Chain(base: [Tx("g")], rows: [(theta: "s")], tip: [Tx("a")]),
+            },
+            closures: { "k": Revolute("L", "R") },
+            closed_forms: { "f": (identity: "(a*sin(t) + g*sin(t + f) - a*sin(s))/(sin(t) - sin(s))") },
+        )"#,
+    );
+    let component = &report.closed_forms[0].components[0];
+    assert_eq!(component.divisors[0].zeros, component.without_value);
+    assert!(component.without_value > 10 && !component.divisors[0].vanishes);
+}
+
+/// What vanishes times a length that is zero need not vanish.
+#[test]
+fn a_factor_that_is_zero_in_the_mechanism_is_not_left_out() {
+    let slide = compared(
+        r#"Mechanism(
+            version: 1, name: "slide at zero", convention: Modified,
+            joints: { "q": Actuated(home: "30 deg"), "d": Passive(home: 0) },
+            chains: { "L": Chain(rows: [(theta: "q"), (alpha: "-90 deg", d: "d")]), "R": Chain() },
+            closures: { "k": Spherical("L", "R") },
+            closed_forms: { "wrong": (identity: "cos(q)"), "right": (identity: "d*cos(q)") },
+        )"#,
+    );
+    let parameter = compared(
+        r#"Mechanism(
+            version: 1, name: "no length", convention: Modified, parameters: { "e": 0, "m": 1 },
+            joints: { "q": Actuated(home: "30 deg"), "u": Passive(home: "10 deg") },
+            chains: { "L": Chain(rows: [(theta: "q"), (a: "e", theta: "u")], tip: [Tx("e")]), "R": Chain() },
+            closures: { "k": Spherical("L", "R") },
+            closed_forms: {
+                "wrong": (identity: "m*(cos(q) + cos(q + u))"), "right": (identity: "e*cos(q) + e*cos(q + u)"),
+            },
+        )"#,
+    );
+    for report in [slide, parameter] {
+        let proved = (report.closed_forms.iter()).map(|form| form.components[0].proof.proved());
+        assert_eq!(proved.collect::<Vec<_>>(), [false, true], "{report:#?}");
+    }
+}
+
+#[test]
+fn what_is_refuted_below_the_tolerance_does_not_agree() {
+    let wrong = "disagrees with the chains by less than the tolerance of 1e-9";
+    for form in [
+        "identity: \"a*sin(t) + b*sin(t + f) - (c + 1e-12)*sin(s)\"",
+        "of: \"L\", entries: { \"px\": \"a*cos(t) + (3 + 1e-11)*cos(t + f)\" }",
+        // Freudenstein's equation with a slip
+        "identity: \"g^2 + a^2 + c^2 - b^2 - 2*g*a*cos(t) + 2*g*c*cos(s) - 2*a*c*cos(t - s) + 1e-12\"",
+    ] {
+        let (report, said) = identity(form);
+        assert!(!report.agree && said.contains(wrong), "{said}");
+        assert!(report.closed_forms[0].components[0].relative < 1e-9);
+    }
+    let right = "of: \"L\", entries: { \"px\": \"a*cos(t) + 3*cos(t + f)\" }";
+    assert!(identity(right).0.agree);
 }

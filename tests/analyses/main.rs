@@ -20,6 +20,7 @@ mod modes;
 mod printed_solutions;
 mod quantities;
 mod rank;
+mod refused;
 mod reports;
 mod singularities;
 mod spins;

@@ -416,3 +416,37 @@ fn loads_that_make_no_sense_are_refused() {
         })
     ));
 }
+
+/// Three out-of-plane stresses for every loop, as its links may not be cut exactly parallel; none in the plane, unless the
+/// linkage is braced there.
+#[test]
+fn of_a_planar_linkage_the_forces_in_the_plane_are_determined() {
+    let answered = |name: &str| {
+        let mechanism = load(name);
+        let found = report(&Question::new(&mechanism), &loads(&mechanism));
+        let document = linkwork::output::Report::document(&found);
+        (found, linkwork::output::text::render(&document))
+    };
+    for (name, loops) in [
+        ("four_bar", 1),
+        ("slider_crank", 1),
+        ("planar_3rpr", 2),
+        ("watt_six_bar", 2),
+    ] {
+        let (found, said) = answered(name);
+        assert_eq!(found.across_plane, found.self_stresses, "{name}");
+        assert_eq!(found.across_plane, 3 * loops, "{name}");
+        let plane = "In equilibrium; all forces in the plane of motion are determined.";
+        assert!(said.contains(plane), "{name}: {said}");
+        assert!(said.contains("across the plane of motion the mechanism is overconstrained"));
+    }
+    // a crank more than needed carries what the others leave to it
+    let (found, said) = answered("three_parallel_cranks");
+    assert_eq!(found.self_stresses - found.across_plane, 1, "{said}");
+    assert!(said.contains("1 state of self-stress in the plane of motion can be added"));
+    let (found, said) = answered("three_rps");
+    assert!(
+        found.across_plane == 0 && !said.contains("plane of motion"),
+        "{said}"
+    );
+}

@@ -882,3 +882,46 @@ fn rates_of_what_is_not_held_are_refused() {
             .is_err()
     );
 }
+
+/// Two velocities and one angular velocity, so that the Jacobian is square: det J of a 3R arm with links 1, 0.5 and 0.5 m
+/// is l₁ l₂ sin θ₂ (Craig, Introduction to Robotics, ex. 5.3).
+#[test]
+fn a_planar_mechanism_has_a_square_jacobian_without_rows_of_zeros() {
+    let names = |mechanism: &Mechanism, points: &[Point]| {
+        let question = Question::new(mechanism);
+        let answer = velocity(&question, &Drive::still(&question), points, &Watch::none());
+        let found = answer.unwrap().closed().unwrap().jacobian.unwrap();
+        let rows = found.rows.iter().map(|row| row.name.clone());
+        (rows.collect::<Vec<String>>(), found)
+    };
+    let (rows, found) = names(&load("planar_3rpr"), &[]);
+    assert_eq!(rows, ["platform ωz", "platform vx", "platform vy"]);
+    assert!((found.determinant.unwrap().abs() - found.manipulability).abs() < 1e-12);
+    assert!(found.entries.iter().flatten().all(|entry| *entry != 0.0));
+
+    let arm = load("planar_3r");
+    let (rows, found) = names(&arm, &[]);
+    assert_eq!(rows, ["tool ωz", "tool vx", "tool vy"]);
+    let [l1, l2] = ["l1", "l2"].map(|name| {
+        let mut parameters = arm.parameters().iter();
+        parameters.find(|p| *p.name == *name).unwrap().value
+    });
+    let theta2 = arm.home().joints[1];
+    let length = arm.characteristic_length();
+    let expected = l1 * l2 * theta2.sin() / length.powi(2);
+    assert!(
+        (found.determinant.unwrap() - expected).abs() < 1e-12,
+        "{found:?}"
+    );
+
+    // points followed, and a plane across y
+    let (rows, found) = names(&load("four_bar"), &all_frames(&load("four_bar"))[..2]);
+    assert_eq!(found.followed, 4);
+    assert!(rows[2..].iter().all(|row| !row.ends_with("vz")), "{rows:?}");
+    let upright = std::fs::read_to_string(folder().join("planar_3r.ron")).unwrap();
+    let upright = upright.replacen("rows: [", "base: [Rx(\"90 deg\")], rows: [", 1);
+    let upright = Mechanism::new(&Description::read(&upright).unwrap()).unwrap();
+    assert_eq!(names(&upright, &[]).0, ["tool ωy", "tool vx", "tool vz"]);
+    // a spatial mechanism keeps all rows
+    assert_eq!(names(&load("three_rps"), &[]).0.len(), 6);
+}

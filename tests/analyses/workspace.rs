@@ -1124,3 +1124,43 @@ fn the_mode_of_what_is_guessed_is_told_instead_of_that_of_home() {
     };
     assert!(up(None, 0.0) && up(None, 2.0 * PI) && !up(Some(-2.0), 0.0));
 }
+
+/// Newton's method ends at a fold from some starts and not from others. Nodes that lie to rounding on the rings of the legs,
+/// |p| or |p − g| = |r ± c|, are of no mode, whatever the seed, and all between them are.
+#[test]
+fn nodes_on_the_very_boundary_do_not_depend_on_the_seed() {
+    let mechanism = written(&text("five_bar_hand"), &[]);
+    for (nodes, x, y, boundary) in [
+        (30, (-0.6, 0.8), (-0.7, 0.7), 4),
+        (31, (-0.6, 0.8), (-0.8, 0.8), 1),
+        (31, (-0.5, 0.7), (-0.6, 0.6), 17),
+    ] {
+        let at =
+            |k: usize, (low, high): (f64, f64)| low + (high - low) * k as f64 / (nodes - 1) as f64;
+        let (mut inside, mut on) = (0, 0);
+        for (i, j) in (0..nodes).flat_map(|i| (0..nodes).map(move |j| (i, j))) {
+            let p = [at(i, x), at(j, y)];
+            let radii = [0.0, 0.2].map(|g| (p[0] - g).hypot(p[1]));
+            let between = |margin: f64| {
+                radii
+                    .iter()
+                    .all(|d| (0.1 + margin..0.7 - margin).contains(d))
+            };
+            inside += usize::from(between(1e-12));
+            on += usize::from(between(-1e-12) && !between(1e-12));
+        }
+        assert!(on >= boundary, "{on}");
+        for seed in 1..=5 {
+            let settings = WorkspaceSettings {
+                nodes: vec![nodes; 2],
+                seed,
+                boundaries: false,
+                ..WorkspaceSettings::default()
+            };
+            let axes = [("hand.x", x.0, x.1), ("hand.y", y.0, y.1)];
+            let report = asked(&mechanism, &axes, &[], &settings);
+            let found = (report.reached, report.modes.len());
+            assert_eq!(found, (inside, 4), "{nodes} {x:?} {y:?} {seed}");
+        }
+    }
+}

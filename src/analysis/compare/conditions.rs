@@ -1,4 +1,4 @@
-//! What must hold at a configuration for the proof of a closed form to say something about it: no divisor is zero.
+//! Conditions under which the proof of a closed form says something about a configuration: no divisor is zero.
 //!
 //! A proof clears denominators. f·D = 0 says f = 0 only where D is not zero; where the closures make D zero everywhere, f
 //! has no value, and any f would be "proved".
@@ -20,9 +20,9 @@ const ANYWHERE: f64 = 1e9;
 /// A formula in a closed form that must not be zero, and of which it is not shown that it never is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Divisor {
-    /// What the form divides by; cos x for tan x, √(x² + y²) for atan2(y, x), the argument of a logarithm.
+    /// A divisor of the form; cos x for tan x, √(x² + y²) for atan2(y, x), the argument of a logarithm.
     pub formula: Expression,
-    /// Whether chains and closures make it zero on every configuration.
+    /// True if chains and closures make it zero on every configuration.
     pub vanishes: bool,
     /// Samples at which it is zero, as far as configurations are solved exactly.
     pub zeros: usize,
@@ -32,9 +32,9 @@ pub struct Divisor {
 pub(super) struct Conditions {
     /// The divisors, with the number of samples at which they are zero.
     divisors: Vec<(Formula, usize)>,
-    /// How the form differs from the chains, in letters.
+    /// The difference between the form and the chains, in letters.
     difference: Option<Formula>,
-    /// Whether the difference is not zero at some sample.
+    /// True once the difference is not zero at some sample.
     refuted: bool,
 }
 
@@ -56,7 +56,7 @@ impl Conditions {
         }
     }
 
-    /// Whether no divisor is zero at a sample.
+    /// True if no divisor is zero at a sample.
     pub fn hold(&mut self, mechanism: &Mechanism, form: &ClosedForm, joints: &[f64]) -> bool {
         let is_zero = |formula: &Formula| {
             let measured = measured(mechanism, form, formula, joints);
@@ -131,7 +131,7 @@ fn visit(
     }
 }
 
-/// What must not be zero for an operation to have a value.
+/// A formula that must not be zero for an operation to have a value.
 fn divisor(mechanism: &Mechanism, operation: &Formula) -> Option<Formula> {
     let call = |function, of: &[Formula]| Node::Call(function, of.to_vec()).at(0..0);
     match &operation.node {
@@ -150,7 +150,7 @@ fn divisor(mechanism: &Mechanism, operation: &Formula) -> Option<Formula> {
     }
 }
 
-/// Whether interval arithmetic shows that a formula is not zero at any joint values.
+/// True if interval arithmetic shows that a formula is not zero at any joint values.
 fn is_never_zero(mechanism: &Mechanism, form: &ClosedForm, formula: &Formula) -> bool {
     let mut encloses = true;
     visit(form, formula, &mut BTreeSet::new(), &mut |part| {

@@ -2,7 +2,8 @@
 
 use super::NEAR_SINGULAR;
 use crate::algebra::{EvaluationError, Node, Operator};
-use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
+use crate::geometry::Pose;
+use crate::mechanism::{ClosedForm, Formula, MatrixEntry, Mechanism, Symbol};
 use crate::number::{Dual, Number};
 
 /// What the names in a closed form stand for at some joint values.
@@ -75,7 +76,7 @@ impl Measured {
         self.terms + self.motion
     }
 
-    /// Whether it may be zero at the configuration that this one was solved for.
+    /// True if it may be zero at the configuration that this one was solved for.
     pub fn is_zero(&self) -> bool {
         self.value.abs() <= NEAR_SINGULAR * self.motion + ROUNDING * self.terms
     }
@@ -116,5 +117,15 @@ fn terms(values: &Values<f64>, formula: &Formula) -> Result<f64, EvaluationError
         }
         Node::Negate(x) => terms(values, x),
         _ => Ok(values.of(formula)?.abs()),
+    }
+}
+
+impl MatrixEntry {
+    /// The entry of a pose.
+    pub(super) fn of<T: Number>(self, pose: &Pose<T>) -> T {
+        match self {
+            MatrixEntry::Position(i) => pose.position.0[i],
+            MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
+        }
     }
 }

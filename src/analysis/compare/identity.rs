@@ -106,7 +106,7 @@ impl Setting<'_> {
         })
     }
 
-    /// Whether a formula is zero on every configuration.
+    /// True if a formula is zero on every configuration.
     pub(super) fn is_zero(&self, formula: &Formula, equations: &[Trigonometric]) -> bool {
         let zero = |of: &Formula| self.is_zero(of, equations);
         match &formula.node {

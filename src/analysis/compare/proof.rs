@@ -129,7 +129,7 @@ pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Optio
     refutations.unwrap_or_else(|| vec![None; formulas.len()])
 }
 
-/// Which formulas of a form are zero on every configuration, because of the chains or the closures.
+/// For each of some formulas of a form, true if chains or closures make it zero on every configuration.
 pub(super) fn vanishing(
     mechanism: &Mechanism,
     form: &ClosedForm,

@@ -50,7 +50,7 @@ fn a_form_without_a_value_is_counted_and_is_not_agreement() {
     );
     let never = &forms[0].components[0];
     assert_eq!((never.samples, never.without_value), (0, 102));
-    assert_eq!(forms[0].verdict, Verdict::NotTried);
+    assert_eq!(forms[0].verdict, Verdict::Undefined);
     assert!(forms[0].components[1].agree);
     let sometimes = &forms[1].components[0];
     assert!(sometimes.agree && sometimes.samples > 20 && sometimes.without_value > 20);

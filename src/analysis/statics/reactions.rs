@@ -140,7 +140,7 @@ pub(super) fn least(found: &[Reaction], stresses: &[Vec<Reaction>], length: f64)
     Decomposition::of(opposite.len(), stresses.len(), &columns).solve(&opposite)
 }
 
-/// What reactions do in a plane: forces along it, times the length, and moments about its normal.
+/// The parts of reactions in a plane: forces along it, times the length, and moments about its normal.
 pub(super) fn in_plane(
     reactions: &[Reaction],
     normal: Vector3<f64>,

@@ -10,7 +10,7 @@ use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
 use crate::number::Number;
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
-/// How far the normal of a plane may be from an axis of ground (1 less the cosine of the angle between them).
+/// Along an axis of ground is the normal of a plane up to this (1 less the cosine of the angle between them).
 const ALONG: f64 = 1e-9;
 
 /// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane of ground it
@@ -88,7 +88,7 @@ fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
     }
 }
 
-/// Which rows of an output are not zero in every motion, as those across the plane of a planar mechanism are; `normal` is
+/// For each row of an output false if it is zero in every motion, as across the plane of a planar mechanism; `normal` is
 /// the axis of ground along the normal of the plane, if it is one.
 fn kept(output: Lock, normal: Option<usize>) -> Vec<bool> {
     let in_plane =
@@ -103,6 +103,26 @@ fn kept(output: Lock, normal: Option<usize>) -> Vec<bool> {
             vec![in_plane(c.is_angle(), c as usize % 3)]
         }
         Lock::Coordinate(_) => vec![true],
+    }
+}
+
+/// For each row of some outputs true if the Jacobian has it.
+fn rows_kept(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<bool> {
+    let plane = mechanism.plane_of_motion();
+    let normal = plane.and_then(|normal| (0..3).find(|&k| normal.0[k].abs() > 1.0 - ALONG));
+    let rows = outputs.iter().flat_map(|&output| kept(output, normal));
+    rows.collect()
+}
+
+/// The number of rows of the dimensionless Jacobian of some outputs.
+pub(crate) fn row_count(mechanism: &Mechanism, outputs: &[Lock]) -> usize {
+    let is_point = |output: &Lock| matches!(output, Lock::Point(_));
+    let (points, others): (Vec<Lock>, Vec<Lock>) = outputs.iter().copied().partition(is_point);
+    let [points, others] = [points, others].map(|of| rows_kept(mechanism, &of));
+    let count = |rows: Vec<bool>| rows.into_iter().filter(|kept| *kept).count();
+    match count(others) {
+        0 => count(points),
+        others => others,
     }
 }
 
@@ -228,13 +248,7 @@ impl<'m, T: Factorable> Outputs<'m, T> {
         let twists = FrameTwists::sharing(motion.kinematics(), &dimensions, unknowns, &points);
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
-        let plane = mechanism.plane_of_motion();
-        let normal = plane.and_then(|normal| (0..3).find(|&k| normal.0[k].abs() > 1.0 - ALONG));
-        let rows_kept = |outputs: &[Lock]| -> Vec<bool> {
-            let rows = outputs.iter().flat_map(|&output| kept(output, normal));
-            rows.collect()
-        };
-        let kept = rows_kept(&outputs);
+        let kept = rows_kept(mechanism, &outputs);
         let rows = outputs
             .iter()
             .flat_map(|&output| rows_of(mechanism, output))
@@ -249,9 +263,9 @@ impl<'m, T: Factorable> Outputs<'m, T> {
                 rows.map(|(_, is_angle)| scale(is_angle)).collect(),
                 columns.map(|of| scale(of.is_angle(mechanism))).collect(),
             ],
-            followed: rows_kept(&followed)
-                .into_iter()
-                .filter(|kept| *kept)
+            followed: rows_kept(mechanism, &followed)
+                .iter()
+                .filter(|kept| **kept)
                 .count(),
             kept,
             twists,

@@ -1,5 +1,7 @@
 //! Frames with names, and the closures between them.
 
+use std::collections::HashSet;
+
 use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
 use crate::description::{
     ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
@@ -69,7 +71,7 @@ impl Unroller<'_> {
             let reference = self.frame_on(&name, carrier, &pose, &mut platforms);
             self.references.push((name, reference));
         }
-        let mut closures: Closures = Vec::new();
+        let (mut closures, mut labels): (Closures, _) = (Vec::new(), HashSet::new());
         for closing in self.balls().iter().chain(&self.tree.loops) {
             let Loop {
                 name, kind, sides, ..
@@ -91,7 +93,7 @@ impl Unroller<'_> {
                 "" => "closure".to_owned(),
                 name => name.to_owned(),
             };
-            while place_of(&closures, &label).is_some() {
+            while !labels.insert(label.clone()) {
                 label += "_";
             }
             closures.push(Named::new(label, closure));

@@ -8,7 +8,7 @@
 //! | `drake:ball_constraint` | Drake |
 //! | `joint` in `gazebo`, as in SDFormat | Gazebo's tutorial of kinematic loops |
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use roxmltree::Node;
 
@@ -55,6 +55,7 @@ pub(super) fn read(
         tree,
         bodies: links.map(|(i, body)| (body.name.as_str(), i)).collect(),
         problems,
+        names: HashSet::new(),
         loops: Vec::new(),
     };
     let elements = robot.children().filter(|node| node.is_element());
@@ -100,6 +101,7 @@ struct LoopReader<'a> {
     /// The body of each link.
     bodies: HashMap<&'a str, usize>,
     problems: &'a mut Problems,
+    names: HashSet<String>,
     loops: Vec<Loop>,
 }
 
@@ -131,7 +133,7 @@ impl LoopReader<'_> {
     fn close(&mut self, node: Node, kind: ClosureKind, ends: [(usize, Pose<f64>); 2]) {
         let own = node.attribute("name").map(str::to_owned);
         let mut name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
-        while self.loops.iter().any(|other| other.name == name) {
+        while !self.names.insert(name.clone()) {
             name += "_";
         }
         let sides = Loop::sides(&name, ends);
