@@ -509,6 +509,16 @@ fn models_within_models_and_beside_them_are_one_mechanism() {
     };
     closes(&read_with(&outer, &files).1, ["A", "B", "D"]);
     assert!(refused(&outer).contains("`parts` cannot be included"));
+    // a world around it, with its light
+    let world = nested
+        .replace(
+            "<model name=\"four_bar\">",
+            "<world name=\"w\"><include><uri>model://sun</uri></include><model name=\"four_bar\">",
+        )
+        .replace("</model></sdf>", "</model></world></sdf>");
+    let (imported, question) = read(&world);
+    closes(&question, ["A", "B", "D"]);
+    assert!(remarks(&imported).contains("1 element ignored: `include`"));
     let outside = |_: &str| Err(NotRead::Outside);
     let wrong = import("file", &outer, &outside, None, &ImportSettings::default()).unwrap_err();
     assert!(wrong.lines()[0].contains("lies outside the folder"));
@@ -591,6 +601,13 @@ fn what_is_written_as_sdf_and_read_again_is_as_free() {
                 .any(|remark| remark.to_string().contains("there all are at 0"))
         );
         let (_, question) = read(&text);
+        let driven = |mechanism: &Mechanism| {
+            let joints = mechanism.joints().iter();
+            joints
+                .filter(|joint| joint.role == linkwork::description::Role::Actuated)
+                .count()
+        };
+        assert_eq!(driven(question.mechanism()), driven(&mechanism), "{name}");
         let again = solved(&question);
         assert!(again.is_assembled(), "{name}: {:?}", again.outcome);
         assert_eq!(again.mobility, report.mobility, "{name}\n{text}");

@@ -11,6 +11,9 @@ use crate::interchange::mjcf::{Files, NotRead};
 use crate::interchange::page::{Problems, child, children, document, pose_of, tag, turned};
 use crate::interchange::problem::ImportProblemKind;
 
+/// Models of light and floor.
+const SCENERY: [&str; 2] = ["://sun", "://ground_plane"];
+
 /// What the elements of a file say.
 pub(super) struct Reader<'f> {
     pub problems: Problems,
@@ -22,6 +25,8 @@ pub(super) struct Reader<'f> {
     pub joints: Vec<Joint>,
     /// Joints that a controller drives.
     pub driven: HashSet<String>,
+    /// How many included models are no part of a mechanism.
+    pub scenery: usize,
     /// Files that are being read: none includes itself.
     within: Vec<String>,
 }
@@ -57,6 +62,7 @@ impl<'f> Reader<'f> {
             links: Vec::new(),
             joints: Vec::new(),
             driven: HashSet::new(),
+            scenery: 0,
             within: Vec::new(),
         }
     }
@@ -70,7 +76,12 @@ impl<'f> Reader<'f> {
             fixed: false,
         };
         let models = children(inside, "model");
-        let alone = models.len() == 1 && children(inside, "include").is_empty();
+        // what every world has around its models
+        let (scenery, includes): (Vec<Node>, Vec<Node>) = children(inside, "include")
+            .into_iter()
+            .partition(|include| matches!(self.word(*include, "uri"), Some(uri) if SCENERY.iter().any(|name| uri.ends_with(name))));
+        self.scenery = scenery.len();
+        let alone = models.len() == 1 && includes.is_empty();
         for (i, model) in models.iter().enumerate() {
             let name = self.problems.needed(*model, "name").unwrap_or_default();
             let prefix = if alone {
@@ -90,7 +101,7 @@ impl<'f> Reader<'f> {
             let place = self.pose(*model, &outer, WORLD);
             self.model(*model, &outer, prefix, place);
         }
-        for include in children(inside, "include") {
+        for include in includes {
             self.include(include, &outer, WORLD);
         }
         let named = models.first().copied().filter(|_| alone).unwrap_or(inside);

@@ -35,6 +35,12 @@ pub(crate) fn read(
         remarks: Vec::new(),
         problems: Vec::new(),
     };
+    if builder.reader.scenery > 0 {
+        builder.remarks.push(Remark::Ignored {
+            element: "include".into(),
+            count: builder.reader.scenery,
+        });
+    }
     let tree = builder.tree(name);
     match tree {
         Some(tree) => unless(builder.problems, (tree, builder.remarks)),

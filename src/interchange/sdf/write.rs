@@ -12,6 +12,12 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Coupling, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, vector};
 
+/// What drives a joint in Gazebo: the file and the name of the plugin.
+const CONTROLLER: [&dyn std::fmt::Display; 2] = [
+    &"gz-sim-joint-position-controller-system",
+    &"gz::sim::systems::JointPositionController",
+];
+
 /// The text of an SDF file, with remarks on what it expresses differently from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     let (mut tree, mut remarks) = with_sliders(tree);
@@ -59,6 +65,11 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
         closes(&mut joints, &tree, closing);
     }
     xml.append(joints);
+    for driven in tree.joints().filter(|joint| joint.actuated) {
+        xml.open("plugin filename name", &CONTROLLER);
+        xml.leaf_text("joint_name", &[], &driven.name);
+        xml.close("plugin");
+    }
     xml.close("model");
     xml.close("sdf");
     (xml.text(), remarks)

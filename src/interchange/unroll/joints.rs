@@ -1,6 +1,9 @@
 //! The variables of a mechanism, and the joints that follow them.
 
-use super::{Unroller, sum};
+use std::collections::HashSet;
+
+use super::Unroller;
+use crate::algebra::Expression;
 use crate::description::{Entry, JointDescription, Named, Role};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::Motion;
@@ -33,6 +36,20 @@ impl Unroller<'_> {
     /// Joints that follow, as outputs of their names: what stands still and what has its limits elsewhere is said.
     pub(super) fn outputs(&mut self) -> Vec<Named<Entry>> {
         let mut outputs = Vec::new();
+        // variables that turn something are angles
+        let turning = self
+            .tree
+            .joints()
+            .filter(|joint| joint.motion == Motion::Turn);
+        let angles = turning.flat_map(|joint| match self.followers.get(&joint.name) {
+            Some(following) => following
+                .terms
+                .iter()
+                .map(|(leader, _)| leader)
+                .collect::<Vec<&String>>(),
+            None => vec![&joint.name],
+        });
+        let angles: HashSet<String> = angles.cloned().collect();
         for joint in self.tree.joints() {
             let Some(following) = self.followers.get(&joint.name) else {
                 continue;
@@ -59,14 +76,26 @@ impl Unroller<'_> {
             if following.terms.is_empty() || joint.name.contains('.') {
                 continue;
             }
-            let (constant, terms) = self.affine(0.0, [(&joint.name, 1.0)]);
-            let entry = if joint.motion == Motion::Turn {
-                Entry::angle
+            let slides = joint.motion == Motion::Slide;
+            let terms = following.terms.iter().filter_map(|(leader, factor)| {
+                let variable = self.variables.get(leader)?;
+                let term = match slides && angles.contains(leader) {
+                    // metres in a radian
+                    true => Expression::parse(&format!("{variable}/(1 rad)*(1 m)")).ok()?,
+                    false => Expression::name(variable.clone()),
+                };
+                Some((*factor, term))
+            });
+            let terms: Vec<(f64, Expression)> = terms.collect();
+            let constant = if slides {
+                Entry::length(value)
             } else {
-                Entry::length
+                Entry::angle(value)
             };
+            let terms = terms.iter().map(|(factor, term)| (*factor, term));
+            let value = Expression::sum(terms.chain([(1.0, &constant.expression)]));
             let name = self.names.variable(&joint.name);
-            outputs.push(Named::new(name, sum(&entry(constant), &terms)));
+            outputs.push(Named::new(name, value.into()));
         }
         outputs
     }
