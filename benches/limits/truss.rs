@@ -138,7 +138,7 @@ fn track(from: &Member, to: &Member, z: &Point, steps: &mut usize) -> Option<Poi
         let sum = std::array::from_fn(|j| k1[j] + (k2[j] + k3[j]) * 2.0 + k4[j]);
         let mut next = turned(&z, &sum, h / 6.0);
         let member = from.at(to, s + h);
-        let mut newton = |next: &mut Point| {
+        let newton = |next: &mut Point| {
             let [residual, alpha, beta, _] = linearise(&member, &still, next);
             let step = solve([&alpha, &beta, &residual]);
             *next = turned(next, &step, -1.0);
