@@ -398,7 +398,7 @@ mod tests {
             assert_eq!(report.ending, SweepEnd::Complete);
             for (other, before) in driven.iter().zip(before) {
                 let wanted = if *other == of { to } else { before };
-                assert!((other.of(steering.at()) - wanted).abs() < 1e-9);
+                assert!((other.of(steering.mechanism(), steering.at()) - wanted).abs() < 1e-9);
             }
         }
     }

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
 use crate::description::{
     ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
-    first_free, place_of,
+    first_free,
 };
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
