@@ -49,6 +49,7 @@ fn three_rps() -> Dimensions<f64> {
     let places = (0..3).map(|i| turned(Axis::Z, 120.0 * f64::from(i)));
     Dimensions {
         characteristic_length: 1.0,
+        centre: [0.0; 3],
         joint_scales: vec![1.0; 6],
         chains: (places.clone().enumerate())
             .map(|(i, place)| ChainDimensions {

@@ -50,6 +50,7 @@ impl Export {
         let endings: &[&str] = match self.to {
             To::Urdf => &["urdf", "xml"],
             To::Mjcf => &["xml", "mjcf"],
+            To::Sdf => &["sdf", "world", "xml"],
         };
         let output = self.output.as_deref();
         output
