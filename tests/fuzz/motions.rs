@@ -1,7 +1,6 @@
 //! Motions of random mechanisms: what is said of the whole does not depend on the rows.
 
 use linkwork::analysis::sweep::{Law, MotionReport, Pace, SweepSettings};
-use linkwork::ask::Question;
 use linkwork::mechanism::{Configuration, Mechanism};
 
 use crate::generator::Dice;
