@@ -178,7 +178,7 @@ fn circuits_of_a_six_bar_hold_every_assembly() {
             |c: &&Circuit| is_near(c.joints[2].low, low) && is_near(c.joints[2].high, high);
         assert!(report.circuits.iter().any(|c| swings(&c)), "{low}");
     }
-    let input = asked.mechanism.joint("q2").unwrap();
+    let input = asked.mechanism().joint("q2").unwrap();
     let mut met = 0;
     for degrees in [24.0, 25.0, 30.0, 38.0, 60.0, 89.0, 101.0, 118.0] {
         let held = asked.clone().hold("q2", f64::to_radians(degrees));
