@@ -73,7 +73,7 @@ impl ComplexCurve {
         (squares.sqrt(), real)
     }
 
-    /// How far two configurations are apart, whole turns left out.
+    /// The distance between two configurations, whole turns left out.
     pub fn apart(&self, from: &Configuration<C>, to: &Configuration<C>) -> f64 {
         let step = self.system.difference(from, to);
         let squares = step.iter().zip(self.system.unknowns()).map(|(z, unknown)| {
