@@ -163,6 +163,10 @@ fn from_one(
     let mechanism = tracing.mechanism;
     let cycle = mechanism.turns_to_repeat(slice.joint);
     slice.real.iter().for_each(|seed| tracing.take(seed));
+    // of large mechanisms not all dead points are located
+    if tracing.curve.system().is_large() {
+        return None;
+    }
     let complex = ComplexCurve::new(mechanism, held, slice.joint)?;
     let mut paths = Paths {
         // far from the real ones cosines and sines are large
