@@ -169,7 +169,7 @@ fn sliced<'q>(
     }
 }
 
-/// How far slides are followed in the search for circuits, in characteristic lengths.
+/// The distance to which slides are followed in the search for circuits, in characteristic lengths.
 const REACH: f64 = 5.0;
 
 /// Values at most at which all configurations are found.

@@ -51,7 +51,7 @@ impl Mechanism {
         self.cycles = cycles.collect();
     }
 
-    /// The same mechanism with joints that go as far as the links let them.
+    /// This mechanism with joints that go as far as the links let them.
     pub(crate) fn without_limits(&self) -> Mechanism {
         let mut free = self.clone();
         free.joints.iter_mut().for_each(|joint| joint.limits = None);
@@ -128,7 +128,7 @@ impl Mechanism {
         }
     }
 
-    /// The same, and of a joint that turns something by a fraction the equivalent value nearest to zero.
+    /// The value for reports where a joint that turns something by a fraction also has an equivalent nearest to zero.
     pub fn within_cycle(&self, joint: usize, value: f64) -> f64 {
         match (self.cycles[joint], self.joints[joint].limits) {
             (Some(turns), None) => turns * principal(value / turns, ROUNDING),

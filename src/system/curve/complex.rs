@@ -62,18 +62,18 @@ impl ComplexCurve {
         direction
     }
 
-    /// The imaginary part of a configuration, and the real configuration it is beside.
+    /// The largest imaginary part of an unknown, and the real configuration beside.
     pub fn split(&self, at: &Configuration<C>) -> (f64, Configuration<f64>) {
         let mut real = at.map(|z| z.re);
         for platform in &mut real.platforms {
             platform.orientation = platform.orientation.normalised();
         }
         let step = self.system.difference(&real.map(C::from_f64), at);
-        let squares: f64 = step.iter().map(|z| z.im * z.im).sum();
-        (squares.sqrt(), real)
+        let imaginary = step.iter().map(|z| z.im.abs());
+        (imaginary.fold(0.0, f64::max), real)
     }
 
-    /// How far two configurations are apart, whole turns left out.
+    /// The distance between two configurations, whole turns left out.
     pub fn apart(&self, from: &Configuration<C>, to: &Configuration<C>) -> f64 {
         let step = self.system.difference(from, to);
         let squares = step.iter().zip(self.system.unknowns()).map(|(z, unknown)| {

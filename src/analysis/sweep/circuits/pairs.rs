@@ -119,7 +119,7 @@ impl Paths<'_> {
         End::Lost
     }
 
-    /// What is beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
+    /// The paths beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
     /// another one does not; they leave with every loop turned by i that met its conjugate.
     fn beyond(
         &mut self,

@@ -101,17 +101,17 @@ pub struct CircuitsReport {
     pub circuits: Vec<Circuit>,
     /// The class of a planar 4-bar, as its circuits show it.
     pub class: Option<FourBarClass>,
-    /// The same by its lengths.
+    /// The class by its lengths.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grashof: Option<Grashof>,
     /// Assembled configurations from which curves were followed.
     pub seeds: usize,
     /// Seeds that are not assembled or outside limits; no curve was begun there.
     pub unusable: usize,
-    /// How circuits on which no seed lies were looked for, if they were.
+    /// The search for circuits on which no seed lies, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub swept: Option<Swept>,
-    /// Whether there were more curves than steps to follow them.
+    /// There were more curves than steps to follow them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exhausted: bool,
     /// The characteristic length in m.
@@ -125,8 +125,8 @@ pub struct CircuitsReport {
 }
 
 impl CircuitsReport {
-    /// Whether there are no other circuits on which [`Swept::joint`] moves, if all configurations at one value of it were
-    /// known.
+    /// True if there are no other circuits on which [`Swept::joint`] moves, provided that all configurations at one value
+    /// of it were known.
     pub fn is_whole(&self) -> bool {
         let swept = self.swept.as_ref().is_some_and(Swept::is_whole);
         let followed = self.circuits.iter().all(|circuit| circuit.whole);

@@ -28,17 +28,17 @@ pub struct Slice {
     pub joint: usize,
     /// Its value, rad or m.
     pub value: f64,
-    /// How far from it the others are followed on either side, if the joint does not come back to it: rad or m.
+    /// The distance to which they are followed on either side, if the joint does not come back to it: rad or m.
     pub reach: f64,
     /// The real ones.
     pub real: Vec<Configuration<f64>>,
     /// The others.
     pub complex: Vec<Configuration<C>>,
-    /// Whether the search for them ended with no sign that one was missed.
+    /// True if the search for them ended with no sign that one was missed.
     pub whole: bool,
 }
 
-/// How circuits were looked for beside those that seeds lie on.
+/// The search for circuits by following complex configurations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Swept {
     /// The joint along whose values complex configurations were followed.
@@ -47,9 +47,9 @@ pub struct Swept {
     pub unit: SiUnit,
     /// The value at which all configurations were known.
     pub value: f64,
-    /// How many there are, real or complex.
+    /// Their number, real or complex.
     pub configurations: usize,
-    /// How many of them are real.
+    /// The number of real ones.
     pub real: usize,
     /// The values between which they were followed; `None` if the joint came back to where it was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,13 +62,13 @@ pub struct Swept {
     pub gaps: Vec<[f64; 2]>,
     /// Paths that were lost, and dead points that none of them led to.
     pub lost: usize,
-    /// Whether the search for the configurations may have missed some.
+    /// True if the search for the configurations may have missed some.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub doubtful: bool,
 }
 
 impl Swept {
-    /// Whether every circuit on which the joint moves was met, if all configurations at the one value were known.
+    /// True if every circuit on which the joint moves was met, provided that all configurations at the values were known.
     pub fn is_whole(&self) -> bool {
         self.lost == 0 && self.gaps.is_empty() && !self.doubtful
     }
@@ -124,7 +124,7 @@ pub(super) fn sweep(
     Some(swept)
 }
 
-/// How far a pair is followed on either side.
+/// The distance to which a pair is followed on either side.
 fn paths_reach(slice: &Slice, cycle: Option<f64>) -> f64 {
     cycle.map_or(slice.reach, |turns| turns * PI)
 }
@@ -132,7 +132,7 @@ fn paths_reach(slice: &Slice, cycle: Option<f64>) -> f64 {
 /// Next to a pole what goes to infinity is complex.
 const BESIDE_A_POLE: f64 = 0.02;
 
-/// What intervals leave uncovered between −reach and reach, which are the same place if that is a whole cycle.
+/// The parts that intervals leave uncovered between −reach and reach, which are the same place if that is a whole cycle.
 fn gaps(covered: &[[f64; 2]], reach: f64, cycle: bool) -> impl Iterator<Item = [f64; 2]> {
     let shifts: &[f64] = if cycle { &[-2.0, 0.0, 2.0] } else { &[0.0] };
     let moved = |shift: &f64| {
@@ -163,6 +163,10 @@ fn from_one(
     let mechanism = tracing.mechanism;
     let cycle = mechanism.turns_to_repeat(slice.joint);
     slice.real.iter().for_each(|seed| tracing.take(seed));
+    // of large mechanisms not all dead points are located
+    if tracing.curve.system().is_large() {
+        return None;
+    }
     let complex = ComplexCurve::new(mechanism, held, slice.joint)?;
     let mut paths = Paths {
         // far from the real ones cosines and sines are large

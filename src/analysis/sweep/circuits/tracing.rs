@@ -42,7 +42,7 @@ impl Found {
 pub(super) struct Tracing<'a> {
     pub mechanism: &'a Mechanism,
     pub curve: Curve,
-    /// What is held with the input, and what stands still.
+    /// The coordinates held with the input, and those that stand still.
     at_rest: (&'a Held<f64>, &'a [Still]),
     /// The joint whose folds are wanted.
     joint: Option<usize>,
@@ -79,7 +79,7 @@ impl<'a> Tracing<'a> {
         &self.settings.continuation
     }
 
-    /// Whether there are no steps left.
+    /// True if there are no steps left.
     pub fn is_exhausted(&self) -> bool {
         self.steps >= CircuitsSettings::CURVES * self.settings.most_steps
     }
