@@ -6,6 +6,7 @@ use super::{RANK_TOLERANCE, dot, norm};
 ///
 /// Below 1 along a path of Jacobians A, the function has one zero at most there (see
 /// [`continuation`](crate::solve::continuation)).
+#[allow(clippy::needless_range_loop, reason = "indices read like the formulas")]
 pub fn relative_change(rows: usize, from: &[f64], to: &[f64]) -> f64 {
     // Gram–Schmidt: A = Q T
     let mut q: Vec<Vec<f64>> = from.chunks_exact(rows).map(<[f64]>::to_vec).collect();
@@ -18,8 +19,7 @@ pub fn relative_change(rows: usize, from: &[f64], to: &[f64]) -> f64 {
     let mut along = vec![vec![0.0; n]; n];
     for k in 0..n {
         let length = norm(&q[k]);
-        // not so either where it is not a number
-        if !(length > RANK_TOLERANCE) {
+        if length.is_nan() || length <= RANK_TOLERANCE {
             return f64::INFINITY;
         }
         q[k].iter_mut().for_each(|x| *x /= length);

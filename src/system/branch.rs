@@ -22,7 +22,7 @@ impl System<f64> {
     ) -> bool {
         let back = self.difference(to, from);
         let way = norm(&back);
-        if !(way <= BRANCH_STEP) {
+        if way.is_nan() || way > BRANCH_STEP {
             return false;
         }
         if back.len() > DENSE_LIMIT {

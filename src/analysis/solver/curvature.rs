@@ -87,8 +87,8 @@ impl Plan<'_> {
     /// Random values about a start.
     fn scatter(&self, variables: &[Variable], at: &mut [f64], length: f64, rng: &mut Pcg64Mcg) {
         let mut number = |size: f64| size * (2.0 * rng.random::<f64>() - 1.0);
-        for i in 0..at.len() {
-            match variables[i] {
+        for (i, variable) in variables.iter().enumerate() {
+            match *variable {
                 Variable::Orientation(_, 0) => {
                     let q = [0, 1, 2, 3].map(|_| number(1.0));
                     let unit = 1.0 / norm(&q).max(0.1);
