@@ -107,8 +107,7 @@ pub fn fits(path: &Path, own: &[&str]) -> Result<(), String> {
         .map(|ending| ending.to_string_lossy().to_lowercase());
     match ending.as_deref() {
         Some(ending) if ENDINGS.contains(&ending) && !own.contains(&ending) => Err(format!(
-            "this is written as {}, and the name ends in `.{ending}`: end it in `.{}`",
-            own[0].to_uppercase(),
+            "the name ends in `.{ending}`, and no such file is written: end it in `.{}`",
             own[0]
         )),
         _ => Ok(()),

@@ -143,6 +143,8 @@ fn rows(motion: &MotionReport) -> Section {
     let columns = motion.columns.iter().enumerate().skip(1);
     let places = motion.columns.len() - motion.extremes.len();
     let columns = columns.filter(|(i, of)| of.unit != SiUnit::ONE || *i >= places);
+    let flat = flat(&motion.columns[..places], values);
+    let columns = columns.filter(|(i, _)| !flat.contains(i));
     let steps = Table::of(shown.map(|(_, row)| row)).words("step", |row| row[0]);
     let table = columns.fold(steps, |table, (i, of)| {
         table.numbers(&of.name, |row| row[i].map(|x| Cell::quantity(x, of.unit)))
@@ -156,6 +158,26 @@ fn rows(motion: &MotionReport) -> Section {
         false => "Rows".into(),
     };
     Section::new(title).table(table)
+}
+
+/// The columns of z, roll and pitch of what is in the plane of x and y in all rows: there is nothing to read in them.
+fn flat(columns: &[Variable], values: &[Vec<Option<f64>>]) -> Vec<usize> {
+    /// Below this a coordinate is what rounding left of a zero, in m or rad.
+    const ROUNDING: f64 = 1e-12;
+    let across = |i: &usize| {
+        let (owner, part) = columns[*i].name.rsplit_once('.')?;
+        ["z", "roll", "pitch"].contains(&part).then_some(owner)
+    };
+    let is_zero = |i: &usize| {
+        let mut values = values.iter().filter_map(|row| row[*i]);
+        values.all(|value| value.abs() < ROUNDING)
+    };
+    let all = (0..columns.len()).filter(|i| across(i).is_some());
+    let lies = |i: &usize| {
+        let mut own = all.clone().filter(|other| across(other) == across(i));
+        own.all(|other| is_zero(&other))
+    };
+    all.clone().filter(lies).collect()
 }
 
 /// The columns of rows as they are found: those of a motion between its mode and what was met.
