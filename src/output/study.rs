@@ -82,23 +82,24 @@ impl Label {
         Label { part, of, mark }
     }
 
-    /// What is before the first row, and the rows.
+    /// The label of a file, if it has one, and what follows the comment.
     pub fn of(text: &str) -> (Option<Label>, &str) {
-        let Some((line, rest)) = text.split_once('\n').filter(|_| text.starts_with('#')) else {
-            return (None, text);
-        };
+        match text.split_once('\n').filter(|_| text.starts_with('#')) {
+            Some((line, rest)) => (Label::read(line), rest),
+            None => (None, text),
+        }
+    }
+
+    fn read(line: &str) -> Option<Label> {
         let words: Vec<&str> = line.split(' ').collect();
-        let label = match words[..] {
-            ["#", "shard", part, "of", of, "of", "study", mark] => (|| {
-                Some(Label {
-                    part: part.parse().ok()?,
-                    of: of.parse().ok()?,
-                    mark: u64::from_str_radix(mark, 16).ok()?,
-                })
-            })(),
-            _ => None,
+        let ["#", "shard", part, "of", of, "of", "study", mark] = words[..] else {
+            return None;
         };
-        (label, rest)
+        Some(Label {
+            part: part.parse().ok()?,
+            of: of.parse().ok()?,
+            mark: u64::from_str_radix(mark, 16).ok()?,
+        })
     }
 }
 
