@@ -94,10 +94,10 @@ pub fn rows(all: Rows) -> Result<bool, Refusal> {
 }
 
 /// Endings of files that tell what is in them.
-const ENDINGS: [&str; 32] = [
+const ENDINGS: [&str; 33] = [
     "svg", "png", "gif", "glb", "html", "htm", "csv", "json", "md", "ron", "urdf", "xml", "mjcf",
-    "c", "h", "rs", "py", "js", "tex", "txt", "jpg", "jpeg", "webp", "apng", "bmp", "tif", "tiff",
-    "pdf", "eps", "mp4", "gltf", "stl",
+    "sdf", "c", "h", "rs", "py", "js", "tex", "txt", "jpg", "jpeg", "webp", "apng", "bmp", "tif",
+    "tiff", "pdf", "eps", "mp4", "gltf", "stl",
 ];
 
 /// Refuses a file whose ending says that something else is in it than what is written there.
