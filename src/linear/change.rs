@@ -8,6 +8,10 @@ use super::{RANK_TOLERANCE, dot, norm};
 /// [`continuation`](crate::solve::continuation)).
 #[allow(clippy::needless_range_loop, reason = "indices read like the formulas")]
 pub fn relative_change(rows: usize, from: &[f64], to: &[f64]) -> f64 {
+    // without equations there is nothing that could change
+    if rows == 0 {
+        return 0.0;
+    }
     // Gram–Schmidt: A = Q T
     let mut q: Vec<Vec<f64>> = from.chunks_exact(rows).map(<[f64]>::to_vec).collect();
     let moved: Vec<Vec<f64>> = (to.chunks_exact(rows).zip(&q))
