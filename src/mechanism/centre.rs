@@ -48,7 +48,9 @@ impl Mechanism {
         (rounding > SOLVED).then(|| ProblemKind::FarFromOrigin {
             distance,
             size,
-            digits: (1..).take_while(|&k| rounding * 10f64.powi(k) <= 1.0).count() as u32,
+            digits: (1..)
+                .take_while(|&k| rounding * 10f64.powi(k) <= 1.0)
+                .count() as u32,
         })
     }
 

@@ -186,3 +186,17 @@ fn every_shipped_file_has_the_same_answers_far_away() {
         .collect();
     assert_eq!(found, Vec::<String>::new());
 }
+
+#[test]
+fn positions_that_are_held_far_away_are_no_lengths_of_the_mechanism() {
+    let made = Mechanism::new(&moved(&read("three_rps"), [65536.0, 0.0, 16384.0])).unwrap();
+    let held = (Question::new(made.clone()).free("actuated")).hold("top.x", 65536.2);
+    let moved = (Question::new(made.clone()).free("actuated")).input("top.z", 16384.5, 16384.6);
+    for question in [held, moved] {
+        let length = question.mechanism().characteristic_length();
+        assert_eq!(length, made.characteristic_length());
+    }
+    // one that is held 100 m from where the mechanism is
+    let away = (Question::new(made.clone()).free("actuated")).hold("top.x", 65636.0);
+    assert!(away.mechanism().characteristic_length() > 50.0);
+}
