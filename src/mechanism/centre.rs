@@ -1,6 +1,6 @@
 //! The place from which positions are measured: amid the bases of a mechanism that is far from the origin of ground.
 
-use super::lift::places_on_ground;
+use super::lift::{nearest, places_on_ground};
 use super::{Dimensions, Mechanism, PlatformPose};
 use crate::algebra::EvaluationError;
 use crate::description::ProblemKind;
@@ -99,15 +99,4 @@ impl Mechanism {
             false => place - Vector3(self.dimensions.centre.map(T::from_f64)),
         }
     }
-}
-
-/// The place of the box round some places that is nearest to the centre.
-pub(super) fn nearest(places: &[[f64; 3]]) -> [f64; 3] {
-    std::array::from_fn(|axis| {
-        let along = places.iter().map(|place| place[axis]);
-        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-            [low.min(x), high.max(x)]
-        });
-        low.max(high.min(0.0))
-    })
 }

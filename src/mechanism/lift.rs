@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::centre::nearest;
 use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
@@ -236,6 +235,17 @@ fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64>
         .iter()
         .map(|(part, place)| (Vector3(*place) - Vector3(parts[part])).norm());
     distances.collect::<Vec<_>>().into_iter()
+}
+
+/// The place of the box round some places that is nearest to the centre.
+pub(super) fn nearest(places: &[[f64; 3]]) -> [f64; 3] {
+    std::array::from_fn(|axis| {
+        let along = places.iter().map(|place| place[axis]);
+        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        });
+        low.max(high.min(0.0))
+    })
 }
 
 /// The bases of chains on the ground, and ground where closures join it, from the centre; those of one part of the
