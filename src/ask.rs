@@ -55,7 +55,7 @@ pub use workspace::MOST_BYTES;
 
 use crate::analysis::sweep::Schedule;
 use crate::mechanism::{Body, Configuration, Mechanism, NamedPoint};
-use crate::system;
+use crate::system::{self, Coordinate};
 
 /// Random starts where one assembly near the start is wanted.
 const RESTARTS: usize = 20;
@@ -332,7 +332,10 @@ impl Question {
         };
         let moved = inputs.iter().fold(question, |q, (c, _)| q.without(*c));
         let lengths = inputs.iter().filter(|(c, _)| !c.is_angle(&self.mechanism));
-        let mut lengths: Vec<f64> = lengths.flat_map(|(_, ends)| *ends).collect();
+        let own = |(of, ends): &(Coordinate, [f64; 2])| {
+            ends.map(|end| of.own_length(&self.mechanism, end))
+        };
+        let mut lengths: Vec<f64> = lengths.flat_map(own).collect();
         lengths.extend(moved.held_lengths());
         Some(lengths)
     }

@@ -214,13 +214,13 @@ impl<'a> Question<'a> {
     pub(crate) fn held_lengths(&self) -> Vec<f64> {
         let joints = self.mechanism.joints().iter().enumerate();
         let joints = joints.filter(|(i, joint)| self.joints[*i] && !joint.kind.is_angle());
-        let centre = &self.mechanism.dimensions().centre;
-        let positions = self.coordinates.iter().flat_map(|c| {
-            let positions = PoseCoordinate::ALL.into_iter().zip(&c[..3]);
-            positions.filter_map(|(c, value)| Some(c.from_centre((*value)?, centre)))
+        let own = |of: Coordinate, value: f64| of.own_length(self.mechanism, value);
+        let positions = self.coordinates.iter().enumerate().flat_map(|(p, values)| {
+            let positions = PoseCoordinate::ALL.into_iter().zip(&values[..3]);
+            positions.filter_map(move |(c, value)| Some(own(Coordinate::Pose(p, c), (*value)?)))
         });
         joints
-            .map(|(i, _)| self.start.joints[i])
+            .map(|(i, _)| own(Coordinate::Joint(i), self.start.joints[i]))
             .chain(positions)
             .collect()
     }

@@ -93,6 +93,25 @@ impl Coordinate {
         }
     }
 
+    /// A value of it as a length or an angle of the mechanism itself: a position in ground as one from the centre.
+    pub(crate) fn own_length(self, mechanism: &Mechanism, value: f64) -> f64 {
+        let of_point = |joint: usize| {
+            let name = &mechanism.joints()[joint].name;
+            let (_, word) = name
+                .rsplit_once('.')
+                .filter(|_| mechanism.is_of_point(joint))?;
+            PoseCoordinate::from_word(word)
+        };
+        let position = match self {
+            Coordinate::Joint(joint) => of_point(joint),
+            Coordinate::Pose(_, c) => Some(c),
+            Coordinate::Turn(..) => None,
+        };
+        position.map_or(value, |c| {
+            c.from_centre(value, &mechanism.dimensions().centre)
+        })
+    }
+
     /// What its value measures.
     pub fn measure(self, mechanism: &Mechanism) -> Measure {
         match self.is_angle(mechanism) {
