@@ -39,7 +39,7 @@ pub(super) struct Paths<'a> {
 impl Paths<'_> {
     /// Steps after which a path is given up, and after which all are.
     const STEPS: usize = 4_000;
-    const ALL_STEPS: usize = 50_000;
+    const ALL_STEPS: usize = 20_000;
 
     /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
     pub fn leaving(
