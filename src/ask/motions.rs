@@ -230,10 +230,15 @@ impl Motions<'_> {
         let straightness = paths.into_iter().filter_map(|(named, axes)| {
             let mut paths = Paths::new(self.mechanism, std::slice::from_ref(named));
             let path = course.path(axes);
-            let line = Straightness::along(&named.name, path, &mut |place| {
+            let mut at = |place: f64| {
                 paths.place(course.at_place(place)?.0);
                 Some(paths.at[0])
-            })?;
+            };
+            let known = path
+                .into_iter()
+                .filter_map(|(place, _)| Some((place, at(place)?)));
+            let known = known.collect();
+            let line = Straightness::along(&named.name, known, &mut at)?;
             Some(Straightness {
                 at_least: !course.whole,
                 ..line

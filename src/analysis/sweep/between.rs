@@ -100,7 +100,17 @@ impl<'m> Passage<'m> {
         const SLOW: f64 = 0.05;
         let both = [&ends[0], &ends[1]];
         let goes = |of: Coordinate, scale: f64| self.change(of, both).abs() / scale;
-        let most = (self.scales.iter()).max_by(|a, b| goes(a.0, a.1).total_cmp(&goes(b.0, b.1)));
+        let most = |joints: bool| {
+            let all = self.scales.iter();
+            let all = all.filter(|(of, _)| !joints || matches!(of, Coordinate::Joint(_)));
+            all.max_by(|a, b| goes(a.0, a.1).total_cmp(&goes(b.0, b.1)))
+        };
+        // a joint can be prescribed whatever else is held
+        let (joint, most) = (most(true), most(false));
+        let fast = |of: &&(Coordinate, f64)| {
+            most.is_some_and(|most| goes(of.0, of.1) > 0.1 * goes(most.0, most.1))
+        };
+        let most = joint.filter(fast).or(most);
         let inputs = self.inputs.iter();
         let slow = inputs
             .map(|of| goes(of.coordinate, of.coordinate.scale(self.mechanism)))

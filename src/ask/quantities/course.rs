@@ -262,8 +262,11 @@ impl<'m> Course<'m> {
                 (stretch as f64 + part, at)
             })
         });
-        all.filter(|(_, at)| at.iter().all(|x| x.is_finite()))
-            .collect()
+        let known = all.filter(|(_, at)| at.iter().all(|x| x.is_finite()));
+        let mut known: Vec<(f64, [f64; 3])> = known.collect();
+        // where one piece ends the next begins
+        known.dedup_by(|after, before| after.0 == before.0);
+        known
     }
 
     /// Whether a piece may hide values of a quantity: a name in it is no polynomial there, and it is not a mere place.

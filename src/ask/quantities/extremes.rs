@@ -150,6 +150,9 @@ const BESIDE: f64 = 0.02;
 /// The part of a stretch on either side of a kink or a pole where it may be.
 const KINK: f64 = 1e-7;
 
+/// Nearer than this to an end of a stretch a place is the end.
+const END: f64 = 1e-10;
+
 /// The best value so far, at a part of a stretch.
 #[derive(Clone, Copy)]
 struct Found {
@@ -207,8 +210,8 @@ fn pole(
     let [from, to] = [part - KINK, part + KINK].map(|part| part.clamp(0.0, 1.0));
     let mut gap = None;
     let place = match part {
-        _ if part < KINK => 0.0,
-        _ if part > 1.0 - KINK => 1.0,
+        _ if part < END => 0.0,
+        _ if part > 1.0 - END => 1.0,
         _ => {
             let top = summit(from, to, |part| {
                 let value = read(part).and_then(|(value, _)| value);

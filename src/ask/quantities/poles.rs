@@ -24,7 +24,8 @@ pub(super) fn unbounded(
         {
             return None;
         }
-        let known: Vec<f64> = (POWERS[0]..=POWERS[1]).map_while(&mut at).collect();
+        // far ones may be off the piece of the curve that the place is on
+        let known: Vec<f64> = (POWERS[0]..=POWERS[1]).filter_map(&mut at).collect();
         let last = &known[known.len().checked_sub(WATCHED + 1)?..];
         let grows = last.windows(2).all(|w| w[1] / w[0] >= FACTOR);
         grows.then(|| last[0] > 0.0)
@@ -63,6 +64,9 @@ mod tests {
         assert_eq!(of(|x| 1.0 / (x * x + 1e-10)), [None, None]);
         assert_eq!(of(|x| x.signum()), [None, None]);
         assert_eq!(of(|x| 3.0 - x * x), [None, None]);
+        // near an end of what is known
+        let near_end = unbounded(1e-3, &mut |x| Some(1.0 / (x - 1e-3)));
+        assert_eq!(near_end, [Some(false), Some(true)]);
         // one side only
         let root = unbounded(1.0, &mut |x| Some(-1.0 / (1.0 - x).sqrt()));
         assert_eq!(root, [Some(false), None]);

@@ -16,6 +16,8 @@ struct Ahead {
     span: [f64; 2],
     ends: [Configuration<f64>; 2],
     depth: u32,
+    /// How far each name is off its polynomial on the piece that this is half of.
+    off: Vec<f64>,
 }
 
 /// Places on a piece, in order: the extremes of the Chebyshev polynomial of that degree, and two between them where the
@@ -45,6 +47,7 @@ impl Course<'_> {
                 span: [0.0, 1.0],
                 ends: of.ends.clone(),
                 depth: 0,
+                off: Vec::new(),
             })
             .collect();
         // how often pieces may be halved
@@ -53,7 +56,7 @@ impl Course<'_> {
             let (samples, middles) = self.sampled(&ahead, meter, watch);
             let mut halves = Vec::new();
             for ((of, samples), middle) in ahead.into_iter().zip(samples).zip(middles) {
-                let piece = self.fitted(&of, &samples, &lagrange);
+                let (piece, off) = self.fitted(&of, &samples, &lagrange);
                 match middle {
                     Some(middle)
                         if piece.rough.contains(&true) && of.depth < DEEPEST && left > 0 =>
@@ -70,6 +73,7 @@ impl Course<'_> {
                             span,
                             ends,
                             depth: of.depth + 1,
+                            off: off.clone(),
                         }));
                     }
                     _ => self.pieces.push(piece),
@@ -146,9 +150,17 @@ impl Course<'_> {
     }
 
     /// The polynomials through samples.
-    fn fitted(&self, of: &Ahead, samples: &Samples, lagrange: &[[f64; TERMS]; TERMS]) -> Piece {
+    fn fitted(
+        &self,
+        of: &Ahead,
+        samples: &Samples,
+        lagrange: &[[f64; TERMS]; TERMS],
+    ) -> (Piece, Vec<f64>) {
         /// How far beside a polynomial a name may be, beside its largest value on the piece.
         const OFF: f64 = 1e-11;
+        /// Beside that value what rounding leaves near a singularity: halving the piece does not make it less.
+        const ROUNDING: f64 = 1e-6;
+        let mut all_off = Vec::new();
         let mut piece = Piece {
             stretch: of.stretch,
             span: of.span,
@@ -181,15 +193,21 @@ impl Course<'_> {
             let off =
                 COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
             let near = off.iter().all(|off| *off <= OFF * largest + 8.0 * noise);
+            let known = off.iter().all(|off| off.is_finite());
+            let off = off.into_iter().fold(0.0, finite);
+            let before = of.off.get(name);
+            let rounded = before.is_some_and(|before| off > 0.8 * before);
+            let near = near || known && rounded && off <= ROUNDING * largest;
+            all_off.push(if known { off } else { f64::INFINITY });
             // no value anywhere, though the configurations are known
             let nowhere = values.iter().all(|x| x.is_nan()) && is_solved;
             piece
                 .terms
                 .push(if near { terms } else { [f64::NAN; TERMS] });
-            piece.noise.push(noise + off.into_iter().fold(0.0, finite));
+            piece.noise.push(noise + off);
             piece.rough.push(!near && !nowhere);
         }
-        piece
+        (piece, all_off)
     }
 }
 
