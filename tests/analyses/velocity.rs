@@ -783,7 +783,7 @@ fn a_stretched_arm_loses_a_freedom_and_says_so() {
         let jacobian = found.closed().unwrap().jacobian.unwrap();
         // the velocity of the tip alone
         let rows = jacobian.rows.len();
-        let [x, y] = [rows - 3, rows - 2].map(|row| jacobian.entries[row].clone());
+        let [x, y] = [rows - 2, rows - 1].map(|row| jacobian.entries[row].clone());
         x[0] * y[1] - x[1] * y[0]
     };
     let length = |name: &str| {
