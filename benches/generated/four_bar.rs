@@ -9,25 +9,37 @@
 //!      0  phi2, rad
 //!      1  phi1, rad
 //!
-//! [`solve`] finds the state for inputs, from a state near it; [`Follower::solve`] does the same with a
-//! start extrapolated from the last move. Nothing is allocated, and no library is needed.
+//! [`Follower::solve`] finds the state for inputs on the branch of its last state, along the straight path
+//! between the inputs; [`solve`] does it from a state near it, along a path on which the gaps of the
+//! closures shrink. Nothing is allocated, and no library is needed.
+//!
+//! After `NotAssembled` or `StepLimit` the follower stands where it stood: keep the mechanism there, and ask
+//! for inputs back along the way they came; those asked for are beyond a dead point or another singularity,
+//! or out of reach. After `BadInput` ask again with numbers. After `Singular` the branch is no longer known:
+//! let a new follower begin from a state measured or known. After `Elsewhere` compare the state with the
+//! mechanism before it is used. [`margin`] tells beforehand how near a singular configuration is.
 
 #![allow(clippy::all, unused, non_snake_case)]
 
-/// What a search came to. But for the first two the state is left as it was.
+/// What a search came to. With `NotAssembled`, `StepLimit` and `BadInput` the state is left as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Every closure equation holds to [`TOLERANCE`], or to [`ROUNDING`] where rounding allows no more.
+    /// Every closure equation holds to [`TOLERANCE`], or to [`ROUNDING`] where rounding allows no more, and the
+    /// state is on the branch of the one it was found from.
     Solved,
-    /// The same, but the configuration is singular or next to one: the state is known to about half the
-    /// digits, and something moves although the inputs are held.
+    /// The closures hold, but the configuration is singular or next to one: the state is known to about half
+    /// the digits, something moves although the inputs are held, and branches meet.
     Singular,
-    /// The closures cannot be closed near the start.
+    /// The closures cannot be closed near the start, or on its branch.
     NotAssembled,
     /// Neither was reached in the steps that are allowed.
     StepLimit,
     /// A number is not finite, or beyond 1e5.
     BadInput,
+    /// As `Solved`, but a joint is beyond its limits.
+    OutsideLimits,
+    /// Of [`solve`] only: as `Solved`, but no path leads there from the state it began with.
+    Elsewhere,
 }
 
 pub const INPUTS: usize = 1;
@@ -36,6 +48,10 @@ pub const STATE: usize = 2;
 pub const ITERATED: usize = 2;
 pub const UNKNOWNS: usize = 2;
 pub const ROWS: usize = 2;
+/// The rows that are iterated.
+pub const EQUATIONS: usize = 2;
+/// The unknowns that are.
+pub const STEPS: usize = 2;
 pub const FRAMES: usize = 0;
 /// In how many places there are two solutions.
 pub const SIGNS: usize = 1;
@@ -191,6 +207,105 @@ fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
     y[1] = t100;
 }
 
+/// Of the iteration the rows r and their Jacobian.
+fn slopes(
+    u: &[f64; INPUTS],
+    x: &[f64; STATE],
+    r: &mut [f64; EQUATIONS],
+    j: &mut [[f64; STEPS]; EQUATIONS],
+) {
+    let u0: f64 = u[0];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let (t10, t11) = sine_cosine(u0);
+    let t13: f64 = 2.0 * t11;
+    let t14: f64 = 2.0 * t10;
+    let (t15, t16) = sine_cosine(x0);
+    let t17: f64 = t11 * t16;
+    let t18: f64 = t10 * t15;
+    let t19: f64 = t17 - t18;
+    let t20: f64 = t10 * t16;
+    let t21: f64 = t11 * t15;
+    let t22: f64 = t20 + t21;
+    let t24: f64 = 4.0 * t19;
+    let t25: f64 = t13 + t24;
+    let t26: f64 = 4.0 * t22;
+    let t27: f64 = t14 + t26;
+    let (t28, t29) = sine_cosine(x1);
+    let t31: f64 = 3.5 * t29;
+    let t32: f64 = 4.5 + t31;
+    let t33: f64 = 3.5 * t28;
+    let t34: f64 = t32 - t25;
+    let t35: f64 = t33 - t27;
+    let t37: f64 = 0.2222222222222222 * t34;
+    let t38: f64 = 0.2222222222222222 * t35;
+    let t48: f64 = (-0.8888888888888888) * t22;
+    let t49: f64 = -t48;
+    let t50: f64 = (-0.8888888888888888) * t19;
+    let t53: f64 = 0.7777777777777777 * t28;
+    let t54: f64 = -t53;
+    let t55: f64 = 0.7777777777777777 * t29;
+    r[0] = t37;
+    r[1] = t38;
+    j[0][0] = t49;
+    j[0][1] = t54;
+    j[1][0] = t50;
+    j[1][1] = t55;
+}
+
+/// The square of the distance between inputs u with a state x and inputs v with a state y, in rad and
+/// characteristic lengths, as far as the Jacobian depends on them.
+#[inline(always)]
+fn apart(u: &[f64; INPUTS], x: &[f64; STATE], v: &[f64; INPUTS], y: &[f64; STATE]) -> f64 {
+    let a0: f64 = u[0] - v[0];
+    let b0: f64 = x[0] - y[0];
+    let b1: f64 = x[1] - y[1];
+    return a0 * a0 + b0 * b0 + b1 * b1;
+}
+
+/// A left inverse of a Jacobian, by the method of Gram and Schmidt. Returns the sum of the squares of its
+/// entries; 0 if there is none.
+fn inverse(mut j: [[f64; STEPS]; EQUATIONS], inverse: &mut [[f64; EQUATIONS]; STEPS]) -> f64 {
+    let mut t = [[0.0; STEPS]; STEPS];
+    let mut squares = 0.0;
+    for k in 0..STEPS {
+        let mut sum = 0.0;
+        for row in &j {
+            sum += row[k] * row[k];
+        }
+        let length = root(sum);
+        if !(length > 1e-10) {
+            return 0.0;
+        }
+        t[k][k] = length;
+        for row in &mut j {
+            row[k] /= length;
+        }
+        for c in k + 1..STEPS {
+            let mut sum = 0.0;
+            for row in &j {
+                sum += row[k] * row[c];
+            }
+            for row in &mut j {
+                row[c] -= sum * row[k];
+            }
+            t[k][c] = sum;
+        }
+    }
+    for i in 0..EQUATIONS {
+        for k in (0..STEPS).rev() {
+            let mut sum = j[i][k];
+            for c in k + 1..STEPS {
+                sum -= t[k][c] * inverse[c][i];
+            }
+            let entry = sum / t[k][k];
+            inverse[k][i] = entry;
+            squares += entry * entry;
+        }
+    }
+    squares
+}
+
 /// Unit quaternions again after a small change.
 #[inline(always)]
 fn normalise(x: &mut [f64; STATE]) {
@@ -278,6 +393,119 @@ fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
         x1 = y1;
     }
     false
+}
+
+/// At most the smallest singular value of the Jacobian by the unknowns that are iterated, dimensionless, and
+/// at least that over the root of their number: the margin to a singular configuration, where it is 0.
+pub fn margin(u: &[f64; INPUTS], x: &[f64; STATE]) -> f64 {
+    let (mut r, mut j) = ([0.0; EQUATIONS], [[0.0; STEPS]; EQUATIONS]);
+    slopes(u, x, &mut r, &mut j);
+    let squares = inverse(j, &mut [[0.0; EQUATIONS]; STEPS]);
+    if squares > 0.0 { inverse_root(squares) } else { 0.0 }
+}
+
+/// Whether an assembly (u, x) is on the branch of another one (v, y): the square of the distance from it to
+/// which others are certain to be, or 0 if that is not certain.
+///
+/// With b the norm of the inverse of the Jacobian J at (u, x) and K that of its derivative there is one
+/// solution within a distance of 1/bK (Newton and Kantorovich). Where that does not suffice the change of the
+/// Jacobian decides: ‖J⁻¹(J(v, y) − J)‖ ≤ ½. Two assemblies for the same inputs differ by about 2.
+#[inline(never)]
+fn reach(u: &[f64; INPUTS], x: &[f64; STATE], v: &[f64; INPUTS], y: &[f64; STATE]) -> f64 {
+    const CURVATURE: f64 = 1.2570787220990214;
+    const LEAST: f64 = 1e-30;
+    let (mut r, mut here) = ([0.0; EQUATIONS], [[0.0; STEPS]; EQUATIONS]);
+    slopes(u, x, &mut r, &mut here);
+    let mut inverted = [[0.0; EQUATIONS]; STEPS];
+    let squares = inverse(here, &mut inverted);
+    if !(squares > 0.0) {
+        return 0.0;
+    }
+    let size = squares * CURVATURE * CURVATURE;
+    let way = apart(u, x, v, y);
+    if !(36.0 * size * way <= 1.0) {
+        let mut there = [[0.0; STEPS]; EQUATIONS];
+        slopes(v, y, &mut r, &mut there);
+        let mut squares = 0.0;
+        for row in &inverted {
+            for c in 0..STEPS {
+                let mut sum = 0.0;
+                for i in 0..EQUATIONS {
+                    sum += row[i] * (there[i][c] - here[i][c]);
+                }
+                squares += sum * sum;
+            }
+        }
+        if !(squares <= 0.25 && way <= 0.25) {
+            return 0.0;
+        }
+    }
+    0.64 / (size + LEAST)
+}
+
+/// Leads an assembly (v, x) to inputs u along the straight path of inputs, in steps that keep to its branch;
+/// gaps that it has shrink alike. Returns what [`reach`] does at the end; 0 if it is not reached, with x the
+/// last assembly before and v its inputs.
+fn lead(v: &mut [f64; INPUTS], u: &[f64; INPUTS], x: &mut [f64; STATE]) -> f64 {
+    const SHORTEST: f64 = 1e-9;
+    const LONGEST_STEP: f64 = 0.5;
+    const CLOSED: f64 = 1e-8;
+    const MOST_PARTS: usize = 1000;
+    const MOST_STEPS: usize = 12;
+    const UNKNOWN: [usize; STEPS] = [0, 1];
+    let (from, mut to) = (*v, *u);
+    let (mut gap, mut r) = ([0.0; EQUATIONS], [0.0; EQUATIONS]);
+    let mut j = [[0.0; STEPS]; EQUATIONS];
+    let mut inverted = [[0.0; EQUATIONS]; STEPS];
+    let mut d = [0.0; UNKNOWNS];
+    let (mut part, mut step, mut tried) = (0.0, 1.0, 0);
+    slopes(v, x, &mut gap, &mut j);
+    while tried < MOST_PARTS && step >= SHORTEST {
+        tried += 1;
+        let end = if part + step < 1.0 { part + step } else { 1.0 };
+        for i in 0..INPUTS {
+            to[i] = if end < 1.0 { from[i] + end * (u[i] - from[i]) } else { u[i] };
+        }
+        let (mut y, mut next) = (*x, *x);
+        let (mut last, mut reached) = (LONGEST_STEP, 0.0);
+        for _ in 0..MOST_STEPS {
+            slopes(&to, &y, &mut r, &mut j);
+            if !(inverse(j, &mut inverted) > 0.0) {
+                break;
+            }
+            let mut longest = 0.0;
+            for n in 0..STEPS {
+                let mut sum = 0.0;
+                for i in 0..EQUATIONS {
+                    sum -= inverted[n][i] * (r[i] - (1.0 - end) * gap[i]);
+                }
+                d[UNKNOWN[n]] = sum;
+                longest = larger(longest, sum);
+            }
+            if !(longest <= last) {
+                break;
+            }
+            last = 0.5 * longest;
+            displace(&y, &d, &mut next);
+            y = next;
+            if longest <= CLOSED {
+                reached = reach(&to, &y, v, x);
+                break;
+            }
+        }
+        if !(reached > 0.0) {
+            step *= 0.5;
+            continue;
+        }
+        *x = y;
+        *v = to;
+        if !(end < 1.0) {
+            return reached;
+        }
+        part = end;
+        step *= 2.0;
+    }
+    0.0
 }
 
 fn root_or_zero(x: f64) -> f64 {
@@ -390,24 +618,82 @@ fn near(numbers: &[f64]) -> bool {
     numbers.iter().fold(true, |near, &x| near & (absolute(x) < 1e5))
 }
 
+/// Whether the joints are within their limits.
+#[inline]
+pub fn within_limits(u: &[f64; INPUTS], x: &[f64; STATE]) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    true
+}
+
+#[inline]
+fn judged(u: &[f64; INPUTS], x: &[f64; STATE], verdict: Verdict) -> Verdict {
+    match verdict {
+        Verdict::Solved if !within_limits(u, x) => Verdict::OutsideLimits,
+        _ => verdict,
+    }
+}
+
+/// Leads the assembly (v, x) to inputs u; the verdict, and the square of the distance to which others are certain.
+#[inline(never)]
+fn led(v: &[f64; INPUTS], u: &[f64; INPUTS], x: &mut [f64; STATE]) -> (Verdict, f64) {
+    let (mut from, mut y) = (*v, *x);
+    let mut reached = lead(&mut from, u, &mut y);
+    let last = y;
+    let mut verdict = match reached > 0.0 && fast(u, &mut y) {
+        true => Verdict::Solved,
+        false => careful(u, &mut y),
+    };
+    if !matches!(verdict, Verdict::Solved | Verdict::Singular) {
+        return (verdict, 0.0);
+    }
+    if !(margin(u, &y) > 1e-5) {
+        verdict = Verdict::Singular;
+    }
+    // the end of the branch may be singular, but is not on another one
+    if verdict == Verdict::Solved && !(reached > 0.0) || !(apart(u, &y, u, &last) <= 0.01) {
+        return (Verdict::Elsewhere, 0.0);
+    }
+    if verdict == Verdict::Singular {
+        reached = 0.0;
+    }
+    *x = y;
+    (verdict, reached)
+}
+
 /// Finds the state for inputs u, starting from x.
 pub fn solve(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
     if !near(u) || !near(x) {
         return Verdict::BadInput;
     }
-    match fast(u, x) {
-        true => Verdict::Solved,
-        false => careful(u, x),
+    let mut y = *x;
+    if fast(u, &mut y) && reach(u, &y, u, x) > 0.0 {
+        *x = y;
+        return judged(u, x, Verdict::Solved);
     }
+    let (mut verdict, _) = led(u, u, x);
+    if !matches!(verdict, Verdict::Solved | Verdict::Singular) {
+        // a singular start is on no branch that could be left
+        let singular = !(margin(u, x) > 1e-5);
+        verdict = careful(u, x);
+        if verdict == Verdict::Solved && !singular {
+            return Verdict::Elsewhere;
+        }
+    }
+    judged(u, x, verdict)
 }
 
-/// A state with the last move.
+/// A state with its past.
 #[derive(Clone, Debug)]
 pub struct Follower {
     /// The state.
     pub state: [f64; STATE],
     /// How far the numbers moved that the others follow from.
     pub moved: [f64; ITERATED],
+    /// Inputs and state of an assembly of its branch.
+    inputs: [f64; INPUTS],
+    certain: [f64; STATE],
+    /// The square of the distance to which these are certain to be on it; 0 at the beginning.
+    reach: f64,
 }
 
 impl Follower {
@@ -416,42 +702,121 @@ impl Follower {
         Follower {
             state,
             moved: [0.0; ITERATED],
+            inputs: [0.0; INPUTS],
+            certain: state,
+            reach: 0.0,
         }
     }
 
     /// Finds the state for inputs u near where the last move, made once more, leads.
     #[inline]
     pub fn solve(&mut self, u: &[f64; INPUTS]) -> Verdict {
-        let mut before = [0.0; ITERATED];
-        before.copy_from_slice(&self.state[..ITERATED]);
+        let before = self.state;
         for (x, moved) in self.state.iter_mut().zip(&self.moved) {
             *x += moved;
         }
         normalise(&mut self.state);
-        if !(near(u) && near(&self.state[..ITERATED]) && fast(u, &mut self.state)) {
-            self.state[..ITERATED].copy_from_slice(&before);
-            return self.restart(u);
+        if !(near(u) && near(&self.state[..ITERATED]) && fast(u, &mut self.state) && self.is_certain(u, &before)) {
+            self.state = before;
+            return self.recover(u);
         }
         for i in 0..ITERATED {
             self.moved[i] = self.state[i] - before[i];
         }
-        Verdict::Solved
+        judged(u, &self.state, Verdict::Solved)
     }
 
-    /// The same from the state itself. Apart from the above, whose numbers then stay in registers.
+    /// Whether the state is certain to be on the branch of the one before.
+    #[inline(always)]
+    fn is_certain(&mut self, u: &[f64; INPUTS], before: &[f64; STATE]) -> bool {
+        (apart(u, &self.state, &self.inputs, &self.certain) <= self.reach
+            && 100.0 * apart(u, &self.state, u, before) <= self.reach)
+            || self.reaches(u, before)
+    }
+
     #[cold]
     #[inline(never)]
-    fn restart(&mut self, u: &[f64; INPUTS]) -> Verdict {
-        let before = self.state;
-        let verdict = solve(u, &mut self.state);
-        for i in 0..ITERATED {
-            self.moved[i] = match verdict {
-                Verdict::Solved => self.state[i] - before[i],
-                _ => 0.0,
-            };
+    fn reaches(&mut self, u: &[f64; INPUTS], before: &[f64; STATE]) -> bool {
+        let reached = match self.reach > 0.0 {
+            true => reach(u, &self.state, &self.inputs, &self.certain),
+            false => reach(u, &self.state, u, before),
+        };
+        if reached > 0.0 {
+            (self.inputs, self.certain, self.reach) = (*u, self.state, reached);
         }
-        verdict
+        reached > 0.0
     }
+
+    /// The same from where the state is certain. Apart from the above, whose numbers then stay in registers.
+    #[cold]
+    #[inline(never)]
+    fn recover(&mut self, u: &[f64; INPUTS]) -> Verdict {
+        self.moved = [0.0; ITERATED];
+        if !near(u) || !near(&self.state) {
+            return Verdict::BadInput;
+        }
+        let (from, mut x) = match self.reach > 0.0 {
+            true => (self.inputs, self.certain),
+            false => (*u, self.state),
+        };
+        let (verdict, reached) = led(&from, u, &mut x);
+        match verdict {
+            Verdict::Solved | Verdict::Singular => {}
+            Verdict::Elsewhere => return Verdict::NotAssembled,
+            _ => return verdict,
+        }
+        self.state = x;
+        (self.inputs, self.certain, self.reach) = (*u, x, reached);
+        judged(u, &self.state, verdict)
+    }
+}
+
+/// For each number of the state its rate for a unit rate of each input. False at a singular configuration,
+/// where there are none.
+pub fn rates(u: &[f64; INPUTS], x: &[f64; STATE], rate: &mut [[f64; INPUTS]; STATE]) -> bool {
+    const LEAST_PIVOT: f64 = 1e-6;
+    let u0: f64 = u[0];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let (t10, t11) = sine_cosine(u0);
+    let t13: f64 = 2.0 * t11;
+    let t14: f64 = 2.0 * t10;
+    let (t15, t16) = sine_cosine(x0);
+    let t17: f64 = t11 * t16;
+    let t18: f64 = t10 * t15;
+    let t19: f64 = t17 - t18;
+    let t20: f64 = t10 * t16;
+    let t21: f64 = t11 * t15;
+    let t22: f64 = t20 + t21;
+    let t24: f64 = 4.0 * t19;
+    let t25: f64 = t13 + t24;
+    let t26: f64 = 4.0 * t22;
+    let t27: f64 = t14 + t26;
+    let (t28, t29) = sine_cosine(x1);
+    let t48: f64 = (-0.8888888888888888) * t22;
+    let t50: f64 = (-0.8888888888888888) * t19;
+    let t53: f64 = 0.7777777777777777 * t28;
+    let t55: f64 = 0.7777777777777777 * t29;
+    let t63: f64 = 0.2222222222222222 * t27;
+    let t64: f64 = 0.2222222222222222 * t25;
+    let t67: f64 = t48 * t55;
+    let t69: f64 = t50 * t53;
+    let t70: f64 = t69 - t67;
+    let t71: f64 = 1.0 / t70;
+    let t84: f64 = t55 * t63;
+    let t85: f64 = t53 * t64;
+    let t87: f64 = t84 - t85;
+    let t88: f64 = t71 * t87;
+    let t89: f64 = t50 * t63;
+    let t91: f64 = t48 * t64;
+    let t92: f64 = t91 - t89;
+    let t93: f64 = t71 * t92;
+    let t95: f64 = -t88;
+    let t96: f64 = -t93;
+    if !(absolute(t70) > 0.769800358919501 * LEAST_PIVOT) { return false; }
+    rate[0][0] = t95;
+    rate[1][0] = t96;
+    true
 }
 
 /// For each frame its axes x, y, z and its origin in ground, and for each input the twist (v, ω) for a

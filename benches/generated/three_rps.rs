@@ -20,25 +20,37 @@
 //!      9  top.z, m
 //! qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.
 //!
-//! [`solve`] finds the state for inputs, from a state near it; [`Follower::solve`] does the same with a
-//! start extrapolated from the last move. Nothing is allocated, and no library is needed.
+//! [`Follower::solve`] finds the state for inputs on the branch of its last state, along the straight path
+//! between the inputs; [`solve`] does it from a state near it, along a path on which the gaps of the
+//! closures shrink. Nothing is allocated, and no library is needed.
+//!
+//! After `NotAssembled` or `StepLimit` the follower stands where it stood: keep the mechanism there, and ask
+//! for inputs back along the way they came; those asked for are beyond a dead point or another singularity,
+//! or out of reach. After `BadInput` ask again with numbers. After `Singular` the branch is no longer known:
+//! let a new follower begin from a state measured or known. After `Elsewhere` compare the state with the
+//! mechanism before it is used. [`margin`] tells beforehand how near a singular configuration is.
 
 #![allow(clippy::all, unused, non_snake_case)]
 
-/// What a search came to. But for the first two the state is left as it was.
+/// What a search came to. With `NotAssembled`, `StepLimit` and `BadInput` the state is left as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Every closure equation holds to [`TOLERANCE`], or to [`ROUNDING`] where rounding allows no more.
+    /// Every closure equation holds to [`TOLERANCE`], or to [`ROUNDING`] where rounding allows no more, and the
+    /// state is on the branch of the one it was found from.
     Solved,
-    /// The same, but the configuration is singular or next to one: the state is known to about half the
-    /// digits, and something moves although the inputs are held.
+    /// The closures hold, but the configuration is singular or next to one: the state is known to about half
+    /// the digits, something moves although the inputs are held, and branches meet.
     Singular,
-    /// The closures cannot be closed near the start.
+    /// The closures cannot be closed near the start, or on its branch.
     NotAssembled,
     /// Neither was reached in the steps that are allowed.
     StepLimit,
     /// A number is not finite, or beyond 1e5.
     BadInput,
+    /// As `Solved`, but a joint is beyond its limits.
+    OutsideLimits,
+    /// Of [`solve`] only: as `Solved`, but no path leads there from the state it began with.
+    Elsewhere,
 }
 
 pub const INPUTS: usize = 3;
@@ -47,6 +59,10 @@ pub const STATE: usize = 10;
 pub const ITERATED: usize = 3;
 pub const UNKNOWNS: usize = 9;
 pub const ROWS: usize = 9;
+/// The rows that are iterated.
+pub const EQUATIONS: usize = 3;
+/// The unknowns that are.
+pub const STEPS: usize = 3;
 pub const FRAMES: usize = 0;
 /// In how many places there are two solutions.
 pub const SIGNS: usize = 0;
@@ -427,6 +443,167 @@ fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
     y[9] = t847;
 }
 
+/// Of the iteration the rows r and their Jacobian.
+fn slopes(
+    u: &[f64; INPUTS],
+    x: &[f64; STATE],
+    r: &mut [f64; EQUATIONS],
+    j: &mut [[f64; STEPS]; EQUATIONS],
+) {
+    let u0: f64 = u[0];
+    let u1: f64 = u[1];
+    let u2: f64 = u[2];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let x2: f64 = x[2];
+    let (t52, t53) = sine_cosine(x0);
+    let t55: f64 = u0 * t52;
+    let t57: f64 = u0 * t53;
+    let t58: f64 = 1.0 - t55;
+    let (t65, t66) = sine_cosine(x1);
+    let t73: f64 = u1 * t65;
+    let t74: f64 = (-0.4999999999999998) * t73;
+    let t76: f64 = 0.8660254037844388 * t73;
+    let t78: f64 = u1 * t66;
+    let t79: f64 = (-0.4999999999999998) - t74;
+    let t80: f64 = 0.8660254037844388 - t76;
+    let (t93, t94) = sine_cosine(x2);
+    let t101: f64 = u2 * t93;
+    let t102: f64 = (-0.5000000000000004) * t101;
+    let t104: f64 = (-0.8660254037844384) * t101;
+    let t106: f64 = u2 * t94;
+    let t107: f64 = (-0.5000000000000004) - t102;
+    let t108: f64 = (-0.8660254037844384) - t104;
+    let t130: f64 = 0.4999999999999998 * t78;
+    let t131: f64 = 0.8660254037844388 * t78;
+    let t147: f64 = 0.5000000000000004 * t106;
+    let t148: f64 = (-0.8660254037844384) * t106;
+    let t574: f64 = t79 - t58;
+    let t575: f64 = t78 - t57;
+    let t679: f64 = t574 * t574;
+    let t680: f64 = t80 * t80;
+    let t681: f64 = t679 + t680;
+    let t682: f64 = t575 * t575;
+    let t683: f64 = t681 + t682;
+    let t685: f64 = t683 - 0.7499999999999999;
+    let t686: f64 = 0.5 * t685;
+    let t687: f64 = t57 * t574;
+    let t689: f64 = t55 * t575;
+    let t691: f64 = t687 + t689;
+    let t693: f64 = t130 * t574;
+    let t694: f64 = t80 * t131;
+    let t696: f64 = t693 - t694;
+    let t697: f64 = t73 * t575;
+    let t699: f64 = t696 - t697;
+    let t700: f64 = t107 - t79;
+    let t701: f64 = t108 - t80;
+    let t702: f64 = t106 - t78;
+    let t703: f64 = t700 * t700;
+    let t704: f64 = t701 * t701;
+    let t705: f64 = t703 + t704;
+    let t706: f64 = t702 * t702;
+    let t707: f64 = t705 + t706;
+    let t708: f64 = t707 - 0.7499999999999999;
+    let t709: f64 = 0.5 * t708;
+    let t710: f64 = t130 * t700;
+    let t711: f64 = t131 * t701;
+    let t713: f64 = t710 - t711;
+    let t714: f64 = t73 * t702;
+    let t717: f64 = t714 - t713;
+    let t718: f64 = t147 * t700;
+    let t719: f64 = t148 * t701;
+    let t721: f64 = t718 - t719;
+    let t722: f64 = t101 * t702;
+    let t724: f64 = t721 - t722;
+    let t725: f64 = t58 - t107;
+    let t726: f64 = t104 - (-0.8660254037844384);
+    let t727: f64 = t57 - t106;
+    let t728: f64 = t725 * t725;
+    let t729: f64 = t726 * t726;
+    let t730: f64 = t728 + t729;
+    let t731: f64 = t727 * t727;
+    let t732: f64 = t730 + t731;
+    let t733: f64 = t732 - 0.7500000000000003;
+    let t734: f64 = 0.5 * t733;
+    let t735: f64 = t147 * t725;
+    let t736: f64 = t148 * t726;
+    let t738: f64 = t735 - t736;
+    let t739: f64 = t101 * t727;
+    let t742: f64 = t739 - t738;
+    let t743: f64 = t57 * t725;
+    let t745: f64 = t55 * t727;
+    let t747: f64 = t743 + t745;
+    let t748: f64 = -t747;
+    r[0] = t686;
+    r[1] = t709;
+    r[2] = t734;
+    j[0][0] = t691;
+    j[0][1] = t699;
+    j[0][2] = 0.0;
+    j[1][0] = 0.0;
+    j[1][1] = t717;
+    j[1][2] = t724;
+    j[2][0] = t748;
+    j[2][1] = 0.0;
+    j[2][2] = t742;
+}
+
+/// The square of the distance between inputs u with a state x and inputs v with a state y, in rad and
+/// characteristic lengths, as far as the Jacobian depends on them.
+#[inline(always)]
+fn apart(u: &[f64; INPUTS], x: &[f64; STATE], v: &[f64; INPUTS], y: &[f64; STATE]) -> f64 {
+    let a0: f64 = u[0] - v[0];
+    let a1: f64 = u[1] - v[1];
+    let a2: f64 = u[2] - v[2];
+    let b0: f64 = x[0] - y[0];
+    let b1: f64 = x[1] - y[1];
+    let b2: f64 = x[2] - y[2];
+    return a0 * a0 + a1 * a1 + a2 * a2 + b0 * b0 + b1 * b1 + b2 * b2;
+}
+
+/// A left inverse of a Jacobian, by the method of Gram and Schmidt. Returns the sum of the squares of its
+/// entries; 0 if there is none.
+fn inverse(mut j: [[f64; STEPS]; EQUATIONS], inverse: &mut [[f64; EQUATIONS]; STEPS]) -> f64 {
+    let mut t = [[0.0; STEPS]; STEPS];
+    let mut squares = 0.0;
+    for k in 0..STEPS {
+        let mut sum = 0.0;
+        for row in &j {
+            sum += row[k] * row[k];
+        }
+        let length = root(sum);
+        if !(length > 1e-10) {
+            return 0.0;
+        }
+        t[k][k] = length;
+        for row in &mut j {
+            row[k] /= length;
+        }
+        for c in k + 1..STEPS {
+            let mut sum = 0.0;
+            for row in &j {
+                sum += row[k] * row[c];
+            }
+            for row in &mut j {
+                row[c] -= sum * row[k];
+            }
+            t[k][c] = sum;
+        }
+    }
+    for i in 0..EQUATIONS {
+        for k in (0..STEPS).rev() {
+            let mut sum = j[i][k];
+            for c in k + 1..STEPS {
+                sum -= t[k][c] * inverse[c][i];
+            }
+            let entry = sum / t[k][k];
+            inverse[k][i] = entry;
+            squares += entry * entry;
+        }
+    }
+    squares
+}
+
 /// Unit quaternions again after a small change.
 #[inline(always)]
 fn normalise(x: &mut [f64; STATE]) {
@@ -706,6 +883,119 @@ fn fast(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> bool {
     false
 }
 
+/// At most the smallest singular value of the Jacobian by the unknowns that are iterated, dimensionless, and
+/// at least that over the root of their number: the margin to a singular configuration, where it is 0.
+pub fn margin(u: &[f64; INPUTS], x: &[f64; STATE]) -> f64 {
+    let (mut r, mut j) = ([0.0; EQUATIONS], [[0.0; STEPS]; EQUATIONS]);
+    slopes(u, x, &mut r, &mut j);
+    let squares = inverse(j, &mut [[0.0; EQUATIONS]; STEPS]);
+    if squares > 0.0 { inverse_root(squares) } else { 0.0 }
+}
+
+/// Whether an assembly (u, x) is on the branch of another one (v, y): the square of the distance from it to
+/// which others are certain to be, or 0 if that is not certain.
+///
+/// With b the norm of the inverse of the Jacobian J at (u, x) and K that of its derivative there is one
+/// solution within a distance of 1/bK (Newton and Kantorovich). Where that does not suffice the change of the
+/// Jacobian decides: ‖J⁻¹(J(v, y) − J)‖ ≤ ½. Two assemblies for the same inputs differ by about 2.
+#[inline(never)]
+fn reach(u: &[f64; INPUTS], x: &[f64; STATE], v: &[f64; INPUTS], y: &[f64; STATE]) -> f64 {
+    const CURVATURE: f64 = 3.393266518073814;
+    const LEAST: f64 = 1e-30;
+    let (mut r, mut here) = ([0.0; EQUATIONS], [[0.0; STEPS]; EQUATIONS]);
+    slopes(u, x, &mut r, &mut here);
+    let mut inverted = [[0.0; EQUATIONS]; STEPS];
+    let squares = inverse(here, &mut inverted);
+    if !(squares > 0.0) {
+        return 0.0;
+    }
+    let size = squares * CURVATURE * CURVATURE;
+    let way = apart(u, x, v, y);
+    if !(36.0 * size * way <= 1.0) {
+        let mut there = [[0.0; STEPS]; EQUATIONS];
+        slopes(v, y, &mut r, &mut there);
+        let mut squares = 0.0;
+        for row in &inverted {
+            for c in 0..STEPS {
+                let mut sum = 0.0;
+                for i in 0..EQUATIONS {
+                    sum += row[i] * (there[i][c] - here[i][c]);
+                }
+                squares += sum * sum;
+            }
+        }
+        if !(squares <= 0.25 && way <= 0.25) {
+            return 0.0;
+        }
+    }
+    0.64 / (size + LEAST)
+}
+
+/// Leads an assembly (v, x) to inputs u along the straight path of inputs, in steps that keep to its branch;
+/// gaps that it has shrink alike. Returns what [`reach`] does at the end; 0 if it is not reached, with x the
+/// last assembly before and v its inputs.
+fn lead(v: &mut [f64; INPUTS], u: &[f64; INPUTS], x: &mut [f64; STATE]) -> f64 {
+    const SHORTEST: f64 = 1e-9;
+    const LONGEST_STEP: f64 = 0.5;
+    const CLOSED: f64 = 1e-8;
+    const MOST_PARTS: usize = 1000;
+    const MOST_STEPS: usize = 12;
+    const UNKNOWN: [usize; STEPS] = [0, 1, 2];
+    let (from, mut to) = (*v, *u);
+    let (mut gap, mut r) = ([0.0; EQUATIONS], [0.0; EQUATIONS]);
+    let mut j = [[0.0; STEPS]; EQUATIONS];
+    let mut inverted = [[0.0; EQUATIONS]; STEPS];
+    let mut d = [0.0; UNKNOWNS];
+    let (mut part, mut step, mut tried) = (0.0, 1.0, 0);
+    slopes(v, x, &mut gap, &mut j);
+    while tried < MOST_PARTS && step >= SHORTEST {
+        tried += 1;
+        let end = if part + step < 1.0 { part + step } else { 1.0 };
+        for i in 0..INPUTS {
+            to[i] = if end < 1.0 { from[i] + end * (u[i] - from[i]) } else { u[i] };
+        }
+        let (mut y, mut next) = (*x, *x);
+        let (mut last, mut reached) = (LONGEST_STEP, 0.0);
+        for _ in 0..MOST_STEPS {
+            slopes(&to, &y, &mut r, &mut j);
+            if !(inverse(j, &mut inverted) > 0.0) {
+                break;
+            }
+            let mut longest = 0.0;
+            for n in 0..STEPS {
+                let mut sum = 0.0;
+                for i in 0..EQUATIONS {
+                    sum -= inverted[n][i] * (r[i] - (1.0 - end) * gap[i]);
+                }
+                d[UNKNOWN[n]] = sum;
+                longest = larger(longest, sum);
+            }
+            if !(longest <= last) {
+                break;
+            }
+            last = 0.5 * longest;
+            displace(&y, &d, &mut next);
+            y = next;
+            if longest <= CLOSED {
+                reached = reach(&to, &y, v, x);
+                break;
+            }
+        }
+        if !(reached > 0.0) {
+            step *= 0.5;
+            continue;
+        }
+        *x = y;
+        *v = to;
+        if !(end < 1.0) {
+            return reached;
+        }
+        part = end;
+        step *= 2.0;
+    }
+    0.0
+}
+
 const M: usize = ROWS + UNKNOWNS;
 
 /// The least-squares step for rows r and Jacobian j with rows damping·1 below: Householder reflections
@@ -857,24 +1147,83 @@ fn near(numbers: &[f64]) -> bool {
     numbers.iter().fold(true, |near, &x| near & (absolute(x) < 1e5))
 }
 
+/// Whether the joints are within their limits.
+#[inline]
+pub fn within_limits(u: &[f64; INPUTS], x: &[f64; STATE]) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    if !((u[0] >= 0.3 - ROUNDING) & (u[0] <= 1.2 + ROUNDING) & (u[1] >= 0.3 - ROUNDING) & (u[1] <= 1.2 + ROUNDING) & (u[2] >= 0.3 - ROUNDING) & (u[2] <= 1.2 + ROUNDING)) { return false; }
+    true
+}
+
+#[inline]
+fn judged(u: &[f64; INPUTS], x: &[f64; STATE], verdict: Verdict) -> Verdict {
+    match verdict {
+        Verdict::Solved if !within_limits(u, x) => Verdict::OutsideLimits,
+        _ => verdict,
+    }
+}
+
+/// Leads the assembly (v, x) to inputs u; the verdict, and the square of the distance to which others are certain.
+#[inline(never)]
+fn led(v: &[f64; INPUTS], u: &[f64; INPUTS], x: &mut [f64; STATE]) -> (Verdict, f64) {
+    let (mut from, mut y) = (*v, *x);
+    let mut reached = lead(&mut from, u, &mut y);
+    let last = y;
+    let mut verdict = match reached > 0.0 && fast(u, &mut y) {
+        true => Verdict::Solved,
+        false => careful(u, &mut y),
+    };
+    if !matches!(verdict, Verdict::Solved | Verdict::Singular) {
+        return (verdict, 0.0);
+    }
+    if !(margin(u, &y) > 1e-5) {
+        verdict = Verdict::Singular;
+    }
+    // the end of the branch may be singular, but is not on another one
+    if verdict == Verdict::Solved && !(reached > 0.0) || !(apart(u, &y, u, &last) <= 0.01) {
+        return (Verdict::Elsewhere, 0.0);
+    }
+    if verdict == Verdict::Singular {
+        reached = 0.0;
+    }
+    *x = y;
+    (verdict, reached)
+}
+
 /// Finds the state for inputs u, starting from x.
 pub fn solve(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
     if !near(u) || !near(x) {
         return Verdict::BadInput;
     }
-    match fast(u, x) {
-        true => Verdict::Solved,
-        false => careful(u, x),
+    let mut y = *x;
+    if fast(u, &mut y) && reach(u, &y, u, x) > 0.0 {
+        *x = y;
+        return judged(u, x, Verdict::Solved);
     }
+    let (mut verdict, _) = led(u, u, x);
+    if !matches!(verdict, Verdict::Solved | Verdict::Singular) {
+        // a singular start is on no branch that could be left
+        let singular = !(margin(u, x) > 1e-5);
+        verdict = careful(u, x);
+        if verdict == Verdict::Solved && !singular {
+            return Verdict::Elsewhere;
+        }
+    }
+    judged(u, x, verdict)
 }
 
-/// A state with the last move.
+/// A state with its past.
 #[derive(Clone, Debug)]
 pub struct Follower {
     /// The state.
     pub state: [f64; STATE],
     /// How far the numbers moved that the others follow from.
     pub moved: [f64; ITERATED],
+    /// Inputs and state of an assembly of its branch.
+    inputs: [f64; INPUTS],
+    certain: [f64; STATE],
+    /// The square of the distance to which these are certain to be on it; 0 at the beginning.
+    reach: f64,
 }
 
 impl Follower {
@@ -883,42 +1232,562 @@ impl Follower {
         Follower {
             state,
             moved: [0.0; ITERATED],
+            inputs: [0.0; INPUTS],
+            certain: state,
+            reach: 0.0,
         }
     }
 
     /// Finds the state for inputs u near where the last move, made once more, leads.
     #[inline]
     pub fn solve(&mut self, u: &[f64; INPUTS]) -> Verdict {
-        let mut before = [0.0; ITERATED];
-        before.copy_from_slice(&self.state[..ITERATED]);
+        let before = self.state;
         for (x, moved) in self.state.iter_mut().zip(&self.moved) {
             *x += moved;
         }
         normalise(&mut self.state);
-        if !(near(u) && near(&self.state[..ITERATED]) && fast(u, &mut self.state)) {
-            self.state[..ITERATED].copy_from_slice(&before);
-            return self.restart(u);
+        if !(near(u) && near(&self.state[..ITERATED]) && fast(u, &mut self.state) && self.is_certain(u, &before)) {
+            self.state = before;
+            return self.recover(u);
         }
         for i in 0..ITERATED {
             self.moved[i] = self.state[i] - before[i];
         }
-        Verdict::Solved
+        judged(u, &self.state, Verdict::Solved)
     }
 
-    /// The same from the state itself. Apart from the above, whose numbers then stay in registers.
+    /// Whether the state is certain to be on the branch of the one before.
+    #[inline(always)]
+    fn is_certain(&mut self, u: &[f64; INPUTS], before: &[f64; STATE]) -> bool {
+        (apart(u, &self.state, &self.inputs, &self.certain) <= self.reach
+            && 100.0 * apart(u, &self.state, u, before) <= self.reach)
+            || self.reaches(u, before)
+    }
+
     #[cold]
     #[inline(never)]
-    fn restart(&mut self, u: &[f64; INPUTS]) -> Verdict {
-        let before = self.state;
-        let verdict = solve(u, &mut self.state);
-        for i in 0..ITERATED {
-            self.moved[i] = match verdict {
-                Verdict::Solved => self.state[i] - before[i],
-                _ => 0.0,
-            };
+    fn reaches(&mut self, u: &[f64; INPUTS], before: &[f64; STATE]) -> bool {
+        let reached = match self.reach > 0.0 {
+            true => reach(u, &self.state, &self.inputs, &self.certain),
+            false => reach(u, &self.state, u, before),
+        };
+        if reached > 0.0 {
+            (self.inputs, self.certain, self.reach) = (*u, self.state, reached);
         }
-        verdict
+        reached > 0.0
     }
+
+    /// The same from where the state is certain. Apart from the above, whose numbers then stay in registers.
+    #[cold]
+    #[inline(never)]
+    fn recover(&mut self, u: &[f64; INPUTS]) -> Verdict {
+        self.moved = [0.0; ITERATED];
+        if !near(u) || !near(&self.state) {
+            return Verdict::BadInput;
+        }
+        let (from, mut x) = match self.reach > 0.0 {
+            true => (self.inputs, self.certain),
+            false => (*u, self.state),
+        };
+        let (verdict, reached) = led(&from, u, &mut x);
+        match verdict {
+            Verdict::Solved | Verdict::Singular => {}
+            Verdict::Elsewhere => return Verdict::NotAssembled,
+            _ => return verdict,
+        }
+        self.state = x;
+        (self.inputs, self.certain, self.reach) = (*u, x, reached);
+        judged(u, &self.state, verdict)
+    }
+}
+
+/// For each number of the state its rate for a unit rate of each input. False at a singular configuration,
+/// where there are none.
+pub fn rates(u: &[f64; INPUTS], x: &[f64; STATE], rate: &mut [[f64; INPUTS]; STATE]) -> bool {
+    const LEAST_PIVOT: f64 = 1e-6;
+    let u0: f64 = u[0];
+    let u1: f64 = u[1];
+    let u2: f64 = u[2];
+    let x0: f64 = x[0];
+    let x1: f64 = x[1];
+    let x2: f64 = x[2];
+    let x3: f64 = x[3];
+    let x4: f64 = x[4];
+    let x5: f64 = x[5];
+    let x6: f64 = x[6];
+    let t29: f64 = x4 + x4;
+    let t30: f64 = x5 + x5;
+    let t31: f64 = x6 + x6;
+    let t32: f64 = x3 * t29;
+    let t33: f64 = x3 * t30;
+    let t34: f64 = x3 * t31;
+    let t35: f64 = x4 * t29;
+    let t36: f64 = x4 * t30;
+    let t37: f64 = x4 * t31;
+    let t38: f64 = x5 * t30;
+    let t39: f64 = x5 * t31;
+    let t40: f64 = x6 * t31;
+    let t41: f64 = 1.0 - t38;
+    let t42: f64 = t41 - t40;
+    let t43: f64 = t34 + t36;
+    let t44: f64 = t37 - t33;
+    let t45: f64 = t36 - t34;
+    let t46: f64 = 1.0 - t35;
+    let t47: f64 = t46 - t40;
+    let t48: f64 = t32 + t39;
+    let (t52, t53) = sine_cosine(x0);
+    let t55: f64 = u0 * t52;
+    let t57: f64 = u0 * t53;
+    let t59: f64 = 0.5 * t42;
+    let t60: f64 = 0.5 * t43;
+    let t61: f64 = 0.5 * t44;
+    let (t65, t66) = sine_cosine(x1);
+    let t67: f64 = (-0.4999999999999998) * t65;
+    let t68: f64 = 0.8660254037844388 * t65;
+    let t73: f64 = u1 * t65;
+    let t78: f64 = u1 * t66;
+    let t81: f64 = (-0.2499999999999999) * t42;
+    let t82: f64 = (-0.2499999999999999) * t43;
+    let t83: f64 = (-0.2499999999999999) * t44;
+    let t84: f64 = 0.4330127018922194 * t45;
+    let t85: f64 = 0.4330127018922194 * t47;
+    let t86: f64 = 0.4330127018922194 * t48;
+    let t87: f64 = t81 + t84;
+    let t88: f64 = t82 + t85;
+    let t89: f64 = t83 + t86;
+    let (t93, t94) = sine_cosine(x2);
+    let t95: f64 = (-0.5000000000000004) * t93;
+    let t96: f64 = (-0.8660254037844384) * t93;
+    let t101: f64 = u2 * t93;
+    let t106: f64 = u2 * t94;
+    let t109: f64 = (-0.2500000000000002) * t42;
+    let t110: f64 = (-0.2500000000000002) * t43;
+    let t111: f64 = (-0.2500000000000002) * t44;
+    let t112: f64 = (-0.4330127018922192) * t45;
+    let t113: f64 = (-0.4330127018922192) * t47;
+    let t114: f64 = (-0.4330127018922192) * t48;
+    let t115: f64 = t109 + t112;
+    let t116: f64 = t110 + t113;
+    let t117: f64 = t111 + t114;
+    let t130: f64 = 0.4999999999999998 * t78;
+    let t131: f64 = 0.8660254037844388 * t78;
+    let t147: f64 = 0.5000000000000004 * t106;
+    let t148: f64 = (-0.8660254037844384) * t106;
+    let t166: f64 = 1.0 / t57;
+    let t167: f64 = t55 * t166;
+    let t168: f64 = t61 * t167;
+    let t169: f64 = t59 + t168;
+    let t171: f64 = t60 * t167;
+    let t176: f64 = t52 * t167;
+    let t177: f64 = t53 + t176;
+    let t179: f64 = t61 - t89;
+    let t180: f64 = t87 - t59;
+    let t182: f64 = t61 - t117;
+    let t183: f64 = t115 - t59;
+    let t185: f64 = 1.0 / t131;
+    let t186: f64 = t130 * t185;
+    let t188: f64 = t179 * t186;
+    let t190: f64 = t180 * t186;
+    let t192: f64 = t190 - t88;
+    let t196: f64 = t68 * t186;
+    let t198: f64 = t67 + t196;
+    let t199: f64 = t73 * t185;
+    let t200: f64 = t179 * t199;
+    let t201: f64 = t88 - t200;
+    let t202: f64 = t180 * t199;
+    let t206: f64 = t68 * t199;
+    let t207: f64 = t66 + t206;
+    let t209: f64 = 1.0 / t148;
+    let t210: f64 = t147 * t209;
+    let t212: f64 = t182 * t210;
+    let t214: f64 = t183 * t210;
+    let t216: f64 = t214 - t116;
+    let t220: f64 = t96 * t210;
+    let t222: f64 = t95 + t220;
+    let t223: f64 = t101 * t209;
+    let t224: f64 = t182 * t223;
+    let t225: f64 = t116 - t224;
+    let t226: f64 = t183 * t223;
+    let t230: f64 = t96 * t223;
+    let t231: f64 = t94 + t230;
+    let t233: f64 = t167 * t188;
+    let t235: f64 = t60 + t233;
+    let t236: f64 = t89 * t167;
+    let t238: f64 = t236 - t169;
+    let t239: f64 = t167 * t192;
+    let t241: f64 = t171 + t239;
+    let t245: f64 = t167 * t198;
+    let t247: f64 = t212 - t188;
+    let t248: f64 = t117 - t89;
+    let t249: f64 = t216 - t192;
+    let t252: f64 = t201 - t235;
+    let t253: f64 = t87 + t238;
+    let t255: f64 = t202 + t241;
+    let t258: f64 = t207 + t245;
+    let t260: f64 = t225 - t235;
+    let t261: f64 = t115 + t238;
+    let t263: f64 = t226 + t241;
+    let t266: f64 = t248 * t263;
+    let t268: f64 = t249 * t261;
+    let t270: f64 = t268 - t266;
+    let t271: f64 = t253 * t263;
+    let t272: f64 = t255 * t261;
+    let t274: f64 = t272 - t271;
+    let t275: f64 = t249 * t253;
+    let t277: f64 = t248 * t255;
+    let t279: f64 = t277 - t275;
+    let t280: f64 = t247 * t263;
+    let t282: f64 = t249 * t260;
+    let t283: f64 = t280 + t282;
+    let t285: f64 = t252 * t263;
+    let t287: f64 = t255 * t260;
+    let t289: f64 = t287 - t285;
+    let t290: f64 = t249 * t252;
+    let t291: f64 = t247 * t255;
+    let t293: f64 = t290 + t291;
+    let t295: f64 = t247 * t261;
+    let t297: f64 = t248 * t260;
+    let t298: f64 = t295 + t297;
+    let t300: f64 = t252 * t261;
+    let t302: f64 = t253 * t260;
+    let t305: f64 = t300 - t302;
+    let t306: f64 = t248 * t252;
+    let t307: f64 = t247 * t253;
+    let t309: f64 = t306 + t307;
+    let t310: f64 = t252 * t270;
+    let t311: f64 = t253 * t283;
+    let t313: f64 = t310 - t311;
+    let t314: f64 = t255 * t298;
+    let t315: f64 = t313 + t314;
+    let t316: f64 = 1.0 / t315;
+    let t371: f64 = t177 * t270;
+    let t372: f64 = t177 * t279;
+    let t373: f64 = t371 + t372;
+    let t374: f64 = t316 * t373;
+    let t375: f64 = t177 * t283;
+    let t376: f64 = t177 * t293;
+    let t378: f64 = t375 - t376;
+    let t379: f64 = t316 * t378;
+    let t380: f64 = t177 * t298;
+    let t382: f64 = t177 * t309;
+    let t383: f64 = t382 - t380;
+    let t384: f64 = t316 * t383;
+    let t385: f64 = t241 * t384;
+    let t386: f64 = t177 + t385;
+    let t388: f64 = t238 * t379;
+    let t389: f64 = t386 + t388;
+    let t391: f64 = t235 * t374;
+    let t392: f64 = t389 + t391;
+    let t394: f64 = t192 * t384;
+    let t396: f64 = t89 * t379;
+    let t397: f64 = t394 + t396;
+    let t399: f64 = t188 * t374;
+    let t400: f64 = t397 + t399;
+    let t402: f64 = t183 * t384;
+    let t404: f64 = t182 * t374;
+    let t405: f64 = t402 + t404;
+    let t407: f64 = t209 * t405;
+    let t409: f64 = t180 * t384;
+    let t411: f64 = t179 * t374;
+    let t412: f64 = t409 + t411;
+    let t414: f64 = t185 * t412;
+    let t416: f64 = t59 * t384;
+    let t418: f64 = t61 * t374;
+    let t421: f64 = t52 + t400;
+    let t422: f64 = t60 * t384;
+    let t424: f64 = t421 + t422;
+    let t425: f64 = t61 * t379;
+    let t426: f64 = t424 - t425;
+    let t427: f64 = t166 * t426;
+    let t428: f64 = t258 * t270;
+    let t430: f64 = t198 * t274;
+    let t432: f64 = t428 + t430;
+    let t434: f64 = t245 * t279;
+    let t436: f64 = t432 + t434;
+    let t438: f64 = t316 * t436;
+    let t440: f64 = t258 * t283;
+    let t442: f64 = t198 * t289;
+    let t444: f64 = t440 + t442;
+    let t446: f64 = t245 * t293;
+    let t447: f64 = t446 - t444;
+    let t448: f64 = t316 * t447;
+    let t449: f64 = t258 * t298;
+    let t450: f64 = t198 * t305;
+    let t452: f64 = t449 - t450;
+    let t453: f64 = t245 * t309;
+    let t455: f64 = t452 - t453;
+    let t456: f64 = t316 * t455;
+    let t457: f64 = t241 * t456;
+    let t458: f64 = t245 - t457;
+    let t459: f64 = t238 * t448;
+    let t460: f64 = t458 - t459;
+    let t461: f64 = t235 * t438;
+    let t463: f64 = t460 + t461;
+    let t464: f64 = t192 * t456;
+    let t465: f64 = t198 - t464;
+    let t466: f64 = t89 * t448;
+    let t467: f64 = t465 - t466;
+    let t468: f64 = t188 * t438;
+    let t470: f64 = t467 + t468;
+    let t471: f64 = t183 * t456;
+    let t473: f64 = t182 * t438;
+    let t475: f64 = t473 - t471;
+    let t476: f64 = t209 * t475;
+    let t477: f64 = t180 * t456;
+    let t478: f64 = t68 - t477;
+    let t479: f64 = t179 * t438;
+    let t481: f64 = t478 + t479;
+    let t482: f64 = t185 * t481;
+    let t483: f64 = t59 * t456;
+    let t485: f64 = t61 * t438;
+    let t486: f64 = t483 + t485;
+    let t488: f64 = -t470;
+    let t489: f64 = t60 * t456;
+    let t491: f64 = t489 - t470;
+    let t492: f64 = t61 * t448;
+    let t493: f64 = t491 - t492;
+    let t494: f64 = t166 * t493;
+    let t495: f64 = t222 * t274;
+    let t496: f64 = t231 * t279;
+    let t498: f64 = t495 - t496;
+    let t499: f64 = t316 * t498;
+    let t500: f64 = t222 * t289;
+    let t501: f64 = t231 * t293;
+    let t502: f64 = t500 + t501;
+    let t503: f64 = t316 * t502;
+    let t504: f64 = t222 * t305;
+    let t505: f64 = t231 * t309;
+    let t507: f64 = t504 - t505;
+    let t508: f64 = t316 * t507;
+    let t509: f64 = t241 * t508;
+    let t511: f64 = t238 * t503;
+    let t512: f64 = t509 + t511;
+    let t514: f64 = t235 * t499;
+    let t515: f64 = t512 + t514;
+    let t517: f64 = t192 * t508;
+    let t519: f64 = t89 * t503;
+    let t520: f64 = t517 + t519;
+    let t522: f64 = t188 * t499;
+    let t523: f64 = t520 + t522;
+    let t525: f64 = t183 * t508;
+    let t526: f64 = t96 - t525;
+    let t527: f64 = t182 * t499;
+    let t528: f64 = t526 - t527;
+    let t529: f64 = t209 * t528;
+    let t530: f64 = t180 * t508;
+    let t532: f64 = t179 * t499;
+    let t533: f64 = t530 + t532;
+    let t535: f64 = t185 * t533;
+    let t537: f64 = t59 * t508;
+    let t539: f64 = t61 * t499;
+    let t542: f64 = t60 * t508;
+    let t544: f64 = t523 + t542;
+    let t545: f64 = t61 * t503;
+    let t546: f64 = t544 - t545;
+    let t547: f64 = t166 * t546;
+    let t557: f64 = -t427;
+    let t561: f64 = t416 - t418;
+    let t562: f64 = -t494;
+    let t563: f64 = -t482;
+    let t564: f64 = -t476;
+    let t567: f64 = -t463;
+    let t568: f64 = -t547;
+    let t569: f64 = -t529;
+    let t573: f64 = t537 - t539;
+    let t848: f64 = 0.5 * t374;
+    let t850: f64 = 0.5 * t379;
+    let t852: f64 = 0.5 * t384;
+    let t854: f64 = x4 * t848;
+    let t856: f64 = x5 * t850;
+    let t858: f64 = t854 + t856;
+    let t859: f64 = x6 * t852;
+    let t861: f64 = t858 + t859;
+    let t862: f64 = x3 * t848;
+    let t864: f64 = x6 * t850;
+    let t866: f64 = t862 + t864;
+    let t868: f64 = x5 * t852;
+    let t870: f64 = t868 - t866;
+    let t871: f64 = x6 * t848;
+    let t873: f64 = x3 * t850;
+    let t875: f64 = t871 - t873;
+    let t876: f64 = x4 * t852;
+    let t878: f64 = t875 - t876;
+    let t879: f64 = x5 * t848;
+    let t881: f64 = x4 * t850;
+    let t883: f64 = t881 - t879;
+    let t884: f64 = x3 * t852;
+    let t886: f64 = t883 - t884;
+    let t887: f64 = x3 * x3;
+    let t888: f64 = x3 * t861;
+    let t889: f64 = t888 + t888;
+    let t890: f64 = x4 * x4;
+    let t891: f64 = x4 * t870;
+    let t892: f64 = t891 + t891;
+    let t893: f64 = t887 + t890;
+    let t894: f64 = t889 + t892;
+    let t895: f64 = x5 * x5;
+    let t896: f64 = x5 * t878;
+    let t897: f64 = t896 + t896;
+    let t898: f64 = t893 + t895;
+    let t899: f64 = t894 + t897;
+    let t900: f64 = x6 * x6;
+    let t901: f64 = x6 * t886;
+    let t902: f64 = t901 + t901;
+    let t903: f64 = t898 + t900;
+    let t904: f64 = t899 + t902;
+    let t906: f64 = 0.5 * inverse_root(t903);
+    let t907: f64 = t904 * t906;
+    let t908: f64 = inverse_root(t903);
+    let t909: f64 = t907 * t908;
+    let t910: f64 = -t909;
+    let t911: f64 = t910 * inverse_root(t903);
+    let t913: f64 = x3 * t911;
+    let t914: f64 = t861 * t908;
+    let t915: f64 = t913 + t914;
+    let t917: f64 = x4 * t911;
+    let t918: f64 = t870 * t908;
+    let t919: f64 = t917 + t918;
+    let t921: f64 = x5 * t911;
+    let t922: f64 = t878 * t908;
+    let t923: f64 = t921 + t922;
+    let t925: f64 = x6 * t911;
+    let t926: f64 = t886 * t908;
+    let t927: f64 = t925 + t926;
+    let t928: f64 = 0.5 * t438;
+    let t929: f64 = 0.5 * t448;
+    let t931: f64 = 0.5 * t456;
+    let t933: f64 = x4 * t928;
+    let t935: f64 = x5 * t929;
+    let t937: f64 = t935 - t933;
+    let t938: f64 = x6 * t931;
+    let t940: f64 = t937 + t938;
+    let t941: f64 = x3 * t928;
+    let t942: f64 = x6 * t929;
+    let t944: f64 = t941 - t942;
+    let t945: f64 = x5 * t931;
+    let t947: f64 = t944 + t945;
+    let t948: f64 = x6 * t928;
+    let t950: f64 = x3 * t929;
+    let t952: f64 = t948 + t950;
+    let t954: f64 = x4 * t931;
+    let t956: f64 = t952 + t954;
+    let t958: f64 = x5 * t928;
+    let t959: f64 = x4 * t929;
+    let t961: f64 = t958 + t959;
+    let t962: f64 = x3 * t931;
+    let t964: f64 = t961 - t962;
+    let t965: f64 = x3 * t940;
+    let t966: f64 = t965 + t965;
+    let t967: f64 = x4 * t947;
+    let t968: f64 = t967 + t967;
+    let t969: f64 = t966 + t968;
+    let t970: f64 = x5 * t956;
+    let t972: f64 = t970 + t970;
+    let t974: f64 = t969 - t972;
+    let t975: f64 = x6 * t964;
+    let t976: f64 = t975 + t975;
+    let t977: f64 = t974 + t976;
+    let t978: f64 = t906 * t977;
+    let t979: f64 = t908 * t978;
+    let t980: f64 = -t979;
+    let t981: f64 = t980 * inverse_root(t903);
+    let t982: f64 = x3 * t981;
+    let t983: f64 = t908 * t940;
+    let t984: f64 = t982 + t983;
+    let t985: f64 = x4 * t981;
+    let t986: f64 = t908 * t947;
+    let t987: f64 = t985 + t986;
+    let t988: f64 = x5 * t981;
+    let t989: f64 = t908 * t956;
+    let t991: f64 = t988 - t989;
+    let t992: f64 = x6 * t981;
+    let t993: f64 = t908 * t964;
+    let t994: f64 = t992 + t993;
+    let t995: f64 = 0.5 * t499;
+    let t997: f64 = 0.5 * t503;
+    let t999: f64 = 0.5 * t508;
+    let t1001: f64 = x4 * t995;
+    let t1003: f64 = x5 * t997;
+    let t1005: f64 = t1001 + t1003;
+    let t1006: f64 = x6 * t999;
+    let t1008: f64 = t1005 + t1006;
+    let t1009: f64 = x3 * t995;
+    let t1011: f64 = x6 * t997;
+    let t1013: f64 = t1009 + t1011;
+    let t1015: f64 = x5 * t999;
+    let t1017: f64 = t1015 - t1013;
+    let t1018: f64 = x6 * t995;
+    let t1020: f64 = x3 * t997;
+    let t1022: f64 = t1018 - t1020;
+    let t1023: f64 = x4 * t999;
+    let t1025: f64 = t1022 - t1023;
+    let t1026: f64 = x5 * t995;
+    let t1028: f64 = x4 * t997;
+    let t1030: f64 = t1028 - t1026;
+    let t1031: f64 = x3 * t999;
+    let t1033: f64 = t1030 - t1031;
+    let t1034: f64 = x3 * t1008;
+    let t1035: f64 = t1034 + t1034;
+    let t1036: f64 = x4 * t1017;
+    let t1037: f64 = t1036 + t1036;
+    let t1038: f64 = t1035 + t1037;
+    let t1039: f64 = x5 * t1025;
+    let t1040: f64 = t1039 + t1039;
+    let t1041: f64 = t1038 + t1040;
+    let t1042: f64 = x6 * t1033;
+    let t1043: f64 = t1042 + t1042;
+    let t1044: f64 = t1041 + t1043;
+    let t1045: f64 = t906 * t1044;
+    let t1046: f64 = t908 * t1045;
+    let t1047: f64 = -t1046;
+    let t1048: f64 = t1047 * inverse_root(t903);
+    let t1049: f64 = x3 * t1048;
+    let t1050: f64 = t908 * t1008;
+    let t1051: f64 = t1049 + t1050;
+    let t1052: f64 = x4 * t1048;
+    let t1053: f64 = t908 * t1017;
+    let t1054: f64 = t1052 + t1053;
+    let t1055: f64 = x5 * t1048;
+    let t1056: f64 = t908 * t1025;
+    let t1057: f64 = t1055 + t1056;
+    let t1058: f64 = x6 * t1048;
+    let t1059: f64 = t908 * t1033;
+    let t1060: f64 = t1058 + t1059;
+    if !(absolute(t57) > 1.0 * LEAST_PIVOT) { return false; }
+    if !(absolute(t131) > 1.0 * LEAST_PIVOT) { return false; }
+    if !(absolute(t148) > 1.0 * LEAST_PIVOT) { return false; }
+    if !(absolute(t315) > 1.2990381056766587 * LEAST_PIVOT) { return false; }
+    rate[0][0] = t557;
+    rate[1][0] = t414;
+    rate[2][0] = t407;
+    rate[3][0] = t915;
+    rate[4][0] = t919;
+    rate[5][0] = t923;
+    rate[6][0] = t927;
+    rate[7][0] = t400;
+    rate[8][0] = t561;
+    rate[9][0] = t392;
+    rate[0][1] = t562;
+    rate[1][1] = t563;
+    rate[2][1] = t564;
+    rate[3][1] = t984;
+    rate[4][1] = t987;
+    rate[5][1] = t991;
+    rate[6][1] = t994;
+    rate[7][1] = t488;
+    rate[8][1] = t486;
+    rate[9][1] = t567;
+    rate[0][2] = t568;
+    rate[1][2] = t535;
+    rate[2][2] = t569;
+    rate[3][2] = t1051;
+    rate[4][2] = t1054;
+    rate[5][2] = t1057;
+    rate[6][2] = t1060;
+    rate[7][2] = t523;
+    rate[8][2] = t573;
+    rate[9][2] = t515;
+    true
 }
 
 /// For each frame its axes x, y, z and its origin in ground, and for each input the twist (v, ω) for a

@@ -94,34 +94,54 @@ fn follow(
         });
         values.collect::<Vec<_>>()
     };
+    /// The shortest part of the way from one to the next in which it is gone.
+    const SHORTEST: f64 = 1.0 / 64.0;
+    let joints_only = inputs.iter().all(|of| matches!(of, Coordinate::Joint(_)));
     let outside = |at: &Configuration<f64>| mechanism.outside_limits(&at.joints).count();
     let newton = Newton::default();
     let mut found: Vec<Example> = Vec::with_capacity(count);
     let (mut system, mut at, mut trial) = (question.system(), start.clone(), start.clone());
     let mut work = system.work();
+    let mut latest = values_at(0);
     for k in 0..count {
-        let (wanted, before) = (values_at(k), at.clone());
-        if wanted
-            .iter()
-            .all(|(input, _)| matches!(input, Coordinate::Joint(_)))
-        {
-            for (input, value) in wanted {
-                if let Coordinate::Joint(joint) = input {
-                    at.joints[joint] = value;
+        let goal = values_at(k);
+        let (mut part, mut step) = (0.0, 1.0);
+        while part < 1.0 {
+            let end = f64::min(part + step, 1.0);
+            let ways = latest.iter().zip(&goal);
+            let wanted = ways.map(|(from, to)| match end {
+                1.0 => *to,
+                _ => (to.0, from.1 + end * (to.1 - from.1)),
+            });
+            let before = at.clone();
+            if joints_only {
+                for (input, value) in wanted {
+                    if let Coordinate::Joint(joint) = input {
+                        at.joints[joint] = value;
+                    }
                 }
+            } else {
+                let question = question.clone().at_values(wanted).near(&at);
+                system = question.system();
+                at = question.start();
             }
-        } else {
-            let question = question.clone().at_values(wanted).near(&at);
-            system = question.system();
-            at = question.start();
+            trial.clone_from(&at);
+            let report = newton.solve(&system, &mut at, &mut trial, &mut work);
+            let within = outside(&at) <= outside(start);
+            if report.stop == Stop::Solved
+                && within
+                && system.is_on_branch_of(&before, &at, &mut work)
+            {
+                part = end;
+                continue;
+            }
+            at = before;
+            step *= 0.5;
+            if step < SHORTEST {
+                return found;
+            }
         }
-        trial.clone_from(&at);
-        let report = newton.solve(&system, &mut at, &mut trial, &mut work);
-        let leaves = outside(&at) > outside(start);
-        if report.stop != Stop::Solved || leaves || !system.is_on_branch_of(&before, &at, &mut work)
-        {
-            break;
-        }
+        latest = goal;
         found.push(values(question, &at));
     }
     found

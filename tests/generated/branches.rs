@@ -273,7 +273,7 @@ fn what_a_solver_finds_is_on_the_branch_that_fine_steps_follow() {
     }
 }
 
-/// Side by side a motion may be lost, but not on another branch.
+/// Side by side a long step is left to whoever asked for it, but none ends on another branch.
 fn side_by_side(name: &str, mechanism: &Mechanism, path: &[Configuration<f64>]) {
     let question = Question::new(mechanism);
     let joints = question.held().joints;
@@ -298,7 +298,7 @@ fn side_by_side(name: &str, mechanism: &Mechanism, path: &[Configuration<f64>]) 
         }
     }
     assert!(
-        2 * solved > path.len(),
+        5 * solved > path.len(),
         "{name}: {solved} of {}",
         path.len() - 1
     );

@@ -199,6 +199,7 @@ impl<'a> Follower<'a> {
             registers, certain, ..
         } = motions;
         self.program.run(0, registers);
+        self.program.run(Section::Rows as usize, registers);
         self.program.run(Section::Jacobian as usize, registers);
         let now = self.jacobians(registers);
         certain.keep(which, &now, self.curvature.largest, registers);
@@ -274,6 +275,8 @@ impl<'a> Follower<'a> {
             free.zip(moved)
                 .for_each(|(to, &from)| assign(to, from, &open, registers));
         }
+        self.program.run(Section::Reached as usize, registers);
+        // after that section: what it needs is no longer kept for the next
         let far = certain.beyond(&solved, past, registers);
         if far != [0; BATCH] {
             self.program.run(Section::Jacobian as usize, registers);
@@ -282,7 +285,6 @@ impl<'a> Follower<'a> {
             certain.keep(&sure, &now, self.curvature.largest, registers);
             (0..BATCH).for_each(|i| solved[i] &= !far[i] | sure[i]);
         }
-        self.program.run(Section::Reached as usize, registers);
         trust(&mut solved, registers.rows(*placing));
         for &(register, negative) in decided {
             agree(&mut solved, registers.rows(register), negative);

@@ -39,16 +39,20 @@ impl Writer<'_> {
     /// Whether joints are within their limits.
     pub fn limits(&self) -> String {
         let mut text = self.text(1, false);
+        let mut within = Vec::new();
         for (array, components) in [("u", &self.solver.inputs), ("x", &self.solver.state)] {
             for (i, component) in components.iter().enumerate() {
                 if let Some((low, high)) = component.limits {
                     let [low, high] = [low, high].map(|limit| self.code.operand(limit));
-                    let value = format!("{array}[{i}]");
-                    let beyond =
-                        format!("!({value} >= {low} - ROUNDING && {value} <= {high} + ROUNDING)");
-                    text.line(&self.code.language.gives_up_if(&beyond));
+                    within.push(format!("({array}[{i}] >= {low} - ROUNDING)"));
+                    within.push(format!("({array}[{i}] <= {high} + ROUNDING)"));
                 }
             }
+        }
+        // all at once, without a branch for each
+        if !within.is_empty() {
+            let beyond = format!("!({})", within.join(" & "));
+            text.line(&self.code.language.gives_up_if(&beyond));
         }
         text.text
     }
