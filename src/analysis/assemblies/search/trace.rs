@@ -88,33 +88,26 @@ fn holds_along(
     };
 
     let mut cut = Cut::new(way, form.clone());
-    // at first from other places of the curve, on all parts of it
-    let mut starts = Vec::new();
-    for _ in 0..STARTS.div_ceil(solutions.len()) {
-        let far = C::new(rng.random_range(-3.0..3.0), rng.random_range(-3.1..3.1));
-        let elsewhere = turn.map_or_else(|| far.exp(), |rate| far / rate);
-        starts.extend(cut.spread(solutions, elsewhere, watch));
-    }
     let mut known: Vec<Vec<C>> = Vec::new();
     loop {
+        // from other places of the curve each time, where other points are near
+        let mut starts = Vec::new();
+        for _ in 0..STARTS.div_ceil(solutions.len()) {
+            let far = C::new(rng.random_range(-3.0..3.0), rng.random_range(-3.1..3.1));
+            let elsewhere = turn.map_or_else(|| far.exp(), |rate| far / rate);
+            starts.extend(cut.spread(solutions, elsewhere, watch));
+        }
         let there = value(starts.first()?);
-        let mut beside = || {
-            let part = C::new(rng.random_range(-0.7..0.7), rng.random_range(-0.7..0.7));
-            part * there.norm()
-        };
-        cut.to = there + beside();
-        let before = std::mem::take(&mut known).len();
-        // two ways to the next level end at different points from the same
-        for bend in [zero, beside() * 3.0] {
-            *paths = paths.checked_sub(starts.len())?;
-            cut.bend = bend;
-            for y in cut.carried(&starts, watch) {
-                if !known.iter().any(|z| same(&y, z) == Some(true)) {
-                    known.push(y);
-                }
+        let beside = C::new(rng.random_range(-0.7..0.7), rng.random_range(-0.7..0.7));
+        cut.to = there + beside * there.norm();
+        let before = known.len();
+        starts.append(&mut known);
+        *paths = paths.checked_sub(starts.len())?;
+        for y in cut.carried(&starts, watch) {
+            if !known.iter().any(|z| same(&y, z) == Some(true)) {
+                known.push(y);
             }
         }
-        starts.clone_from(&known);
         // while more are found some are missing
         if known.len() > before {
             continue;

@@ -74,8 +74,6 @@ pub(crate) struct Cut<'f> {
     form: Form,
     from: C,
     pub to: C,
-    /// How far the way between the levels is bent aside.
-    pub bend: C,
     /// dx/ds where it was last asked for.
     along: Vec<C>,
 }
@@ -89,7 +87,6 @@ impl<'f> Cut<'f> {
             form,
             from: zero,
             to: zero,
-            bend: zero,
         }
     }
 
@@ -101,7 +98,7 @@ impl<'f> Cut<'f> {
     }
 
     fn level(&self, sigma: C) -> C {
-        self.from + (self.to - self.from) * sigma + self.bend * sigma * (1.0 - sigma)
+        self.from + (self.to - self.from) * sigma
     }
 
     /// Points of the curve at s, from solutions at its start.
@@ -144,11 +141,11 @@ impl Homotopy for Cut<'_> {
         self.way.settle(&mut y[..last]);
     }
 
-    fn velocity(&mut self, sigma: C, y: &[C], out: &mut [C]) -> bool {
+    fn velocity(&mut self, _: C, y: &[C], out: &mut [C]) -> bool {
         let Some(rate) = self.rate(y) else {
             return false;
         };
-        let ds = (self.to - self.from + self.bend * (1.0 - sigma * 2.0)) / rate;
+        let ds = (self.to - self.from) / rate;
         let (last, out) = out.split_last_mut().expect("one for s");
         *last = ds;
         out.iter_mut()
