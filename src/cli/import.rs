@@ -59,7 +59,9 @@ impl Import {
             })
         })?;
         let made = Mechanism::new(&imported.description);
+        // without loops every motor has a freedom of its own
         if let Ok(mechanism) = &made
+            && !mechanism.closures().is_empty()
             && let Err(QuestionError::TooMany { free, .. } | QuestionError::Dependent { free, .. }) =
                 check_count(&Question::new(mechanism))
         {
