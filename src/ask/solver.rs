@@ -96,6 +96,14 @@ fn follow(
     };
     /// The shortest part of the way from one to the next in which it is gone.
     const SHORTEST: f64 = 1.0 / 64.0;
+    /// The farthest that a joint moves from one to the next, in rad and characteristic lengths.
+    const FARTHEST: f64 = 0.3;
+    let far = |a: &Configuration<f64>, b: &Configuration<f64>| {
+        let moved = a.joints.iter().zip(&b.joints).map(|(a, b)| (a - b).abs());
+        moved
+            .zip(&mechanism.dimensions().joint_scales)
+            .any(|(moved, scale)| moved > FARTHEST * scale)
+    };
     let joints_only = inputs.iter().all(|of| matches!(of, Coordinate::Joint(_)));
     let outside = |at: &Configuration<f64>| mechanism.outside_limits(&at.joints).count();
     let newton = Newton::default();
@@ -106,6 +114,7 @@ fn follow(
     for k in 0..count {
         let goal = values_at(k);
         let (mut part, mut step) = (0.0, 1.0);
+        let previous = at.clone();
         while part < 1.0 {
             let end = f64::min(part + step, 1.0);
             let ways = latest.iter().zip(&goal);
@@ -140,6 +149,9 @@ fn follow(
             if step < SHORTEST {
                 return found;
             }
+        }
+        if k > 0 && far(&previous, &at) {
+            return found;
         }
         latest = goal;
         found.push(values(question, &at));

@@ -549,9 +549,10 @@ fn a_row_on_a_pole_has_no_value_and_what_does_not_change_is_constant() {
         assert_eq!(value.is_nan(), step % 18 == 0, "{step}: {value}");
     }
     let of = |name: &str| motion.extremes.iter().find(|of| of.name == name).unwrap();
+    assert_eq!(of("ratio").unbounded.len(), 3, "{:?}", of("ratio"));
     let turns = of("ratio").unbounded.iter().map(|pole| pole.inputs[0]);
     for (turn, expected) in turns.zip([0.0, PI, TAU]) {
-        assert!((turn - expected).abs() < 1e-9);
+        assert!((turn - expected).abs() < 1e-9, "{turn} {expected}");
     }
     assert_eq!(of("ratio").unbounded.len(), 3);
     // the end of the rod goes straight, at the rate of the crank

@@ -298,6 +298,11 @@ impl<'m> Course<'m> {
         end - begin
     }
 
+    /// The number of stretches.
+    pub fn stretches(&self) -> usize {
+        self.stretches.len()
+    }
+
     /// The configuration at a part of a stretch, and the part of the time that is gone there.
     pub fn at(&mut self, stretch: usize, part: f64) -> Option<(&Configuration<f64>, f64)> {
         let after = (self.pieces).partition_point(|of| {

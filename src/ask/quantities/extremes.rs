@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 use super::Meter;
 use super::course::{Course, Sought};
-use super::poles::{middle_of_gap, unbounded};
+use super::poles::{change_of_sign, middle_of_gap, unbounded};
 use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
 use crate::mechanism::{Measured, Order, Quantity};
 use crate::number::sorting::sort_by;
@@ -82,12 +82,25 @@ fn extremum(
         }
     });
     let mut known: Vec<(usize, f64)> = Vec::new();
-    for (piece, s) in &bounds.suspects {
+    // at a dead point or a pole there is no value, and rounding may hide that those beside it have no bound
+    let suspects = bounds
+        .suspects
+        .iter()
+        .map(|&(piece, s)| course.place(piece, s));
+    let mut suspects: Vec<(usize, f64)> = suspects.collect();
+    for stretch in 0..course.stretches() {
+        for part in [0.0, 1.0] {
+            let value = course
+                .at(stretch, part)
+                .and_then(|(at, time)| meter.read(at, time)[i]);
+            suspects.extend(value.is_none().then_some((stretch, part)));
+        }
+    }
+    for (stretch, part) in suspects {
         /// Places nearer than this are one.
         const NEAR: f64 = 1e-9;
         /// Poles sought at most.
         const MOST: usize = 1000;
-        let (stretch, part) = course.place(*piece, *s);
         let again = |(of, at): &(usize, f64)| *of == stretch && (at - part).abs() < NEAR;
         if known.len() == MOST || known.iter().any(again) {
             continue;
@@ -213,19 +226,21 @@ fn pole(
         _ if part < END => 0.0,
         _ if part > 1.0 - END => 1.0,
         _ => {
+            let mut value = |part: f64| read(part).and_then(|(value, _)| value);
             let top = summit(from, to, |part| {
-                let value = read(part).and_then(|(value, _)| value);
+                let value = value(part);
                 if value.is_none() {
                     gap = Some(part);
                 }
                 Some(value?.abs())
             });
-            match (top, gap) {
-                (Some((part, _)), _) => part,
-                (None, Some(gap)) => {
-                    middle_of_gap(gap, &mut |part| read(part).and_then(|(value, _)| value))
+            match (top, gap, value(from), value(to)) {
+                (_, _, Some(a), Some(b)) if a * b < 0.0 => {
+                    change_of_sign([from, to], a, &mut value)
                 }
-                (None, None) => part,
+                (Some((part, _)), ..) => part,
+                (None, Some(gap), ..) => middle_of_gap(gap, &mut value),
+                (None, None, ..) => part,
             }
         }
     };

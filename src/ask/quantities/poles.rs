@@ -32,6 +32,23 @@ pub(super) fn unbounded(
     })
 }
 
+/// The place where a value that has this sign at the first of two places changes it, or has none.
+pub(super) fn change_of_sign(
+    [mut from, mut to]: [f64; 2],
+    first: f64,
+    value: &mut dyn FnMut(f64) -> Option<f64>,
+) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (from + to);
+        match value(middle) {
+            None => return middle,
+            Some(x) if x * first > 0.0 => from = middle,
+            Some(_) => to = middle,
+        }
+    }
+    0.5 * (from + to)
+}
+
 /// The middle of the places about one without a value that have none either.
 pub(super) fn middle_of_gap(gap: f64, value: &mut dyn FnMut(f64) -> Option<f64>) -> f64 {
     let ends = [0.0, 1.0].map(|end| {
