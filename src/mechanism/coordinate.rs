@@ -29,7 +29,7 @@ impl PoseCoordinate {
     }
 
     /// A value of it in ground as one from the [centre](super::Dimensions::centre): an angle is the same.
-    pub(crate) fn from_centre<T: Number>(self, value: T, centre: &[f64; 3]) -> T {
+    pub(crate) fn about_centre<T: Number>(self, value: T, centre: &[f64; 3]) -> T {
         match self {
             Self::X | Self::Y | Self::Z if centre[self as usize] != 0.0 => {
                 value - T::from_f64(centre[self as usize])

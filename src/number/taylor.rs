@@ -78,7 +78,7 @@ impl Taylor {
         step.terms[0] = 0.0;
         let mut sum = Self::from_f64(series[TERMS - 1]);
         for term in series[..TERMS - 1].iter().rev() {
-            sum = sum * step;
+            sum *= step;
             sum.terms[0] += term;
         }
         sum.rest += next * reach.powi(TERMS as i32);
@@ -124,6 +124,11 @@ impl Taylor {
         let (low, high) = (1.0 / (x + reach), 1.0 / (x - reach));
         self.power(-1.0).narrower(low, high)
     }
+
+    #[inline]
+    fn over(self, by: Self) -> Self {
+        self * by.reciprocal()
+    }
 }
 
 operators!([Taylor]
@@ -150,7 +155,7 @@ operators!([Taylor]
         }
         Taylor { terms, rest }
     };
-    #[inline] Div div |a, b| a * b.reciprocal();
+    #[inline] Div div |a, b| a.over(b);
     #[inline] Neg neg |a| Taylor { terms: a.terms.map(|term| -term), rest: a.rest };
 );
 

@@ -155,7 +155,7 @@ impl Curve {
                 let middle = 0.5 * (input.from + input.to);
                 let length = self.system.characteristic_length();
                 let unit = if c.is_angle() { 1.0 } else { length };
-                let middle = self.system.from_centre(c, middle);
+                let middle = self.system.about_centre(c, middle);
                 let (gap, _) = c.row(&at.platforms[platform].pose(), middle, length);
                 0.5 + gap * unit / change
             }
@@ -250,7 +250,7 @@ impl Curve {
                     Coordinate::Joint(joint) => (at.joints[joint] - wanted) / unit,
                     Coordinate::Pose(platform, c) => {
                         let length = self.system.characteristic_length();
-                        let wanted = self.system.from_centre(c, wanted);
+                        let wanted = self.system.about_centre(c, wanted);
                         c.row(&at.platforms[platform].pose(), wanted, length).0
                     }
                     Coordinate::Turn(..) => 0.0,

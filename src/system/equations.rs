@@ -217,17 +217,17 @@ impl<T: Factorable> System<T> {
     }
 
     /// A value of a platform coordinate as the equations have it.
-    pub(crate) fn from_centre(&self, coordinate: PoseCoordinate, value: T) -> T {
-        coordinate.from_centre(value, &self.centre)
+    pub(crate) fn about_centre(&self, coordinate: PoseCoordinate, value: T) -> T {
+        coordinate.about_centre(value, &self.centre)
     }
 
     /// Asks for another value of a held platform coordinate.
     pub fn set_target(&mut self, platform: usize, coordinate: PoseCoordinate, value: T) {
-        self.set_target_from_centre(platform, coordinate, self.from_centre(coordinate, value));
+        self.set_target_about_centre(platform, coordinate, self.about_centre(coordinate, value));
     }
 
     /// The same for a position from the centre.
-    pub(crate) fn set_target_from_centre(
+    pub(crate) fn set_target_about_centre(
         &mut self,
         platform: usize,
         coordinate: PoseCoordinate,
@@ -348,7 +348,7 @@ pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<Hold
         let single = held.coordinates().iter();
         rows.extend(
             single
-                .map(|&(c, value)| HoldRow::Coordinate(platform, c, c.from_centre(value, centre))),
+                .map(|&(c, value)| HoldRow::Coordinate(platform, c, c.about_centre(value, centre))),
         );
         rows.extend((held.orientation()).map(|wanted| HoldRow::Orientation(platform, wanted)));
         rows.extend(held.spins().iter().copied().map(HoldRow::Spin));

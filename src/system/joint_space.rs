@@ -96,7 +96,7 @@ impl JointSpace {
     /// Holds a coordinate of a platform, already held, between two values, in rad or m.
     pub fn hold(&mut self, platform: usize, coordinate: PoseCoordinate, value: Interval) {
         if let Some(frame) = self.recut.platforms[platform] {
-            let value = coordinate.from_centre(value, &self.recut.dimensions.centre);
+            let value = coordinate.about_centre(value, &self.recut.dimensions.centre);
             self.enclosure.hold_coordinate(frame, coordinate, value);
         }
     }

@@ -81,7 +81,7 @@ impl<'m> Passage<'m> {
 
     /// The change of a coordinate; angles of platforms are known modulo a turn.
     fn change(&self, of: Coordinate, [from, to]: [&Configuration<f64>; 2]) -> f64 {
-        let change = of.from_centre(to) - of.from_centre(from);
+        let change = of.about_centre(to) - of.about_centre(from);
         match of.platform().is_some() && of.is_angle(self.mechanism) {
             true => turned(change),
             false => change,

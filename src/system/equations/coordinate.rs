@@ -75,7 +75,7 @@ impl Coordinate {
 
     /// Its value in a configuration, in m or rad.
     pub fn of<T: Number>(self, mechanism: &Mechanism, at: &Configuration<T>) -> T {
-        let from_centre = self.from_centre(at);
+        let from_centre = self.about_centre(at);
         match self {
             Coordinate::Pose(_, c) if !c.is_angle() => {
                 from_centre + T::from_f64(mechanism.dimensions().centre[c as usize])
@@ -85,7 +85,7 @@ impl Coordinate {
     }
 
     /// The same, a position from the [centre](crate::mechanism::Dimensions::centre): of two, the difference counts.
-    pub(crate) fn from_centre<T: Number>(self, at: &Configuration<T>) -> T {
+    pub(crate) fn about_centre<T: Number>(self, at: &Configuration<T>) -> T {
         match self {
             Coordinate::Joint(joint) => at.joints[joint],
             Coordinate::Pose(platform, c) => c.of(&at.platforms[platform].pose()),
@@ -108,7 +108,7 @@ impl Coordinate {
             Coordinate::Turn(..) => None,
         };
         position.map_or(value, |c| {
-            c.from_centre(value, &mechanism.dimensions().centre)
+            c.about_centre(value, &mechanism.dimensions().centre)
         })
     }
 

@@ -76,7 +76,7 @@ impl<T: Factorable> System<T> {
             }
             if !plan.extending.is_empty() {
                 let rate = closure.extension.at(rates);
-                out[0] = out[0] - (closure.length(&at.joints) * rate).scale(over);
+                out[0] -= (closure.length(&at.joints) * rate).scale(over);
             }
         }
         let lengths = way.map_or(&[][..], |(course, _)| &course.lengths);
@@ -86,7 +86,7 @@ impl<T: Factorable> System<T> {
                 false => self.closures[*closure].length(&at.joints) * *change,
             };
             let row = &mut work.residual[self.plans[*closure].row];
-            *row = *row - half.scale(over);
+            *row -= half.scale(over);
         }
     }
 

@@ -39,9 +39,11 @@ impl Search<'_> {
                     at.platforms[i] = pose_between(home, to, share);
                 }
                 for &(coordinate, value) in held.coordinates() {
-                    let value = self.system.from_centre(coordinate, value);
+                    let value = self.system.about_centre(coordinate, value);
                     let value = between(coordinate.of(&home.pose()), value, share);
-                    system.to_mut().set_target_from_centre(i, coordinate, value);
+                    system
+                        .to_mut()
+                        .set_target_about_centre(i, coordinate, value);
                 }
             }
             let mut trial = at.clone();
@@ -75,7 +77,7 @@ impl Search<'_> {
                 } else {
                     1.0 / length
                 };
-                let value = self.system.from_centre(*coordinate, *value);
+                let value = self.system.about_centre(*coordinate, *value);
                 longest = longest.max((value - coordinate.of(&home.pose())).abs() * scale);
             }
             if *held == HeldPlatform::Pose {

@@ -189,7 +189,7 @@ impl Coordinates {
                 }
                 Input::Target(p, c) => {
                     let target = held.platforms[p].target(c);
-                    inputs.extend(target.map(|x| c.from_centre(x, &self.centre)));
+                    inputs.extend(target.map(|x| c.about_centre(x, &self.centre)));
                 }
                 Input::Orientation(p) => {
                     let wanted = held.platforms[p].orientation();

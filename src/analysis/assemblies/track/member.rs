@@ -114,7 +114,7 @@ impl MemberEquations {
                     }
                 }
                 Input::Target(p, coordinate) => {
-                    self.system.set_target_from_centre(p, coordinate, x[0])
+                    self.system.set_target_about_centre(p, coordinate, x[0])
                 }
                 Input::Orientation(p) => {
                     self.system.set_orientation(p, quaternion(x).rotation());

@@ -65,10 +65,10 @@ impl Certain {
         let mut apart = Row::ZERO;
         for (register, weight, from) in &self.known {
             let to = registers.rows(*register);
-            for i in 0..BATCH {
+            (0..BATCH).for_each(|i| {
                 let away = weight * (to[i] - from.0[i]);
                 apart.0[i] += away * away;
-            }
+            });
         }
         apart
     }
@@ -108,13 +108,13 @@ impl Certain {
             }
         }
         let mut sure = *of;
-        for i in 0..BATCH {
+        (0..BATCH).for_each(|i| {
             let (square, way) = (squares.0[i], apart.0[i]);
             let changes_little = square <= BRANCH_CHANGE.powi(2) && way <= BRANCH_STEP.powi(2);
             let certain =
                 size.0[i].is_finite() && (36.0 * size.0[i] * way <= 1.0 || changes_little);
             sure[i] &= u64::from(certain).wrapping_neg();
-        }
+        });
         sure
     }
 

@@ -76,10 +76,10 @@ impl Past {
         let mut moved = Row::ZERO;
         for known in &self.known {
             let now = registers.rows(known.register);
-            for i in 0..BATCH {
+            (0..BATCH).for_each(|i| {
                 let away = now[i] - known.latest.0[i];
                 moved.0[i] += away * away;
-            }
+            });
         }
         moved
     }

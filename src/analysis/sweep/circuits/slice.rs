@@ -91,7 +91,7 @@ pub(super) fn sweep(
         value: slice.value,
         configurations: slice.real.len() + slice.complex.len(),
         real: slice.real.len(),
-        range: (cycle.is_none()).then(|| [slice.value - slice.reach, slice.value + slice.reach]),
+        range: (cycle.is_none()).then_some([slice.value - slice.reach, slice.value + slice.reach]),
         poles: Vec::new(),
         gaps: Vec::new(),
         lost: 0,

@@ -239,7 +239,7 @@ impl Whole {
     fn at(&self, values: &[f64], centre: &[f64; 3]) -> Pose<f64> {
         let sources = (self.sources.iter())
             .map(|&(c, axis, value)| (c, axis.map_or(value, |axis| values[axis])))
-            .map(|(c, value)| (c, c.from_centre(value, centre)));
+            .map(|(c, value)| (c, c.about_centre(value, centre)));
         with_coordinates(&Pose::identity(), sources)
     }
 }

@@ -51,8 +51,9 @@ impl Bounds {
             };
             known.is_none_or(|known| {
                 let most = SENSES[k] * known + self.slack(known);
+                let end = SENSES[k] * end;
                 // what is not a number may be anything
-                !(SENSES[k] * end <= most)
+                end > most || end.is_nan() || most.is_nan()
             })
         };
         beyond(0, low) || beyond(1, high)
