@@ -5,7 +5,7 @@ use super::{RANK_TOLERANCE, dot, norm};
 /// ‖A⁺(B − A)‖ in the Frobenius norm, for column-major A and B of so many rows; infinite where A has no left inverse.
 ///
 /// Below 1 along a path of Jacobians A, the function has one zero at most there (see
-/// [`continuation`](crate::solve::continuation)).
+/// [`Continuation`](crate::solve::Continuation)).
 #[allow(clippy::needless_range_loop, reason = "indices read like the formulas")]
 pub fn relative_change(rows: usize, from: &[f64], to: &[f64]) -> f64 {
     // without equations there is nothing that could change

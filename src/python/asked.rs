@@ -28,6 +28,9 @@ pub enum Number {
     Text(String),
 }
 
+/// A name with the ends of its range.
+pub(super) type Interval = (String, Value, Value);
+
 impl<'py> FromPyObject<'_, 'py> for Number {
     type Error = PyErr;
 
@@ -221,7 +224,7 @@ impl Asked {
         mechanism: Arc<Mechanism>,
         given: &Bound<'_, PyDict>,
         vary: &Bound<'_, PyAny>,
-    ) -> PyResult<(Self, Vec<(String, Value, Value)>)> {
+    ) -> PyResult<(Self, Vec<Interval>)> {
         let mut asked = Asked::new(mechanism, given)?;
         asked.ranges = Ranged::Vary;
         let mut varied = Vec::new();
