@@ -28,7 +28,7 @@ pub struct Many {
     pub values: Vec<f64>,
     /// Whether each row was reached.
     pub reached: Vec<bool>,
-    /// Whether the work was stopped before it was done; then rows are missing at the end, of unsorted values all.
+    /// True if the work was stopped before it was done; then rows are missing at the end, of unsorted values all.
     pub interrupted: bool,
 }
 

@@ -270,7 +270,7 @@ impl Study {
         }
     }
 
-    /// What decides its rows beside the mechanism, as one text.
+    /// All that decides its rows beside the mechanism, as one text.
     pub fn identity(&self) -> String {
         let of = &self.question;
         let held = (&of.hold, &of.free, &of.guess, &of.near, &of.mode, of.seed);

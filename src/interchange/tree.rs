@@ -59,7 +59,7 @@ pub struct Body {
 pub struct Coupling {
     /// The joints with their factors; first the one that follows the others, where the file says which.
     pub terms: Vec<(String, f64)>,
-    /// What the sum is, in rad or m.
+    /// The value of the sum, in rad or m.
     pub constant: f64,
 }
 

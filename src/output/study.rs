@@ -62,13 +62,13 @@ pub fn spread(rows: &str) -> std::io::Result<String> {
     Ok(render(Rows::new(titles.map(str::to_owned), rows)))
 }
 
-/// What a shard says of itself in a line that readers of comma-separated values skip as a comment:
+/// The label of a shard, in a line that readers of comma-separated values skip as a comment:
 /// `# shard 3 of 200 of study 4c1f0e8d2b7a9635`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Label {
     /// Its number, from 1.
     pub part: usize,
-    /// How many there are.
+    /// The number of shards.
     pub of: usize,
     /// The mark of the study: of the mechanism, of all that is asked of it, and of the points.
     pub mark: u64,
@@ -143,7 +143,7 @@ pub enum MergeError {
     MissingShards {
         /// Their numbers.
         shards: Vec<usize>,
-        /// How many there are in all.
+        /// The number of shards.
         of: usize,
     },
     /// Missing rows.

@@ -118,7 +118,7 @@ pub struct Settings {
 
 type Entries<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
-/// What a mapping gives to names.
+/// The values that a mapping gives to names.
 fn entries<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Entries<'py>> {
     let entries: Bound<PyDict> = taken(name, "a mapping from names", given)?;
     let named = |(key, value): (Bound<'py, PyAny>, _)| {
@@ -140,7 +140,7 @@ pub fn values(name: &str, given: &Bound<PyAny>) -> PyResult<Vec<(String, Number)
     entries.map(value).collect()
 }
 
-/// Where something begins and ends.
+/// The ends of a range.
 fn range(name: &str, given: &Bound<PyAny>) -> PyResult<(Number, Number)> {
     let ends: Vec<Bound<PyAny>> = taken(name, "two values, (from, to)", given)?;
     match &ends[..] {

@@ -142,7 +142,7 @@ impl Mechanism {
     }
 }
 
-/// Whether positions are measured from the origin of ground.
+/// True if positions are measured from the origin of ground.
 pub(crate) fn is_origin(centre: &[f64; 3]) -> bool {
     *centre == [0.0; 3]
 }

@@ -37,7 +37,7 @@ pub(super) type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + '
 pub(super) struct Question<'a> {
     pub mechanism: &'a Mechanism,
     pub coordinates: &'a Coordinates,
-    /// What the trace test moves.
+    /// The family that the trace test moves.
     pub moved: Traced,
     pub held: &'a Held<f64>,
     pub asked: &'a Configuration<f64>,

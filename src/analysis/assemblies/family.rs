@@ -42,7 +42,7 @@ pub(crate) struct Family {
     pub home: Configuration<f64>,
     /// Number of closure equations that do not vanish everywhere.
     pub varying_equations: usize,
-    /// Whether there are as many of them, with those of held coordinates, as unknowns. Where its solutions are isolated
+    /// True if there are as many of them, with those of held coordinates, as unknowns. Where its solutions are isolated
     /// they are independent, and stay solutions whatever numbers the dimensions become.
     pub is_square: bool,
     /// The equations with these values, if all expressions have one.

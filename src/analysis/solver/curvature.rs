@@ -1,4 +1,4 @@
-//! How fast the Jacobian of the iteration changes, for a bound on the steps that keep to a branch.
+//! The rate at which the Jacobian of the iteration changes, for a bound on the steps that keep to a branch.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -7,7 +7,7 @@ use super::{Plan, Variable};
 use crate::algebra::{Operation, Place, SiUnit, evaluate};
 use crate::linear::{DENSE_LIMIT, norm, singular_values};
 
-/// How fast the Jacobian changes.
+/// The rate at which the Jacobian changes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curvature {
     /// What makes a change of each input, then of each number of the state, dimensionless; 0 where the Jacobian does not
@@ -106,7 +106,7 @@ impl Plan<'_> {
     }
 }
 
-/// Whether places depend on each of the first inputs of the operations.
+/// For each of the first inputs of the operations, true if some place depends on it.
 fn used(operations: &[Operation], places: &[Vec<Place>], inputs: usize) -> Vec<bool> {
     let mut needed = vec![false; operations.len()];
     let mut used = vec![false; inputs];

@@ -99,7 +99,7 @@ pub struct Solver {
     pub iterated: Vec<(Place, f64)>,
     /// Places of the entries of their Jacobian by the unknowns that are iterated, row by row.
     pub slopes: Vec<Vec<Place>>,
-    /// How fast that changes for a unit change of inputs and state, weighted so that they are dimensionless.
+    /// The rate at which that changes for a unit change of inputs and state, weighted so that they are dimensionless.
     pub curvature: f64,
     /// The weights of the inputs, then of the state; 0 where it does not depend on them.
     pub weights: Vec<f64>,

@@ -11,7 +11,7 @@ use crate::system::{Coordinate, Driven, Held, MotionTracker, System};
 /// A short piece of the curve of a motion, between two places of one sure step.
 #[derive(Clone, Debug)]
 pub struct Stretch {
-    /// Where it begins and ends.
+    /// The configurations at its ends.
     pub ends: [Configuration<f64>; 2],
     /// The parts of the time that are gone there.
     times: [f64; 2],
@@ -22,7 +22,7 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Whether it is no more than one place.
+    /// True if it is no more than one place.
     pub fn is_place(&self) -> bool {
         self.reach < 1e-9 + 1e-11 && self.times[0] == self.times[1]
     }

@@ -69,7 +69,7 @@ pub struct Extremum {
     /// Where it grows without bound.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unbounded: Vec<Pole>,
-    /// Whether there may be values beyond these, since not all of the curve could be bounded.
+    /// True if there may be values beyond these, since not all of the curve could be bounded.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub at_least: bool,
     /// Why it has no value anywhere.

@@ -69,7 +69,7 @@ impl Tracer {
         }
     }
 
-    /// Where the point is from the centre, in m.
+    /// The position of the point from the centre, in m.
     fn position(&mut self, at: &Configuration<f64>) -> Vector3<f64> {
         self.twists.place(at, &mut self.placement);
         let frame = self.twists.frame(0, &self.placement);

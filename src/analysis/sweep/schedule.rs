@@ -224,7 +224,7 @@ impl Schedule {
     }
 }
 
-/// Where something ceases to hold between two numbers.
+/// The place where something ceases to hold between two numbers.
 fn halved([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -19,12 +19,12 @@ pub struct Straightness {
     pub length: f64,
     /// How far it is from the line where it is farthest, in m.
     pub deviation: f64,
-    /// Whether it may be farther, since not all of the curve could be looked at.
+    /// True if it may be farther, since not all of the curve could be looked at.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub at_least: bool,
 }
 
-/// Where a point is at a place of a motion.
+/// The position of a point at a place of a motion.
 type At<'f> = dyn FnMut(f64) -> Option<[f64; 3]> + 'f;
 
 impl Straightness {

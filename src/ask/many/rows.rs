@@ -45,7 +45,7 @@ pub(super) struct Rows<'a> {
     /// What makes each coordinate dimensionless.
     pub scales: Vec<f64>,
     pub watch: &'a Watch<'a>,
-    /// How many rows are done.
+    /// The number of rows that are done.
     pub done: AtomicUsize,
 }
 
@@ -138,7 +138,7 @@ impl Rows<'_> {
             .collect()
     }
 
-    /// Whether the work goes on after so many rows more. Asked at every step: a row may be ten thousand steps away.
+    /// True if the work goes on after so many rows more. Asked at every step: a row may be ten thousand steps away.
     fn goes_on(&self, rows: usize) -> bool {
         let done = self.done.fetch_add(rows, Ordering::Relaxed) + rows;
         let now = Progress {

@@ -19,7 +19,7 @@ pub(in super::super) struct Course<'m> {
     last: Option<(Configuration<f64>, f64, bool)>,
     names: Vec<Name>,
     pub pieces: Vec<Piece>,
-    /// Whether all of it was looked at.
+    /// True if all of it was looked at.
     pub whole: bool,
 }
 
@@ -31,9 +31,9 @@ pub(in super::super) struct Piece {
     ends: [Configuration<f64>; 2],
     /// For each name, and the time at last, the terms of a polynomial of s from −1 to 1; not numbers where it has no value.
     terms: Vec<[f64; TERMS]>,
-    /// How far each may be off.
+    /// The most by which each may be off.
     noise: Vec<f64>,
-    /// Whether each is no such polynomial: it has a pole or a kink, or no value in places.
+    /// True if each is no such polynomial: it has a pole or a kink, or no value in places.
     rough: Vec<bool>,
 }
 
@@ -85,12 +85,12 @@ impl<'m> Course<'m> {
         self.passage.time(at)
     }
 
-    /// Whether there is more than one place.
+    /// True if there is more than one place.
     pub fn moves(&self) -> bool {
         self.stretches.iter().any(|of| !of.is_place())
     }
 
-    /// Whether inputs move it.
+    /// True if inputs move it.
     pub fn is_driven(&self) -> bool {
         !self.passage.inputs.is_empty()
     }
@@ -210,7 +210,7 @@ impl<'m> Course<'m> {
     /// Places between which an expression is off a straight line by far less than a tolerance, or changes by more than
     /// twice that; and whether that is so everywhere.
     pub fn samples(&self, of: &Sought, tolerance: f64) -> (Vec<Sample>, bool) {
-        /// How many parts are looked at, beside the pieces themselves.
+        /// The number of parts looked at, beside the pieces themselves.
         const PATIENCE: usize = 1_000_000;
         /// How far off, beside the tolerance.
         const OFF: f64 = 1e-3;
@@ -269,13 +269,13 @@ impl<'m> Course<'m> {
         known
     }
 
-    /// Whether a piece may hide values of a quantity: a name in it is no polynomial there, and it is not a mere place.
+    /// True if a piece may hide values of a quantity: a name in it is no polynomial there, and it is not a mere place.
     pub fn hides(&self, of: &Sought, piece: usize) -> bool {
         let [begin, end] = self.pieces[piece].span;
         self.is_rough(of, piece) && end - begin > 1e-9
     }
 
-    /// Whether a name in a quantity is no polynomial on a piece.
+    /// True if a name in a quantity is no polynomial on a piece.
     pub fn is_rough(&self, of: &Sought, piece: usize) -> bool {
         let rough = &self.pieces[piece].rough;
         of.program.names().any(|(name, _)| rough[*name])
@@ -287,12 +287,12 @@ impl<'m> Course<'m> {
         (of.stretch, within(of.span, s))
     }
 
-    /// Whether names do not differ by more than rounding from one end of a part to the other.
+    /// True if names do not differ by more than rounding from one end of a part to the other.
     pub fn is_narrow(&self, of: Part) -> bool {
         of.radius * self.width(of.piece) < 1e-13
     }
 
-    /// How long a piece is beside its stretch.
+    /// The length of a piece beside its stretch.
     pub fn width(&self, piece: usize) -> f64 {
         let [begin, end] = self.pieces[piece].span;
         end - begin
@@ -324,9 +324,9 @@ impl<'m> Course<'m> {
 /// A quantity over the numbers of names.
 pub(in super::super) struct Sought<'e> {
     pub program: &'e Expression<usize>,
-    /// Whether it is an angle that goes on without jumps.
+    /// True if it is an angle that goes on without jumps.
     pub turns: bool,
-    /// Whether its expression jumps all the same.
+    /// True if its expression jumps all the same.
     pub jumps: bool,
 }
 

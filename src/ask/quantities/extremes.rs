@@ -262,7 +262,7 @@ fn pole(
     })
 }
 
-/// Why a quantity has no value anywhere.
+/// The reason why a quantity has no value anywhere.
 fn missing(quantity: &Quantity) -> Missing {
     if (quantity.measured()).any(|of| matches!(of, Measured::Transmission(_))) {
         return Missing::PlanarLoop;

@@ -7,7 +7,7 @@ use crate::geometry::Pose;
 /// The frame of the world, in which all are placed.
 pub(super) const WORLD: &str = "world";
 
-/// Where a frame is, and on which link.
+/// A pose and the link that it is on.
 struct Defined {
     relative_to: String,
     pose: Pose<f64>,
@@ -19,7 +19,7 @@ struct Defined {
 #[derive(Default)]
 pub(super) struct Frames(HashMap<String, Defined>);
 
-/// Why a frame cannot be placed.
+/// The reason why a frame cannot be placed.
 pub(super) enum Lost {
     /// There is none of that name.
     Unknown(String),

@@ -14,7 +14,7 @@ use crate::interchange::problem::ImportProblemKind;
 /// Models of light and floor.
 const SCENERY: [&str; 2] = ["://sun", "://ground_plane"];
 
-/// What the elements of a file say.
+/// The contents of the elements of a file.
 pub(super) struct Reader<'f> {
     pub problems: Problems,
     files: Files<'f>,
@@ -25,7 +25,7 @@ pub(super) struct Reader<'f> {
     pub joints: Vec<Joint>,
     /// Joints that a controller drives.
     pub driven: HashSet<String>,
-    /// How many included models are no part of a mechanism.
+    /// The number of included models that are no part of a mechanism.
     pub scenery: usize,
     /// Files that are being read: none includes itself.
     within: Vec<String>,

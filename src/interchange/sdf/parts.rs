@@ -1,4 +1,4 @@
-//! What a joint of an SDF file is.
+//! The kind of a joint of an SDF file.
 
 use std::ops::Range;
 
@@ -32,7 +32,7 @@ pub(super) struct Axis {
     pub along: Vector3<f64>,
     pub seen_from: String,
     pub limits: Option<(f64, f64)>,
-    /// Whether it has one limit only.
+    /// True if it has one limit only.
     pub one_sided: bool,
     /// The joint that it follows, the factor and the offset.
     pub mimic: Option<(String, f64, f64)>,

@@ -12,7 +12,7 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Coupling, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, vector};
 
-/// What drives a joint in Gazebo: the file and the name of the plugin.
+/// The plugin that drives a joint in Gazebo: the file and the name of the plugin.
 const CONTROLLER: [&dyn std::fmt::Display; 2] = [
     &"gz-sim-joint-position-controller-system",
     &"gz::sim::systems::JointPositionController",

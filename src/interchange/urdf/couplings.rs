@@ -5,7 +5,7 @@ use roxmltree::Node;
 use crate::interchange::page::{Problems, child, children};
 use crate::interchange::tree::{Coupling, Tree};
 
-/// Whether an element of a robot is one.
+/// True if an element of a robot is one.
 pub(super) fn is_coupling(node: Node) -> bool {
     node.has_tag_name("coupling") && child(node, "successor").is_some()
 }

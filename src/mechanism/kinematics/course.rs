@@ -1,4 +1,4 @@
-//! The same chains while their fixed displacements change.
+//! Chains while their fixed displacements change.
 
 use super::step::{Column, Shape, Step};
 use super::{Kinematics, Placement};

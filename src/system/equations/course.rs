@@ -1,4 +1,4 @@
-//! The same equations while the dimensions change.
+//! Equations while the dimensions change.
 
 use super::{System, Work};
 use crate::geometry::{Rotation, Vector3};

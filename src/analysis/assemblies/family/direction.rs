@@ -70,14 +70,14 @@ impl Family {
         Some(directions)
     }
 
-    /// Whether a parameter is the factor of a rod.
+    /// True if a parameter is the factor of a rod.
     fn is_rod(&self, place: usize) -> bool {
         let named = self.parameters.len() - self.lengths.len();
         let factor = place.checked_sub(named).map(|i| self.lengths[i]);
         matches!(factor, Some(Length::Rod { .. }))
     }
 
-    /// What the trace test moves.
+    /// The family that the trace test moves.
     pub fn moved_by_trace(&self) -> Traced {
         let mut places = 0..self.parameters.len();
         match self.by_dimensions {

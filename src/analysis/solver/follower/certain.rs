@@ -1,4 +1,4 @@
-//! Whether motions keep to their branches.
+//! A test that motions keep to their branches.
 
 use super::past::{Mask, Past, Row};
 use crate::algebra::{BATCH, Registers};

@@ -9,7 +9,7 @@ use crate::system::{ComplexCurve, Curve};
 
 type C = Complex<f64>;
 
-/// Where a path of complex configurations ended.
+/// The end of a path of complex configurations.
 pub(super) enum End {
     /// At a real configuration.
     Real(Configuration<f64>),

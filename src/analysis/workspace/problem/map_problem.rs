@@ -132,7 +132,7 @@ pub(crate) struct Targets {
     single: Vec<(usize, PoseCoordinate, usize)>,
     /// Platforms of which an angle or the pose is mapped.
     whole: Vec<Whole>,
-    /// Where positions are measured from.
+    /// The place in ground from which positions are measured, in m.
     centre: [f64; 3],
 }
 

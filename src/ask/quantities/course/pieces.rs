@@ -16,7 +16,7 @@ struct Ahead {
     span: [f64; 2],
     ends: [Configuration<f64>; 2],
     depth: u32,
-    /// How far each name is off its polynomial on the piece that this is half of.
+    /// The distance of each name from its polynomial on the piece that this is half of.
     off: Vec<f64>,
 }
 
@@ -28,7 +28,7 @@ const COMPARED: [usize; 2] = [3, 6];
 /// The place in the middle.
 const MIDDLE: usize = 5;
 
-/// How often a stretch is halved where a name has a kink or a pole.
+/// The number of times a stretch is halved where a name has a kink or a pole.
 const DEEPEST: u32 = 40;
 
 impl Course<'_> {

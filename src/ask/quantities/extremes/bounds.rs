@@ -7,7 +7,7 @@ use crate::number::sorting::sort_by;
 /// Values nearer than this to the least or the greatest, beside what is usual, are not told from them.
 const SAME: f64 = 1e-10;
 
-/// What is known of a quantity over the whole curve.
+/// Bounds of a quantity over the whole curve.
 pub(super) struct Bounds {
     /// The least and the greatest value, and where they are: a piece and a place on it.
     pub best: [Option<(f64, usize, f64)>; 2],
@@ -19,7 +19,7 @@ pub(super) struct Bounds {
     murky: [Option<f64>; 2],
     /// Places where no bound was found.
     pub suspects: Vec<(usize, f64)>,
-    /// Whether there may be values beyond.
+    /// True if there may be values beyond.
     pub cut: bool,
 }
 
@@ -38,7 +38,7 @@ impl Bounds {
         }
     }
 
-    /// Whether values between two numbers may be beyond those known, or among murky ones beyond these.
+    /// True if values between two numbers may be beyond those known, or among murky ones beyond these.
     fn may_grow(&self, [low, high]: [f64; 2], murky: bool) -> bool {
         let beyond = |k: usize, end: f64| {
             let best = self.best[k].map(|(value, ..)| value);
@@ -63,7 +63,7 @@ impl Bounds {
 /// Branch and bound: pieces of the curve are halved until what the quantity may be on them is not beyond a value that it
 /// has.
 pub(super) fn bounds(course: &Course, of: &Sought) -> Bounds {
-    /// How many parts are looked at, beside the pieces themselves.
+    /// The number of parts looked at, beside the pieces themselves.
     const PATIENCE: usize = 400_000;
     /// Values that may be off more than this, and more than is usual, are no better than others: they are near 0/0.
     const CLEAR: f64 = 1e-7;

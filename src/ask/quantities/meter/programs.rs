@@ -38,7 +38,7 @@ impl Metered<'_> {
     }
 }
 
-/// Whether the law of a motion does not matter to a quantity: velocity ratios, curvatures and what else depends on the
+/// True if the law of a motion does not matter to a quantity: velocity ratios, curvatures and what else depends on the
 /// curve alone.
 ///
 /// Where the pace is r times that of a constant law, and grows by c, velocities are r v and accelerations r² a + c v. That
@@ -190,13 +190,13 @@ pub(in super::super) fn turns(quantity: &Quantity) -> bool {
         && (quantity.measured().any(is_turned) || has_atan2(&quantity.expression))
 }
 
-/// Whether an expression has an angle in it that jumps by a turn.
+/// True if an expression has an angle in it that jumps by a turn.
 pub(in super::super) fn has_atan2(expression: &Expression<Measured>) -> bool {
     matches!(expression.node, Node::Call(Function::Atan2, _))
         || expression.operands().any(has_atan2)
 }
 
-/// Whether a name stands for an angle that is known but for whole turns.
+/// True if a name stands for an angle that is known but for whole turns.
 fn is_turned(of: &Measured) -> bool {
     matches!(of, Measured::Place(_, c, Order::Value) if c.is_angle())
 }
@@ -210,7 +210,7 @@ impl Name {
         }
     }
 
-    /// Whether it is an angle that is known but for whole turns.
+    /// True if it is an angle that is known but for whole turns.
     pub fn turns(&self) -> bool {
         is_turned(&self.of)
     }

@@ -1,4 +1,4 @@
-//! What keeps a solver to its branch and its limits, and its rates.
+//! Code that keeps a solver to its branch and its limits, and its rates.
 
 use super::Writer;
 use crate::output::solver::language::bound;
@@ -36,7 +36,7 @@ impl Writer<'_> {
         text.text
     }
 
-    /// Whether joints are within their limits.
+    /// True if joints are within their limits.
     pub fn limits(&self) -> String {
         let mut text = self.text(1, false);
         let mut within = Vec::new();
