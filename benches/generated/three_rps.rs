@@ -21,8 +21,9 @@
 //! qw, qx, qy, qz is the unit quaternion of a platform, ground from platform.
 //!
 //! [`Follower::solve`] finds the state for inputs on the branch of its last state, along the straight path
-//! between the inputs; [`solve`] does it from a state near it, along a path on which the gaps of the
-//! closures shrink. Nothing is allocated, and no library is needed.
+//! between the inputs. [`solve`] does it from the start state, along the straight path from the start inputs,
+//! or from a state measured or known for inputs near these, along a path on which the gaps of the closures
+//! shrink: a state of inputs far away is for a follower. Nothing is allocated, and no library is needed.
 //!
 //! After `NotAssembled` or `StepLimit` the follower stands where it stood: keep the mechanism there, and ask
 //! for inputs back along the way they came; those asked for are beyond a dead point or another singularity,
@@ -1190,20 +1191,25 @@ fn led(v: &[f64; INPUTS], u: &[f64; INPUTS], x: &mut [f64; STATE]) -> (Verdict, 
     (verdict, reached)
 }
 
+/// The inputs that the path to u begins with: those of the start for its state, else u itself.
+fn origin<'a>(u: &'a [f64; INPUTS], x: &[f64; STATE]) -> &'a [f64; INPUTS] {
+    if *x == START_STATE { &START_INPUTS } else { u }
+}
+
 /// Finds the state for inputs u, starting from x.
 pub fn solve(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
     if !near(u) || !near(x) {
         return Verdict::BadInput;
     }
-    let mut y = *x;
-    if fast(u, &mut y) && reach(u, &y, u, x) > 0.0 {
+    let (v, mut y) = (origin(u, x), *x);
+    if fast(u, &mut y) && reach(u, &y, v, x) > 0.0 {
         *x = y;
         return judged(u, x, Verdict::Solved);
     }
-    let (mut verdict, _) = led(u, u, x);
+    let (mut verdict, _) = led(v, u, x);
     if !matches!(verdict, Verdict::Solved | Verdict::Singular) {
         // a singular start is on no branch that could be left
-        let singular = !(margin(u, x) > 1e-5);
+        let singular = !(margin(v, x) > 1e-5);
         verdict = careful(u, x);
         if verdict == Verdict::Solved && !singular {
             return Verdict::Elsewhere;
@@ -1227,7 +1233,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// At a state, at rest.
+    /// At a state, at rest. Begins as [`solve`] does.
     pub fn new(state: [f64; STATE]) -> Self {
         Follower {
             state,
@@ -1269,7 +1275,7 @@ impl Follower {
     fn reaches(&mut self, u: &[f64; INPUTS], before: &[f64; STATE]) -> bool {
         let reached = match self.reach > 0.0 {
             true => reach(u, &self.state, &self.inputs, &self.certain),
-            false => reach(u, &self.state, u, before),
+            false => reach(u, &self.state, origin(u, before), before),
         };
         if reached > 0.0 {
             (self.inputs, self.certain, self.reach) = (*u, self.state, reached);
@@ -1287,7 +1293,7 @@ impl Follower {
         }
         let (from, mut x) = match self.reach > 0.0 {
             true => (self.inputs, self.certain),
-            false => (*u, self.state),
+            false => (*origin(u, &self.state), self.state),
         };
         let (verdict, reached) = led(&from, u, &mut x);
         match verdict {

@@ -15,7 +15,9 @@ use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Watch;
 use linkwork::system::{Coordinate, MotionTracker, Question};
 
-use super::{all_c, all_rust, examples_file, folder, has_cc, judged};
+use super::{
+    From, all_c, all_rust, c_from, examples_file, folder, has_cc, judged, judged_with, rust_from,
+};
 
 /// Mechanisms of each structure, and inputs of each mechanism.
 const EACH: usize = 2;
@@ -158,27 +160,29 @@ fn mechanisms() -> Vec<(String, Mechanism, Configuration<f64>)> {
     all
 }
 
-/// Configurations for random inputs, each followed in fine steps from the one before, there and back.
-fn followed(
-    mechanism: &Mechanism,
+/// The joints that are held.
+fn held(mechanism: &Mechanism) -> Vec<usize> {
+    let joints = Question::new(mechanism).held().joints;
+    (0..joints.len()).filter(|joint| joints[*joint]).collect()
+}
+
+/// Moves a mechanism along straight paths of its inputs, in steps of so much in rad and characteristic lengths at most.
+fn fine_steps<'m>(
+    mechanism: &'m Mechanism,
     start: &Configuration<f64>,
-    count: usize,
-) -> Vec<Configuration<f64>> {
-    /// The longest substep of an input, in rad and characteristic lengths.
-    const FINE: f64 = 1e-3;
+    fine: f64,
+) -> impl FnMut(&Configuration<f64>, &[f64]) -> Option<Configuration<f64>> + use<'m> {
     /// The farthest that an unknown moves in one.
     const FARTHEST: f64 = 0.02;
     let question = Question::new(mechanism);
-    let system = question.system();
-    let joints = question.held().joints;
-    let held: Vec<usize> = (0..joints.len()).filter(|joint| joints[*joint]).collect();
+    let (system, held) = (question.system(), held(mechanism));
     let scale = |joint: usize| Coordinate::Joint(joint).scale(mechanism);
     let mut tracker = MotionTracker::new(question.system(), start.clone());
-    let mut go = |from: &Configuration<f64>, to: &[f64]| -> Option<Configuration<f64>> {
+    move |from, to| {
         tracker.restart(from);
         let ways = held.iter().zip(to);
         let way = ways.map(|(&joint, to)| (to - from.joints[joint]).abs() / scale(joint));
-        let steps = (way.fold(0.0, f64::max) / FINE).ceil().max(1.0);
+        let steps = (way.fold(0.0, f64::max) / fine).ceil().max(1.0);
         for step in 1..=steps as usize {
             let before = tracker.configuration().clone();
             let part = step as f64 / steps;
@@ -198,7 +202,24 @@ fn followed(
             }
         }
         Some(tracker.configuration().clone())
-    };
+    }
+}
+
+/// The largest difference of two configurations, in rad and characteristic lengths.
+fn apart(mechanism: &Mechanism, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
+    let gaps = Question::new(mechanism).system().difference(a, b);
+    gaps.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// Configurations for random inputs, each followed in fine steps from the one before, there and back.
+fn followed(
+    mechanism: &Mechanism,
+    start: &Configuration<f64>,
+    count: usize,
+) -> Vec<Configuration<f64>> {
+    let held = held(mechanism);
+    let scale = |joint: usize| Coordinate::Joint(joint).scale(mechanism);
+    let mut go = fine_steps(mechanism, start, 1e-3);
     let mut dice = Dice(count as u64);
     let mut found = vec![start.clone()];
     for _ in 0..20 * count {
@@ -221,11 +242,7 @@ fn followed(
             continue;
         };
         let back = go(&there, &values);
-        let apart = |back: Configuration<f64>| {
-            let gaps = system.difference(&here, &back);
-            gaps.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
-        };
-        if back.is_some_and(|back| apart(back) < 1e-9)
+        if back.is_some_and(|back| apart(mechanism, &here, &back) < 1e-9)
             && mechanism.outside_limits(&there.joints).next().is_none()
         {
             found.push(there);
@@ -273,15 +290,68 @@ fn what_a_solver_finds_is_on_the_branch_that_fine_steps_follow() {
     }
 }
 
+/// From its start a solver comes to no other branch than the straight path from the inputs of the start, however far
+/// that leads: of two random assemblies at the same inputs one would be as near.
+#[test]
+fn a_solver_that_begins_at_its_start_keeps_to_the_branch_of_the_start() {
+    let count = std::env::var("BRANCH_INPUTS").map_or(60, |count| count.parse().unwrap());
+    let (mut solvers, mut rows) = (Vec::new(), Vec::new());
+    for (name, mechanism, start) in mechanisms() {
+        let held = held(&mechanism);
+        let mut go = fine_steps(&mechanism, &start, 5e-3);
+        let mut dice = Dice(7);
+        let mut found = Vec::new();
+        for _ in 0..20 * count {
+            let to = held.iter().map(|&joint| {
+                let home = start.joints[joint];
+                let angle = Coordinate::Joint(joint).scale(&mechanism) == 1.0;
+                let most = if angle { PI } else { 0.3 * home };
+                let limits = mechanism.joints()[joint].limits;
+                let (low, high) = limits.unwrap_or((home - most, home + most));
+                (home + most * dice.roll()).clamp(low, high)
+            });
+            let Some(there) = go(&start, &to.collect::<Vec<f64>>()) else {
+                continue;
+            };
+            let within = mechanism.outside_limits(&there.joints).next().is_none();
+            let back: Vec<f64> = held.iter().map(|&joint| start.joints[joint]).collect();
+            let back = go(&there, &back).filter(|_| within);
+            if back.is_some_and(|back| apart(&mechanism, &start, &back) < 1e-9) {
+                found.push(there);
+            }
+            if found.len() == count {
+                break;
+            }
+        }
+        if found.len() < count {
+            // most straight paths from here end at a singular configuration
+            continue;
+        }
+        let question = Question::new(&mechanism);
+        rows.push(found.iter().map(|at| values(&question, at)).collect());
+        let solver = solver(&question, &start, &[]).unwrap();
+        solvers.push((name, ask::Question::new(mechanism.clone()), solver));
+    }
+    assert!(solvers.len() > SHIPPED.len());
+    let folder = folder("from_start");
+    let data = folder.join("examples");
+    examples_file(&rows, &data);
+    let mut programs = vec![rust_from(From::Start, &folder, &solvers, count)];
+    if has_cc() {
+        programs.push(c_from(From::Start, &folder, &solvers, count));
+    }
+    for program in programs {
+        judged_with(count / 20, &program, &data, &solvers, 1e-9);
+    }
+}
+
 /// Side by side a long step is left to whoever asked for it, but none ends on another branch.
 fn side_by_side(name: &str, mechanism: &Mechanism, path: &[Configuration<f64>]) {
-    let question = Question::new(mechanism);
-    let joints = question.held().joints;
-    let held: Vec<usize> = (0..joints.len()).filter(|joint| joints[*joint]).collect();
+    let (question, held) = (Question::new(mechanism), held(mechanism));
     let coordinates: Vec<Coordinate> = held.iter().map(|&j| Coordinate::Joint(j)).collect();
     let follower = Follower::new(&question, &path[0], &coordinates, Following::default()).unwrap();
     let mut motions = follower.motions(&path[0]);
-    let (mut solved, system) = (0, question.system());
+    let mut solved = 0;
     for at in &path[1..] {
         let to: Vec<f64> = held.iter().map(|&joint| at.joints[joint]).collect();
         for (i, to) in to.iter().enumerate() {
@@ -290,8 +360,7 @@ fn side_by_side(name: &str, mechanism: &Mechanism, path: &[Configuration<f64>]) 
         if follower.solve(&mut motions, &[true; BATCH])[0] {
             solved += 1;
             let found = follower.configuration(&motions, 0, &to);
-            let gaps = system.difference(at, &found);
-            let apart = gaps.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let apart = apart(mechanism, at, &found);
             assert!(apart < 1e-9, "{name}: {apart:e} apart");
         } else {
             (0..BATCH).for_each(|motion| follower.put(&mut motions, motion, at));
