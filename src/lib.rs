@@ -42,6 +42,9 @@
 //! | `page` | the interface of the page of `linkwork view`; with the feature `page` |
 //! | `python` | the interface of the Python package; with the feature `python` |
 
+// answers are the same bytes on every machine
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod algebra;
 pub mod analysis;
 pub mod ask;

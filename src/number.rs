@@ -3,12 +3,12 @@
 //! A joint enters the algebra only through (cos, sin) or a slide, so chain products, closure
 //! residuals and their Jacobians are written once over [`Number`].
 
-mod complex;
+pub(crate) mod complex;
 mod dual;
 mod folded;
 mod interval;
 mod mark;
-mod real;
+pub(crate) mod real;
 pub(crate) mod sorting;
 mod taylor;
 pub(crate) mod trigonometry;

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{AskError, Mode, Question};
 use crate::analysis::solver::{NoSolver, Solver, solver, values};
 use crate::mechanism::{Configuration, Frame};
+use crate::number::real;
 use crate::solve::{Newton, Stop, Watch};
 use crate::system::{self, Coordinate, check_count};
 
@@ -83,7 +84,7 @@ fn follow(
         let turn = TAU * k as f64 / count as f64;
         let values = inputs.iter().enumerate().map(move |(i, &input)| {
             // no two inputs go to and fro alike
-            let away = amplitude * input.scale(mechanism) * ((i + 1) as f64 * turn).sin();
+            let away = amplitude * input.scale(mechanism) * real::sin((i + 1) as f64 * turn);
             let value = input.of(mechanism, start) + away;
             let limits = match input {
                 Coordinate::Joint(joint) => mechanism.joints()[joint].limits,

@@ -3,7 +3,7 @@
 use super::{Axis, Displacement, Entry};
 use crate::algebra::{Node, Unit};
 use crate::geometry::Pose;
-use crate::number::Number;
+use crate::number::{Number, real};
 
 /// The largest relative error when a number is written shorter.
 const ROUNDING: f64 = 4e-15;
@@ -70,7 +70,7 @@ impl Displacement {
             left.rotation.0
         };
         let [n, ..] = pose.rotation.0;
-        let upright = n.0[0].hypot(n.0[1]) < 1e-9;
+        let upright = real::hypot(n.0[0], n.0[1]) < 1e-9;
         let yaw = if upright {
             (0.0, 1.0)
         } else {

@@ -5,6 +5,7 @@ use std::convert::Infallible;
 use super::{Displacement, Entry};
 use crate::algebra::{Expression, Function, Node};
 use crate::geometry::Axis;
+use crate::number::real;
 
 pub(crate) fn zero() -> Entry {
     Entry::number(0.0, 0..0)
@@ -137,8 +138,8 @@ fn root(value: f64) -> Option<Entry> {
 fn turned(axis: Axis, angle: &Entry, vector: [Entry; 3]) -> [Entry; 3] {
     let [cos, sin] = [Function::Cos, Function::Sin].map(|function| {
         let value = angle.expression.fixed_value().map(|angle| match function {
-            Function::Cos => angle.cos(),
-            _ => angle.sin(),
+            Function::Cos => real::cos(angle),
+            _ => real::sin(angle),
         });
         match value {
             Some(value) => root(value).unwrap_or_else(|| Entry::length(value)),
@@ -169,7 +170,7 @@ pub(crate) fn towards(direction: &[Entry; 3]) -> Vec<Displacement> {
     let angle = |y: &Entry, x: &Entry| {
         let values = (y.expression.fixed_value(), x.expression.fixed_value());
         let entry = match values {
-            (Some(y), Some(x)) => Entry::angle(y.atan2(x)),
+            (Some(y), Some(x)) => Entry::angle(real::atan2(y, x)),
             _ => call(Function::Atan2, [y, x]),
         };
         let span = direction[2].span.clone();
@@ -180,7 +181,7 @@ pub(crate) fn towards(direction: &[Entry; 3]) -> Vec<Displacement> {
         (true, false) => vec![Displacement::Rotate(Axis::X, angle(&negated(y), z))],
         (false, false) => {
             let across = match (x.expression.fixed_value(), y.expression.fixed_value()) {
-                (Some(x), Some(y)) => Entry::length(x.hypot(y)),
+                (Some(x), Some(y)) => Entry::length(real::hypot(x, y)),
                 _ => call(Function::Hypot, [x, y]),
             };
             vec![

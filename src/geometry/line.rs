@@ -1,5 +1,6 @@
 use super::Vector3;
 use crate::linear::RANK_TOLERANCE;
+use crate::number::real;
 
 /// A directed line: a joint axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,7 +100,7 @@ impl Line {
         let between = other.point - self.point;
         let normal = z1.cross(&z2);
         let (sine, cosine) = (normal.norm(), z1.dot(&z2));
-        let angle = f64::atan2(sine, cosine);
+        let angle = real::atan2(sine, cosine);
         if sine <= RANK_TOLERANCE {
             let apart = between - z1.times(between.dot(&z1));
             let distance = apart.norm();

@@ -1,5 +1,5 @@
 use super::{Axis, Rotation, Vector3};
-use crate::number::Number;
+use crate::number::{Number, real};
 
 /// A unit quaternion w + xi + yj + zk, scalar first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,7 +161,7 @@ impl<T: Number> RollPitchYaw<T> {
     /// Whether the pitch is ±90° but for rounding, where roll and yaw turn about the same line.
     pub fn is_locked(rotation: &Rotation<T>) -> bool {
         let n = rotation.0[0].0;
-        (n[0].real()).hypot(n[1].real()) < 1e-6
+        real::hypot(n[0].real(), n[1].real()) < 1e-6
     }
 
     /// Angular velocity ω = E φ̇ and its rate ω̇ = E φ̈ + Ė φ̇ in ground, for rates and accelerations

@@ -2,6 +2,7 @@
 
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
+use crate::number::real;
 
 /// How a joint moves its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,7 +211,7 @@ impl Joint {
 
 /// The rotation about a unit vector (Rodrigues): R = 1 + sin θ [n]× + (1 − cos θ) [n]×².
 fn about(axis: &Vector3<f64>, angle: f64) -> Rotation<f64> {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = real::sin_cos(angle);
     Rotation([0, 1, 2].map(|i| {
         let e = Vector3::unit(i);
         e.times(cos) + axis.cross(&e).times(sin) + axis.times(axis.0[i] * (1.0 - cos))

@@ -4,6 +4,7 @@ mod fronts;
 
 use super::rows::{Rows, product, transposed_product};
 use super::{add, dot, lost, norm, orthonormal};
+use crate::number::real;
 use fronts::Fronts;
 
 /// How often solutions by normal equations are corrected.
@@ -150,7 +151,8 @@ impl Elimination {
     pub fn left_null_vectors(&self, count: usize) -> Vec<Vec<f64>> {
         let rows = self.groups.iter().map(|group| group.count).sum();
         let vectors = (0..count).map(|k| {
-            let number = |i: usize| (12.9898 * (k * rows + i + 1) as f64).sin() * 43758.5453 % 1.0;
+            let number =
+                |i: usize| real::sin(12.9898 * (k * rows + i + 1) as f64) * 43758.5453 % 1.0;
             let any: Vec<f64> = (0..rows).map(number).collect();
             let seen = self.product(&self.solve(&any));
             any.iter().zip(seen).map(|(y, seen)| y - seen).collect()
@@ -238,7 +240,7 @@ impl Elimination {
 fn iterated(size: usize, mut map: impl FnMut(&mut Vec<f64>)) -> (f64, Vec<f64>) {
     const ITERATIONS: usize = 12;
     let mut v: Vec<f64> = (0..size)
-        .map(|i| 1.0 + 0.5 * (1.7 * (i as f64 + 1.0)).sin())
+        .map(|i| 1.0 + 0.5 * real::sin(1.7 * (i as f64 + 1.0)))
         .collect();
     let mut factor = 0.0;
     for _ in 0..ITERATIONS {

@@ -10,7 +10,7 @@ use super::dimensions::{
 };
 use super::{ClosureKind, Frame, PoseCoordinate};
 use crate::geometry::{Axis, Pose, Vector3};
-use crate::number::Number;
+use crate::number::{Number, real};
 
 /// A mechanism without platforms.
 #[derive(Clone, Debug)]
@@ -78,7 +78,10 @@ impl Carried {
             // without roll the y axis stays level
             Some(ClosureKind::Universal) => {
                 let (sin, cos) = (-y.0[0], y.0[1]);
-                vec![sin.atan2(cos), (-x.0[2]).atan2(x.0[0] * cos + x.0[1] * sin)]
+                vec![
+                    real::atan2(sin, cos),
+                    real::atan2(-x.0[2], x.0[0] * cos + x.0[1] * sin),
+                ]
             }
             _ => {
                 let all = PoseCoordinate::all_of(&pose);

@@ -8,6 +8,7 @@ use super::{Body, Configuration, Frame, JointKind, Mechanism};
 use crate::description::Role;
 use crate::geometry::{Axis, Line, Relation, Vector3};
 use crate::linear::RANK_TOLERANCE;
+use crate::number::real;
 
 /// A chain, and the first of three rows in it, from 0.
 type Ball = (usize, usize);
@@ -138,5 +139,5 @@ fn rings((chain, first): Ball) -> [Body; 2] {
 
 /// From one vector to another about an axis that both are normal to.
 fn angle(about: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
-    f64::atan2(about.dot(&from.cross(to)), from.dot(to))
+    real::atan2(about.dot(&from.cross(to)), from.dot(to))
 }

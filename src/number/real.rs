@@ -1,6 +1,24 @@
-use super::{Field, Number, functions, trigonometry};
+//! Functions of a real number, bit for bit the same on every machine: none comes from the platform's C library.
 
-/// Nothing comes from the platform's C library, so that the same input gives the same bytes on every machine.
+pub(crate) use super::trigonometry::{atan2, sin_cos};
+use super::{Field, Number, functions, trigonometry};
+pub(crate) use pxfm::{
+    f_acos as acos, f_asin as asin, f_atan as atan, f_hypot as hypot, f_log as ln, f_log2 as log2,
+    f_log10 as log10, f_pow as pow,
+};
+
+/// Sine of an angle in rad.
+#[inline]
+pub(crate) fn sin(x: f64) -> f64 {
+    sin_cos(x).0
+}
+
+/// Cosine of an angle in rad.
+#[inline]
+pub(crate) fn cos(x: f64) -> f64 {
+    sin_cos(x).1
+}
+
 impl Number for f64 {
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

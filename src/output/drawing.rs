@@ -14,7 +14,7 @@ pub use camera::View;
 
 use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
 use crate::geometry::Vector3;
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::scene::{BodyShape, Scene, Triple};
 use labels::Labels;
 
@@ -321,7 +321,7 @@ fn symbol_size(stage: &Stage) -> f64 {
     let mut room: f64 = f64::INFINITY;
     for (i, a) in places.iter().enumerate() {
         for b in &places[i + 1..] {
-            let apart = (a.0 - b.0).hypot(a.1 - b.1);
+            let apart = real::hypot(a.0 - b.0, a.1 - b.1);
             if apart > 4.0 {
                 room = room.min(apart);
             }

@@ -9,6 +9,7 @@ use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
 use super::drawing::{Fit, View, strobe};
 use super::quantity::{number, with_unit};
 use crate::algebra::SiUnit;
+use crate::number::real;
 use crate::scene::{Scene, least_and_greatest};
 use style::{SHAPES, shade, stroke};
 
@@ -212,7 +213,7 @@ fn ranges(chart: &Chart) -> [(f64, f64); 2] {
 /// right angle where they are wide apart.
 fn labels((low, high): (f64, f64), wanted: f64, degrees: bool) -> Vec<f64> {
     let rough = (high - low) / wanted;
-    let power = 10_f64.powf(rough.log10().floor());
+    let power = real::pow(10_f64, real::log10(rough).floor());
     let steps = match degrees && rough > 10.0 {
         true => vec![15.0, 30.0, 45.0, 90.0, 180.0, 360.0],
         false => [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power).to_vec(),

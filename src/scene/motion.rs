@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{Scene, Travel, Triple, Wheel};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Configuration, Convention, Frame, LinearForm, Mechanism};
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 
 /// A row that turns a body about an axis: the body it turns on, the body turned, a point of the axis, the axis, and the
 /// angle.
@@ -144,7 +144,7 @@ impl Wheel {
         let (axis, at) = (Vector3(self.axis), Vector3(self.at));
         let [right, up] = across(&axis);
         let place = |k: u32| {
-            let (sin, cos) = (f64::from(k) / 48.0 * TAU).sin_cos();
+            let (sin, cos) = real::sin_cos(f64::from(k) / 48.0 * TAU);
             (at + (right.times(cos) + up.times(sin)).times(self.radius)).0
         };
         (0..=48).map(place).collect()

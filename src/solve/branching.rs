@@ -4,7 +4,7 @@ use super::continuation::{Continuation, Place, SolutionCurve, back};
 use crate::linear::{
     BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, dot, norm, product,
 };
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 
 /// A point where the Jacobian of a curve loses rank.
 #[derive(Clone, Debug)]
@@ -263,10 +263,10 @@ fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
         let mut a: Vec<f64> = match n {
             2 => {
                 let angle = std::f64::consts::PI * k as f64 / f64::from(starts as u32);
-                vec![angle.cos(), angle.sin()]
+                vec![real::cos(angle), real::sin(angle)]
             }
             _ => (0..n)
-                .map(|i| (12.9898 * (k * n + i + 1) as f64).sin() * 43758.5453 % 1.0)
+                .map(|i| real::sin(12.9898 * (k * n + i + 1) as f64) * 43758.5453 % 1.0)
                 .collect(),
         };
         let mut best = f64::INFINITY;

@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::homotopy::{Arrival, Homotopy, Stages, Tracker};
-use crate::number::Complex;
+use crate::number::{Complex, real};
 
 type C = Complex<f64>;
 
@@ -116,14 +116,14 @@ pub fn path_end<H: Turning>(
 /// A point of the circle round s = 1, after so many parts of a turn.
 fn place(radius: f64, part: usize) -> C {
     let phi = TAU * part as f64 / SAMPLES as f64;
-    C::new(1.0 - radius * phi.cos(), -radius * phi.sin())
+    C::new(1.0 - radius * real::cos(phi), -radius * real::sin(phi))
 }
 
 /// Whether an angle, k/w times i ln(1 − s) and terms that vanish with 1 − s, goes to infinity: its
 /// mean moves by just that from circle to circle.
 fn grows_as_logarithm(gap: &[C], winding: usize) -> bool {
     let most = gap.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-    let times = most * winding as f64 / SHRINK.ln();
+    let times = most * winding as f64 / real::ln(SHRINK);
     times > 0.5 && (times - times.round()).abs() < 1e-3
 }
 
@@ -180,7 +180,7 @@ fn coefficient(samples: &[Vec<C>], winding: usize, k: usize) -> Vec<C> {
     let mut sum = vec![C::new(0.0, 0.0); samples[0].len()];
     for (j, sample) in samples.iter().enumerate() {
         let phi = TAU * (j * k) as f64 / (SAMPLES * winding) as f64;
-        let factor = C::new(phi.cos(), phi.sin()) / samples.len() as f64;
+        let factor = C::new(real::cos(phi), real::sin(phi)) / samples.len() as f64;
         for (sum, x) in sum.iter_mut().zip(sample) {
             *sum += factor * x;
         }

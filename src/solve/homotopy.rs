@@ -6,7 +6,7 @@
 //! the measure by which Timme 2021 avoids jumping to a neighbouring path.
 
 use super::{Progress, Watch};
-use crate::number::Complex;
+use crate::number::{Complex, real};
 
 type C = Complex<f64>;
 
@@ -144,7 +144,7 @@ impl Tracker {
             watch: (watch, now),
         } = stages;
         // errors grow as the fifth power of the step
-        let fitting = |first: f64| (self.correction / first.max(1e-12)).powf(0.2);
+        let fitting = |first: f64| real::pow(self.correction / first.max(1e-12), 0.2);
         for _ in 0..self.max_steps {
             if done >= 1.0 {
                 return ended(Arrival::There, steps, evaluations);

@@ -16,7 +16,7 @@ use rand_pcg::Pcg64;
 
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Mechanism};
-use crate::number::Number;
+use crate::number::{Number, real};
 use crate::system::{Held, HeldPlatform, Mobility, System};
 
 /// A member: values of the independent parameters, then factors of other lengths, and values of the inputs.
@@ -255,7 +255,7 @@ impl Family {
             });
         }
         for &p in &c.free_platforms {
-            let far = Vector3([0, 1, 2].map(|_| C::new(0.0, reach.log2() * uniform(rng))));
+            let far = Vector3([0, 1, 2].map(|_| C::new(0.0, real::log2(reach) * uniform(rng))));
             x.extend(quaternion(rng).turned_by(&far).0);
             let home = self.home.platforms[p]
                 .position

@@ -8,7 +8,7 @@ use super::{Conversion, ConversionNote};
 use crate::description::Description;
 use crate::geometry::{RollPitchYaw, Rotation, Vector3};
 use crate::mechanism::{Body, Mechanism, NamedPoint};
-use crate::number::Complex;
+use crate::number::{Complex, complex, real};
 use crate::solve::{Newton, Watch};
 use crate::system::{MechanismLoop, Neighbourhood, Question, close, loops};
 
@@ -126,9 +126,8 @@ fn written(
     origin: Vector3<f64>,
     [a0, d, e, third, c]: [Complex<f64>; 5],
 ) -> Conversion {
-    let (crank, theta) = (d - a0).to_polar();
-    let (coupler, angle) = (e - d).to_polar();
-    let (rocker, phi) = (e - third).to_polar();
+    let polar = |z: Complex<f64>| (complex::norm(z), real::atan2(z.im, z.re));
+    let [(crank, theta), (coupler, angle), (rocker, phi)] = [d - a0, e - d, e - third].map(polar);
     let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(axes);
     let base = |p: Complex<f64>| {
         let [x, y, z] = (*axes * Vector3([p.re, p.im, 0.0]) + origin).0;
@@ -140,9 +139,9 @@ fn written(
         }
         steps
     };
-    let psi = (angle - theta).sin().atan2((angle - theta).cos());
+    let psi = real::atan2(real::sin(angle - theta), real::cos(angle - theta));
     // the coupler point in the frame of the coupler
-    let Complex { re: x, im: y } = (c - d) * Complex::new(angle.cos(), -angle.sin());
+    let Complex { re: x, im: y } = (c - d) * Complex::new(real::cos(angle), -real::sin(angle));
     let text = format!(
         r#"Mechanism(
     version: 1,

@@ -23,6 +23,7 @@ use crate::description::{
     Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable, place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
+use crate::number::real;
 
 type Steps = Vec<Displacement>;
 
@@ -114,7 +115,7 @@ fn axis_of(before: &[Displacement], row: &Row, convention: Convention, fixed: [E
 fn is_oblique(steps: &[Displacement]) -> bool {
     let oblique = |step: &Displacement| match step {
         Displacement::Rotate(_, angle) => match angle.expression.fixed_value() {
-            Some(angle) => angle.sin().abs().min(angle.cos().abs()) > 1e-12,
+            Some(angle) => real::sin(angle).abs().min(real::cos(angle).abs()) > 1e-12,
             None => true,
         },
         _ => false,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::classify::Singularity;
 use crate::linear::norm;
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
@@ -31,7 +31,7 @@ pub(super) struct Projection<'t> {
 }
 
 fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    real::hypot(a[0] - b[0], a[1] - b[1])
 }
 
 fn scaled(region: &Region, scales: [f64; 2], place: &Place<Singular>) -> [f64; 2] {
@@ -97,7 +97,7 @@ impl<'t> Projection<'t> {
         }
         for (i, ends) in self.points.windows(2).enumerate() {
             let way = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
-            let size = way[0].hypot(way[1]);
+            let size = real::hypot(way[0], way[1]);
             let along = |p: [f64; 2]| (p[0] - point[0]) * way[0] + (p[1] - point[1]) * way[1];
             let off = (point[0] - ends[0][0]) * way[1] - (point[1] - ends[0][1]) * way[0];
             // a piece bends less than that

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{Svd, dot};
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::solve::summit;
 
 /// The straight line that a path over a motion comes nearest to, and how near.
@@ -113,7 +113,7 @@ impl Straightness {
             .zip(hull.iter().cycle().skip(1))
             .filter_map(|(a, b)| {
                 let edge = [b[0] - a[0], b[1] - a[1]];
-                let length = edge[0].hypot(edge[1]);
+                let length = real::hypot(edge[0], edge[1]);
                 let normal = [-edge[1] / length, edge[0] / length];
                 let across = |p: &[f64; 2]| normal[0] * (p[0] - a[0]) + normal[1] * (p[1] - a[1]);
                 let width = hull.iter().map(across).fold(0.0, f64::max);

@@ -1,5 +1,6 @@
 //! Places where a quantity has no bound.
 
+use crate::number::real;
 /// Towards which side a quantity grows without bound, just before a place and just after it: whether upwards.
 ///
 /// A power of the distance r⁻ᵖ with p ≥ 1/4 grows by the same factor, 10^(p/2) at least, each time the place is nearer by
@@ -16,7 +17,7 @@ pub(super) fn unbounded(
     const FACTOR: f64 = 1.33;
     [-1.0, 1.0].map(|side| {
         let mut at = |power: i32| {
-            let x = place + side * 0.1f64.powf(0.5 * f64::from(power));
+            let x = place + side * real::pow(0.1f64, 0.5 * f64::from(power));
             (0.0..=1.0).contains(&x).then(|| value(x))?
         };
         if let (Some(far), Some(near)) = (at(POWERS[0]), at(POWERS[1]))

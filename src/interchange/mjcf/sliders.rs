@@ -4,6 +4,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Joint, Loop, Motion, Tree};
+use crate::number::real;
 
 /// Sliding closures as joints of a further body, welded to the other side.
 pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
@@ -17,7 +18,7 @@ pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
         let [a, b] = sides;
         let relative = (home[a.body] * a.pose).inverse() * (home[b.body] * b.pose);
         let [x, y, z] = relative.position.0;
-        let turned = relative.rotation.0[0].0[1].atan2(relative.rotation.0[0].0[0]);
+        let turned = real::atan2(relative.rotation.0[0].0[1], relative.rotation.0[0].0[0]);
         let slide =
             |word: &str, axis: usize, home: f64| (word.to_owned(), Motion::Slide, axis, home);
         let turn = || ("turn".to_owned(), Motion::Turn, 2, turned);

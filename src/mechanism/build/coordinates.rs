@@ -9,6 +9,7 @@ use crate::description::{
     AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, Problem, ProblemKind,
 };
 use crate::geometry::Vector3;
+use crate::number::real;
 
 /// Axes of a universal joint this near to a right angle are perpendicular, in rad.
 const PERPENDICULAR: f64 = 1e-9;
@@ -82,7 +83,7 @@ fn fault(
     let problem = match ends {
         _ if ends.iter().flatten().any(|v| v.norm() == 0.0) => AxesProblem::NoDirection { joint },
         [Some(a), Some(b)] => {
-            let angle = (a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0).acos();
+            let angle = real::acos((a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0));
             if (angle - FRAC_PI_2).abs() <= PERPENDICULAR {
                 return None;
             }

@@ -3,6 +3,7 @@ use super::{JointAxis, SerialAxes, Table, TableRow};
 use crate::description::Convention;
 use crate::geometry::{Line, Pose, Relation, Rotation, Vector3};
 use crate::linear::RANK_TOLERANCE;
+use crate::number::real;
 
 /// Frames placed on joint axes, and the table read off them.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +76,7 @@ impl Normal {
 
 /// The angle from `u` to `v` about a unit vector perpendicular to both, in (−π, π].
 fn angle_about(axis: &Vector3<f64>, u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
-    let angle = f64::atan2(u.cross(v).dot(axis), u.dot(v));
+    let angle = real::atan2(u.cross(v).dot(axis), u.dot(v));
     match angle {
         // rounding of a half turn must not change its sign
         _ if angle < -std::f64::consts::PI + ROUNDING => -angle,
@@ -293,14 +294,14 @@ impl SerialAxes {
         let mut moved = 0.0_f64;
         for (given, made) in self.joints.iter().zip(&made.joints) {
             let (u, v) = (given.line.direction, made.line.direction);
-            turned = turned.max(f64::atan2(u.cross(&v).norm(), u.dot(&v)));
+            turned = turned.max(real::atan2(u.cross(&v).norm(), u.dot(&v)));
             if !given.is_prismatic() {
                 moved = moved.max(made.line.distance(&given.line.point));
             }
         }
         if let (Some(given), Some(made)) = (self.tool, made.tool) {
             for (u, v) in given.rotation.0.iter().zip(&made.rotation.0) {
-                turned = turned.max(f64::atan2(u.cross(v).norm(), u.dot(v)));
+                turned = turned.max(real::atan2(u.cross(v).norm(), u.dot(v)));
             }
             moved = moved.max((given.position - made.position).norm());
         }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{GROUND, Layer, Piece, Stage};
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
+use crate::number::real;
 use crate::output::canvas::{Colour, INK, Pixel, Shape, Style};
 use crate::output::quantity::three_digits;
 use crate::scene::{Arrow, Axis, Travel, Triple, across};
@@ -48,7 +49,7 @@ fn travelled(stage: &Stage, travel: &Travel) -> [Vec<Triple>; 3] {
             let high = high.min(low + TAU);
             let side = axis.cross(&arm);
             let out = |angle: f64, far: f64| {
-                let (sin, cos) = angle.sin_cos();
+                let (sin, cos) = real::sin_cos(angle);
                 at + (arm.times(cos) + side.times(sin)).times(far * radius)
             };
             let parts = ((high - low) / 0.08).ceil().max(1.0) as usize;
@@ -169,7 +170,7 @@ fn turning(
 ) -> (Vec<Shape>, Point) {
     let [right, up] = across(&axis);
     let place = |k: u32| {
-        let (sin, cos) = (0.75 * TAU * f64::from(k) / 24.0).sin_cos();
+        let (sin, cos) = real::sin_cos(0.75 * TAU * f64::from(k) / 24.0);
         at + (right.times(cos) + up.times(sin)).times(radius)
     };
     let arc: Vec<Point> = (0..=24).map(place).collect();
@@ -180,7 +181,7 @@ fn turning(
 
 /// The head of an arrow; none if it points to the viewer.
 fn head(from: Pixel, to: Pixel, colour: Colour) -> Option<Shape> {
-    let length = (to.0 - from.0).hypot(to.1 - from.1);
+    let length = real::hypot(to.0 - from.0, to.1 - from.1);
     let (x, y) = ((to.0 - from.0) / length, (to.1 - from.1) / length);
     let (long, wide) = (9.0, 3.5);
     let foot = |side: f64| {

@@ -1,7 +1,7 @@
 //! Orthographic projection.
 
 use crate::geometry::Vector3;
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::scene::{Triple, least_and_greatest};
 
 /// From where a scene is seen.
@@ -30,7 +30,7 @@ pub(crate) struct Camera {
 
 impl Camera {
     pub fn new(view: View, normal: Option<Triple>) -> Self {
-        let isometric = View::From((-45_f64).to_radians(), (1.0 / 2_f64.sqrt()).atan());
+        let isometric = View::From((-45_f64).to_radians(), real::atan(1.0 / 2_f64.sqrt()));
         let (towards, up) = match (view, normal) {
             (View::Natural, Some(normal)) => {
                 // seen so that the axis of ground nearest to the normal points to the viewer
@@ -51,7 +51,8 @@ impl Camera {
             (View::Front, _) => (Vector3([0.0, -1.0, 0.0]), Vector3::unit(2)),
             (View::Top, _) => (Vector3::unit(2), Vector3::unit(1)),
             (View::From(azimuth, elevation), _) => {
-                let ((sin, cos), (rise, level)) = (azimuth.sin_cos(), elevation.sin_cos());
+                let ((sin, cos), (rise, level)) =
+                    (real::sin_cos(azimuth), real::sin_cos(elevation));
                 let towards = Vector3([level * cos, level * sin, rise]);
                 // up is where z rises, also where it is seen from above or below
                 (towards, Vector3([-rise * cos, -rise * sin, level]))
@@ -93,7 +94,7 @@ impl Camera {
     pub fn triad(&self) -> impl Iterator<Item = (&'static str, (f64, f64))> + '_ {
         let axes = ["x", "y", "z"].into_iter().enumerate();
         let axes = axes.map(|(axis, name)| (name, (self.right.0[axis], self.up.0[axis])));
-        axes.filter(|(_, (x, y))| x.hypot(*y) > 0.2)
+        axes.filter(|(_, (x, y))| real::hypot(*x, *y) > 0.2)
     }
 
     /// The outline of points as they are seen, in order round it (A. M. Andrew 1979); fewer than three if they lie in a
@@ -109,7 +110,7 @@ impl Camera {
             a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
         });
         let size = match (seen.first(), seen.last()) {
-            (Some((a, _)), Some((b, _))) => (a.0 - b.0).hypot(a.1 - b.1),
+            (Some((a, _)), Some((b, _))) => real::hypot(a.0 - b.0, a.1 - b.1),
             _ => return Vec::new(),
         };
         let half = |points: &mut dyn Iterator<Item = &((f64, f64), Vector3<f64>)>| {

@@ -2,6 +2,7 @@
 
 use super::{HEIGHT, Pixel, Stage, WIDTH};
 use crate::geometry::Vector3;
+use crate::number::real;
 
 /// Height of the letters in pixels.
 pub(super) const LETTERS: f64 = 12.0;
@@ -50,7 +51,7 @@ impl Labels {
         let lines = lines.chain(scene.rods.iter().map(|rod| rod.ends));
         let lines_taken = lines.flat_map(|ends| {
             let [a, b] = ends.map(|end| stage.pixel(&Vector3(end)));
-            let steps = ((a.0 - b.0).hypot(a.1 - b.1) / 6.0).ceil().max(1.0);
+            let steps = (real::hypot(a.0 - b.0, a.1 - b.1) / 6.0).ceil().max(1.0);
             (0..=steps as usize).map(move |k| {
                 let part = k as f64 / steps;
                 let (x, y) = (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1));

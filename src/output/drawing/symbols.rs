@@ -2,6 +2,7 @@
 
 use super::{Camera, DRIVEN, GROUND, Layer, Piece, Stage};
 use crate::geometry::Vector3;
+use crate::number::real;
 use crate::output::canvas::{Colour, INK, Style, WHITE};
 use crate::scene::{JointShape, Symbol, across};
 
@@ -210,7 +211,7 @@ fn solid(stage: &Stage, points: &[Point], fill: Colour, nearer: f64) -> Piece {
 
 fn ring(middle: &Point, right: &Point, up: &Point, radius: f64) -> Vec<Point> {
     let places = (0..24).map(|k| {
-        let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
+        let (sin, cos) = real::sin_cos(f64::from(k) * std::f64::consts::TAU / 24.0);
         *middle + right.times(radius * cos) + up.times(radius * sin)
     });
     places.collect()

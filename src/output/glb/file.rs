@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::solids::Solid;
 use crate::geometry::{Quaternion, Rotation, Vector3};
+use crate::number::real;
 use crate::output::canvas::Colour;
 
 /// Where a solid is: stretched, then turned, then put there.
@@ -219,7 +220,7 @@ fn material((colour, opacity): (Colour, f64)) -> Value {
     // glTF mixes light, not the values of a screen (IEC 61966-2-1)
     let linear = |part: u8| match f64::from(part) / 255.0 {
         x if x <= 0.04045 => x / 12.92,
-        x => ((x + 0.055) / 1.055).powf(2.4),
+        x => real::pow((x + 0.055) / 1.055, 2.4),
     };
     let [red, green, blue] = colour.parts().map(linear);
     let mut material = json!({

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::geometry::Vector3;
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::scene::Triple;
 
 /// Triangles, or a line where there are none.
@@ -34,7 +34,7 @@ impl Solid {
 const ROUND: u32 = 20;
 
 fn circle(k: u32) -> (f64, f64) {
-    let (sin, cos) = (TAU * f64::from(k % ROUND) / f64::from(ROUND)).sin_cos();
+    let (sin, cos) = real::sin_cos(TAU * f64::from(k % ROUND) / f64::from(ROUND));
     (cos, sin)
 }
 
@@ -84,7 +84,7 @@ pub(super) fn ball() -> Solid {
     const RINGS: u32 = 10;
     let mut solid = Solid::default();
     for ring in 0..=RINGS {
-        let (wide, high) = (PI * f64::from(ring) / f64::from(RINGS)).sin_cos();
+        let (wide, high) = real::sin_cos(PI * f64::from(ring) / f64::from(RINGS));
         for k in 0..=ROUND {
             let (x, y) = circle(k);
             let at = [wide * x, wide * y, high];
@@ -129,7 +129,7 @@ pub(super) fn plate(points: &[Vector3<f64>]) -> Solid {
     let mut round = points.to_vec();
     let angle = |p: &Vector3<f64>| {
         let off = *p - middle;
-        off.0[1].atan2(off.0[0])
+        real::atan2(off.0[1], off.0[0])
     };
     sort_by(&mut round, |a, b| angle(a).total_cmp(&angle(b)));
     let corners: Vec<Triple> = round.iter().map(|point| point.0).collect();

@@ -3,6 +3,7 @@
 use super::percent;
 use crate::analysis::workspace::{AspectReport, AxisReport, BoundaryKind, WorkspaceReport};
 use crate::description::{count, listed};
+use crate::number::real;
 use crate::output::quantity::{at, if_any, metres, number, range};
 
 pub(super) fn question(report: &WorkspaceReport) -> String {
@@ -46,7 +47,7 @@ pub(super) fn area(report: &WorkspaceReport, size: f64) -> String {
     // located to the second order of the grid: four digits are plenty
     let digits = match size {
         0.0 => 0,
-        size => (3 - size.abs().log10().floor() as i32).clamp(0, 9),
+        size => (3 - real::log10(size.abs()).floor() as i32).clamp(0, 9),
     };
     let factor = 10f64.powi(digits);
     let size = number((size * factor).round() / factor);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{ClosedSolution, Rule};
 use crate::algebra::{EvaluationError, Expression};
 use crate::mechanism::{Configuration, Letters, Mechanism};
-use crate::number::Number;
+use crate::number::{Number, real};
 use crate::solve::Equations;
 use crate::system::{Question, System, check_count};
 
@@ -180,7 +180,7 @@ impl Branching<f64> for Signed {
 
     fn angle(&mut self, _: f64, sin: f64, cos: f64, norm: f64) -> f64 {
         self.divisors.push(norm);
-        sin.atan2(cos)
+        real::atan2(sin, cos)
     }
 
     fn quotient(&mut self, of: f64, over: f64) -> f64 {

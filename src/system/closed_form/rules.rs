@@ -8,6 +8,7 @@ use super::Rule;
 use super::derivation::{Derivation, Found};
 use super::single::{Circular, Unknown, beside, cross, dot, polynomial};
 use crate::algebra::{ByUnknowns, Trigonometric, Wave};
+use crate::number::real;
 
 /// Beyond so many unknowns in the equations of one closure none of them is eliminated.
 const MOST_UNKNOWNS: usize = 4;
@@ -99,7 +100,7 @@ impl Derivation<'_> {
                     false => self.direction(&circular)?,
                     true => {
                         let large = |row: &Circular| {
-                            self.value(&row.a).hypot(self.value(&row.b)).powi(2) > self.least
+                            real::hypot(self.value(&row.a), self.value(&row.b)).powi(2) > self.least
                         };
                         let place = circular.iter().position(large)?;
                         circular.swap_remove(place).projection()

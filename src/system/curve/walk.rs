@@ -7,7 +7,7 @@ use super::trace::closed;
 use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::solve::{ALIGNED, BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
 
 type At = Place<Configuration<f64>>;
@@ -328,7 +328,7 @@ impl Segment {
         let apart: Vec<f64> = tangents.map(|(a, b)| b - a).collect();
         let half_sine = (0.5 * norm(&apart)).min(1.0);
         let bulge = match half_sine > 0.0 {
-            true => half_sine.asin() / half_sine,
+            true => real::asin(half_sine) / half_sine,
             false => 1.0,
         };
         self.gone + chord * bulge

@@ -3,6 +3,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::description::AxisCondition;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::real;
 
 /// How far a closure is open.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -27,18 +28,20 @@ impl Gap {
                 let relative = a.rotation.transpose() * b.rotation;
                 let between_axes = || {
                     let z = relative.0[2].0;
-                    z[0].hypot(z[1]).atan2(z[2])
+                    real::atan2(real::hypot(z[0], z[1]), z[2])
                 };
                 let between_frames = || {
                     let [w, x, y, z] = Quaternion::from_rotation(&relative).canonical().0;
-                    2.0 * x.hypot(y).hypot(z).atan2(w)
+                    2.0 * real::atan2(real::hypot(real::hypot(x, y), z), w)
                 };
                 let conditions = closure.kind.conditions();
                 let blocked = match conditions.origins || closure.kind.has_length() {
                     true => 0..3,
                     false => conditions.offsets,
                 };
-                let mut distance = g[blocked].iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+                let mut distance = g[blocked]
+                    .iter()
+                    .fold(0.0, |sum: f64, x| real::hypot(sum, *x));
                 if closure.kind.has_length() {
                     let dimensions = &mechanism.dimensions().closures[i];
                     let length = dimensions.length + dimensions.extension.at(&at.joints);

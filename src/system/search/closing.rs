@@ -6,6 +6,7 @@ use super::Search;
 use crate::algebra::SiUnit;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
+use crate::number::real;
 use crate::solve::{Equations, Newton, Watch};
 use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
@@ -341,7 +342,7 @@ fn farthest(
         let (a, b) = (&from.platforms[i], &to.platforms[i]);
         let shift = (b.position - a.position).norm();
         let cos = a.orientation.half_cosine(&b.orientation);
-        let turn = 2.0 * cos.abs().min(1.0).acos();
+        let turn = 2.0 * real::acos(cos.abs().min(1.0));
         [
             moved(&platform.name, false, shift),
             moved(&platform.name, true, turn),

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::{Attempt, Search};
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::real;
 use crate::solve::{Report, Stop};
 use crate::system::HeldPlatform;
 
@@ -83,7 +84,7 @@ impl Search<'_> {
             if *held == HeldPlatform::Pose {
                 let shift = (to.position - home.position).norm() / length;
                 let cos = home.orientation.half_cosine(&to.orientation);
-                longest = longest.max(shift).max(2.0 * cos.abs().min(1.0).acos());
+                longest = longest.max(shift).max(2.0 * real::acos(cos.abs().min(1.0)));
             }
         }
         longest

@@ -3,6 +3,7 @@
 use crate::analysis::assemblies::family::{C, Coordinates, Input, size};
 use crate::geometry::RollPitchYaw;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
+use crate::number::{complex, real};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
 
@@ -58,7 +59,7 @@ fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
         Input::Target(p, PoseCoordinate::Roll | PoseCoordinate::Yaw) => Some(p),
         _ => None,
     });
-    let steepest = turned.map(|p| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    let steepest = turned.map(|p| real::cos(PoseCoordinate::Pitch.of(&point.platforms[p].pose())));
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 
@@ -97,7 +98,7 @@ pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
         z.re = coordinates.principal(j, z.re, ROUNDING);
     }
     for pose in x[coordinates.free_joints.len()..].chunks_exact_mut(7) {
-        let first = pose[..4].iter().find(|z| z.norm() > ROUNDING);
+        let first = pose[..4].iter().find(|z| complex::norm(**z) > ROUNDING);
         let left = first.is_some_and(|z| match z.re.abs() > ROUNDING {
             true => z.re < 0.0,
             false => z.im < 0.0,

@@ -11,7 +11,7 @@ use super::Family;
 use super::coordinates::C;
 use crate::geometry::Vector3;
 use crate::mechanism::{ClosureKind, Dimensions, Frame, JointKind, Mechanism};
-use crate::number::Number;
+use crate::number::{Number, complex};
 use crate::system::{ClosureAxes, HeldPlatform, System};
 
 /// The largest number of isolated complex solutions that a structure has.
@@ -63,7 +63,7 @@ struct Structure<'a> {
 const SMALL: f64 = 1e-9;
 
 fn parallel(a: &Vector3<C>, b: &Vector3<C>) -> bool {
-    let size = |v: &Vector3<C>| v.0.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let size = |v: &Vector3<C>| v.0.iter().map(|x| complex::norm(*x)).fold(0.0, f64::max);
     size(&a.cross(b)) <= SMALL * size(a) * size(b)
 }
 
@@ -83,7 +83,7 @@ impl<'a> Structure<'a> {
         let links = links.zip(axes).map(|((closure, mut joints), axes)| {
             // a closure does not see a turn about the origin of its frame, or about the axis of that
             let turned = |(_, omega, v): &(usize, Vector3<C>, Vector3<C>)| {
-                let moved = v.0.iter().any(|x| x.norm() > small);
+                let moved = v.0.iter().any(|x| complex::norm(*x) > small);
                 let about = |axis: &Vector3<C>| closure.kind.leaves_turn() && parallel(omega, axis);
                 moved || !(closure.kind.leaves_orientation() || axes.frames.iter().any(about))
             };
@@ -338,7 +338,7 @@ impl<'a> Structure<'a> {
         self.turns(&link.joints)
             && link.joints.len() == 2
             && !parallel(a, b)
-            && (a.dot(vb) + b.dot(va)).norm() <= SMALL * size
+            && complex::norm(a.dot(vb) + b.dot(va)) <= SMALL * size
     }
 
     /// Whether six legs end at three points of the platform, two at each.
@@ -355,7 +355,9 @@ impl<'a> Structure<'a> {
         let points: Vec<Vector3<C>> = self.links.iter().filter_map(point).collect();
         let size = SMALL * self.dimensions.characteristic_length;
         let near = |a: &Vector3<C>, b: &Vector3<C>| {
-            a.0.iter().zip(&b.0).all(|(a, b)| (a - b).norm() <= size)
+            a.0.iter()
+                .zip(&b.0)
+                .all(|(a, b)| complex::norm(a - b) <= size)
         };
         let at_same = |a: &&Vector3<C>| points.iter().filter(|b| near(a, b)).count() == 2;
         points.len() == 6 && points.iter().filter(at_same).count() == 6
@@ -369,7 +371,7 @@ fn is_plain(dimensions: &Dimensions<C>, joint: usize) -> bool {
     let in_lengths = dimensions.closures.iter();
     let in_lengths = in_lengths.map(|closure| closure.extension.coefficient(joint));
     let factors: Vec<f64> = (in_rows.chain(in_lengths))
-        .map(|factor| factor.norm())
+        .map(complex::norm)
         .filter(|factor| *factor > 0.0)
         .collect();
     matches!(factors.as_slice(), [factor] if (factor - 1.0).abs() <= SMALL)

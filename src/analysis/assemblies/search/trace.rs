@@ -17,7 +17,7 @@ use rand_pcg::Pcg64;
 
 use crate::analysis::assemblies::family::{C, Direction, Family, Member};
 use crate::analysis::assemblies::track::{Cut, Form, tracked};
-use crate::number::Number;
+use crate::number::{Number, complex};
 use crate::solve::{Progress, Watch};
 
 /// Sums that are zero but for rounding, relative to the sum of absolute values.
@@ -76,15 +76,15 @@ fn holds_along(
     // t and dt/ds where the way is at s
     let turn = direction.turning(base, &other);
     let place = |s: C| match turn {
-        Some(rate) => (rate * s).exp(),
+        Some(rate) => Number::exp(rate * s),
         None => s,
     };
     let speed = |s: C| turn.map_or(one, |rate| rate * place(s));
     let (a, b) = (place(zero), place(one));
     let same = |y: &[C], z: &[C]| {
         let ((s, x), (r, w)) = (y.split_last()?, z.split_last()?);
-        let apart = (place(*s) - place(*r)).norm();
-        Some(apart <= 1e-6 * place(*s).norm().max(1.0) && family.coordinates.same(x, w))
+        let apart = complex::norm(place(*s) - place(*r));
+        Some(apart <= 1e-6 * complex::norm(place(*s)).max(1.0) && family.coordinates.same(x, w))
     };
 
     let mut cut = Cut::new(way, form.clone());
@@ -94,12 +94,12 @@ fn holds_along(
         let mut starts = Vec::new();
         for _ in 0..STARTS.div_ceil(solutions.len()) {
             let far = C::new(rng.random_range(-3.0..3.0), rng.random_range(-3.1..3.1));
-            let elsewhere = turn.map_or_else(|| far.exp(), |rate| far / rate);
+            let elsewhere = turn.map_or_else(|| Number::exp(far), |rate| far / rate);
             starts.extend(cut.spread(solutions, elsewhere, watch));
         }
         let there = value(starts.first()?);
         let beside = C::new(rng.random_range(-0.7..0.7), rng.random_range(-0.7..0.7));
-        cut.to = there + beside * there.norm();
+        cut.to = there + beside * complex::norm(there);
         let before = known.len();
         starts.append(&mut known);
         *paths = paths.checked_sub(starts.len())?;
@@ -123,10 +123,10 @@ fn holds_along(
             terms.push((a - b) * speed(s) / ((place(s) - a) * (place(s) - b) * rate));
         }
         let sum: C = terms.iter().sum();
-        let all: f64 = terms.iter().map(|z| z.norm()).sum();
-        let sizes = terms[..solutions.len()].iter().map(|z| z.norm());
+        let all: f64 = terms.iter().map(|z| complex::norm(*z)).sum();
+        let sizes = terms[..solutions.len()].iter().map(|z| complex::norm(*z));
         let least = sizes.fold(f64::INFINITY, f64::min);
-        if sum.norm() <= ROUNDING * all && sum.norm() <= SEEN * least {
+        if complex::norm(sum) <= ROUNDING * all && complex::norm(sum) <= SEEN * least {
             return Some(());
         }
     }

@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 use super::along::polish;
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, Family};
-use crate::number::Number;
+use crate::number::{Number, complex};
 use crate::solve::{Arrival, Homotopy, Progress, Stages, Tracker, Watch};
 
 /// A random function of flat unknowns, regular on the solutions: linear in the exponentials of angles, in travels and
@@ -23,7 +23,7 @@ impl Form {
     /// `None` if an angle never comes back to the same place.
     pub fn random(family: &Family, rng: &mut Pcg64) -> Option<Self> {
         let coordinates = &family.coordinates;
-        let mut factor = || C::from_polar(rng.random_range(0.5..1.0), rng.random_range(-3.1..3.1));
+        let mut factor = || complex::polar(rng.random_range(0.5..1.0), rng.random_range(-3.1..3.1));
         let joints = coordinates.free_joints.iter().map(|&j| {
             let turning = match family.turns(j) {
                 Some(turns) => Some(C::new(0.0, coordinates.joint_scales[j] / turns?)),
@@ -49,7 +49,7 @@ impl Form {
         let (mut value, mut rate) = (zero, zero);
         for (((a, turning), x), v) in self.joints.iter().zip(x).zip(v) {
             let (now, slope) = match turning {
-                Some(i) => ((i * x).exp(), i * (i * x).exp()),
+                Some(i) => (Number::exp(i * x), i * Number::exp(i * x)),
                 None => (*x, C::from_f64(1.0)),
             };
             value += a * now;
@@ -163,10 +163,10 @@ impl Homotopy for Cut<'_> {
         let (value, rate) = self.form.at(x, &self.along);
         let ds = (self.level(sigma) - value) / rate;
         *s += ds;
-        let mut moved = ds.norm();
+        let mut moved = complex::norm(ds);
         for (x, v) in x.iter_mut().zip(&self.along) {
             let dx = v * ds;
-            moved = moved.max(dx.norm() / x.norm().max(1.0));
+            moved = moved.max(complex::norm(dx) / complex::norm(*x).max(1.0));
             *x += dx;
         }
         self.way.settle(x);
@@ -179,6 +179,6 @@ impl Homotopy for Cut<'_> {
         let gap = self.level(sigma) - value;
         self.way
             .residual(*s, x)
-            .max(gap.norm() / value.norm().max(1.0))
+            .max(complex::norm(gap) / complex::norm(value).max(1.0))
     }
 }

@@ -3,7 +3,7 @@
 use super::member::{MemberEquations, Segment};
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
-use crate::number::Number;
+use crate::number::{Number, complex};
 use crate::solve::{Equations, Homotopy};
 
 impl Family {
@@ -100,7 +100,7 @@ impl ParameterHomotopy<'_> {
             }
         };
         let sizes = inputs.iter().zip(lengths);
-        sizes.map(move |(x, length)| (x / unit(length)).norm())
+        sizes.map(move |(x, length)| complex::norm(x / unit(length)))
     }
 
     /// Number of dimensionless steps that move a point.
@@ -150,7 +150,7 @@ impl ParameterHomotopy<'_> {
         let seen = (0..rows).map(|r| {
             let along: C = columns().zip(&step).map(|(column, d)| column[r] * d).sum();
             let slopes: f64 = columns().map(|column| column[r].norm_sqr()).sum();
-            along.norm() / slopes.sqrt().max(1.0)
+            complex::norm(along) / slopes.sqrt().max(1.0)
         });
         seen.fold(0.0, f64::max) / (1.0 + size(x))
     }
@@ -167,7 +167,7 @@ impl ParameterHomotopy<'_> {
                     .map(|column| column[r].norm_sqr());
                 let size = slopes.sum::<f64>().sqrt().max(1.0) * (1.0 + size(x));
                 // directions without symmetry, the same in every run
-                C::from_polar(
+                complex::polar(
                     noise * size,
                     1.0 + 2.3 * r as f64 + 1.7 * (stream * (r + 1)) as f64,
                 )
@@ -254,7 +254,9 @@ impl Homotopy for ParameterHomotopy<'_> {
             return f64::NAN;
         }
         let shortened = self.residual.iter().zip(&self.factors);
-        let gap = shortened.fold(0.0f64, |most, (row, factor)| most.max(row.norm() * factor));
+        let gap = shortened.fold(0.0f64, |most, (row, factor)| {
+            most.max(complex::norm(*row) * factor)
+        });
         let longest = self.here.system.step(&mut self.here.work);
         if !longest.is_finite() || !self.here.sound {
             return f64::NAN;
@@ -329,7 +331,7 @@ impl crate::solve::Turning for ParameterHomotopy<'_> {
                 turned |= (within - gap.re).abs() > std::f64::consts::PI;
                 gap.re = within;
             }
-            largest = largest.max(gap.norm());
+            largest = largest.max(complex::norm(gap));
         }
         (largest, turned)
     }

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
 use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, independent};
-use crate::number::Number;
+use crate::number::{Number, real};
 use crate::solve::deflating_step;
 
 /// Singular values this small relative to the largest may be zero.
@@ -66,7 +66,7 @@ impl Linear {
 /// Numbers in (−1, 1) without symmetry, the same in every run.
 fn shake(stream: u64, i: usize) -> f64 {
     let phase = (1.0 + stream as f64 * 0.7548).mul_add(12.9898, (i as f64 + 1.0) * 78.233);
-    let x = phase.sin() * 43_758.547;
+    let x = real::sin(phase) * 43_758.547;
     2.0 * (x - x.floor()) - 1.0
 }
 
@@ -181,7 +181,7 @@ impl<'a, 'f> Local<'a, 'f> {
                     }
                     self.evaluated(&at).0.norm()
                 };
-                let order = (gap(STEP) / gap(0.5 * STEP)).log2().round();
+                let order = real::log2(gap(STEP) / gap(0.5 * STEP)).round();
                 match order.is_finite() && (2.0..=16.0).contains(&order) {
                     true => order as usize,
                     false => 2,

@@ -7,7 +7,7 @@ use super::homotopy::{FAR, ParameterHomotopy};
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use crate::analysis::assemblies::family::{C, size};
-use crate::number::Number;
+use crate::number::{Number, complex, real};
 use crate::solve::{
     Arrival, Homotopy, Newton, PathEnd, Progress, Stages, Tracker, Watch, path_end,
 };
@@ -76,7 +76,9 @@ pub(crate) fn follow(
     let mut from_here = start;
     let mut arrival = Arrival::There;
     // each part ten times as long as all before it
-    let decades = (homotopy.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
+    let decades = real::log10(homotopy.length() / LONG)
+        .ceil()
+        .clamp(0.0, 12.0) as i32;
     let mut corners: Vec<C> = (1..=decades)
         .rev()
         .map(|k| C::new(1.0, bend) * 0.1f64.powi(k))
@@ -176,10 +178,10 @@ fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> 
     let bent = (after - before) / (2.0 * STEP);
     let along = (after + before) * 0.5;
     let left = w.dot(&DVector::from_vec(residual));
-    let root = (along * along - bent * left * 2.0).sqrt();
+    let root = Number::sqrt(along * along - bent * left * 2.0);
     let mut both = [1.0, -1.0].map(|sign| {
         let length = (root * sign - along) / bent;
-        let near = length.is_finite() && length.norm() < REACH;
+        let near = length.is_finite() && complex::norm(length) < REACH;
         near.then(|| homotopy.moved(end, x, &ahead(length)))
     });
     let [Some(a), Some(b)] = &mut both else {

@@ -18,7 +18,7 @@ use crate::description::{
 };
 use crate::geometry::{Pose, Rotation};
 use crate::mechanism::Mechanism;
-use crate::number::Number;
+use crate::number::{Number, real};
 
 /// The rows that take the place of a closure, from its other frame to the frame behind the cut.
 pub(super) struct ClosureRows {
@@ -143,7 +143,7 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
     let angles = |r: &Rotation<f64>| {
         let [_, _, z] = r.0;
         let first = Number::atan2(z.0[1], z.0[0]);
-        let beta = Number::atan2(z.0[0].hypot(z.0[1]), z.0[2]);
+        let beta = Number::atan2(real::hypot(z.0[0], z.0[1]), z.0[2]);
         let turn = |axis, angle| Pose::rotation(axis, angle);
         let done = turn(Axis::Z, first) * turn(Axis::Y, beta);
         let [x, ..] = (done.rotation.transpose() * *r).0;
@@ -151,7 +151,7 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
     };
     let beyond = *rotation * Pose::rotation(Axis::Y, FRAC_PI_2).rotation;
     let (near, far) = (angles(rotation), angles(&beyond));
-    match near[1].sin().abs() >= far[1].sin().abs() {
+    match real::sin(near[1]).abs() >= real::sin(far[1]).abs() {
         true => (near, false),
         false => ([far[0], far[1] - FRAC_PI_2, far[2]], true),
     }

@@ -3,7 +3,7 @@
 use super::{At, PathPoint, STILL, Tracer};
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
-use crate::number::sorting::sort_by;
+use crate::number::{real, sorting::sort_by};
 use crate::solve::Continuation;
 use crate::system::Curve;
 
@@ -150,7 +150,7 @@ fn crossing(
             tracer.velocity(&places[k]).times(1.0 / turned)
         });
         let step = nearest(&rates, &gap, TANGENT)?;
-        let size = step[0].hypot(step[1]);
+        let size = real::hypot(step[0], step[1]);
         if size < 1e-13 || (size < 1e-10 && size >= 0.5 * before) {
             let inside = (0..2).all(|k| {
                 let part = along[k] / lengths[k];

@@ -1,5 +1,6 @@
 //! The nodes of a map.
 
+use crate::number::real;
 use crate::system::Driven;
 
 pub(crate) const MOST_AXES: usize = 3;
@@ -111,7 +112,7 @@ impl Grid {
         if self.len() <= most {
             return (0..self.len()).collect();
         }
-        let root = (most as f64).powf(1.0 / self.dimensions() as f64).floor();
+        let root = real::pow(most as f64, 1.0 / self.dimensions() as f64).floor();
         let each = (root as usize).max(1);
         let mut nodes = self.nodes_at(self.axes.iter().map(|&Axis { nodes: n, .. }| {
             let each = each.min(n);

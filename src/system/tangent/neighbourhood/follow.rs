@@ -3,6 +3,7 @@
 use super::{Neighbourhood, Tangent};
 use crate::linear::{RANK_TOLERANCE, Svd, add, dot, norm};
 use crate::mechanism::Configuration;
+use crate::number::real;
 use crate::solve::Equations;
 use crate::system::equations::settle;
 
@@ -132,7 +133,7 @@ impl Neighbourhood<'_> {
         const STEP: f64 = 0.05;
         let mut mixed = vec![0.0; self.system.unknowns().len()];
         for (motion, weight) in at.motions.iter().zip(1u8..) {
-            let weight = (1.7 * f64::from(weight)).sin();
+            let weight = real::sin(1.7 * f64::from(weight));
             add(&mut mixed, weight, motion);
         }
         let size = norm(&mixed);
