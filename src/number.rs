@@ -6,6 +6,7 @@
 pub(crate) mod complex;
 mod dual;
 mod folded;
+mod gradient;
 mod interval;
 mod mark;
 pub(crate) mod real;
@@ -19,6 +20,7 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 pub use dual::Dual;
 pub(crate) use folded::Folded;
+pub use gradient::Gradient;
 pub use interval::Interval;
 pub(crate) use mark::mark;
 pub use num_complex::Complex;

@@ -4,9 +4,10 @@
 //!
 //! [`equations`](System) assembles the closures, [`tangent`](Neighbourhood) linearises them,
 //! [`question`](Question) says what is held, [`search`](Search) assembles, and [`curve`](Curve)
-//! follows one-parameter curves of configurations.
+//! follows one-parameter curves of configurations; [`bundle`](Bundle) solves for many configurations that share dimensions.
 
 mod branch;
+mod bundle;
 mod closed_form;
 mod curve;
 mod enclosure;
@@ -20,6 +21,7 @@ mod tangent;
 
 pub use crate::mechanism::{PointError, Value, ValueError};
 pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
+pub use bundle::{Arrow, Bundle, Bundled, Target, TargetError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
     Bound, ComplexCurve, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor,

@@ -1,5 +1,5 @@
 use super::{DenseOnly, NoFactors, SparseStep};
-use crate::number::{Complex, Dual, Field, Interval};
+use crate::number::{Complex, Dual, Field, Gradient, Interval};
 
 /// A number for which least-squares steps are computed, with its way to do so for large, sparse matrices.
 pub trait Factorable: Field {
@@ -19,6 +19,10 @@ impl Factorable for Complex<f64> {
 }
 
 impl<T: Field> Factorable for Dual<T> {
+    type Sparse = NoFactors<true>;
+}
+
+impl Factorable for Gradient {
     type Sparse = NoFactors<true>;
 }
 

@@ -65,8 +65,7 @@ pub struct Work<T: Factorable> {
 impl<T: Factorable> System<T> {
     /// The equations for a choice of what is held.
     pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
-        let all = vec![EVERY_ROW; dimensions.closures.len()];
-        System::keeping(dimensions, held, &all, &[])
+        System::whole(dimensions, held, &[])
     }
 
     /// The same without rows that vanish everywhere, as those across the plane of a loop: all that iterations need.
@@ -83,6 +82,12 @@ impl<T: Factorable> System<T> {
         frames: &[Frame],
     ) -> Self {
         System::keeping(dimensions, held, mechanism.rows_that_vary(), frames)
+    }
+
+    /// All equations, with the poses of more frames than the closures need.
+    pub fn whole(dimensions: &Dimensions<T>, held: &Held<T>, frames: &[Frame]) -> Self {
+        let all = vec![EVERY_ROW; dimensions.closures.len()];
+        System::keeping(dimensions, held, &all, frames)
     }
 
     fn keeping(

@@ -1,6 +1,7 @@
 //! Assembled configurations: the one near a guess, and all of them.
 
 mod assemblies;
+mod bundle;
 mod certain;
 mod cold_starts;
 mod conjugates;

@@ -1,0 +1,313 @@
+//! Configurations of one mechanism that share numbers of its file, as one least-squares problem.
+//!
+//! Unknowns are the coordinates xₖ of each configuration and the shared numbers p. The closures of every configuration hold,
+//! r(xₖ, p) = 0. Beside them targets are met as nearly as possible, Σ w²(q(xₖ, p) − v)² with quantities q, and numbers stay
+//! near given values, Σ ((p − p₀)/s)².
+//!
+//! The Jacobian is an arrow, Aₖ = ∂r/∂xₖ beside Bₖ = ∂r/∂p, as in the bundle adjustment of cameras and points (Triggs et
+//! al. 2000). Each configuration is eliminated alone by the singular vectors of Aₖ = U Σ Vᵀ: xₖ = −A⁺(r + B p) + V₂ y. What
+//! redundant closures leave for the shared numbers is U₂ᵀ(r + B p) = 0; of the targets what no y meets is left. The cost is
+//! linear in the number of configurations. Columns of B come from the one kinematics over [`Gradient`]s.
+
+mod elimination;
+mod shared;
+mod target;
+
+use std::collections::BTreeMap;
+
+use elimination::{Eliminated, Linear};
+use shared::Reduced;
+pub use target::{Target, TargetError};
+
+use crate::linear::{Factorable, RANK_TOLERANCE};
+use crate::mechanism::{Configuration, Dimensions, Frame, Mechanism};
+use crate::number::{Gradient, Number};
+use crate::solve::{Equations, LeastSquares, Misfit};
+use crate::system::{Held, System, Work};
+
+/// Configurations of one mechanism that share some of its parameters.
+#[derive(Clone, Debug)]
+pub struct Bundle<'m> {
+    mechanism: &'m Mechanism,
+    held: Held<f64>,
+    /// Which of the independent parameters are unknown.
+    numbers: Vec<usize>,
+    /// The unit in which steps of each are measured.
+    sizes: Vec<f64>,
+    /// Where they are to stay, within about their sizes.
+    near: Option<Vec<f64>>,
+    /// By configuration.
+    targets: BTreeMap<usize, Vec<Target>>,
+    frames: Vec<Frame>,
+    rank: Option<usize>,
+    cut: f64,
+}
+
+/// A point of a bundle: its shared numbers, and a configuration for each of its places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bundled {
+    /// The values of the shared numbers, in m or rad or without unit.
+    pub numbers: Vec<f64>,
+    /// The configurations.
+    pub configurations: Vec<Configuration<f64>>,
+}
+
+/// A bundle linearised at a point, every configuration eliminated.
+#[derive(Clone, Debug)]
+pub struct Arrow {
+    eliminated: Vec<Eliminated>,
+    reduced: Reduced,
+}
+
+/// The equations of one configuration with their evaluation over some directions of differentiation.
+struct Lanes {
+    system: System<Gradient>,
+    work: Work<Gradient>,
+    parameters: Vec<Gradient>,
+}
+
+impl<'m> Bundle<'m> {
+    /// The bundle in which these independent parameters, by their indices, are unknown, each with the unit in which its steps
+    /// are measured. What is held keeps the value it has in each configuration.
+    ///
+    /// # Panics
+    /// If a parameter is not independent ([`Mechanism::independent_parameters`]), or is given twice.
+    pub fn new(mechanism: &'m Mechanism, held: Held<f64>, numbers: &[(usize, f64)]) -> Self {
+        let independent = mechanism.independent_parameters();
+        let place = |of: &usize| independent.iter().position(|i| i == of);
+        let places: Vec<usize> = (numbers.iter())
+            .map(|(of, _)| place(of).expect("the parameter is independent"))
+            .collect();
+        let twice = |(i, of): (usize, &usize)| places[..i].contains(of);
+        assert!(!places.iter().enumerate().any(twice), "each is given once");
+        Bundle {
+            mechanism,
+            held,
+            numbers: places,
+            sizes: numbers.iter().map(|(_, size)| *size).collect(),
+            near: None,
+            targets: BTreeMap::new(),
+            frames: Vec::new(),
+            rank: None,
+            cut: RANK_TOLERANCE,
+        }
+    }
+
+    /// Keeps the shared numbers near values, each within about its unit: of what closes that which is nearest is sought.
+    #[must_use]
+    pub fn near(mut self, values: Vec<f64>) -> Self {
+        self.near = Some(values);
+        self
+    }
+
+    /// Adds a target.
+    ///
+    /// # Errors
+    /// If it is a rate, a force or a figure, which a configuration alone does not have.
+    pub fn target(mut self, target: Target) -> Result<Self, TargetError> {
+        for frame in target.frames()? {
+            if !self.frames.contains(&frame) {
+                self.frames.push(frame);
+            }
+        }
+        let of = self.targets.entry(target.configuration).or_default();
+        of.push(target);
+        Ok(self)
+    }
+
+    /// Takes the closures of every configuration to have this rank, and conditions on the shared numbers that are smaller than
+    /// a part of the largest to be none: for closures that are redundant only within the rounding of the numbers.
+    #[must_use]
+    pub fn redundant(mut self, rank: usize, cut: f64) -> Self {
+        (self.rank, self.cut) = (Some(rank), cut);
+        self
+    }
+
+    /// The values of the shared numbers in the file.
+    pub fn file(&self) -> Vec<f64> {
+        let independent = self.mechanism.independent_parameters();
+        let value = |&place: &usize| self.mechanism.parameters()[independent[place]].value;
+        self.numbers.iter().map(value).collect()
+    }
+
+    /// The values of all parameters, and the dimensions, for values of the shared numbers over any number; `None` if an
+    /// expression has no value there. Lengths are measured as for the mechanism itself.
+    pub fn dimensions<T: Number>(&self, numbers: &[T]) -> Option<(Vec<T>, Dimensions<T>)> {
+        let independent = self.mechanism.independent_parameters();
+        let of_file = |i: &usize| T::from_f64(self.mechanism.parameters()[*i].value);
+        let mut values: Vec<T> = independent.iter().map(of_file).collect();
+        for (&place, &value) in self.numbers.iter().zip(numbers) {
+            values[place] = value;
+        }
+        let parameters = self.mechanism.parameters_from(&values).ok()?;
+        let mut dimensions = self.mechanism.dimensions_over(&parameters).ok()?;
+        let own = self.mechanism.dimensions();
+        dimensions.characteristic_length = own.characteristic_length;
+        dimensions.joint_scales.clone_from(&own.joint_scales);
+        Some((parameters, dimensions))
+    }
+
+    /// The equations of one configuration for values of the shared numbers, over any number.
+    pub fn equations<T: Factorable>(&self, numbers: &[T]) -> Option<System<T>> {
+        let (_, dimensions) = self.dimensions(numbers)?;
+        let held = self.held.map(|x| T::from_f64(x));
+        Some(System::whole(&dimensions, &held, &self.frames))
+    }
+
+    /// The equations over the shared numbers from one on as directions of differentiation; from beyond the last on those of
+    /// constants.
+    fn lanes(&self, numbers: &[f64], from: usize) -> Option<Lanes> {
+        let lane = |(i, &x): (usize, &f64)| match i.checked_sub(from) {
+            Some(lane) if lane < Gradient::LANES => {
+                Gradient::variable(0.0, lane).scale(self.sizes[i]) + Gradient::from_f64(x)
+            }
+            _ => Gradient::from_f64(x),
+        };
+        let numbers: Vec<Gradient> = numbers.iter().enumerate().map(lane).collect();
+        let (parameters, dimensions) = self.dimensions(&numbers)?;
+        let held = self.held.map(Gradient::from_f64);
+        let system = System::whole(&dimensions, &held, &self.frames);
+        Some(Lanes {
+            work: system.work(),
+            system,
+            parameters,
+        })
+    }
+
+    /// ∂r/∂p of the closures at each of some configurations: dense and column-major, each column times the unit of its number.
+    pub fn by_numbers(&self, at: &Bundled) -> Option<Vec<Vec<f64>>> {
+        let mut columns = vec![Vec::new(); at.configurations.len()];
+        for from in (0..self.numbers.len()).step_by(Gradient::LANES) {
+            let mut lanes = self.lanes(&at.numbers, from)?;
+            let width = Gradient::LANES.min(self.numbers.len() - from);
+            for (columns, at) in columns.iter_mut().zip(&at.configurations) {
+                lanes
+                    .system
+                    .residual(&at.map(Gradient::from_f64), &mut lanes.work);
+                let residual = lanes.system.residual_of(&lanes.work);
+                for lane in 0..width {
+                    columns.extend(residual.iter().map(|row| row.slopes[lane]));
+                }
+            }
+        }
+        Some(columns)
+    }
+
+    /// Closures and targets of every configuration, linearised.
+    fn linear(&self, at: &Bundled) -> Option<Vec<Linear>> {
+        let system = self.equations::<f64>(&at.numbers)?;
+        let mut work = system.work();
+        let by_numbers = self.by_numbers(at)?;
+        let mut all: Vec<Linear> = (at.configurations.iter().zip(by_numbers))
+            .map(|(at, by_numbers)| {
+                system.linearise(at, &mut work);
+                Linear {
+                    unknowns: system.unknowns().len(),
+                    numbers: self.numbers.len(),
+                    closures: system.residual_of(&work).to_vec(),
+                    by_unknowns: system.dense_jacobian(&work),
+                    by_numbers,
+                    targets: Vec::new(),
+                }
+            })
+            .collect();
+        self.linear_targets(at, &mut all)?;
+        Some(all)
+    }
+}
+
+impl LeastSquares for Bundle<'_> {
+    type Point = Bundled;
+    type Model = Arrow;
+
+    fn misfit(&self, at: &Bundled) -> Misfit {
+        let (Some(system), Some((parameters, _))) = (
+            self.equations::<f64>(&at.numbers),
+            self.dimensions(&at.numbers),
+        ) else {
+            return Misfit::NONE;
+        };
+        let mut work = system.work();
+        let mut misfit = Misfit {
+            equations: 0.0,
+            squares: self.departures(&at.numbers).map(|x| x * x).sum(),
+        };
+        for (k, at) in at.configurations.iter().enumerate() {
+            misfit.equations += system.residual(at, &mut work).squares;
+            for target in self.targets.get(&k).into_iter().flatten() {
+                let left = target.left(self.mechanism, (&system, &work), &parameters, at);
+                misfit.squares += left.map_or(f64::INFINITY, |x| x * x);
+            }
+        }
+        misfit
+    }
+
+    fn model(&self, at: &Bundled) -> Option<Arrow> {
+        let mut reduced = Reduced::new(self.numbers.len(), self.cut);
+        for (number, departure) in self.departures(&at.numbers).enumerate() {
+            reduced.near(number, departure);
+        }
+        let all = self.linear(at)?;
+        let eliminated = all.iter().map(|linear| {
+            let (eliminated, left) = linear.eliminated(self.rank);
+            left.conditions
+                .iter()
+                .for_each(|row| reduced.condition(row));
+            left.targets.iter().for_each(|row| reduced.square(row));
+            eliminated
+        });
+        Some(Arrow {
+            eliminated: eliminated.collect(),
+            reduced,
+        })
+    }
+
+    fn stepped(&self, at: &Bundled, arrow: &Arrow, damping: f64) -> (Bundled, f64) {
+        let step = arrow.reduced.step(damping);
+        let mut size = step.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+        let moved = at.numbers.iter().zip(&self.sizes).zip(&step);
+        let numbers: Vec<f64> = moved.map(|((x, size), step)| x + size * step).collect();
+        let Some(system) = self.equations::<f64>(&at.numbers) else {
+            return (at.clone(), 0.0);
+        };
+        let configurations = at.configurations.iter().zip(&arrow.eliminated);
+        let configurations = configurations.map(|(at, eliminated)| {
+            let step = eliminated.step(&step);
+            size = step.iter().fold(size, |size, x| size.max(x.abs()));
+            system.displaced(at, &step)
+        });
+        let moved = Bundled {
+            configurations: configurations.collect(),
+            numbers,
+        };
+        (moved, size)
+    }
+}
+
+impl Bundle<'_> {
+    /// How far the shared numbers are from where they are to stay, in their units.
+    fn departures(&self, numbers: &[f64]) -> impl Iterator<Item = f64> {
+        let near = self.near.iter().flatten();
+        let pairs = near.zip(numbers).zip(&self.sizes);
+        let departures: Vec<f64> = pairs.map(|((near, x), size)| (x - near) / size).collect();
+        departures.into_iter()
+    }
+}
+
+impl Arrow {
+    /// How many independent conditions the closures leave for the shared numbers.
+    pub fn conditions(&self) -> usize {
+        self.reduced.conditions()
+    }
+
+    /// How many directions of the shared numbers neither closures nor targets determine.
+    pub fn undetermined(&self) -> usize {
+        self.reduced.undetermined()
+    }
+
+    /// The conditions that the closures leave for a step of the shared numbers in their units, one row each: coefficients, and
+    /// what is left now.
+    pub fn rows(&self) -> Vec<Vec<f64>> {
+        self.reduced.rows()
+    }
+}

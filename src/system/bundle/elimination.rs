@@ -1,0 +1,111 @@
+//! One configuration of a bundle, linearised and eliminated.
+
+use crate::linear::{Svd, add, complement, dot, rank};
+
+/// Closures and targets of one configuration, linearised; matrices are dense and column-major.
+#[derive(Clone, Debug)]
+pub(super) struct Linear {
+    pub unknowns: usize,
+    pub numbers: usize,
+    /// The residual r of the closures.
+    pub closures: Vec<f64>,
+    /// ∂r/∂x.
+    pub by_unknowns: Vec<f64>,
+    /// ∂r/∂p.
+    pub by_numbers: Vec<f64>,
+    /// For each target its derivatives by x, then by p, then what is left of it.
+    pub targets: Vec<Vec<f64>>,
+}
+
+/// What an eliminated configuration leaves for the shared numbers: rows of coefficients with what is left at their end.
+pub(super) struct Left {
+    pub conditions: Vec<Vec<f64>>,
+    pub targets: Vec<Vec<f64>>,
+}
+
+/// The step of a configuration for a step of the shared numbers: a column for each of these, and a constant.
+#[derive(Clone, Debug)]
+pub(super) struct Eliminated(Vec<Vec<f64>>);
+
+impl Eliminated {
+    pub(super) fn step(&self, numbers: &[f64]) -> Vec<f64> {
+        let (constant, columns) = self.0.split_last().expect("there is a constant");
+        let mut step = constant.clone();
+        for (column, number) in columns.iter().zip(numbers) {
+            add(&mut step, *number, column);
+        }
+        step
+    }
+}
+
+impl Linear {
+    /// Eliminates the configuration, whose closures have a given rank or that of their singular values.
+    pub(super) fn eliminated(&self, given: Option<usize>) -> (Eliminated, Left) {
+        let (rows, unknowns) = (self.closures.len(), self.unknowns);
+        let mut svd = Svd::of(rows, unknowns, &self.by_unknowns);
+        svd.values.truncate(rows.min(unknowns));
+        let rank = given.map_or_else(|| rank(&svd.values), |given| given.min(svd.values.len()));
+        svd.left.truncate(rank);
+        let redundant = complement(&svd.left, rows);
+        let free = &svd.right[rank..];
+        let columns = || {
+            let by_numbers = self.by_numbers.chunks_exact(rows.max(1));
+            let none = std::iter::repeat_n(&[][..], if rows == 0 { self.numbers } else { 0 });
+            by_numbers.chain(none).chain([&self.closures[..]])
+        };
+        let mut steps: Vec<Vec<f64>> = columns()
+            .map(|column| {
+                let mut step = vec![0.0; unknowns];
+                let vectors = svd.left.iter().zip(&svd.right).zip(&svd.values);
+                for ((u, v), value) in vectors {
+                    add(&mut step, -dot(u, column) / value, v);
+                }
+                step
+            })
+            .collect();
+        let conditions = redundant.iter();
+        let conditions = conditions.map(|u| columns().map(|column| dot(u, column)).collect());
+        let conditions = conditions.collect();
+
+        // what targets become for these steps, a column for each
+        let count = self.targets.len();
+        let left = |step: &[f64], j: usize| -> Vec<f64> {
+            let targets = self.targets.iter();
+            targets
+                .map(|target| target[unknowns + j] + dot(&target[..unknowns], step))
+                .collect()
+        };
+        let mut lefts: Vec<Vec<f64>> = (steps.iter().enumerate())
+            .map(|(j, step)| left(step, j))
+            .collect();
+        if count > 0 && !free.is_empty() {
+            // directions in which the closures leave the configuration free meet targets as far as they can
+            let along = free.iter().flat_map(|v| {
+                let targets = self.targets.iter();
+                targets.map(|target| dot(&target[..unknowns], v))
+            });
+            let along: Vec<f64> = along.collect();
+            let mut svd = Svd::of(count, free.len(), &along);
+            svd.values.truncate(count.min(free.len()));
+            let met = crate::linear::rank(&svd.values);
+            for (step, left) in steps.iter_mut().zip(&mut lefts) {
+                for i in 0..met {
+                    let part = dot(&svd.left[i], left);
+                    add(left, -part, &svd.left[i]);
+                    for (weight, v) in svd.right[i].iter().zip(free) {
+                        add(step, -part / svd.values[i] * weight, v);
+                    }
+                }
+            }
+        }
+        let targets = (0..count).map(|i| lefts.iter().map(|left| left[i]).collect());
+        let targets = targets.collect();
+        (
+            Eliminated(steps),
+            Left {
+                conditions,
+                targets,
+            },
+        )
+    }
+}
