@@ -41,19 +41,19 @@ use std::ops::Range;
 /// Two expressions are equal when they are the same tree, wherever they are in a text.
 #[derive(Debug, Clone)]
 pub struct Expression<N = String> {
-    /// What the expression is.
+    /// The outermost operation, with its operands.
     pub node: Node<N>,
     /// Its place: bytes of the text it was parsed from, or of the file when it is part of a description.
     pub span: Range<usize>,
 }
 
-/// What is wrong with an expression, and where.
+/// An error in an expression, with its place.
 #[derive(Debug, Clone, thiserror::Error, PartialEq)]
 #[error("{kind}")]
 pub struct ExpressionError<K> {
     /// The smallest part that is wrong; empty at the end of a text.
     pub span: Range<usize>,
-    /// What is wrong with it.
+    /// Kind of error.
     pub kind: K,
 }
 
@@ -103,7 +103,7 @@ impl Expression<String> {
         parser::parse(text, false)
     }
 
-    /// The same where names are those of quantities, such as `top.x`, `velocity:l1` or `[left+0.5,0.2].x`.
+    /// Parses an expression whose names are quantities, such as `top.x`, `velocity:l1` or `[left+0.5,0.2].x`.
     pub fn parse_quantity(text: &str) -> Result<Self, ParseError> {
         parser::parse(text, true)
     }
@@ -128,7 +128,7 @@ impl<N> Expression<N> {
         }
     }
 
-    /// Whether the expression is the number 0.
+    /// True for the number 0 alone; an expression that comes to 0 is not evaluated.
     pub fn is_zero(&self) -> bool {
         self.as_number() == Some(0.0)
     }
@@ -173,7 +173,7 @@ impl<N> Expression<N> {
         resolved.filter(|_| errors.is_empty()).ok_or(errors)
     }
 
-    /// The same expression with every span replaced.
+    /// The expression with every span mapped by `place`.
     pub fn relocate(&self, place: &impl Fn(Range<usize>) -> Range<usize>) -> Self
     where
         N: Clone,

@@ -69,10 +69,10 @@ pub const ILL_CONDITIONED: f64 = 1e-12;
 /// The most unknowns that are factorised as one dense matrix: of more, sparse factors are faster.
 pub const DENSE_LIMIT: usize = 30;
 
-/// What rounding leaves of a sum of numbers about 1 that cancel; of dimensionless matrices such entries are zero.
+/// Rounding left by a sum of numbers about 1 that cancel: entries of dimensionless matrices this small are zero.
 pub const CANCELLED: f64 = 1e-14;
 
-/// How many singular values, largest first, count beside the largest; none if the largest is rounding itself.
+/// Number of singular values (largest first) above the rank tolerance; 0 if the largest is itself rounding.
 pub fn rank(singular_values: &[f64]) -> usize {
     let largest = singular_values.first().copied().unwrap_or(0.0);
     singular_values
@@ -81,9 +81,9 @@ pub fn rank(singular_values: &[f64]) -> usize {
         .count()
 }
 
-/// Whether so many equations are independent at a solution near a point where the Jacobian has these singular values,
-/// largest first, and so much of the equations is left: slopes that vanish at a solution are here about the root of
-/// that (Newton and Kantorovich; rows and unknowns are scaled so that curvatures are about 1).
+/// True if the first `equations` rows are surely independent at the solution near a point where the Jacobian has these
+/// singular values, largest first, and the equations the residual `left`: a singular value that vanishes at the
+/// solution is about √`left` here (Newton–Kantorovich; rows and unknowns are scaled so that curvatures are about 1).
 pub fn independent(equations: usize, singular_values: &[f64], left: f64) -> bool {
     const SURE: f64 = 100.0;
     let left = left.max(f64::EPSILON);
@@ -92,7 +92,7 @@ pub fn independent(equations: usize, singular_values: &[f64], left: f64) -> bool
     equations == 0 || (singular_values.get(equations - 1)).is_some_and(|least| sure(*least))
 }
 
-/// What counts as lost beside the largest singular value.
+/// Singular values up to this are zero: the rank tolerance times the largest one, and no less than rounding.
 fn lost(largest: f64) -> f64 {
     (RANK_TOLERANCE * largest).max(CANCELLED)
 }

@@ -45,8 +45,8 @@ pub trait Number:
     + SubAssign
     + MulAssign
 {
-    /// Whether the numbers are real, where roots and angles have one branch; round a complex zero
-    /// branches change places.
+    /// True for real types, where roots and angles have a single branch; over complex numbers the branches are
+    /// exchanged on a way round zero.
     const REAL: bool = true;
 
     /// The constant `x`.
@@ -63,8 +63,7 @@ pub trait Number:
     }
     /// The real part: what comparisons and printed values use.
     fn real(self) -> f64;
-    /// Whether the number is its real part and nothing beside; of an interval, whether it is a constant
-    /// known to rounding.
+    /// True if the number is a real constant: no imaginary part or derivative; an interval no wider than rounding.
     #[inline]
     fn is_real(self) -> bool {
         self == Self::from_f64(self.real())
@@ -91,7 +90,7 @@ pub trait Number:
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
-    /// Whether the real part is less than that of another.
+    /// Compares real parts.
     #[inline]
     fn less(self, other: Self) -> bool {
         self.real() < other.real()
@@ -134,7 +133,7 @@ pub trait Number:
     fn powf(self, exponent: Self) -> Self {
         (self.ln() * exponent).exp()
     }
-    /// Whether no part of the number is infinite or NaN.
+    /// True if no part of the number is infinite or NaN.
     fn is_finite(self) -> bool;
     /// Zero.
     #[inline]

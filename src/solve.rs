@@ -56,7 +56,7 @@ pub trait Equations {
     fn advance(&self, from: &Self::Point, fraction: f64, work: &Self::Work, to: &mut Self::Point);
 }
 
-/// How large a residual is.
+/// Size of a residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
     /// The largest absolute value of a row.

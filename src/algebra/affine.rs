@@ -9,7 +9,7 @@ use super::{Expression, Node, Operator};
 /// An affine expression, decomposed: `constant + Σ coefficient·variable`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Affine<N> {
-    /// What is left when every variable is zero.
+    /// The part without variables.
     pub constant: Expression<N>,
     /// Each variable once, in the order of first appearance, with a coefficient that is not the number 0.
     pub terms: Vec<(N, Expression<N>)>,
@@ -80,7 +80,7 @@ impl<N> From<Expression<N>> for Affine<N> {
 }
 
 impl<N: Clone + PartialEq> Affine<N> {
-    /// Whether no variable is left.
+    /// True if the coefficient of every variable is the number 0.
     pub fn is_constant(&self) -> bool {
         self.terms.iter().all(|(_, factor)| factor.is_zero())
     }

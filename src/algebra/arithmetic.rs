@@ -2,7 +2,7 @@
 
 use super::{Expression, Node, Operator};
 
-/// Multiples of different things: what a sum consists of.
+/// A sum as multiples of different terms.
 struct Sum<N> {
     terms: Vec<(f64, Expression<N>)>,
     constant: f64,

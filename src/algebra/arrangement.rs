@@ -26,7 +26,7 @@ const MOST_PRODUCTS: usize = 20_000;
 pub struct Arranged {
     /// One for each formula.
     pub expressions: Vec<Expression>,
-    /// Whether product forms were tried for all of them.
+    /// True if product forms were tried for all formulas, false if one was too long.
     pub complete: bool,
 }
 

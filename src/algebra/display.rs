@@ -20,7 +20,7 @@ enum Tightness {
 }
 
 impl Operator {
-    /// How it is written.
+    /// The operator as it is written.
     pub fn symbol(self) -> char {
         match self {
             Self::Add => '+',

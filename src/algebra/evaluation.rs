@@ -5,10 +5,10 @@ use thiserror::Error;
 use super::{Expression, ExpressionError, Function, Node, Operator};
 use crate::number::Number;
 
-/// Why an expression has no value, and which part of it is the cause.
+/// The error of an expression without a value, with the part that causes it.
 pub type EvaluationError = ExpressionError<EvaluationErrorKind>;
 
-/// Why a part of an expression has no value. The numbers are the real parts of the arguments.
+/// Reasons for which a part of an expression has no value, with the real parts of the arguments.
 #[derive(Debug, Clone, Copy, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum EvaluationErrorKind {

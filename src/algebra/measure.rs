@@ -24,7 +24,7 @@ pub enum Measure {
 /// A unit that does not fit, and which part of an expression has it.
 pub type MeasureError = ExpressionError<MeasureErrorKind>;
 
-/// Why a unit does not fit.
+/// Reasons for which a unit does not fit.
 #[derive(Debug, Clone, Copy, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum MeasureErrorKind {
@@ -38,10 +38,10 @@ pub enum MeasureErrorKind {
     Argument(Function, SiUnit),
     #[error("`{}` takes an angle, not a length", _0.word())]
     LengthAsAngle(Function),
-    /// A number in rad that is more than two turns, and nothing says that rad is meant.
+    /// A number without unit, in rad, that is more than two turns.
     #[error("{_0} without a unit is in rad, which is {:.1} turns", (_0 / std::f64::consts::TAU).abs())]
     BareAngle(f64),
-    /// The same of the rate of an angle, in rad/s.
+    /// A number without unit, in rad/s, given as the rate of an angle and more than two turns a second.
     #[error("{_0} without a unit is in rad/s, which is {:.1} turns per second", (_0 / std::f64::consts::TAU).abs())]
     BareRate(f64),
 }
@@ -69,7 +69,7 @@ impl Measure {
         }
     }
 
-    /// What it is called: `an angle`.
+    /// The dimension with its article: `an angle`.
     pub fn words(self) -> &'static str {
         match self {
             Measure::Number | Measure::Open => "a number",
@@ -173,7 +173,7 @@ impl<N> Expression<N> {
         }
     }
 
-    /// Refuses a number without a unit as an angle of more than two turns; `says` is whether the definition of a name
+    /// Refuses a number without a unit as an angle of more than two turns. `says` is true for names whose definition
     /// contains a unit or `pi`.
     ///
     /// # Errors
@@ -187,7 +187,8 @@ impl<N> Expression<N> {
         }
     }
 
-    /// Whether it contains no unit, no `pi` and no inverse function that would make its unit clear as an angle.
+    /// True if no unit, no `pi`, no name that `says` and no inverse trigonometric function shows that the number is an
+    /// angle in rad.
     pub fn is_bare(&self, says: &impl Fn(&N) -> bool) -> bool {
         match &self.node {
             Node::Number(_) => true,

@@ -7,17 +7,17 @@ use thiserror::Error;
 use super::vocabulary::{continues_name, starts_name};
 use super::{Constant, Expression, ExpressionError, Function, Node, Operator, Unit};
 
-/// How deeply parentheses, calls, signs and powers may be nested.
+/// The deepest nesting of parentheses, calls, signs and powers.
 pub const MAX_NESTING: usize = 64;
 
 /// The largest height of the tree; a sum of n terms has height n. All functions on trees recurse, so this bounds the
 /// stack.
 pub const MAX_HEIGHT: usize = 500;
 
-/// Why a text is not an expression, and where.
+/// The error of a text that is not an expression, with its place.
 pub type ParseError = ExpressionError<ParseErrorKind>;
 
-/// What is wrong with the text of an expression.
+/// Errors in the text of an expression.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ParseErrorKind {
@@ -78,7 +78,7 @@ impl ParseErrorKind {
     }
 }
 
-/// Reads an expression; `dotted` says whether names are those of quantities, which contain dots, kinds and brackets.
+/// Reads an expression; with `dotted`, names are those of quantities, which contain dots, kinds and brackets.
 pub(super) fn parse(text: &str, dotted: bool) -> Result<Expression, ParseError> {
     let mut parser = Parser {
         text,
@@ -226,7 +226,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What is wrong with something that follows a complete operand and is no operator.
+    /// The error of text that follows a complete operand and is no operator.
     fn leftover(&self) -> ParseError {
         let kind = match self.peek() {
             Some(')') => ParseErrorKind::UnopenedParenthesis,

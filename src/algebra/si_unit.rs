@@ -12,7 +12,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SiUnit([i8; 4]);
 
-/// What the powers are those of.
+/// Base units, in the order of the powers.
 const BASE: [&str; 4] = ["rad", "N", "m", "s"];
 
 /// Digits of powers; a first power is not written.
@@ -55,7 +55,7 @@ impl SiUnit {
         }
     }
 
-    /// Whether it is the unit of an angle.
+    /// True for rad.
     pub fn is_angle(self) -> bool {
         self == Self::RADIAN
     }
@@ -79,7 +79,7 @@ impl SiUnit {
         even.then(|| SiUnit(self.0.map(|power| power / 2)))
     }
 
-    /// The same without angles, which are ratios of lengths: an angular velocity times an arm is in m/s.
+    /// The unit without its powers of rad, as angles are ratios of lengths: an angular velocity times an arm is in m/s.
     pub fn without_angle(self) -> Self {
         let [_, n, m, s] = self.0;
         SiUnit([0, n, m, s])

@@ -25,7 +25,8 @@ pub type Place = u32;
 
 type Key = (std::mem::Discriminant<Operation>, u64, u64);
 
-/// What was taken for true of all inputs because it is at the sample: that a number is negative, or that it is not.
+/// A comparison with zero that was decided by its value at the sample: the number, and true if it is negative there.
+/// The program holds only for inputs at which it comes out as there.
 pub type Decision = (Place, bool);
 
 /// The value of an operation, as long as the list it was written into is open.
@@ -178,7 +179,7 @@ impl List {
         }
     }
 
-    /// What is left of a sum without one of its terms: (x + y) + z − x = y + z.
+    /// A sum less one of its terms, without a subtraction: (x + y) + z − x = y + z.
     fn without(&mut self, sum: Recorded, term: Recorded, depth: usize) -> Option<Recorded> {
         /// Sums within sums that are looked through.
         const DEEPEST: usize = 12;

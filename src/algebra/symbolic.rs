@@ -19,7 +19,7 @@ use crate::number::{Number, functions, operators};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Symbolic {
     place: u32,
-    /// Which arena it belongs to.
+    /// Number of the arena it was made in.
     arena: u32,
 }
 

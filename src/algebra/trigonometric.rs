@@ -39,7 +39,8 @@ pub struct Trigonometric {
     terms: BTreeMap<Key, BigRational>,
 }
 
-/// How much work is left: products of two terms. Counted, not timed, so that the same question stops at the same place.
+/// Work that may still be done, in products of two terms: counted, not timed, so that the same question stops at the
+/// same place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
     /// Products of two terms that may still be made.
@@ -102,12 +103,12 @@ impl Trigonometric {
         self.terms.get(key)
     }
 
-    /// How many terms there are.
+    /// Number of terms.
     pub fn len(&self) -> usize {
         self.terms.len()
     }
 
-    /// Whether there are no terms.
+    /// True for zero: there are no terms.
     pub fn is_empty(&self) -> bool {
         self.terms.is_empty()
     }
@@ -121,8 +122,8 @@ impl Trigonometric {
         }
     }
 
-    /// Whether it contains what may depend on the rest of it: inverses, roots, inverse functions, and constant angles
-    /// that are no multiples of 15°.
+    /// True if parts may depend on one another: inverses, roots, inverse functions, and constant angles that are no
+    /// multiples of 15°.
     pub fn is_opaque(&self) -> bool {
         self.terms.keys().any(Key::is_opaque)
     }
@@ -352,7 +353,7 @@ impl Trigonometric {
         Trigonometric::atom(Atom::Root(Arc::new(self.clone())))
     }
 
-    /// Whether it is zero for all values of its letters at which its denominators are not.
+    /// True if it is zero for all values of its letters at which its denominators are not.
     ///
     /// `None` if undecided: not zero in this form, but it [may be](Self::is_opaque), or it is too long.
     pub fn vanishes(&self, budget: &mut Budget) -> Option<bool> {

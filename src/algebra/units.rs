@@ -4,7 +4,7 @@ use super::{
     Constant, Expression, Function, MeasureError, MeasureErrorKind, Node, Operator, SiUnit,
 };
 
-/// What is known of the unit of a part of an expression.
+/// Unit of a part of an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Known {
     /// A number as it is written: it may have any unit in a sum, and has none in a product.

@@ -16,7 +16,7 @@ macro_rules! words {
                 /// All of them.
                 pub const ALL: [Self; [$($word),+].len()] = [$(Self::$name),+];
 
-                /// How it is written.
+                /// The word as it is written in files and reports.
                 pub fn word(self) -> &'static str {
                     match self {
                         $(Self::$name => $word,)+
@@ -129,12 +129,12 @@ impl Unit {
 }
 
 impl Function {
-    /// Whether its argument is an angle.
+    /// True if the argument is an angle.
     pub fn takes_angle(self) -> bool {
         matches!(self, Self::Sin | Self::Cos | Self::Tan)
     }
 
-    /// How many arguments it takes.
+    /// Number of arguments.
     pub fn arity(self) -> usize {
         match self {
             Self::Atan2 | Self::Hypot | Self::Min | Self::Max => 2,
@@ -143,12 +143,12 @@ impl Function {
     }
 }
 
-/// Whether `text` can be used as a name in an expression (it may still be reserved).
+/// True if `text` has the form of a name (it may still be reserved).
 pub fn is_name(text: &str) -> bool {
     text.starts_with(starts_name) && text.chars().all(continues_name)
 }
 
-/// Whether `text` already means something in every expression: `pi`, `deg`, `rad` or a function.
+/// True for the words with a meaning in every expression: `pi`, `deg`, `rad` and the functions.
 pub fn is_reserved(text: &str) -> bool {
     Constant::from_word(text).is_some() || Function::from_word(text).is_some()
 }

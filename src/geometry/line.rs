@@ -30,12 +30,12 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// Whether the directions are equal or opposite, so that the position of the common normal along the lines is free.
+    /// True if the directions are equal or opposite; the common normal may then lie anywhere along the lines.
     pub fn is_parallel(self) -> bool {
         !matches!(self, Relation::Skew | Relation::Intersecting)
     }
 
-    /// Whether the lines meet, so that the common normal has no length.
+    /// True if the lines meet, so that the common normal has length zero.
     pub fn meets(self) -> bool {
         !matches!(
             self,

@@ -93,7 +93,8 @@ impl<T: Number> Quaternion<T> {
         (Quaternion(along.map(|x| x * factor)), square)
     }
 
-    /// The same rotation with a scalar part that is not negative, so that it prints one way only.
+    /// The rotation's quaternion with the sign that makes its first component other than zero positive, so that it
+    /// prints one way only.
     pub fn canonical(&self) -> Self {
         let first = self.0.iter().map(|x| x.real()).find(|&x| x != 0.0);
         match first {
@@ -158,7 +159,7 @@ impl<T: Number> RollPitchYaw<T> {
         }
     }
 
-    /// Whether the pitch is ±90° but for rounding, where roll and yaw turn about the same line.
+    /// True at gimbal lock: the pitch is ±90° to rounding, and roll and yaw turn about one line.
     pub fn is_locked(rotation: &Rotation<T>) -> bool {
         let n = rotation.0[0].0;
         real::hypot(n[0].real(), n[1].real()) < 1e-6

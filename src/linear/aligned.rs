@@ -2,7 +2,7 @@
 
 use super::{norm, orthonormal, remove};
 
-/// What counts as zero in a direction.
+/// Components of unit vectors below this are zero.
 const ALIGNED: f64 = 1e-6;
 
 /// A basis of a space: the unit vectors in it, and the rest in echelon form.

@@ -47,7 +47,7 @@ pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
     fn factorise(&mut self, blocks: &[Filled<T>], extra: &[T], damping: f64);
     /// The step −J⁺r for the blocks last factorised.
     fn step(&self, blocks: &[Filled<T>], r: &[T], x: &mut [T]);
-    /// How many unknowns the last factorisation left undetermined.
+    /// Number of unknowns that the last factorisation left undetermined.
     fn nullity(&self) -> usize;
 }
 

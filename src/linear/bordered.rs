@@ -17,7 +17,7 @@ pub struct Bordered<T: Factorable> {
     shared: Vec<usize>,
     border: Qr<T>,
     square_border: Lu<T>,
-    /// Whether the square factors of the border are the ones to use.
+    /// True while the border is solved by its square (LU) factors, false for the orthogonal ones.
     square: bool,
     border_rhs: Vec<T>,
     border_x: Vec<T>,
@@ -26,7 +26,7 @@ pub struct Bordered<T: Factorable> {
     inverse: Vec<[T; GROUP]>,
     /// Zeros, of which one becomes 1 for a while.
     unit: Vec<T>,
-    /// How often the factors have served.
+    /// Number of solutions by these factors.
     served: usize,
 }
 
@@ -303,7 +303,7 @@ impl<T: Factorable> Bordered<T> {
         }
     }
 
-    /// How many unknowns the last factorisation left undetermined.
+    /// Number of unknowns that the last factorisation left undetermined.
     pub fn nullity(&self) -> usize {
         if let Some(sparse) = &self.sparse {
             return sparse.nullity();

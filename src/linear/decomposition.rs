@@ -3,7 +3,8 @@ use std::sync::{Arc, OnceLock};
 use super::vectors::orthogonalise;
 use super::{Elimination, Rows, Svd, add, complement, dot, norm, product, rank};
 
-/// The singular value decomposition of a dense matrix, cut at the rank tolerance, or what is known of a large one's.
+/// Singular value decomposition of a dense matrix, cut at the rank tolerance; of a large matrix rank, null space and
+/// extreme singular values by elimination.
 ///
 /// Source: Golub and Van Loan, §2.4 and §5.5.
 #[derive(Clone, Debug)]
@@ -64,7 +65,7 @@ impl Decomposition {
         }
     }
 
-    /// The same, cut at a rank that is known: what lies beyond it is treated as zero, however large.
+    /// Decomposition cut at a known rank: singular values beyond it are treated as zero, however large.
     pub fn of_rank(rows: usize, columns: usize, entries: &[f64], rank: usize) -> Self {
         Decomposition::cut(rows, columns, entries, |values| rank.min(values.len()))
     }
@@ -102,7 +103,7 @@ impl Decomposition {
         self.rank
     }
 
-    /// The same of the whole matrix, where it was cut at a rank that was known.
+    /// Rank by the tolerance, also where the decomposition was cut at a known rank.
     pub fn whole_rank(&self) -> usize {
         match &self.found {
             Found::Spectrum(spectrum) => rank(&spectrum.values),

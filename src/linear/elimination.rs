@@ -7,7 +7,7 @@ use super::{add, dot, lost, norm, orthonormal};
 use crate::number::real;
 use fronts::Fronts;
 
-/// How often solutions by normal equations are corrected.
+/// Refinements of a solution by normal equations.
 const CORRECTIONS: usize = 2;
 
 /// R of an orthogonal factorisation A = Q·R that goes from one group of rows to the next.
@@ -276,7 +276,7 @@ impl Step {
         }
     }
 
-    /// The same for these columns of Rᵀ y = x, taken from the other unknowns of x.
+    /// Solves these rows of Rᵀ y = x and subtracts their columns times y from the other unknowns of x.
     fn forward_substitute(&self, x: &mut [f64]) {
         let mut y = vec![0.0; self.rank];
         for k in 0..self.rank {

@@ -1,6 +1,6 @@
-//! Which of many things are connected with one another, as some of them are joined (Galler and Fischer 1964).
+//! Union–find: connected components of a graph whose edges come one at a time (Galler and Fischer 1964).
 
-/// The first of all that are connected with one.
+/// Root of the set that contains `of`.
 pub(crate) fn root(roots: &mut [usize], mut of: usize) -> usize {
     while roots[of] != of {
         roots[of] = roots[roots[of]];
@@ -9,7 +9,7 @@ pub(crate) fn root(roots: &mut [usize], mut of: usize) -> usize {
     of
 }
 
-/// Connects two and all that is connected with them.
+/// Unites the sets of two elements.
 pub(crate) fn join(roots: &mut [usize], a: usize, b: usize) {
     let (a, b) = (root(roots, a), root(roots, b));
     roots[a.max(b)] = a.min(b);

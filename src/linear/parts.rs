@@ -1,8 +1,8 @@
-//! Vectors that share no coordinate with others: what is worked out of them is worked out apart.
+//! Splits vectors into groups without a common coordinate, which are worked on separately.
 
 use super::joined::{join, root};
 
-/// Coordinates in parts: those that vectors join.
+/// Connected components of coordinates: two are connected where one vector has both.
 pub(super) struct Parts {
     /// The part of each coordinate.
     of: Vec<usize>,

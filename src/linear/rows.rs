@@ -8,7 +8,7 @@ use super::{add, dot, norm};
 /// Rows that touch the same unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
-    /// How many.
+    /// Number of rows.
     pub count: usize,
     /// The unknowns, in the order of the columns.
     pub unknowns: Vec<usize>,
@@ -96,7 +96,7 @@ impl Rows {
         v[0] = diagonal;
     }
 
-    /// What is left behind the first rows and unknowns.
+    /// The lower right block: all but the first rows and unknowns.
     pub(super) fn without(self, rows: usize, unknowns: usize) -> Rows {
         let count = self.count - rows;
         let left = self

@@ -22,7 +22,7 @@ pub struct SparseNormal<T> {
     values: Vec<T>,
     extra: Vec<T>,
     damping: f64,
-    /// Whether the factors are those of more than was asked for.
+    /// True if the diagonal was raised because JᴴJ + λ was singular to rounding.
     raised: bool,
 }
 
@@ -93,7 +93,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         }
     }
 
-    /// Whether there are some.
+    /// 1 if the diagonal had to be raised, 0 otherwise: a lower bound.
     fn nullity(&self) -> usize {
         usize::from(self.raised)
     }

@@ -116,7 +116,7 @@ pub fn without(mut vectors: Vec<Vec<f64>>, mut weights: Vec<Vec<f64>>) -> Vec<Ve
     vectors
 }
 
-/// What is left of a vector without its components along orthonormal ones.
+/// Subtracts from a vector its components along orthonormal vectors.
 pub fn remove(vector: &mut [f64], basis: &[Vec<f64>]) {
     for direction in basis {
         let along = dot(vector, direction);

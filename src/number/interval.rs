@@ -55,7 +55,7 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
-    /// Whether a real is inside.
+    /// True if x lies in the interval, ends included.
     #[inline]
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
@@ -85,7 +85,7 @@ impl Interval {
         rounded(low, values.fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// Whether some (k + `phase`)·π with whole k of the wanted parity may be inside.
+    /// True if the interval may contain (k + `phase`)·π for an integer k, odd or even as asked.
     #[inline]
     fn meets(self, phase: f64, odd: bool) -> bool {
         let margin = 1e-12 * (1.0 + self.magnitude());

@@ -29,7 +29,7 @@ impl Taylor {
         model
     }
 
-    /// How far it may be from its constant term.
+    /// Bound of the distance from the constant term.
     fn reach(&self) -> f64 {
         self.terms[1..].iter().map(|term| term.abs()).sum::<f64>() + self.rest
     }
@@ -49,7 +49,7 @@ impl Taylor {
         [highest(-1.0), highest(1.0)]
     }
 
-    /// Where in its range the parabola of its first terms is highest, times a sense.
+    /// Argument t in [−1, 1] at which the parabola of the first three terms, times `sense`, is highest.
     pub fn top(&self, sense: f64) -> f64 {
         let [_, b, c, ..] = self.terms.map(|term| sense * term);
         match b.abs() < -2.0 * c {
@@ -58,7 +58,7 @@ impl Taylor {
         }
     }
 
-    /// How far it may be from a straight line.
+    /// Bound of the distance from the tangent line at t = 0.
     pub fn bend(&self) -> f64 {
         self.reach() - self.terms[1].abs()
     }
@@ -265,7 +265,7 @@ impl Number for Taylor {
             false => Self::within(angle - PI, angle + PI),
         }
     }
-    /// Where it is not decided all that both can be.
+    /// Hull of both branches where the comparison is not decided.
     fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
         let [low, high] = (self - other).range();
         if high < 0.0 {

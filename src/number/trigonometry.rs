@@ -59,7 +59,7 @@ pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
     (x * series, cosh)
 }
 
-/// The same for each of several angles, by vector instructions where there are some.
+/// (sin, cos) of each angle, as [`sin_cos`], by vector instructions where the processor has them.
 #[inline(always)]
 pub(crate) fn sin_cos_of_each<const N: usize>(x: [f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sin, mut cos) = (x, x);
@@ -88,7 +88,7 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     }
 }
 
-/// The same for each of several points, by vector instructions where there are some.
+/// Angle of each point, as [`atan2`], by vector instructions where the processor has them.
 #[inline(always)]
 pub(crate) fn atan2_of_each<const N: usize>(y: [f64; N], x: [f64; N]) -> [f64; N] {
     let mut angles = y;
@@ -105,7 +105,7 @@ pub(crate) fn atan2_of_each<const N: usize>(y: [f64; N], x: [f64; N]) -> [f64; N
     angles
 }
 
-/// Whether a point is neither the origin nor as far out as numbers go, nor NaN.
+/// True if a point is finite, does not overflow and is not the origin.
 #[inline(always)]
 fn ordinary(y: f64, x: f64) -> bool {
     let size = y.abs() + x.abs();

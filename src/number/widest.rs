@@ -3,7 +3,8 @@
 /// Defines a function that runs another one in the widest vector registers of the processor, chosen at run time. The bits
 /// are the same in all of them: no instruction is used that rounds once where two round twice.
 ///
-/// What is run, and what it calls, must be `#[inline(always)]`, or it is compiled for the narrowest registers.
+/// The function run, and all it calls, must be `#[inline(always)]`; otherwise it is compiled for the narrowest
+/// registers.
 macro_rules! widest {
     ($(#[$doc:meta])* $visible:vis fn $name:ident($($argument:ident: $type:ty),*) runs $inlined:path) => {
         $(#[$doc])*

@@ -19,7 +19,7 @@ pub trait Conditions: Sync {
     fn work(&self) -> Self::Work;
     /// Evaluates the rows over a box, and their derivatives.
     fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut Self::Work);
-    /// Whether what is no row allows a solution in the box.
+    /// True if the conditions that are no rows allow a solution in the box.
     fn possible(&self, work: &Self::Work) -> bool;
     /// The values of the rows.
     fn values<'a>(&self, work: &'a Self::Work) -> &'a [Interval];
@@ -48,7 +48,7 @@ impl Default for Pruning {
 /// A box.
 pub type Sides = Vec<Interval>;
 
-/// What became of a box.
+/// Result of branch and prune.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pruned {
     /// Boxes looked at.
@@ -84,7 +84,8 @@ pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> 
     None
 }
 
-/// Whether a box holds exactly one zero of the preconditioned rows, for each value of constants that are intervals.
+/// True if a box is proved to hold exactly one zero of the preconditioned rows, for each value of constants that are
+/// intervals.
 pub fn holds_one<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) -> bool {
     // without unknowns there is nothing to choose
     contracted(conditions, sides, work).is_some_and(|step| step.one || sides.is_empty())
@@ -233,7 +234,7 @@ fn piece<C: Conditions>(
     done
 }
 
-/// Whether a box, moved by whole periods, lies in another.
+/// True if a box, moved by whole periods, lies in another.
 fn lies_in(sides: &Sides, region: &Sides, periods: &[Option<Interval>]) -> bool {
     sides
         .iter()
@@ -253,9 +254,9 @@ fn lies_in(sides: &Sides, region: &Sides, periods: &[Option<Interval>]) -> bool 
 
 struct Step {
     sides: Sides,
-    /// Whether there is one zero at most in the box before.
+    /// True if the box before holds at most one zero.
     unique: bool,
-    /// Whether there is exactly one zero of the preconditioned rows in it.
+    /// True if the new box holds exactly one zero of the preconditioned rows.
     one: bool,
     /// The side that matters most.
     longest: usize,

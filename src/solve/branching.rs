@@ -11,11 +11,11 @@ use crate::number::{real, sorting::sort_by};
 pub struct BranchPoint<P> {
     /// The point.
     pub at: P,
-    /// How many infinitesimal freedoms there are: 2 or more.
+    /// Dimension of the null space of the Jacobian: 2 or more.
     pub freedoms: usize,
     /// Unit tangents of the branches that pass, each once; none if no branch could be distinguished.
     pub directions: Vec<Vec<f64>>,
-    /// Whether nothing passes: no direction leads on to second order, and no other solution is near.
+    /// True for an isolated point: no direction leads on to second order, and no other solution is near.
     pub isolated: bool,
 }
 
@@ -34,7 +34,7 @@ impl<P> BranchPoint<P> {
     }
 }
 
-/// Beside a crossing a branch still points the way it passes it: the cosine of the angle.
+/// Least cosine of the angle between the tangents of one branch on the two sides of a crossing.
 pub const ALIGNED: f64 = 0.98;
 
 /// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
@@ -190,7 +190,7 @@ impl<P: Clone> BranchPoint<P> {
     }
 }
 
-/// How many directions the Jacobian maps to nearly nothing.
+/// Number of singular values near zero, those of missing rows counted.
 fn freedoms<C: SolutionCurve>(curve: &mut C, at: &C::Point) -> usize {
     let unknowns = curve.unknowns();
     let (residual, jacobian) = curve.linearise(at);

@@ -13,7 +13,7 @@
 //! [`BranchPoint`](super::BranchPoint).
 //!
 //! **Large Jacobians** must meet the second condition group of rows by group, each with the inverse of its own rows.
-//! Where these leave a group the freedom along the tangent alone, its own unknowns change no branch, and so nothing
+//! A group that these leave only the freedom along the tangent changes no branch by its own unknowns, and so nothing
 //! does; the norm of the whole would grow with the number of loops in a row.
 
 mod place;
@@ -43,7 +43,7 @@ pub trait SolutionCurve {
     fn difference(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
 }
 
-/// Why there is no regular place.
+/// Reasons for which no regular place is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepFailure {
     /// Newton's method does not lead to the curve.
@@ -54,7 +54,7 @@ pub enum StepFailure {
     TooShort,
 }
 
-/// How carefully a curve is followed.
+/// Tolerances and step lengths of a continuation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Continuation {
     /// A point is on the curve when no row exceeds this.
@@ -63,7 +63,7 @@ pub struct Continuation {
     pub longest: f64,
     /// Steps shorter than this are not tried.
     pub shortest: f64,
-    /// How much the Jacobian may change along a step, beside itself: below 1.
+    /// Largest ‖J⁺(J₁ − J₀)‖ along a step: below 1.
     pub change: f64,
 }
 
@@ -92,7 +92,7 @@ impl Continuation {
         self.settle_after(curve, at, f64::INFINITY)
     }
 
-    /// The same after a step of the size `before`.
+    /// As [`Continuation::settle`], after a step of size `before`.
     fn settle_after<C: SolutionCurve>(
         &self,
         curve: &mut C,
@@ -334,7 +334,7 @@ impl Continuation {
     }
 }
 
-/// How much the Jacobian changes between two places, beside itself: ‖J⁺(J₁ − J₀)‖.
+/// Relative change of the Jacobian between two places, ‖J⁺(J₁ − J₀)‖; of a large one, the largest of any group of rows.
 pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
     if let (Some(before), Some(after)) = (from.decomposition.groups(), to.decomposition.groups()) {
         let mut changes = before.iter().zip(after).map(|(a, b)| group_change(a, b));
@@ -354,7 +354,7 @@ pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// The same for a group of rows with its own inverse; `None` if it leaves more freedoms than one.
+/// Relative change of a group of rows, by its own inverse; `None` if it leaves more freedoms than one.
 fn group_change(before: &Rows, after: &Rows) -> Option<f64> {
     if before == after {
         return Some(0.0);

@@ -39,13 +39,13 @@ impl Split {
         })
     }
 
-    /// What is off the range.
+    /// The part perpendicular to the range.
     fn off(&self, b: DMatrix<f64>) -> DMatrix<f64> {
         let seen = self.range.transpose() * &b;
         b - &self.range * seen
     }
 
-    /// How the slopes along the null vectors change along one of them.
+    /// Derivatives of the slopes along the null vectors, in the direction of one of them, by differences.
     fn bent(
         &self,
         null: usize,
@@ -111,7 +111,7 @@ pub fn step_off_saddle(
     lost: f64,
     mut linearised: impl FnMut(&[f64]) -> (Vec<f64>, Vec<f64>),
 ) -> Option<Vec<f64>> {
-    /// What differences leave of a curvature, beside slopes near 1.
+    /// Error of a curvature by differences, relative to slopes near 1.
     const ROUNDED: f64 = 1e-6;
     let split = Split::of(columns, lost, linearised(&vec![0.0; columns]))?;
     let left = DMatrix::from_column_slice(split.residual.len(), 1, split.residual.as_slice());

@@ -1,4 +1,4 @@
-//! Where a path ends at a singularity or at infinity.
+//! Endgame: the limit of a path as s → 1, at a singularity or at infinity.
 //!
 //! Near s = 1 a solution is a series in (1 − s)^{1/w}. Going w times round s = 1 on a circle closes it; the mean over
 //! the circle is the value at the centre (Morgan, Sommese and Wampler 1991, the Cauchy endgame). Negative powers, or
@@ -15,18 +15,18 @@ type C = Complex<f64>;
 pub trait Turning: Homotopy {
     /// The largest difference of two points, angles modulo a turn, and whether turns were dropped.
     fn apart(&self, x: &[C], y: &[C]) -> (f64, bool);
-    /// Whether a point is so far out that it counts as infinite.
+    /// True if a point is so far out that it counts as infinite.
     fn is_far(&self, x: &[C]) -> bool;
 }
 
-/// Where a solution goes as s → 1.
+/// Limit of a solution as s → 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathEnd {
     /// To a finite point, shared by `winding` solutions that exchange places round it.
     Finite {
         /// The point.
         x: Vec<C>,
-        /// How often s must go round until the solution returns.
+        /// Winding number: turns of s until the solution returns.
         winding: usize,
     },
     /// Out of all bounds.
@@ -119,7 +119,7 @@ fn place(radius: f64, part: usize) -> C {
     C::new(1.0 - radius * real::cos(phi), -radius * real::sin(phi))
 }
 
-/// Whether an angle, k/w times i ln(1 − s) and terms that vanish with 1 − s, goes to infinity: its
+/// True if an angle goes to infinity as k/w times i ln(1 − s), beside terms that vanish with 1 − s: its
 /// mean moves by just that from circle to circle.
 fn grows_as_logarithm(gap: &[C], winding: usize) -> bool {
     let most = gap.iter().map(|z| z.im.abs()).fold(0.0, f64::max);

@@ -26,7 +26,7 @@ pub trait Homotopy {
     }
 }
 
-/// How carefully to follow.
+/// Settings of a path tracker.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracker {
     /// The correction to aim at after a prediction. Smaller is safer and slower: a tenth costs 1.6 times the steps.
@@ -57,7 +57,7 @@ impl Default for Tracker {
 }
 
 impl Tracker {
-    /// The same with corrections smaller by a factor, and room for the steps that takes.
+    /// Settings with corrections smaller by a factor, and room for the steps that takes.
     pub fn tightened(&self, factor: f64) -> Self {
         Tracker {
             correction: self.correction * factor,
@@ -70,7 +70,7 @@ impl Tracker {
     }
 }
 
-/// How following ended.
+/// End of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
     /// At the end of the way.
@@ -81,10 +81,10 @@ pub enum Arrival {
     Diverged(f64),
 }
 
-/// How following ended, and what it cost.
+/// End of a path, and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Track {
-    /// How it ended.
+    /// End of the path.
     pub arrival: Arrival,
     /// Steps accepted.
     pub steps: usize,

@@ -28,7 +28,7 @@ impl Default for Newton {
     }
 }
 
-/// Why the iteration stopped.
+/// Reason for which the iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The residual is below the tolerance.
@@ -39,10 +39,10 @@ pub enum Stop {
     StepLimit,
 }
 
-/// Where and why the iteration stopped.
+/// Outcome of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
-    /// Why it stopped.
+    /// Reason for which it stopped.
     pub stop: Stop,
     /// Accepted steps.
     pub steps: usize,

@@ -67,7 +67,7 @@ impl Section {
     }
 }
 
-/// Where the slope vanishes near a place, with the height, if that is not lower.
+/// Zero of the slope near a place, with the height there, if that is not lower.
 fn stationary(
     rough: (f64, f64),
     way: f64,

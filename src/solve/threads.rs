@@ -67,7 +67,7 @@ impl<S: Clone + Send + Sync> Pool<S> {
         }
     }
 
-    /// The same as [`each`] with storage of the pool.
+    /// As [`each`], with storage of the pool.
     pub fn each<R: Send>(&self, count: usize, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R> {
         each(count, &(), |(), i| {
             let spare = self.spare().pop();

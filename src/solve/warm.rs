@@ -21,14 +21,14 @@ impl Default for Warm {
     }
 }
 
-/// What a warm solve came to.
+/// Outcome of a warm solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WarmReport {
-    /// Whether the residual at the point returned is below the tolerance.
+    /// True if the residual at the point returned is below the tolerance.
     pub solved: bool,
     /// Steps taken.
     pub steps: usize,
-    /// How often the Jacobian was evaluated and factorised.
+    /// Number of evaluations and factorisations of the Jacobian.
     pub renewals: usize,
     /// The largest residual row at the last point tried, dimensionless.
     pub residual: f64,
@@ -57,7 +57,7 @@ pub struct Trail<P> {
     next: P,
     spare: P,
     moved: Vec<f64>,
-    /// What is left from the latest point to the solution, to first order.
+    /// The step from the latest point to the solution, to first order.
     rest: Vec<f64>,
     differences: Vec<[f64; ORDERS]>,
     order: usize,

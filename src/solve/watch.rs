@@ -1,9 +1,9 @@
-//! Watching long work, and stopping it.
+//! Progress and cancellation of long work.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What long work is doing.
+/// Stage of a long computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stage {
@@ -51,14 +51,14 @@ pub enum Stage {
     Rows,
 }
 
-/// How far long work has come.
+/// Progress of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// What is being done.
+    /// The stage.
     pub stage: Stage,
-    /// How much of it is done.
+    /// Units of work done.
     pub done: usize,
-    /// How much there is to do, if that is known.
+    /// Units of work in all, if that is known.
     pub of: Option<usize>,
 }
 
@@ -70,7 +70,7 @@ impl Progress {
     }
 }
 
-/// What is called with the progress of long work, from any of its threads, and answers whether to go on.
+/// Callback with the progress of long work, from any of its threads; `Break` stops the work.
 pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
 
 /// Shows how far long work is, and stops it.
@@ -114,7 +114,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Passes on how far the work is, unless it was stopped before; whether it goes on.
+    /// Reports progress, unless the work was stopped before; `Break` if it is to stop.
     #[inline]
     pub fn at(&self, now: Progress) -> ControlFlow<()> {
         let Some(observer) = self.observer else {
@@ -130,13 +130,13 @@ impl<'a> Watch<'a> {
         flow
     }
 
-    /// Whether the work is to stop, with its amount, or `None` if that is unknown.
+    /// Reports progress and returns true if the work is to stop; `of` is the amount, `None` if unknown.
     #[inline]
     pub fn stops(&self, stage: Stage, done: usize, of: Option<usize>) -> bool {
         self.at(Progress { stage, done, of }).is_break()
     }
 
-    /// Whether the work was stopped.
+    /// True once an observer has stopped the work.
     #[inline]
     pub fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)

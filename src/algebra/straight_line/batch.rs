@@ -76,7 +76,7 @@ impl Batch {
         }
     }
 
-    /// What the first inputs alone determine of all that is needed for some places: what the first section computes best.
+    /// Results needed for `places` that follow from the first inputs alone: those for the first section to compute.
     pub fn known(operations: &[Operation], first: usize, places: &[Place]) -> Vec<Place> {
         let mut known: Vec<bool> = Vec::with_capacity(operations.len());
         for operation in operations {
@@ -130,7 +130,7 @@ impl Registers {
         &self.0[register].0
     }
 
-    /// The same to be set: the registers of inputs are the first ones.
+    /// The numbers of all rows in a register, to be set; those of inputs are the first registers.
     pub fn rows_mut(&mut self, register: usize) -> &mut [f64; BATCH] {
         &mut self.0[register].0
     }

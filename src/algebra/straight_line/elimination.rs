@@ -18,16 +18,16 @@ const LAST: usize = 3;
 pub struct Pivot {
     /// The number.
     pub number: Recorded,
-    /// What is made of it by the division.
+    /// Its reciprocal.
     pub inverse: Recorded,
-    /// How large it is at the start if the last pivot in it is 1.
+    /// Its absolute value at the sample, divided by that of the last of the pivots that it is a product of.
     pub scale: f64,
 }
 
-/// Solves A x = b for each of several right-hand sides, with the pivots in the order of elimination. Rows that are left
-/// over depend on the others. The rank, if it is less than the number of unknowns.
+/// Solves A x = b for each of several right-hand sides, with the pivots in the order of elimination. Rows beyond the
+/// rank depend on the others. Returns the rank as the error if it is less than the number of unknowns.
 ///
-/// Where every pivot would make new entries the last three unknowns or two follow by Cramer's rule, with one division.
+/// The last two or three unknowns follow by Cramer's rule, with one division, if every pivot would make new entries.
 pub fn eliminate(
     mut matrix: Vec<Vec<Recorded>>,
     mut sides: Vec<Vec<Recorded>>,

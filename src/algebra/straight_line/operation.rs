@@ -70,7 +70,7 @@ impl Operation {
         both.into_iter().flatten()
     }
 
-    /// What makes two operations the same: constants by their bits.
+    /// Key of equal operations: kind and operands; constants by their bits.
     pub(super) fn key(self) -> Key {
         let mut operands = self.operands().map(u64::from);
         let first = match self {

@@ -11,7 +11,7 @@ impl Recorded {
         with(|list| list.put(Operation::Input(number as u32)))
     }
 
-    /// Where it stands among the operations.
+    /// Index of the operation.
     pub fn place(self) -> Place {
         self.0
     }

@@ -21,7 +21,7 @@ pub(super) fn decimal(value: f64) -> Option<BigRational> {
     })
 }
 
-/// Whether the shortest decimal of `value` is that rational number.
+/// True if the shortest decimal of `value` is that rational number.
 pub(in super::super) fn is_decimal(number: &BigRational, value: f64) -> bool {
     decimal(value).is_some_and(|shortest| shortest == *number)
 }

@@ -36,7 +36,7 @@ pub type Powers = Vec<(Atom, i32)>;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Wave(pub Vec<(Powers, Ratio<i64>)>);
 
-/// What a coefficient is multiplied with.
+/// A term without its rational coefficient.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Key {
     /// exp(i …)
@@ -192,7 +192,7 @@ impl Key {
         self.letters().for_each(|atom| atom.symbols(found));
     }
 
-    /// Whether its inverse is one term.
+    /// True if the inverse is a single term.
     pub(super) fn is_invertible(&self) -> bool {
         // a wave alone is complex; real sums of waves have at least two terms
         self.wave.0.is_empty() && !self.imaginary

@@ -1,4 +1,4 @@
-//! Trigonometric polynomials as equations: sorted by what is unknown in them.
+//! Trigonometric polynomials as equations, sorted by products of unknowns.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,7 @@ pub struct Monomial {
 }
 
 impl Monomial {
-    /// The same with the opposite angle.
+    /// The monomial with the opposite angle.
     pub fn reversed(&self) -> Self {
         Monomial {
             angle: self.angle.iter().map(|(x, k)| (*x, -k)).collect(),
@@ -29,13 +29,14 @@ impl Monomial {
         }
     }
 
-    /// Whether the first symbol of its angle stands with the sign plus.
+    /// True if the first symbol of the angle has a positive factor.
     pub fn is_positive(&self) -> bool {
         self.angle.first().is_none_or(|(_, k)| k.is_positive())
     }
 }
 
-/// What is known of an equation, by what is unknown: Σ T · m · e^iw over angles w and products of powers m.
+/// Known coefficients T of an equation, by monomials of the unknowns: Σ T · m · e^iw over angles w and products of
+/// powers m.
 pub type ByUnknowns = BTreeMap<Monomial, Trigonometric>;
 
 impl Key {
@@ -89,7 +90,7 @@ impl Wave {
 }
 
 impl Trigonometric {
-    /// Sorted by what is unknown; `None` if an unknown stands elsewhere than alone in an angle or as a factor.
+    /// The equation sorted by monomials; `None` if an unknown stands elsewhere than alone in an angle or as a factor.
     pub fn by_unknowns(&self, unknown: &BTreeSet<u32>) -> Option<ByUnknowns> {
         let mut sorted = ByUnknowns::new();
         for (key, coefficient) in &self.terms {
@@ -206,7 +207,8 @@ impl Trigonometric {
         quotient
     }
 
-    /// Whether it is positive whatever its letters are: a positive number, or a sum of such multiples of even powers.
+    /// True if it is positive for all values other than zero of its letters: a sum of positive multiples of even
+    /// powers.
     pub fn is_positive(&self) -> bool {
         let square = |key: &Key| {
             let even = key.powers.iter().all(|(_, power)| power % 2 == 0);

@@ -49,7 +49,7 @@ impl Fronts {
         None
     }
 
-    /// Whether no row contains an unknown.
+    /// True if no row contains the unknown.
     pub fn is_in_no_row(&self, unknown: usize) -> bool {
         self.of[unknown].is_empty()
     }

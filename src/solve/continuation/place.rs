@@ -34,17 +34,19 @@ impl<P> Place<P> {
         values.first().copied().unwrap_or(1.0)
     }
 
-    /// Whether branches may cross so near that rounding decides which one this is.
+    /// True if branches may cross so near that rounding decides which of them the tangent follows.
     pub fn is_beside_a_crossing(&self) -> bool {
         self.least() < BESIDE_A_CROSSING * self.largest()
     }
 
-    /// Whether branches cross here, as at the places of a [`BranchPoint`](crate::solve::BranchPoint), located to rounding.
+    /// True if branches cross here, as at the places of a [`BranchPoint`](crate::solve::BranchPoint), located to
+    /// rounding.
     pub fn is_singular(&self) -> bool {
         self.least() <= SINGULAR_PLACE * self.largest()
     }
 
-    /// The same place without its Jacobian, from which steps are made: most of what it takes.
+    /// Drops the Jacobian, most of the storage; [`Continuation::restored`](super::Continuation::restored) computes it
+    /// again.
     pub fn thinned(self) -> Self {
         Place {
             jacobian: Vec::new(),
@@ -53,13 +55,13 @@ impl<P> Place<P> {
         }
     }
 
-    /// The same place, followed the other way.
+    /// Reverses the tangent.
     pub fn reversed(mut self) -> Self {
         self.tangent.iter_mut().for_each(|x| *x = -*x);
         self
     }
 
-    /// The same place, followed so that it advances along a direction.
+    /// Turns the tangent to the side of a direction.
     pub fn towards(self, direction: &[f64]) -> Self {
         match dot(&self.tangent, direction) < 0.0 {
             true => self.reversed(),

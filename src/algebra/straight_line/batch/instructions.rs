@@ -231,7 +231,7 @@ impl Instruction {
         operands
     }
 
-    /// The same with one operand computed in place, if there is such an instruction.
+    /// This instruction with one operand computed in place by `inner`, if there is an instruction that does both.
     fn with(&self, inner: &Instruction) -> Option<Self> {
         let ([x, y, z, ..], [u, v, w, ..]) = (self.of, inner.of);
         if z != inner.to || x == z || y == z {
