@@ -1,4 +1,4 @@
-//! How the cost of a mechanism grows with its size: rows of 1,000, 2,000 and 4,000 4-bars.
+//! Cost of a mechanism against its size: rows of 1,000, 2,000 and 4,000 4-bars.
 //!
 //! `cargo bench --bench growth`; another number of loops to begin with may follow after `--`. Prints ms for reading,
 //! checking, assembling, mobility, velocity, statics and a sweep of ten rows, each with the ratio to the shortest row:

@@ -1,6 +1,6 @@
-//! What a row of a sweep costs beside a warm solve of the kernel: the same inputs, once by a bare tracker, which says
-//! nothing of branches, and once by a sweep, which keeps to one. The limit is 1.3. Then what a whole question costs, asked
-//! once and from nothing, beside the iteration in it, and what it costs to change a dimension.
+//! Cost of a row of a sweep against a warm solve of the kernel: the same inputs, once by a bare tracker, which says
+//! nothing of branches, and once by a sweep, which keeps to one. The limit is 1.3. Then the cost of a whole question,
+//! asked once and from nothing, against the iteration in it, and the cost of changing a dimension.
 
 // a bench prints its ratios
 #![allow(clippy::print_stdout)]

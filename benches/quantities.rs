@@ -1,4 +1,4 @@
-//! What quantities add to a row of a sweep: the same motion without any, with each kind, and with five, in turn. The aim
+//! Cost of quantities in a row of a sweep: the same motion without any, with each kind, and with five, in turn. The aim
 //! is 1.5 for five; figures that need singular values are the dearest.
 
 // a bench prints its ratios

@@ -57,7 +57,7 @@ pub const VERSION: u32 = 1;
 
 /// A file as far as it could be read.
 pub struct Draft {
-    /// What could be read; parts with a problem are left out or have harmless values.
+    /// The description as far as it could be read; parts with a problem are left out or have harmless values.
     pub description: Description,
     /// The problems of form, in the order of the text.
     pub problems: Vec<Problem>,
@@ -112,7 +112,7 @@ impl Draft {
         }
     }
 
-    /// Whether a problem of meaning may be a mere consequence of an unread part: a name whose
+    /// True if a problem of meaning may be a mere consequence of an unread part: a name whose
     /// definition, or the map that holds it, has a problem of form.
     pub fn explains(&self, problem: &Problem) -> bool {
         let doubtful = |name: &str| self.doubtful.contains(name);

@@ -32,7 +32,7 @@ pub struct Scene {
     pub joints: Vec<JointShape>,
     /// The rods of given length.
     pub rods: Vec<Rod>,
-    /// How far joints may go.
+    /// Travels of joints to their limits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub travels: Vec<Travel>,
     /// Pitch circles of gears.
@@ -55,7 +55,7 @@ pub struct Scene {
     pub arrows: Vec<Arrow>,
 }
 
-/// How far a joint may go from where it is.
+/// Travel of a joint to its limits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Travel {
     /// The joint variable.
@@ -66,7 +66,7 @@ pub struct Travel {
     pub axis: Triple,
     /// Of a revolute joint the unit vector along the link it moves, perpendicular to the axis; none of a slide.
     pub arm: Option<Triple>,
-    /// How far it is to the lower and to the upper limit, about or along the axis, in rad or m; negative to go back.
+    /// Travel to the lower and to the upper limit, about or along the axis, in rad or m; negative to go back.
     pub ends: [f64; 2],
 }
 
@@ -104,10 +104,10 @@ pub struct Triad {
     pub axes: [Triple; 3],
 }
 
-/// A line about and along which something moves.
+/// Screw axis of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// What moves.
+    /// Name of the body that moves.
     pub name: String,
     /// A point of it.
     pub at: Triple,
@@ -120,9 +120,9 @@ pub struct Axis {
 /// A point with a name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
-    /// What it is.
+    /// Its name.
     pub name: String,
-    /// Where it is.
+    /// Its position.
     pub at: Triple,
 }
 
@@ -131,7 +131,7 @@ pub struct Mark {
 pub struct Arrow {
     /// The frame that is loaded, or the joint or closure that passes it on.
     pub name: String,
-    /// Whether it is applied; otherwise it is a reaction.
+    /// True for an applied load; false for a reaction.
     pub applied: bool,
     /// The point it acts at.
     pub at: Triple,
@@ -146,13 +146,13 @@ pub struct Arrow {
 pub struct BodyShape {
     /// The frame that carries it.
     pub name: String,
-    /// Whether it is the fixed body.
+    /// True for the fixed body.
     pub ground: bool,
-    /// Whether it is a platform.
+    /// True for a platform.
     pub platform: bool,
     /// Its links as lines from point to point.
     pub lines: Vec<Vec<Triple>>,
-    /// Where joints and rods join it to other bodies.
+    /// Points at which joints and rods connect it to other bodies.
     pub corners: Vec<Triple>,
 }
 
@@ -161,17 +161,17 @@ pub struct BodyShape {
 pub struct JointShape {
     /// The joint variables or the closure.
     pub names: Vec<String>,
-    /// What moves.
+    /// Its symbol.
     pub kind: Symbol,
-    /// Where it stands.
+    /// Its position.
     pub at: Triple,
     /// The unit vectors of its axes: none of a spherical joint, two of a universal joint, the normal of a planar one.
     pub axes: Vec<Triple>,
     /// The bodies it joins, as numbers in the list of bodies.
     pub bodies: [usize; 2],
-    /// Whether it is driven.
+    /// True if it is driven.
     pub driven: bool,
-    /// Whether a closure restores it.
+    /// True if a closure restores it.
     pub closure: bool,
 }
 
@@ -184,7 +184,7 @@ pub struct Rod {
     pub ends: [Triple; 2],
     /// The bodies it joins, as numbers in the list of bodies.
     pub bodies: [usize; 2],
-    /// Whether a driven joint changes its length.
+    /// True if a driven joint changes its length.
     pub driven: bool,
 }
 

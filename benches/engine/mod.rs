@@ -36,7 +36,7 @@ impl<const N: usize> Follower<N> {
         }
     }
 
-    /// The same, each solve starting from the last solution itself.
+    /// Follower without extrapolation: each solve starts from the last solution itself.
     pub fn without_predictor(self) -> Self {
         let plain = Warm {
             extrapolation: 0,

@@ -30,7 +30,7 @@ impl State {
     }
 }
 
-/// The same with the angles carried as points of the circle from solve to solve: no trigonometry but the crank's.
+/// State with the angles carried as points of the circle from solve to solve: no trigonometry but the crank's.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried {
     pub t: [Circle; 2],

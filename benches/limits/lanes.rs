@@ -1,4 +1,4 @@
-//! The same for eight motions side by side, in the vector registers that the caller is compiled for: each solve begins
+//! Newton for eight motions side by side, in the vector registers that the caller is compiled for: each solve begins
 //! where differences of the last moves up to the third lead, and the steps that one motion needs are made by all.
 
 use std::array::from_fn;

@@ -19,7 +19,7 @@ pub mod truss;
 pub const TOLERANCE: f64 = 1e-12;
 pub const MAX_STEPS: u32 = 50;
 
-/// What one solve did.
+/// Outcome of one solve.
 #[derive(Clone, Copy, Debug)]
 pub struct Report {
     pub steps: u32,
@@ -27,7 +27,7 @@ pub struct Report {
     pub converged: bool,
 }
 
-/// What a whole set of solves did.
+/// Outcome of a set of solves.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     pub solves: usize,
@@ -63,7 +63,7 @@ impl Tally {
     }
 }
 
-/// Where sines and cosines come from. An angle enters each solve through one call.
+/// Source of sines and cosines. An angle enters each solve through one call.
 pub trait Trig {
     /// (sin x, cos x)
     fn sin_cos(x: f64) -> (f64, f64);
@@ -216,7 +216,8 @@ pub fn eliminate<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) -> boo
     true
 }
 
-/// The same without pivoting: for a system whose row order is known to be good, and whose result is checked.
+/// Gaussian elimination without pivoting, for a system whose row order is known to be good, and whose result is
+/// checked.
 #[inline(always)]
 pub fn eliminate_in_order<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) {
     let mut inverse = [0.0; N];

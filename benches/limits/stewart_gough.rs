@@ -219,7 +219,7 @@ pub fn cold_starts(starts: &[Cold]) -> Tally {
     )
 }
 
-/// How many cold starts end in the pose that made the legs: another assembly is as good an answer.
+/// Number of cold starts that end in the pose that made the legs: another assembly is as good an answer.
 pub fn cold_starts_at_truth(starts: &[Cold]) -> usize {
     let lands = |&&(truth, legs, start): &&Cold| {
         let mut state = State::at(start);

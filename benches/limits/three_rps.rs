@@ -42,7 +42,7 @@ impl State {
     }
 }
 
-/// The same with the angles carried as points of the circle from solve to solve: no trigonometry at all.
+/// State with the angles carried as points of the circle from solve to solve: no trigonometry at all.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried {
     pub angles: [Circle; 3],

@@ -8,7 +8,7 @@ use linkwork::number::Complex;
 
 type C = Complex<f64>;
 
-/// How many solutions it has.
+/// Number of its solutions.
 pub const COUNT: usize = 126;
 
 /// Ground pivots with their conjugates, sides, third corners with their conjugates, squared lengths of bars.

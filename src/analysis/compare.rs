@@ -28,7 +28,7 @@ use variables::formulas;
 /// closure is singular, joint values are off by the root of the residual.
 const NEAR_SINGULAR: f64 = 1e-6;
 
-/// How to compare.
+/// Settings of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompareSettings {
     /// Random joint values to try beside the home configuration.
@@ -49,18 +49,18 @@ impl Default for CompareSettings {
     }
 }
 
-/// What became of the closed forms of a mechanism.
+/// Report on the closed forms of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CompareReport {
     /// Name of the mechanism.
     pub mechanism: String,
     /// The names that stand in its formulas.
     pub names: FormulaNames,
-    /// Whether every form agrees.
+    /// True if every form agrees.
     pub agree: bool,
     /// The forms, in the order of the file.
     pub closed_forms: Vec<FormReport>,
-    /// Whether the mechanism assembles from its home configuration.
+    /// True if the mechanism assembles from its home configuration.
     pub home_assembles: bool,
     /// Random inputs at which the mechanism did not assemble; forms that need an assembled
     /// configuration were not tried there.
@@ -69,25 +69,25 @@ pub struct CompareReport {
     pub seed: u64,
     /// The relative difference above which a form disagrees.
     pub tolerance: f64,
-    /// Whether the work was stopped before it was done: fewer samples were tried, and perhaps nothing proved.
+    /// True if the work was stopped early: fewer samples were tried, and perhaps nothing proved.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
 
-/// What became of one closed form.
+/// Report on one closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FormReport {
     /// Its name.
     pub name: String,
-    /// Whether it agrees; false also if it could not be tried.
+    /// True if it agrees; false also if it could not be tried.
     pub agree: bool,
-    /// Whether it agrees, disagrees or could not be tried.
+    /// Outcome at the samples.
     pub verdict: Verdict,
     /// The largest difference of any component: m, or without unit.
     pub max_difference: f64,
     /// Configurations at which it was evaluated.
     pub samples: usize,
-    /// Where it is printed.
+    /// Publication in which it is printed.
     pub source: Option<String>,
     /// Its entries or identities.
     pub components: Vec<ComponentReport>,
@@ -96,7 +96,7 @@ pub struct FormReport {
     pub worst: Named<f64>,
 }
 
-/// Whether a closed form agrees with the chains.
+/// Outcome of comparing a closed form with the chains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -110,12 +110,12 @@ pub enum Verdict {
     NotTried,
 }
 
-/// What became of one entry of a pose or one identity.
+/// Report on one entry of a pose or one identity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ComponentReport {
     /// `px`, `r11`, … or the name of the identity.
     pub name: String,
-    /// What kind of quantity it is.
+    /// Kind of quantity.
     pub quantity: Quantity,
     /// True if it agrees at every sample at which it has a value, has one somewhere, and is not refuted.
     pub agree: bool,
@@ -141,13 +141,13 @@ pub struct ComponentReport {
 pub struct WorstSample {
     /// Joint values, rad or m.
     pub joints: Named<f64>,
-    /// What the closed form gives.
+    /// Value of the closed form.
     pub closed_form: f64,
-    /// What the chains give; zero for an identity.
+    /// Value from the chains; zero for an identity.
     pub chains: f64,
 }
 
-/// What kind of quantity a component is.
+/// Kind of quantity of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -221,7 +221,7 @@ pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch)
     }
 }
 
-/// Whether a form holds only where the closures are whole: joint values then fix the platforms.
+/// True if a form holds only where the closures are closed: joint values then fix the platforms.
 fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
     match form.gives {
         Given::Identities(_) => true,

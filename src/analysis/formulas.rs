@@ -17,12 +17,12 @@ pub use solution::solution;
 /// Terms of the longest formula that is printed.
 const MOST_TERMS: usize = 400;
 
-/// Which formulas are made, and how much work they may be.
+/// Choice of the formulas, and limit of the work for each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulasSettings {
     /// One transform, of the first frame seen from the second; `None` for everything the mechanism has.
     pub transform: Option<(Frame, Frame)>,
-    /// Names of parameters that stand as what defines them instead of as letters.
+    /// Names of parameters that stand as their definitions instead of as letters.
     pub numbers: Vec<String>,
     /// Products of two terms made at most for each formula; one that takes more is listed as left out.
     pub most_products: usize,
@@ -88,7 +88,7 @@ impl Writer<'_> {
         })
     }
 
-    /// Parameters as letters, or as what defines them.
+    /// Parameters as letters, or as their definitions.
     fn parameters(&self, letters: &Letters) -> Result<Vec<Symbolic>, EvaluationError> {
         let mut values = letters.parameters();
         // one may be defined by another

@@ -1,4 +1,4 @@
-//! What an assembled mechanism can do: how many freedoms, which joints move, what is redundant.
+//! Mobility of an assembled mechanism: finite and infinitesimal freedoms, moving joints, redundant equations.
 //!
 //! *Kutzbach's count* is unknowns less equations, the *infinitesimal* mobility unknowns less the rank of the closure
 //! Jacobian. The *finite* mobility is the largest dimension of the assembled configurations through the one given; it is
@@ -27,12 +27,12 @@ pub use loops::LoopCount;
 pub use redundancy::{Redundancy, Wrench};
 pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityReport};
 
-/// How to look for freedoms.
+/// Settings of a mobility analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilitySettings {
     /// Seed of all random directions and starts.
     pub seed: u64,
-    /// Coordinates that stand still where the mechanism is closed, as those of actuators that are locked.
+    /// Coordinates locked where the mechanism is closed, such as those of actuators.
     pub locked: Vec<Coordinate>,
 }
 
@@ -47,7 +47,8 @@ impl Default for MobilitySettings {
 
 /// Counts the freedoms of a mechanism, closed near the start of a question.
 ///
-/// What the question holds only decides which configuration is looked at; then all is free but what the settings lock: a
+/// The held coordinates of the question choose the configuration; then all is free but the locked ones of the settings:
+/// a
 /// joint is one variable less, a coordinate of a platform one equation more. The finite mobility follows from a reduction
 /// of Lyapunov and Schmidt, and at a singular configuration from the branches that small steps in many directions reach.
 pub fn mobility(
@@ -212,7 +213,7 @@ fn elsewhere(
     found
 }
 
-/// What is locked, a platform that stands still as a whole by its own name.
+/// Names of the locked coordinates; a platform locked as a whole has its own name.
 fn names(mechanism: &Mechanism, held: &Held<f64>, locking: &Question) -> Vec<String> {
     let joints = locking.held_names().into_iter();
     let joints = joints.take(held.joints.iter().filter(|locked| **locked).count());

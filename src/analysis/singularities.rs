@@ -32,7 +32,7 @@ use crate::system::{
 pub(crate) use classify::Classifier;
 use outputs::{coupled, outputs_of};
 
-/// How to look for singularities.
+/// Settings of a singularity analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SingularitiesSettings {
     /// Seed of all random starts.
@@ -40,7 +40,7 @@ pub struct SingularitiesSettings {
     /// The outputs; where there are none, the coordinates of platforms that are held or move, or
     /// else the platforms, or what stands for them ([`default_outputs`]).
     pub outputs: Vec<Lock>,
-    /// Whether a motion along inputs goes round folds and straight through crossings.
+    /// If true, a motion along inputs goes on round folds and straight through crossings.
     pub follow: bool,
     /// Random starts for loci; up to ten times as many while new curves are likely.
     pub starts: usize,
@@ -57,7 +57,7 @@ impl Default for SingularitiesSettings {
     }
 }
 
-/// Whether and how an assembled configuration is singular.
+/// Singularity of an assembled configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
     /// The mechanism's name.
@@ -72,11 +72,11 @@ pub struct SingularitiesReport {
     pub coupled: Vec<Coupled>,
     /// Joint values there, rad or m, in the order of the file.
     pub joints: Vec<f64>,
-    /// What is singular.
+    /// Kinds of singularity and freedoms gained or lost; empty if the configuration is regular.
     pub singularity: Singularity,
     /// The length that makes the matrices dimensionless, in m.
     pub normalising_length: f64,
-    /// How the pose given was closed.
+    /// Correction of the given pose.
     #[serde(flatten)]
     pub pose: GivenPose,
 }
@@ -89,7 +89,7 @@ fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
     (outputs.iter().map(|output| output.name(mechanism))).collect()
 }
 
-/// Finds whether and how the assembled configuration near the start of a question is singular.
+/// Classifies the assembled configuration near the start of a question: regular, or singular and how.
 ///
 /// Sources: Gosselin and Angeles 1990; Zlatanov, Fenton and Benhabib 1994; Zlatanov, Bonev and
 /// Gosselin 2002 (constraint singularities); Ghosal and Ravani 2001 (loss and gain of freedoms).

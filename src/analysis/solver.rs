@@ -27,7 +27,7 @@ use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, Sy
 use iteration::{Iteration, Rows, negated, numbered, places};
 use variable::Variable;
 
-/// Why there is no solver.
+/// Reasons for which there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSolver {
     /// Nothing is unknown: what is held determines every frame.
@@ -105,7 +105,7 @@ pub fn values(question: &Question, at: &Configuration<f64>) -> (Vec<f64>, Vec<f6
     Plan::new(question).values(at)
 }
 
-/// What is given and what is unknown.
+/// The held and the unknown variables of a question.
 #[derive(Clone, Debug)]
 struct Plan<'a> {
     mechanism: &'a Mechanism,
@@ -158,7 +158,7 @@ impl<'a> Plan<'a> {
         (of(&self.inputs), of(&self.state))
     }
 
-    /// What is held and the configuration with given numbers as inputs and state.
+    /// The held coordinates and the configuration for given inputs and state.
     fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (Held<T>, Configuration<T>) {
         let value = |variable: Variable| {
             let among = |of: &[Variable]| of.iter().position(|v| *v == variable);

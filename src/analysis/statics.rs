@@ -1,4 +1,4 @@
-//! What forces hold an assembled mechanism in equilibrium.
+//! Static equilibrium of an assembled mechanism: holding forces and reactions.
 
 mod reactions;
 
@@ -23,24 +23,25 @@ pub use reactions::Reaction;
 pub struct StaticsReport {
     /// The mechanism's name.
     pub mechanism: String,
-    /// Whether the forces balance the load.
+    /// True if the forces balance the load.
     pub balanced: bool,
     /// The wrenches applied.
     pub loads: Vec<AppliedWrench>,
     /// The loads on joints.
     pub joint_loads: Vec<Force>,
-    /// What would move as nothing balances the load, which the forces below then come nearest to.
+    /// Joints and platforms that the unbalanced part of the load would move; the forces below then come nearest to
+    /// balance.
     pub unbalanced: Vec<String>,
     /// Freedoms gained at a singular configuration: motions that nothing held resists.
     pub gained: usize,
-    /// What is held, with the force that holds it: along its positive direction.
+    /// Forces and moments that the held coordinates need, each positive along its coordinate.
     pub actuators: Vec<Force>,
-    /// What each closure passes on.
+    /// Reaction at each closure.
     pub closures: Vec<Reaction>,
-    /// What each joint of a chain passes on, its drive included.
+    /// Reaction at each joint of a chain, its drive included.
     pub joints: Vec<Reaction>,
-    /// How many independent states of stress need no load: 0 if all forces are determined. What is not `unique` is then
-    /// the choice of least norm of all reactions, forces times the normalising length taken with moments.
+    /// Number of independent self-stresses, states of stress without load: 0 if all forces are determined. Reactions
+    /// that are not `unique` are the choice of least norm, forces multiplied by the normalising length.
     pub self_stresses: usize,
     /// The number of these that act across the plane of a planar mechanism only.
     #[serde(default, skip_serializing_if = "is_none")]
@@ -49,7 +50,7 @@ pub struct StaticsReport {
     pub condition: f64,
     /// The length that makes forces comparable with moments, in m.
     pub normalising_length: f64,
-    /// How the pose given was closed.
+    /// Correction of the given pose.
     #[serde(flatten)]
     pub pose: GivenPose,
 }
@@ -72,9 +73,9 @@ pub struct Force {
     pub name: String,
     /// `N` or `N·m`.
     pub unit: SiUnit,
-    /// How large, along the coordinate.
+    /// Magnitude, positive along the coordinate, in `unit`.
     pub force: f64,
-    /// Whether equilibrium determines it.
+    /// True if equilibrium determines it.
     pub unique: bool,
 }
 

@@ -52,26 +52,28 @@ use rows::{Rows, holding};
 
 type At = Place<Configuration<f64>>;
 
-/// How to sweep.
+/// Settings of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepSettings {
-    /// Into how many steps, equal in time, the segment of the inputs is divided: rows are one more.
+    /// Number of steps, equal in time, into which the segment of the inputs is divided; there is one row more.
     pub steps: usize,
-    /// Whether to go round a fold, where the inputs turn back, and straight through a crossing; without inputs always.
+    /// If true, the motion goes round folds, at which inputs turn back, and straight through crossings; always without
+    /// inputs.
     pub follow: bool,
-    /// How carefully the curve is followed.
+    /// Tolerances and step lengths of the continuation.
     pub continuation: Continuation,
-    /// How the inputs go through their ranges in time; rows are equal parts of it.
+    /// Motion law of the inputs; rows are at equal parts of its time.
     pub pace: Pace,
-    /// What the inputs follow instead, if a table gives their motion: `steps` are equal parts of its time.
+    /// Table of input values over time instead of a law; `steps` are then equal parts of its time.
     pub schedule: Option<Schedule>,
     /// Points whose path is wanted.
     pub points: Vec<NamedPoint>,
-    /// Whether to say how straight these paths are.
+    /// If true, the straightness of these paths is reported.
     pub straightness: bool,
-    /// Whether interval arithmetic is to show that all rows lie on one branch; only where inputs go through their ranges.
+    /// If true, interval arithmetic certifies that all rows lie on one branch; only where inputs go through their
+    /// ranges.
     pub certify: bool,
-    /// Whether rows are also wanted so near to one another, whatever the steps, that a line through them looks smooth.
+    /// If true, there are also rows between the steps, so near to one another that a line through them looks smooth.
     pub between: bool,
 }
 
@@ -102,13 +104,13 @@ pub struct Row<'a> {
     pub time: Option<f64>,
     /// The configuration: no closure row exceeds 1e-12 rad or characteristic lengths.
     pub configuration: &'a Configuration<f64>,
-    /// Where the traced points are, in ground, in m.
+    /// Positions of the traced points, in ground, in m.
     pub points: &'a [[f64; 3]],
     /// The quantities asked for, none where they are not determined.
     pub quantities: &'a [Option<f64>],
-    /// What is special here: what was met in this very place.
+    /// Special point located in this very configuration.
     pub special: Option<&'a MetKind>,
-    /// Whether it only stands between the rows that were asked for; it has the number of the next.
+    /// True for a row between those that were asked for; it has the number of the next.
     pub between: bool,
 }
 
@@ -128,13 +130,13 @@ impl<'a> Row<'a> {
     }
 }
 
-/// What takes the rows as they come.
+/// Receiver of the rows, in order.
 pub type Sink<'s> = dyn FnMut(&Row) + 's;
 
-/// The same inside: it may end the motion.
+/// Receiver inside a sweep, which may end the motion.
 type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
-/// How a motion ended.
+/// End of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SweepEnd {
@@ -163,7 +165,7 @@ pub enum SweepEnd {
 }
 
 impl SweepEnd {
-    /// Whether all that was asked for was done.
+    /// True if the motion ended as asked.
     pub fn is_whole(self) -> bool {
         matches!(
             self,
@@ -172,18 +174,18 @@ impl SweepEnd {
     }
 }
 
-/// What a motion came to.
+/// Outcome of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepReport {
     /// The inputs; none for a motion that follows its curve.
     pub inputs: Vec<Bound>,
-    /// How it ended.
+    /// End of the motion.
     pub ending: SweepEnd,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
     /// Turning points, folds, crossings, limits, in the order in which they were met.
     pub met: Vec<Met>,
-    /// How many more were met than are listed.
+    /// Number of special points met but not listed.
     pub more_met: usize,
     /// Sure steps that the curve was followed in.
     pub sure_steps: usize,
@@ -194,10 +196,10 @@ pub struct SweepReport {
     /// Cusps and double points of the paths that were traced.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub paths: Vec<PathReport>,
-    /// What interval arithmetic says of the branch between the rows, if that is asked for.
+    /// Certificate that the rows lie on one branch, by interval arithmetic, if that is asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
-    /// Whether the work was stopped before the motion ended.
+    /// True if the work was stopped before the motion ended.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }

@@ -1,4 +1,4 @@
-//! How the inputs of an assembled mechanism drive it: rates, accelerations, Jacobian.
+//! Velocity analysis: rates, accelerations and the input–output Jacobian of an assembled mechanism.
 
 mod accuracy;
 mod centres;
@@ -26,12 +26,13 @@ pub(crate) use jacobian::{Normalised, Outputs, condition, row_count};
 pub use planar::Transmission;
 pub(crate) use planar::TransmissionAngles;
 
-/// How an assembled mechanism moves. Vectors are in ground; angles in rad, lengths in m, time in s.
+/// Velocities and accelerations of an assembled mechanism. Vectors are in ground; angles in rad, lengths in m, time in
+/// s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VelocityReport {
     /// The mechanism's name.
     pub mechanism: String,
-    /// What is held, with its rate and acceleration.
+    /// The held coordinates, with their rates and accelerations.
     pub inputs: Vec<Rate>,
     /// Every joint; rates are `None` where nothing determines them.
     pub joints: Vec<JointRate>,
@@ -39,11 +40,11 @@ pub struct VelocityReport {
     pub frames: Vec<FrameRate>,
     /// The input–output Jacobian; `None` where the inputs do not determine the outputs.
     pub jacobian: Option<InputOutput>,
-    /// What is gained at a singular configuration: it moves although everything held stands still.
+    /// Freedoms gained at a singular configuration, with all inputs at rest.
     pub gain: Option<Gain>,
-    /// Whether the rates belong to no motion, so that there are no accelerations.
+    /// Rates that exist to first order only: they belong to no finite motion, so there are no accelerations.
     pub first_order_only: Option<FirstOrderOnly>,
-    /// How well rates and accelerations are known.
+    /// Accuracy of the rates and accelerations.
     pub accuracy: Accuracy,
     /// Transmission angles of the planar loops that are closed as dyads, one after the other.
     pub transmission: Vec<Transmission>,
@@ -53,13 +54,13 @@ pub struct VelocityReport {
     pub normalising_length: f64,
     /// The largest rate at which a closure would open, dimensionless: rounding.
     pub mismatch: Option<f64>,
-    /// How the pose given was closed.
+    /// Correction of the given pose.
     #[serde(flatten)]
     pub pose: GivenPose,
 }
 
 impl VelocityReport {
-    /// Whether rates and accelerations are those of a motion, and known.
+    /// True if rates and accelerations are those of a finite motion, and certain enough to report.
     pub fn is_determined(&self) -> bool {
         self.gain.is_none()
             && self.first_order_only.is_none()
@@ -67,7 +68,7 @@ impl VelocityReport {
     }
 }
 
-/// A coordinate and how fast it changes.
+/// A coordinate with its rate and acceleration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// The coordinate.
@@ -80,14 +81,14 @@ pub struct Rate {
     pub acceleration: f64,
 }
 
-/// A joint variable and how fast it changes.
+/// A joint variable with its rate and acceleration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointRate {
     /// The joint.
     pub name: String,
     /// `rad` or `m`.
     pub unit: SiUnit,
-    /// Whether it is held.
+    /// True if it is held.
     pub held: bool,
     /// Its value.
     pub value: f64,
@@ -97,12 +98,12 @@ pub struct JointRate {
     pub acceleration: Option<f64>,
 }
 
-/// How a frame moves.
+/// Velocity and acceleration of a frame, or of a point of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRate {
     /// The frame, or a point of one.
     pub name: String,
-    /// Where the point is, in m.
+    /// Position of the point, in m.
     pub position: [f64; 3],
     /// ω in rad/s.
     pub angular_velocity: [f64; 3],
@@ -116,53 +117,53 @@ pub struct FrameRate {
     pub spins: Vec<[f64; 3]>,
 }
 
-/// Freedoms that are left although what is held stands still.
+/// Freedoms with all held coordinates at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gain {
-    /// How many.
+    /// Number of freedoms.
     pub freedoms: usize,
-    /// What moves in them, the most mobile first.
+    /// Joints and platforms that move, the most mobile first.
     pub moving: Vec<String>,
-    /// Whether they are finite, so that more could be held; else they are infinitesimal at least.
+    /// True if they are finite, so that more can be held; false if they are infinitesimal at least.
     pub finite: bool,
 }
 
 /// Rates that exist to first order and belong to no motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FirstOrderOnly {
-    /// Whether nothing at all can move: the mechanism has one infinitesimal freedom, not finite.
+    /// True for a shaky structure: one infinitesimal freedom, and no finite motion at all.
     pub shaky: bool,
-    /// What a finite step along the rates leaves of the closure equations, dimensionless.
+    /// Residual of the closure equations after a finite step along the rates, dimensionless.
     pub gap_after_step: Option<f64>,
     /// The acceleration, dimensionless per s², at which a closure would open.
     pub mismatch: f64,
 }
 
-/// How well rates and accelerations are known. Near a singular configuration what rounding leaves of
-/// the closures may be far along the direction in which these hardly resist.
+/// Accuracy of rates and accelerations. Near a singular configuration the rounding left in the closures may displace
+/// the mechanism far along the direction in which they hardly resist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// The smallest singular value of the dimensionless closure equations with what is held, of
     /// those that count; `None` if nothing is unknown.
     pub smallest_singular_value: Option<f64>,
-    /// How far the configuration may be off in that direction, in rad and normalising lengths.
+    /// Possible error of the configuration in that direction, in rad and normalising lengths.
     pub configuration: f64,
     /// Change of the rates for that, relative to the largest. Above 0.01 none are given.
     pub rates: f64,
-    /// The same of the accelerations, relative to the largest or to the squared rates.
+    /// Change of the accelerations, relative to the largest or to the squared rates.
     pub accelerations: f64,
 }
 
 impl Accuracy {
-    /// What is more uncertain than this is not reported.
+    /// Largest relative uncertainty of rates and accelerations that are reported.
     const LOST: f64 = 0.01;
 
-    /// Whether rates are certain enough to report.
+    /// True if rates are certain enough to report.
     pub fn determines_rates(&self) -> bool {
         self.rates <= Accuracy::LOST
     }
 
-    /// Whether accelerations are certain enough to report.
+    /// True if accelerations are certain enough to report.
     pub fn determines_accelerations(&self) -> bool {
         self.determines_rates() && self.accelerations <= Accuracy::LOST
     }
@@ -280,7 +281,7 @@ pub(crate) fn outputs(
     free_outputs(mechanism, inputs, &spinning(held, rest))
 }
 
-/// What is free although everything held stands still.
+/// Freedoms with all held coordinates at rest; `None` if there are none.
 fn gain(mechanism: &Mechanism, held: &mut Neighbourhood, rest: &Tangent) -> Option<Gain> {
     (!rest.motions.is_empty()).then(|| Gain {
         freedoms: rest.motions.len(),

@@ -1,5 +1,5 @@
-//! The workspace: which values of some coordinates a mechanism reaches, in which modes, and what
-//! bounds it.
+//! Workspace: the reachable values of some coordinates, by working or assembly mode, with the boundary curves and
+//! singularity-free aspects.
 //!
 //! Assembled configurations are sought from random starts at some nodes of a grid. From there nodes
 //! are reached one from another by steps of Newton's method, many side by side, that are short beside
@@ -35,7 +35,7 @@ use home::Home;
 use map::Map;
 use problem::{Grid, MapProblem};
 
-/// How to map a workspace.
+/// Settings of a workspace map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkspaceSettings {
     /// Nodes along each mapped coordinate, at least two.
@@ -48,7 +48,7 @@ pub struct WorkspaceSettings {
     pub probed: usize,
     /// Seed of the random starts.
     pub seed: u64,
-    /// Whether boundaries are located and followed.
+    /// If true, boundaries are located and followed.
     pub boundaries: bool,
     /// Nodes in modes that are kept at most: each takes about [`cell_bytes`].
     pub most: usize,
@@ -74,7 +74,7 @@ impl Default for WorkspaceSettings {
     "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
 )]
 pub struct TooManyNodes {
-    /// How many may be.
+    /// Largest number of nodes allowed.
     pub most: usize,
 }
 
@@ -148,7 +148,7 @@ pub fn workspace(
     Ok(report)
 }
 
-/// All that is reached, the aspect of each solution, and how many seeds were outside limits.
+/// The reached nodes, the aspect of each solution, and the number of seeds outside limits.
 fn reached_set(
     fill: &Flood,
     (mode_seeds, home): (&ModeSeeds, Option<&Home>),

@@ -31,7 +31,7 @@ pub struct AxesDescription {
     pub parameters: Vec<Named<Entry>>,
     /// The joints; in a serial chain from the base to the tool.
     pub joints: Vec<Named<AxisDescription>>,
-    /// Where bodies have their frames in the drawing; at the joint that carries them, if not given.
+    /// Frames of bodies in the drawing; a body without one has its frame at the joint that carries it.
     pub bodies: Vec<Named<AxisPlace>>,
     /// Points on bodies, and frames.
     pub points: Vec<Named<PointDescription>>,
@@ -52,20 +52,20 @@ pub struct AxesDescription {
 pub struct PointDescription {
     /// The body.
     pub body: Spanned<String>,
-    /// Where it is in the drawing.
+    /// Its position in the drawing.
     pub place: AxisPlace,
 }
 
 /// A joint given by its axis.
 #[derive(Debug, Clone)]
 pub struct AxisDescription {
-    /// How it moves.
+    /// Its kind.
     pub kind: AxisKind,
-    /// Where its axis lies in the drawing.
+    /// Its axis in the drawing.
     pub place: AxisPlace,
-    /// Where it lies on the second body, if the drawing shows the bodies apart.
+    /// Its axis on the second body, if the drawing shows the bodies apart.
     pub second: Option<AxisPlace>,
-    /// Whether it is driven, if the file says so.
+    /// Actuated or passive, if the file says so.
     pub role: Option<Role>,
     /// The value of its variable in the home configuration; 0 if not given, for a rod the length drawn.
     pub home: Option<Entry>,
@@ -79,7 +79,7 @@ pub struct AxisDescription {
     pub limits: Option<(Entry, Entry)>,
     /// The two bodies it connects; the second moves positively against the first.
     pub between: Option<[Spanned<String>; 2]>,
-    /// Where the joint is described.
+    /// Place of the joint in the file.
     pub span: Range<usize>,
 }
 
@@ -138,7 +138,7 @@ impl AxisPlace {
 }
 
 impl AxesDescription {
-    /// Whether a body or a point has this name; where no joint names bodies, they are named for it.
+    /// True for a body or a point of this name; any name can be a body's where joints name no bodies.
     pub fn names(&self, frame: &str) -> bool {
         let joints = self.joints.iter().map(|joint| &joint.value);
         let mut bodies = joints.flat_map(|joint| joint.between.iter().flatten());
@@ -146,7 +146,7 @@ impl AxesDescription {
         named || place_of(&self.points, frame).is_some()
     }
 
-    /// Where joints, points and bodies are.
+    /// Places of joints, points and bodies.
     pub fn places(&self) -> impl Iterator<Item = &AxisPlace> {
         let joints = self.joints.iter().map(|joint| &joint.value);
         let joints = joints.flat_map(|joint| [Some(&joint.place), joint.second.as_ref()]);
@@ -172,17 +172,17 @@ impl AxisKind {
         })
     }
 
-    /// Whether it is one joint with one variable.
+    /// True for a joint with a single variable.
     pub fn has_variable(self) -> bool {
         matches!(self, Self::Revolute | Self::Prismatic | Self::Helical)
     }
 
-    /// Whether its variable is a length.
+    /// True if the variable is a length.
     pub fn is_length(self) -> bool {
         matches!(self, Self::Prismatic | Self::Distance)
     }
 
-    /// Whether it is a closure wherever it stands.
+    /// True if the joint is always cut, as a closure.
     pub fn always_cut(self) -> bool {
         matches!(self, Self::Spherical | Self::Planar | Self::Distance)
     }
@@ -214,18 +214,18 @@ impl AxisDescription {
         given.cloned().unwrap_or_else(Entry::absent)
     }
 
-    /// Whether its value in the drawing is given: by itself, or as 0 where its bodies are drawn apart.
+    /// True if its value in the drawing is given: by itself, or as 0 where its bodies are drawn apart.
     pub fn is_drawn(&self) -> bool {
         self.drawn.is_some() || self.second.is_some()
     }
 
-    /// Whether the length of a rod is a variable of its own.
+    /// True for a rod whose length is a variable of its own.
     pub fn is_driven_length(&self) -> bool {
         let said = self.role.is_some() || self.limits.is_some() || self.home.is_some();
         self.kind == AxisKind::Distance && self.value.is_none() && said
     }
 
-    /// Whether it has a variable if it is not cut.
+    /// True if it has a variable when it is not cut.
     pub fn is_variable(&self) -> bool {
         self.value.is_none() && (self.kind.has_variable() || self.is_driven_length())
     }

@@ -31,7 +31,7 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     }
 }
 
-/// The same for a file of joint coordinates.
+/// Checks a file of joint coordinates.
 pub(super) fn check_axes(description: &AxesDescription, problems: &mut Vec<Problem>) {
     let parameters = names(Noun::Parameter, &description.parameters);
     let joints = names(Noun::Axis, &description.joints);

@@ -1,4 +1,4 @@
-//! The joints that closures restore, and what each requires of the two frames it joins.
+//! Joints that closures restore, and their conditions on the two frames.
 
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ words! {
     }
 }
 
-/// What a closure requires of the z axes of its two frames.
+/// Condition of a closure on the z axes of its two frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AxisCondition {
     /// Nothing.
@@ -42,7 +42,7 @@ pub enum AxisCondition {
 /// The conditions that a closure consists of. [`ClosureKind::Distance`] has one of its own and none of these.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ClosureConditions {
-    /// Whether the origins coincide.
+    /// True if the origins coincide.
     pub origins: bool,
     /// The condition on the axes.
     pub axes: AxisCondition,
@@ -71,28 +71,28 @@ impl ClosureKind {
         }
     }
 
-    /// Whether it brings the z axes together.
+    /// True if the z axes lie in one line.
     pub fn joins_axes(self) -> bool {
         let conditions = self.conditions();
         self.aligns_axes() && (conditions.origins || conditions.offsets == (0..2))
     }
 
-    /// Whether it makes the z axes parallel.
+    /// True if the z axes are parallel, in the same sense.
     pub fn aligns_axes(self) -> bool {
         self.conditions().axes >= AxisCondition::Aligned
     }
 
-    /// Whether nothing but the origins of its frames matters.
+    /// True if only the origins of the frames matter.
     pub fn leaves_orientation(self) -> bool {
         self.conditions().axes == AxisCondition::Free
     }
 
-    /// Whether each frame may turn about its own z axis without the other.
+    /// True if the frames may turn about their z axes against each other.
     pub fn leaves_turn(self) -> bool {
         self.conditions().axes < AxisCondition::Oriented
     }
 
-    /// Whether it has a given length, as a rod with a ball at each end.
+    /// True for a closure with a given length, such as a rod with a ball at each end.
     pub fn has_length(self) -> bool {
         self == Self::Distance
     }

@@ -23,7 +23,7 @@ macro_rules! texts {
             /// Reads the text of the file.
             ///
             /// # Errors
-            /// With what is wrong with the text.
+            /// With the problems of the text.
             pub fn deserialize<'de, D: Deserializer<'de>>(reader: D) -> Result<$file, D::Error> {
                 let text = String::deserialize(reader)?;
                 $file::read(&text).map_err(|problems| D::Error::custom(titles(&problems)))

@@ -1,4 +1,4 @@
-//! Where the values, strings and comments of a RON text begin and end.
+//! Lexemes of a RON text: ends of values, strings and comments.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ impl<'a> Lexemes<'a> {
         Self { text, at: 0 }
     }
 
-    /// Whether a string or a comment goes on beyond the end of the text, once there are no more lexemes.
+    /// True if the text ends inside a string or a comment, once there are no more lexemes.
     fn unterminated(&self) -> bool {
         self.at < self.text.len()
     }
@@ -110,8 +110,8 @@ fn word_end(text: &str, start: usize) -> usize {
     length.map_or(text.len(), |length| start + length)
 }
 
-/// The first bracket of `text`, outside strings and comments, that is not closed before another kind of bracket, or the
-/// text, ends: where it is, and where its closing bracket is missing.
+/// The first bracket of `text`, outside strings and comments, that is still open where another kind of bracket, or the
+/// text, ends: its place, and the place at which its closing bracket is missing.
 pub(super) fn unclosed(text: &str) -> Option<(Range<usize>, usize)> {
     let bytes = text.as_bytes();
     let mut open: Vec<Range<usize>> = Vec::new();

@@ -1,6 +1,6 @@
 //! Byte offset ↔ line and column.
 
-/// Where the lines of a text begin.
+/// Beginnings of the lines of a text.
 #[derive(Debug, Clone)]
 pub struct Lines<'a> {
     text: &'a str,

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::{Description, Lines, MAX_BYTES, Problem, Severity, words};
 
-/// Why a mechanism file could not be loaded.
+/// Reasons for which a mechanism file could not be loaded.
 #[derive(Debug, Error)]
 #[allow(missing_docs)]
 pub enum LoadError {
@@ -77,7 +77,7 @@ pub fn load_text(path: impl AsRef<Path>) -> Result<String, LoadError> {
     load_text_within(path, MAX_BYTES)
 }
 
-/// The same with another limit, in bytes.
+/// As [`load_text`], with another limit, in bytes.
 ///
 /// # Errors
 /// If it cannot be read, is too large or is not text.
@@ -115,7 +115,7 @@ pub fn load_text_within(path: impl AsRef<Path>, limit: u64) -> Result<String, Lo
 const MAX_SHOWN: usize = 100;
 
 impl FileError {
-    /// What is wrong in a file with this text.
+    /// Problems of a file with this text.
     pub fn new(path: impl AsRef<Path>, text: impl Into<String>, problems: Vec<Problem>) -> Self {
         FileError {
             path: path.as_ref().to_owned(),

@@ -34,7 +34,7 @@ pub(crate) fn variable_name(wanted: &str) -> String {
     }
 }
 
-/// The same, and free.
+/// As [`variable_name`], but a free name.
 pub(crate) fn free_variable(wanted: &str, free: impl Fn(&str) -> bool) -> String {
     let name = variable_name(wanted);
     match free(&name) {
@@ -44,7 +44,7 @@ pub(crate) fn free_variable(wanted: &str, free: impl Fn(&str) -> bool) -> String
 }
 
 impl Description {
-    /// Whether a chain or platform that is added may have a name.
+    /// True if a chain or platform that is added may have this name.
     pub(crate) fn is_free_body(&self, name: &str) -> bool {
         let taken = place_of(&self.chains, name).or(place_of(&self.platforms, name));
         name != GROUND && taken.is_none()

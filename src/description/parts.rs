@@ -78,7 +78,7 @@ words! {
         Standard = "Standard",
     }
 
-    /// Whether a joint is driven.
+    /// Role of a joint variable: driven or not.
     Role {
         /// Driven: its value is an input.
         Actuated = "Actuated",
@@ -90,13 +90,13 @@ words! {
 /// A joint variable.
 #[derive(Debug, Clone)]
 pub struct JointDescription {
-    /// Whether it is driven.
+    /// Actuated or passive.
     pub role: Role,
     /// Its value in the home configuration; 0 if not given.
     pub home: Entry,
     /// Lowest and highest value.
     pub limits: Option<(Entry, Entry)>,
-    /// Where the joint is declared.
+    /// Place of its declaration.
     pub span: Range<usize>,
 }
 
@@ -173,7 +173,7 @@ pub struct ClosedFormDescription {
     pub relative_to: Option<Spanned<String>>,
     /// `where`: local names.
     pub locals: Vec<Named<Entry>>,
-    /// Where it is printed.
+    /// Publication in which it is printed.
     pub source: Option<Spanned<String>>,
     /// The position (m).
     pub position: Option<[Entry; 3]>,
@@ -189,7 +189,7 @@ pub struct ClosedFormDescription {
     pub identities: Vec<Named<Entry>>,
 }
 
-/// Which entry of `[R | p]`; indices count from 0.
+/// Entry of `[R | p]`; indices count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum MatrixEntry {
     /// Row and column of the rotation matrix: `r11` is (0, 0).
@@ -286,7 +286,7 @@ impl<E> Displacement<E> {
         })
     }
 
-    /// How it is written in a file.
+    /// Its word in a file.
     pub fn word(&self) -> &'static str {
         Self::WORDS[match self {
             Self::Translate(axis, _) => *axis as usize,

@@ -20,7 +20,7 @@ pub(super) struct Piece<'a> {
     start: usize,
 }
 
-/// What kind of value a piece is.
+/// Kind of value of a piece.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Shape<'a> {
     Number,
@@ -49,7 +49,7 @@ pub(super) struct Literal<'a> {
 enum Places {
     /// The text is in the file as it is, from here on.
     Straight(usize),
-    /// Where each byte, and the end, is escaped to.
+    /// Place in the file of each byte, and of the end, of an escaped text.
     Escaped(Vec<usize>),
     /// Not known more exactly than the whole literal.
     Whole(Range<usize>),
@@ -201,7 +201,7 @@ fn word(text: &str) -> Option<(&str, &str)> {
     Some((word, deserializer.remainder()))
 }
 
-/// Where each byte of an escaped string comes from, and where the string ends.
+/// Places in the file of the bytes of an escaped string, and of its end.
 fn escaped_places(literal: &str, start: usize) -> Option<Vec<usize>> {
     let inner = literal.strip_prefix('"')?;
     let mut places = Vec::new();

@@ -1,4 +1,4 @@
-//! What can be wrong with a mechanism file, as data with a title; `advice.rs` says what to do about it.
+//! Problems of a mechanism file, as data with a title; `advice.rs` has the remedies.
 
 mod advice;
 mod coordinates;
@@ -17,7 +17,7 @@ use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("{kind}")]
 pub struct Problem {
-    /// What is wrong.
+    /// Its kind.
     pub kind: ProblemKind,
     /// The offending bytes of the file.
     pub span: Range<usize>,
@@ -25,7 +25,7 @@ pub struct Problem {
     pub related: Vec<(Range<usize>, Note)>,
 }
 
-/// How serious a problem is.
+/// Severity of a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// Worth knowing; the file is usable.
@@ -34,12 +34,12 @@ pub enum Severity {
     Error,
 }
 
-/// How another place is involved in a problem.
+/// Part of another place in a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Note {
     /// The name or field was first given here.
     FirstHere(Noun),
-    /// The same problem is here too.
+    /// A further place with this problem.
     AlsoHere,
     /// This bracket is still open.
     StillOpen,
@@ -49,7 +49,7 @@ pub enum Note {
     ThenHere,
 }
 
-/// Which names an expression may use.
+/// Names that an expression may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Scope {
     /// Parameters only.
@@ -62,7 +62,7 @@ pub enum Scope {
     Outputs,
 }
 
-/// What is wrong, in one sentence without a full stop. Lengths are in m, angles in rad.
+/// Kind of problem. Its title is one sentence without a full stop. Lengths are in m, angles in rad.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ProblemKind {
@@ -217,7 +217,7 @@ pub enum ProblemKind {
         chain: String,
         row: usize,
         a: f64,
-        /// What else has to turn for the link length to become positive.
+        /// Parts that must turn too for the link length to become positive.
         turned: Option<Turned>,
     },
     /// A distance of zero, whose equation is singular where it holds.
@@ -230,7 +230,7 @@ pub enum ProblemKind {
     UnusedPlatform { name: String },
 }
 
-/// What turns by 180 deg about its z axis with the x axis of a link frame.
+/// Parts that turn by 180 deg about the z axis of a link frame, with its x axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turned {
     /// The part beside the row.
@@ -251,7 +251,7 @@ pub enum Beside {
 }
 
 impl ProblemKind {
-    /// Whether the file is refused.
+    /// Error if the file is refused for it, else warning.
     pub fn severity(&self) -> Severity {
         match self {
             Self::UnusedJoint { .. }
@@ -277,12 +277,12 @@ impl ProblemKind {
 }
 
 impl Problem {
-    /// Whether the file is refused.
+    /// Error if the file is refused for it, else warning.
     pub fn severity(&self) -> Severity {
         self.kind.severity()
     }
 
-    /// The same problem, with one more place involved.
+    /// Adds another place involved.
     pub fn with(mut self, span: Range<usize>, note: Note) -> Self {
         self.related.push((span, note));
         self

@@ -39,7 +39,7 @@ fn first_word(text: &str) -> Option<&str> {
     }
 }
 
-/// Whether a text seems to be a mechanism file, not a file of joint axes.
+/// True if a text seems to be a mechanism file, false for a file of joint axes.
 pub fn is_mechanism(text: &str) -> bool {
     first_word(text).is_some_and(|word| word == "Mechanism")
 }

@@ -6,7 +6,7 @@ use super::problem::titles;
 use super::{Description, Entry, Problem, ProblemKind, Scope, names_of, nearest, place_of};
 use crate::algebra::Expression;
 
-/// Why a parameter cannot be given another value.
+/// Reasons for which a parameter cannot be given another value.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ReplacementError {
@@ -22,7 +22,7 @@ pub enum ReplacementError {
 }
 
 impl Description {
-    /// The same file with another definition of one parameter, an expression that may use the other parameters.
+    /// The file with another definition of one parameter, an expression that may use the other parameters.
     ///
     /// Problems that appear only when all parameters are known (a cycle, a division by zero) are found later and
     /// then refer to the value in the file that the new one replaces.

@@ -1,4 +1,4 @@
-//! Words shared by all messages: counts, plurals and lists; what is wrong with expressions and with syntax.
+//! Words shared by all messages: counts, plurals and lists; errors of expressions and of syntax.
 
 pub(super) mod expression;
 pub(super) mod syntax;
@@ -30,7 +30,7 @@ pub fn listed<S: AsRef<str>>(words: impl IntoIterator<Item = S>) -> String {
     joined(words, "and")
 }
 
-/// The same with another word before the last.
+/// As [`listed`], with another word before the last.
 pub(crate) fn joined<S: AsRef<str>>(words: impl IntoIterator<Item = S>, last_by: &str) -> String {
     let words: Vec<S> = words.into_iter().collect();
     match &words[..] {
@@ -42,7 +42,7 @@ pub(crate) fn joined<S: AsRef<str>>(words: impl IntoIterator<Item = S>, last_by:
     }
 }
 
-/// The same between back quotes.
+/// As [`listed`], each word between back quotes.
 pub fn quoted<S: AsRef<str>>(words: impl IntoIterator<Item = S>) -> String {
     let words = words.into_iter();
     listed(words.map(|word| format!("`{}`", word.as_ref())))

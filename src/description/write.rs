@@ -124,7 +124,7 @@ fn bodies(bodies: &[Named<AxisPlace>]) -> Vec<Named<Place<'_>>> {
         .collect()
 }
 
-/// Where something is, with the name of that and of the field of a point.
+/// A place with the words of its fields: the name of the whole and that of its point.
 struct Place<'a>(&'static str, &'static str, &'a AxisPlace);
 
 impl Serialize for Place<'_> {

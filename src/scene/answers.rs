@@ -1,4 +1,4 @@
-//! What analyses find, in the scene.
+//! Results of analyses in the scene.
 
 use super::{Arrow, Axis, Mark, Scene, Trace, Triple, least_and_greatest};
 use crate::analysis::singularities::SingularitiesReport;
@@ -85,7 +85,7 @@ impl Scene {
         self
     }
 
-    /// Adds the wrenches applied and what closures and joints of chains pass on.
+    /// Adds the applied wrenches, and the reactions at closures and joints of chains.
     #[must_use]
     pub fn with_forces(
         mut self,

@@ -1,4 +1,4 @@
-//! How far joints may go, and the gears that couple them.
+//! Travels of joints to their limits, and the gears that couple them.
 
 use std::f64::consts::TAU;
 

@@ -3,17 +3,17 @@ use crate::linear::{DENSE_LIMIT, norm, relative_change};
 use crate::mechanism::Configuration;
 use crate::solve::Equations;
 
-/// How much the Jacobian may change from a solution to the next one of the same branch, beside itself. Where rows are
-/// quadratic two solutions for the same held values differ by 2 at least.
+/// Largest ‖J⁻¹(J₀ − J)‖ between two solutions for which they are on one branch. Where rows are quadratic, two
+/// solutions for the same held values differ by 2 at least.
 pub const BRANCH_CHANGE: f64 = 0.5;
 
 /// Farther than that apart, in rad and characteristic lengths, the ends of a step do not tell what is between them.
 pub const BRANCH_STEP: f64 = 0.5;
 
 impl System<f64> {
-    /// Whether a solution is certain to be on the branch of another one, for other held values near by: the Jacobian J at
-    /// it and J₀ at the other one meet ‖J⁻¹(J₀ − J)‖ ≤ ½, as along a followed curve
-    /// ([`Continuation`](crate::solve::Continuation)). Of many unknowns only the change along the step is looked at.
+    /// True if a solution is certainly on the branch of another one for held values near by: the Jacobian J at it and
+    /// J₀ at the other one meet ‖J⁻¹(J₀ − J)‖ ≤ ½, as along a followed curve
+    /// ([`Continuation`](crate::solve::Continuation)). Of a large Jacobian only the change along the step is compared.
     pub fn is_on_branch_of(
         &self,
         from: &Configuration<f64>,

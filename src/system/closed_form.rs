@@ -9,7 +9,7 @@
 //! - cos x and sin x both linear: x = atan2(…, …);
 //! - p = q, where p has an unknown of which p·p is free: p·p = q·q is an equation without it (the law of cosines).
 //!
-//! What is found once is known from there on, so formulas do not grow. An angle is found as it stands in the
+//! A variable once found is known in all later steps, so formulas do not grow. An angle is found as it stands in the
 //! equations, θ₁ + φ₂ for a coupler, and the joint variable follows from it.
 
 mod derivation;
@@ -30,7 +30,7 @@ const MOST_PRODUCTS: usize = 50_000;
 /// Residuals below this are those of rounding, in characteristic lengths and rad.
 const CLOSED: f64 = 1e-9;
 
-/// How an unknown follows from what is known before it.
+/// Rule by which an unknown follows from known numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rule<E = Expression> {
     /// x = atan2(sin, cos), both times the same positive number.
@@ -62,7 +62,7 @@ pub enum Rule<E = Expression> {
     Linear {
         /// The number to divide.
         of: E,
-        /// What it is divided by.
+        /// Its divisor.
         over: E,
     },
     /// An angle that is a sum of known ones.
@@ -109,20 +109,20 @@ impl<E> Rule<E> {
 /// One formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// A joint variable, or a name for an angle that is a sum of some.
+    /// Name of the joint variable, or of an angle that is a sum of some.
     pub name: String,
-    /// The joint, if it is one.
+    /// Index of the joint; `None` for a sum.
     pub joint: Option<usize>,
-    /// The sum that it is otherwise.
+    /// The sum that the name stands for; `None` for a joint.
     pub angle: Option<Expression>,
     /// The closure it follows from.
     pub closure: usize,
-    /// How.
+    /// The rule with its formulas.
     pub rule: Rule,
 }
 
 impl Step {
-    /// Whether there are two solutions.
+    /// True if the rule has two solutions.
     pub fn branches(&self) -> bool {
         matches!(self.rule, Rule::Projection { .. } | Rule::Quadratic { .. })
     }
@@ -165,12 +165,12 @@ impl ClosedSolution {
         })
     }
 
-    /// Whether every unknown is found.
+    /// True if every unknown is found.
     pub fn is_complete(&self) -> bool {
         self.joints_left.is_empty() && self.platforms_left.is_empty()
     }
 
-    /// In how many places there are two solutions.
+    /// Number of steps with two solutions, each chosen by a sign.
     pub fn signs(&self) -> usize {
         self.steps.iter().filter(|step| step.branches()).count()
     }

@@ -43,7 +43,7 @@ impl Driven {
     }
 }
 
-/// What is reported of a coordinate that moves, or of a side of a box.
+/// Range of a coordinate that moves, or of a side of a box.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bound {
     /// The coordinate.
@@ -67,7 +67,7 @@ impl Bound {
     }
 }
 
-/// Why a motion cannot begin.
+/// Reasons for which a motion cannot begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoStart {
     /// The joint of that index is outside its limits.
@@ -89,7 +89,7 @@ pub struct Curve {
     inputs: Vec<Driven>,
     /// The input that measures the part of the segment that is gone.
     measure: usize,
-    /// For each joint after how many turns nothing has changed.
+    /// For each joint the number of turns after which the mechanism is as before; `None` if there is none.
     cycles: Vec<Option<f64>>,
 }
 
@@ -125,7 +125,7 @@ impl Curve {
         }
     }
 
-    /// For each joint after how many turns nothing has changed.
+    /// For each joint the number of turns after which the mechanism is as before; `None` if there is none.
     fn cycles_of(mechanism: &Mechanism) -> Vec<Option<f64>> {
         let joints = 0..mechanism.joints().len();
         joints
@@ -202,7 +202,7 @@ impl Curve {
         (place, rate.abs() < STILL)
     }
 
-    /// How fast the part of the segment that is gone grows along a tangent; 0 without inputs.
+    /// Rate of the part of the segment that is gone, per unit step along a tangent; 0 without inputs.
     pub fn part_rate(&self, at: &Configuration<f64>, tangent: &[f64]) -> f64 {
         self.inputs.get(self.measure).map_or(0.0, |input| {
             self.rate(at, tangent, input.coordinate) * self.unit(input.coordinate)
@@ -210,7 +210,7 @@ impl Curve {
         })
     }
 
-    /// How fast a coordinate changes along a tangent, in rad or characteristic lengths; 0 if it is held.
+    /// Rate of a coordinate along a tangent, in rad or characteristic lengths; 0 if it is held.
     pub fn rate(&self, at: &Configuration<f64>, tangent: &[f64], of: Coordinate) -> f64 {
         let slope = of.slope_in(&self.system, at);
         slope
@@ -219,7 +219,7 @@ impl Curve {
             .sum()
     }
 
-    /// Whether a tangent moves the joint more than rounding does, and where it stands in it.
+    /// Column of a joint among the unknowns; `None` if it is held.
     pub fn column(&self, joint: usize) -> Option<usize> {
         self.system.place_of(Unknown::Joint(joint))
     }
@@ -267,7 +267,7 @@ impl Curve {
             .collect()
     }
 
-    /// How far a configuration is from a place along its tangent, and across it. Nothing allocates.
+    /// Distances of a configuration from a place, along its tangent and across it. Nothing allocates.
     #[inline]
     pub fn offset(&self, from: &Place<Configuration<f64>>, to: &Configuration<f64>) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
@@ -303,7 +303,7 @@ impl Curve {
         step
     }
 
-    /// The same, into a slice as long as there are unknowns.
+    /// As [`Curve::difference_but_turns`], into a slice as long as there are unknowns.
     pub fn difference_but_turns_into(
         &self,
         from: ConfigurationRef<f64>,
@@ -384,7 +384,7 @@ impl SolutionCurve for Curve {
 }
 
 impl Held<f64> {
-    /// The same without one coordinate.
+    /// Frees one coordinate.
     pub fn without(mut self, coordinate: Coordinate) -> Self {
         match coordinate {
             Coordinate::Joint(joint) => self.joints[joint] = false,

@@ -1,4 +1,4 @@
-//! What every assembly of a mechanism without platforms satisfies, over boxes of joint values.
+//! Necessary and sufficient conditions of assembly of a mechanism without platforms, over boxes of joint values.
 //!
 //! The residuals of closures have denominators that keep flipped joints away; over a wide box these hold zero. Here
 //! differences of points and axes stand for them, which vanish in the same places and nowhere else:

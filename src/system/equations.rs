@@ -68,13 +68,13 @@ impl<T: Factorable> System<T> {
         System::whole(dimensions, held, &[])
     }
 
-    /// The same without rows that vanish everywhere, as those across the plane of a loop: all that iterations need.
-    /// What counts rows or assigns forces to them needs all.
+    /// Equations without rows that vanish everywhere, such as those across the plane of a loop: enough for iterations.
+    /// To count rows or to assign forces to them, all are needed.
     pub fn reduced(mechanism: &Mechanism, dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
         System::placing(mechanism, dimensions, held, &[])
     }
 
-    /// The same, whose work holds the poses of more frames than the closures need.
+    /// As [`System::reduced`], with the poses of further frames placed in its work.
     pub fn placing(
         mechanism: &Mechanism,
         dimensions: &Dimensions<T>,
@@ -221,7 +221,7 @@ impl<T: Factorable> System<T> {
         self.empty.rows()
     }
 
-    /// A value of a platform coordinate as the equations have it.
+    /// A value of a platform coordinate with positions measured from the centre, as in the equations.
     pub(crate) fn about_centre(&self, coordinate: PoseCoordinate, value: T) -> T {
         coordinate.about_centre(value, &self.centre)
     }
@@ -231,7 +231,7 @@ impl<T: Factorable> System<T> {
         self.set_target_about_centre(platform, coordinate, self.about_centre(coordinate, value));
     }
 
-    /// The same for a position from the centre.
+    /// As [`System::set_target`], with a position measured from the centre.
     pub(crate) fn set_target_about_centre(
         &mut self,
         platform: usize,

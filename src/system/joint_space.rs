@@ -20,7 +20,7 @@ pub(crate) fn enclosed(mechanism: &Mechanism) -> Option<Dimensions<Interval>> {
     Some(dimensions)
 }
 
-/// Why interval arithmetic says nothing of a question.
+/// Reasons for which interval arithmetic cannot prove anything about a question.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unfit {
@@ -34,9 +34,9 @@ pub enum Unfit {
     Turns,
     /// There are more joint variables than boxes are made for.
     Large {
-        /// How many there are.
+        /// Number of joint variables.
         given: usize,
-        /// How many there may be.
+        /// Largest number allowed.
         most: usize,
     },
 }
@@ -45,12 +45,12 @@ pub enum Unfit {
 pub(crate) struct JointSpace {
     /// The mechanism without platforms.
     pub recut: Recut<Interval>,
-    /// What every assembly satisfies.
+    /// Conditions that hold at every assembly.
     pub enclosure: Enclosure,
 }
 
 impl JointSpace {
-    /// What is held without an equation is where `asked` has it; of the joints held, those of `moving` are variables.
+    /// Coordinates held without an equation have their values in `asked`; held joints among `moving` are variables.
     pub fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,

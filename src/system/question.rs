@@ -46,9 +46,9 @@ pub struct Question<'a> {
     guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
-    /// What stands still so that links do not spin about their own lines.
+    /// Coordinates that stay where they are so that links do not spin about their own lines (local freedoms).
     still: Vec<Still>,
-    /// Whether it is known that no link spins about its own line.
+    /// True if it is known that no link spins about its own line.
     spinless: bool,
     /// The demands made by name so far.
     demands: Vec<(Target, Demand)>,
@@ -167,7 +167,7 @@ impl<'a> Question<'a> {
         self
     }
 
-    /// The same question with some held coordinates at other values, in m or rad.
+    /// The question with held coordinates at other values, in m or rad.
     pub fn at_values(mut self, values: impl IntoIterator<Item = (Coordinate, f64)>) -> Self {
         for (coordinate, value) in values {
             match coordinate {
@@ -200,7 +200,7 @@ impl<'a> Question<'a> {
         )
     }
 
-    /// The same question with one coordinate not held.
+    /// Frees one coordinate.
     pub fn without(mut self, coordinate: Coordinate) -> Self {
         match coordinate {
             Coordinate::Joint(joint) => self.joints[joint] = false,
@@ -239,7 +239,7 @@ impl<'a> Question<'a> {
         self.mechanism
     }
 
-    /// What is held, in the form the solver takes, with the spins that are stopped.
+    /// The held coordinates in the form of the solver, with local spins stopped.
     pub fn held(&self) -> Held<f64> {
         let platforms = (0..self.coordinates.len()).map(|platform| {
             let given = self.held_values(platform);
@@ -278,7 +278,7 @@ impl<'a> Question<'a> {
         System::reduced(self.mechanism, &dimensions, &self.held().map(T::from_f64))
     }
 
-    /// Where the search starts: guesses, held values and for the rest the home configuration.
+    /// Start of the search: guesses and held values, and the home configuration for the rest.
     pub fn start(&self) -> Configuration<f64> {
         let mut start = self.start.clone();
         for (platform, pose) in start.platforms.iter_mut().enumerate() {
@@ -291,7 +291,7 @@ impl<'a> Question<'a> {
         start
     }
 
-    /// For each joint whether its starting value was given with the question.
+    /// For each joint, true if its starting value was given with the question.
     pub fn guessed_joints(&self) -> &[bool] {
         &self.guessed_joints
     }
@@ -304,17 +304,17 @@ impl<'a> Question<'a> {
         asked.then(|| self.start.joints[joint])
     }
 
-    /// For each platform whether its starting pose was given with the question.
+    /// For each platform, true if its starting pose was given with the question.
     pub fn guessed_platforms(&self) -> &[bool] {
         &self.guessed_platforms
     }
 
-    /// Whether joints start elsewhere than at home.
+    /// True if a value given with the question moves the start from the home configuration.
     pub fn differs_from_home(&self) -> bool {
         self.changed
     }
 
-    /// Whether something else is held than the file's actuated joints.
+    /// True if other coordinates are held than the actuated joints of the file.
     pub fn split_changed(&self) -> bool {
         self.split_changed
     }

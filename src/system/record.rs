@@ -25,12 +25,12 @@ impl<T> Named<T> {
         self.0.iter().map(|(_, value)| value)
     }
 
-    /// How many there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there are none.
+    /// True if there are no values.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -74,7 +74,7 @@ pub struct FrameRecord {
     pub position: [f64; 3],
     /// Its rotation matrix, row by row; the columns are its axes n, s, a.
     pub rotation: [[f64; 3]; 3],
-    /// The same as a unit quaternion: scalar first, its first component that is not zero positive.
+    /// Its rotation as a unit quaternion: scalar first, the first component other than zero positive.
     pub quaternion: [f64; 4],
 }
 

@@ -21,16 +21,16 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stage, Stop, Watch};
 use crate::system::{Freedoms, Held, HeldPlatform};
 
-/// One start and where it led.
+/// Newton's method from one start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// Where the iteration ended.
+    /// End of the iteration.
     pub at: Configuration<f64>,
-    /// How it ended.
+    /// Outcome of the iteration.
     pub report: Report,
 }
 
-/// How a search ended.
+/// Outcome of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Searched {
     /// The attempt that assembles, or the one that came closest.
@@ -40,7 +40,7 @@ pub struct Searched {
 }
 
 impl Searched {
-    /// Whether the mechanism assembles there.
+    /// True if the mechanism assembles there.
     pub fn assembles(&self) -> bool {
         self.attempt.report.stop == Stop::Solved
     }
@@ -72,7 +72,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What is held.
+    /// The held coordinates.
     pub fn held(&self) -> &Held<f64> {
         &self.held
     }
@@ -174,13 +174,13 @@ impl<'a> Search<'a> {
         Freedoms::of(&self.system, at, &mut self.work)
     }
 
-    /// Whether another start cannot do better: it cannot change where a held joint is.
+    /// True if no other start can do better: the attempt assembles, and only held joints are outside their limits.
     fn settles(&self, attempt: &Attempt) -> bool {
         attempt.report.stop == Stop::Solved
             && (self.mechanism.outside_limits(&attempt.at.joints)).all(|i| self.held.joints[i])
     }
 
-    /// The attempt, what was solved brought to the turn that was guessed or else to that of home, and into its limits.
+    /// The attempt with solved joints turned to the turn of their guess, or else of home, and into their limits.
     fn normalised(&self, mut attempt: Attempt) -> Attempt {
         if attempt.report.stop != Stop::Solved {
             return attempt;
@@ -200,7 +200,7 @@ impl<'a> Search<'a> {
         Attempt { at, report }
     }
 
-    /// The start of the question; when that is not home, what has no guess of its own is brought to suit the rest.
+    /// Start of the question; if that is not home, free coordinates without a guess are fitted to the rest.
     fn guess(&self) -> Configuration<f64> {
         let start = self.question.start();
         if !self.question.differs_from_home() {
@@ -216,7 +216,7 @@ impl<'a> Search<'a> {
         self.fit(start, joints, self.question.guessed_platforms())
     }
 
-    /// Brings what is not fixed as near to closing as it can come: a platform that fits its legs is a far better guess.
+    /// Minimises the gaps over all that is not fixed: a platform that fits its legs is a far better guess.
     fn fit(
         &self,
         start: Configuration<f64>,

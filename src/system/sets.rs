@@ -1,13 +1,13 @@
-//! Places of all bodies with other angles of balls.
+//! Poses of all bodies with other joint angles of ball joints.
 
 use super::{Held, Neighbourhood, Still};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 
-/// A configuration with every combination of the sets of angles that balls written as three rows have, where what is held
-/// stands as it does in it; the configuration itself comes first.
+/// The configuration, then those with every other combination of the two sets of angles of ball joints written as three
+/// rows, held coordinates unchanged.
 ///
-/// Where a joint stands still so that a link does not spin, the other set of a ball has turned it by half a turn. It is
-/// turned back in steps, and the link spins with it.
+/// If a joint of a ball is fixed to stop a local spin, the other set has turned it by half a turn. It is turned back in
+/// steps, and the link spins with it.
 pub fn sets_of_angles(
     mechanism: &Mechanism,
     (held, still): (&Held<f64>, &[Still]),

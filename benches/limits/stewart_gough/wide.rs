@@ -1,4 +1,4 @@
-//! The same Newton with the six legs side by side in vector registers (AVX2 and FMA, detected at run time),
+//! Newton's method with the six legs side by side in vector registers (AVX2 and FMA, detected at run time),
 //! and Gauss–Jordan elimination in the legs' own order: it needs no back substitution.
 
 use std::arch::x86_64::*;

@@ -1,4 +1,4 @@
-//! Whether a formula vanishes because others do.
+//! Proof that a formula vanishes because other formulas do.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -88,13 +88,13 @@ impl Span {
         row
     }
 
-    /// What is left of a formula when combinations are taken off.
+    /// Remainder of a formula after combinations are subtracted.
     fn rest(&mut self, formula: &Trigonometric) -> BTreeMap<usize, BigRational> {
         let row = self.row(formula);
         self.reduced(row)
     }
 
-    /// Whether the formula is such a combination.
+    /// True if the formula is such a combination.
     pub fn contains(&mut self, formula: &Trigonometric) -> bool {
         self.rest(formula).is_empty()
     }
@@ -136,8 +136,8 @@ pub(super) fn circular(key: Key) -> Vec<Trigonometric> {
     vec![cosine, one(turned(key)).minus(&one(turned(opposite)))]
 }
 
-/// What the axes n, s, a of platforms obey, times squares of the lengths they are multiplied with. `first` is the symbol
-/// of the first letter of the first platform, which has twelve.
+/// Orthonormality of the axes n, s, a of platforms, as equations, times products of two of the lengths that multiply
+/// these axes. `first` is the symbol of the first letter of the first platform, which has twelve.
 fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> {
     let mut lengths: BTreeSet<Powers> = BTreeSet::new();
     let mut platforms: BTreeSet<u32> = BTreeSet::new();
@@ -198,8 +198,9 @@ fn multiplied(
     (2 * generators.len() <= MOST_ROWS).then_some(generators)
 }
 
-/// Whether a formula, perhaps times a product of lengths that are not zero, is Σ tₖ gₖ where the gₖ are the equations and the tₖ combinations
-/// of the terms that occur in these: enough to square and add equations, as one does to eliminate an angle or a platform.
+/// True if a formula, perhaps times a product of lengths that are not zero, is Σ tₖ gₖ, with the equations gₖ and
+/// combinations tₖ of the terms that occur in them: enough to square and add equations, as one does to eliminate an
+/// angle or a platform.
 pub(super) fn follows(
     formula: &Trigonometric,
     equations: &[Trigonometric],

@@ -1,6 +1,7 @@
 //! Elimination of joint angles from a loop by linear algebra.
 //!
-//! Where the frames A and B of a closure meet with one axis, p and z of both are the same seen from every link k of the
+//! If frames A and B of a closure have one origin and one axis, p and z of both are equal, seen from every link k of
+//! the
 //! loop, and so are (M. Raghavan and B. Roth 1993, J. Mech. Design 115, equations 10 to 15)
 //!
 //! > p·p, p·z, p × z, (p·p) z − 2 (p·z) p,
@@ -28,7 +29,8 @@ const MOST_OTHERS: usize = 5;
 /// Products of two terms made at most for one formula.
 const MOST_PRODUCTS: usize = 500_000;
 
-/// What vanishes where the closures are whole that join chains on the ground.
+/// Equations that hold where closures between chains on the ground are closed: origin and axis of both sides, seen from
+/// each link.
 pub(super) fn equations(mechanism: &Mechanism, formal: &Formal) -> Vec<Trigonometric> {
     let mut found = Vec::new();
     for closure in mechanism.closures() {
@@ -88,8 +90,8 @@ fn degrees(formula: &Trigonometric) -> Option<BTreeMap<u32, Ratio<i64>>> {
     Some(degrees)
 }
 
-/// Whether all angles of the formulas are joint variables alone: with constant angles beside them the coefficients are no
-/// sums of roots, and elimination over the rationals decides nothing.
+/// True if all angles of the formulas are joint variables alone: with constant angles beside them the coefficients are
+/// no sums of roots, and elimination over the rationals decides nothing.
 pub(super) fn has_plain_angles(formulas: &[Trigonometric], first_joint: u32) -> bool {
     let plain = |formula| {
         let found = degrees(formula);
@@ -146,7 +148,7 @@ fn roots<'a>(formulas: impl Iterator<Item = &'a Trigonometric>) -> Vec<u64> {
     }
 }
 
-/// Whether elimination in few angles shows that the formula vanishes where the equations do.
+/// True if elimination in few angles shows that the formula vanishes where the equations do.
 pub(super) fn eliminated(formula: &Trigonometric, equations: &[Trigonometric]) -> bool {
     let mut budget = Budget {
         products: MOST_PRODUCTS,

@@ -6,7 +6,7 @@ use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Formula, MatrixEntry, Mechanism, Symbol};
 use crate::number::{Dual, Number};
 
-/// What the names in a closed form stand for at some joint values.
+/// Values of the names in a closed form at some joint values.
 pub(super) struct Values<T> {
     parameters: Vec<T>,
     joints: Vec<T>,

@@ -1,4 +1,4 @@
-//! Identities: what vanishes where a mechanism is assembled, because the equations of its closures do.
+//! Identities: formulas that vanish on every assembled configuration, because the closure equations do.
 
 use std::collections::BTreeMap;
 
@@ -52,7 +52,7 @@ impl Setting<'_> {
         form.times(&other.minus(&rest), budget)
     }
 
-    /// Whether an identity follows from some of the equations.
+    /// True if an identity follows from some of the equations.
     fn consequence(
         &self,
         form: &Trigonometric,
@@ -73,7 +73,7 @@ impl Setting<'_> {
                 && eliminated(form, &elimination::equations(self.letters.0, &self.formal))
     }
 
-    /// How an identity differs from what the closures give: in one term, or altogether.
+    /// Difference of a refuted identity from the closures: in one term if possible, else in whole.
     pub(super) fn refuted(
         &self,
         formula: &Formula,

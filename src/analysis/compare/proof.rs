@@ -14,44 +14,44 @@ use crate::number::Number;
 
 /// Products of two terms made at most for one closed form.
 pub(super) const MOST_PRODUCTS: usize = 100_000;
-/// The same where loops are eliminated.
+/// Products of two terms made at most where loops are eliminated.
 const MOST_PRODUCTS_OF_LOOPS: usize = 2_000_000;
 /// A difference of more terms is not printed.
 pub(super) const MOST_TERMS: usize = 400;
 
-/// What was proved of one component of a closed form.
+/// Proof or refutation of one component of a closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Proof {
     /// It is what the chains give, for all values of joints and parameters at which it has a value.
     Identical,
-    /// The same, but only with the numbers that the file gives its parameters.
+    /// It is what the chains give, but only with the numbers that the file gives its parameters.
     IdenticalForTheseDimensions,
     /// It is an equation of the closures, or a sum of multiples of some.
     FollowsFromClosures,
-    /// The same, but only with the numbers that the file gives its parameters.
+    /// It follows from the closure equations, but only with the numbers that the file gives its parameters.
     FollowsForTheseDimensions,
     /// It is not what the chains give.
     Different(Box<Difference>),
     /// It is neither proved nor refuted: the numbers stand alone.
     NotDecided {
-        /// Why.
+        /// The reason.
         reason: Reason,
     },
 }
 
-/// How a closed form differs from the chains.
+/// Difference between a closed form and the chains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Difference {
-    /// What the form has in the terms that differ; nothing if it has no such terms.
+    /// The terms of the form that differ; 0 if the form has none.
     pub closed_form: Expression,
-    /// What the chains give there.
+    /// The terms of the chains there.
     pub chains: Expression,
     /// Closed form minus chains.
     pub difference: Expression,
 }
 
-/// Why a closed form is neither proved nor refuted.
+/// Reasons for which a closed form is neither proved nor refuted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
@@ -76,7 +76,7 @@ impl Proof {
         Proof::NotDecided { reason }
     }
 
-    /// Whether it is proved.
+    /// True if it is proved.
     pub fn proved(&self) -> bool {
         use Proof::*;
         matches!(
@@ -89,7 +89,7 @@ impl Proof {
     }
 }
 
-/// What can be proved of each component of a form, in order.
+/// Proof or refutation of each component of a form, in order.
 pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
     let general = attempt(mechanism, form, false);
     if general.iter().all(Proof::proved) {
@@ -114,7 +114,7 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
         .collect()
 }
 
-/// How identities that numbers refute differ from what the closures give, in order; nothing where that is too long.
+/// Differences of identities that numbers refute, in order; `None` for one that is too long.
 pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Option<Difference>> {
     let formulas = formulas(form);
     if matches!(form.gives, Given::Pose { .. }) {
@@ -168,7 +168,7 @@ fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce()
     with_letters(values, Budget { products }, work)
 }
 
-/// What can be proved with parameters as letters, or with the numbers of the file.
+/// Proof or refutation of each component, with parameters as letters or as the numbers of the file.
 fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof> {
     let undecided = |reason| vec![Proof::undecided(reason); formulas(form).len()];
     if matches!(form.gives, Given::Pose { .. }) && must_be_assembled(mechanism, form) {

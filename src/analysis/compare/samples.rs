@@ -10,8 +10,8 @@ use crate::mechanism::{Configuration, Mechanism, Role};
 use crate::solve::{Newton, Stop};
 use crate::system::{Held, HeldPlatform, System, Work};
 
-/// How many assembled configurations are remembered to start from: with more of them none is much nearer, but looking
-/// for the nearest takes longer.
+/// Assembled configurations remembered as starts: with more of them none is much nearer, but the search for the nearest
+/// takes longer.
 const REMEMBERED: usize = 1000;
 
 /// Configurations to compare at, made one after the other so that any number of them takes no memory.
@@ -23,7 +23,7 @@ pub(super) struct Samples<'a> {
     work: Work<f64>,
     /// Joints with given values: the actuated ones, or all where there are no closures.
     held: Vec<bool>,
-    /// Whether any joint is held.
+    /// True if any joint is held.
     drives: bool,
     solved_home: Option<Configuration<f64>>,
 }
@@ -52,7 +52,7 @@ impl<'a> Samples<'a> {
         samples
     }
 
-    /// Whether the home configuration assembles.
+    /// True if the home configuration assembles.
     pub fn home_assembles(&self) -> bool {
         self.solved_home.is_some()
     }
@@ -105,7 +105,7 @@ impl<'a> Samples<'a> {
         ControlFlow::Continue(())
     }
 
-    /// How far the held values are apart, in natural sizes.
+    /// Squared distance of the held values, in natural sizes.
     fn distance(&self, from: &[f64], to: &[f64]) -> f64 {
         let joints = from.iter().zip(to).enumerate();
         joints

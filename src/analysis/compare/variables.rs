@@ -12,8 +12,8 @@ pub(super) fn formulas(form: &ClosedForm) -> Vec<&Formula> {
     }
 }
 
-/// Joint variables in terms of the form's own ones: where it defines θ₂ as 90° − φ₂ and uses φ₂ nowhere else, the joint is
-/// 90° − θ₂, and a difference is printed in θ₂. Also which locals are letters for that reason.
+/// Joint variables in terms of the form's own ones, and the locals that are letters for that reason: where it defines
+/// θ₂ as 90° − φ₂ and uses φ₂ nowhere else, the joint is 90° − θ₂, and a difference is printed in θ₂.
 pub(super) fn own_variables(
     letters: &Letters,
     form: &ClosedForm,

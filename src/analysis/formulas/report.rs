@@ -1,4 +1,4 @@
-//! What comes out when a mechanism is multiplied out.
+//! Report of a mechanism in closed form.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,24 +26,24 @@ pub struct FormulasReport {
     /// The unknowns in closed form, if they were asked for.
     #[serde(default)]
     pub solution: Option<SolutionFormula>,
-    /// What was left out because it would be too long.
+    /// Names of formulas left out because they would be too long.
     pub left_out: Vec<String>,
-    /// Whether everything was simplified as far as it can be.
+    /// True if every formula was simplified as far as possible.
     pub simplified: bool,
 }
 
-/// What a name in the formulas stands for.
+/// A letter in the formulas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Letter {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub meaning: Meaning,
     /// The value at home: m, rad or without unit.
     pub value: f64,
 }
 
-/// What kind of thing a letter is.
+/// Kind of a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Meaning {
@@ -84,13 +84,13 @@ pub struct ClosureFormula {
     pub between: [String; 2],
     /// Expressions that vanish where it is closed, without those that vanish everywhere.
     pub equations: Vec<Expression>,
-    /// How many more there are that vanish for all joint values, as those out of the plane of a planar loop.
+    /// Number of further equations that vanish for all joint values, as those out of the plane of a planar loop.
     pub identically_zero: usize,
     /// Of a `Distance` whose equation is long: the vector g between its ends and its length s, g·g = s².
     pub distance: Option<([Expression; 3], Expression)>,
     /// Of a `Rigid` closure with a platform: the axes of both frames are equal too, which takes three more equations.
     pub same_axes: bool,
-    /// Whether the equations also admit the joint put together the wrong way round.
+    /// True if the equations also admit the joint assembled the wrong way round.
     pub admits_flipped: bool,
 }
 
@@ -120,15 +120,15 @@ pub struct TwistFormula {
 /// The unknowns of a question in closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SolutionFormula {
-    /// What is held.
+    /// Names of the held coordinates.
     pub held: Vec<String>,
     /// One formula after another; each uses what those before it give.
     pub steps: Vec<StepFormula>,
     /// Names of the signs, each +1 or −1: every combination that is real is an assembly.
     pub signs: Vec<String>,
-    /// What these formulas do not solve; nothing if they solve everything.
+    /// Unknowns and closures that these formulas do not solve; `None` if they solve everything.
     pub remaining: Option<Remaining>,
-    /// How many combinations of signs are real where the question holds its inputs.
+    /// Number of combinations of signs that are real for the inputs of the question.
     pub real: usize,
     /// Combinations of signs there for which a joint is undetermined: the assemblies are infinitely many.
     #[serde(default)]
@@ -137,7 +137,7 @@ pub struct SolutionFormula {
     pub samples: usize,
     /// The largest closure residual of them, in characteristic lengths and rad.
     pub residual: f64,
-    /// Whether more is held than the mechanism has freedoms: what is held has to fit, and nothing was tried at random.
+    /// True if more is held than the mechanism has freedoms: the held values must fit, and no random inputs were tried.
     pub overdetermined: bool,
 }
 
@@ -160,7 +160,7 @@ pub struct StepFormula {
     pub real_where: Option<Expression>,
 }
 
-/// What is left of the closure equations.
+/// Closures and unknowns left unsolved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remaining {
     /// Closures that still contain unknowns.

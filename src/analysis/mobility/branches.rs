@@ -1,4 +1,4 @@
-//! Deciding which infinitesimal freedoms are finite.
+//! Finite and infinitesimal freedoms told apart, and branches of the configuration space.
 
 mod free;
 mod walk;
@@ -35,13 +35,13 @@ pub(super) struct Finite {
     pub freedoms: usize,
     pub character: Character,
     pub branches: Vec<Branch>,
-    /// How many branches there are, of which no more than [`LISTED`] are listed.
+    /// Number of branches, of which no more than [`LISTED`] are listed.
     pub count: usize,
-    /// Whether there are certainly no others.
+    /// True if there are certainly no others.
     pub complete: bool,
-    /// Whether each unknown was seen to move.
+    /// For each unknown, true if it was seen to move.
     pub moved: Vec<bool>,
-    /// What is left of the equations after a finite step.
+    /// Residual of the equations after a finite step.
     pub gap: Option<f64>,
 }
 
@@ -51,9 +51,9 @@ pub(super) struct Branch {
     pub freedoms: usize,
     /// Basis of its motions at the configuration.
     pub motions: Vec<Vec<f64>>,
-    /// Whether its motions are a cone that is no linear space; the basis then spans it.
+    /// True if its motions are a cone that is no linear space; the basis then spans it.
     pub cone: bool,
-    /// Whether the motions are known to about the length of a step only.
+    /// True if the motions are known to about the length of a step only.
     pub approximate: bool,
     pub moved: Vec<bool>,
 }
@@ -280,11 +280,11 @@ fn see(moved: &mut [bool], step: &[f64], clearly: f64) {
 /// The motions of a branch at the meeting point.
 struct Limit {
     motions: Vec<Vec<f64>>,
-    /// Whether they depend on the way there.
+    /// True if the limit depends on the direction of approach: the tangent is a curved cone.
     curved: bool,
 }
 
-/// Whether the tangent of a branch at the meeting point is a curved cone: steps leave its span.
+/// True if the tangent of a branch at the meeting point is a curved cone: steps leave its span.
 fn is_curved(walk: &mut Walk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
     const STEP: f64 = 0.02;
     if !cone.is_all() {

@@ -11,7 +11,7 @@ use crate::system::{Neighbourhood, Tangent};
 pub struct Redundancy {
     /// The closure.
     pub closure: String,
-    /// How many of its equations.
+    /// Number of its dependent equations.
     pub equations: usize,
     /// All the equations it has.
     pub of: usize,
@@ -30,7 +30,7 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
-/// What counts as zero in a direction.
+/// Components of unit vectors below this are zero.
 const ALIGNED: f64 = 1e-6;
 
 pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundancy> {

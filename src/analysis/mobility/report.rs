@@ -1,4 +1,4 @@
-//! What is reported of the freedoms of a mechanism.
+//! Report on the freedoms of a mechanism.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use super::redundancy::Redundancy;
 use crate::mechanism::Variable;
 use crate::system::{GivenPose, Named, TwistSpace};
 
-/// What an assembled mechanism can do.
+/// Mobility of an assembled mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MobilityReport {
     /// Name of the mechanism.
@@ -34,23 +34,23 @@ pub struct MobilityReport {
     /// Joints in gimbal lock: they turn in place at the configuration and move links beside it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gimbal_locked_joints: Vec<String>,
-    /// How many freedoms are lost so at the configuration.
+    /// Number of freedoms lost in gimbal lock at the configuration.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub gimbal_locked: usize,
-    /// Whether the freedoms are those beside the configuration, which is singular in angles that are in gimbal lock.
+    /// True if the freedoms were counted beside the configuration, which is singular in joint angles in gimbal lock.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub counted_beside: bool,
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.
     pub joints: Named<f64>,
-    /// What kind of point of the configuration space this is.
+    /// Kind of point of the configuration space.
     pub character: Character,
     /// The branches through a singular configuration, the first of very many.
     pub branches: Vec<BranchReport>,
-    /// How many there are, found by steps in many directions.
+    /// Number of branches found by steps in many directions.
     pub branch_count: usize,
-    /// Whether it is certain that there are no more.
+    /// True if there are certainly no more branches.
     pub branches_complete: bool,
     /// Another mobility that the mechanism has in another assembly.
     pub elsewhere: Vec<Elsewhere>,
@@ -60,7 +60,7 @@ pub struct MobilityReport {
     pub unknowns: usize,
     /// Closure equations, and one for each coordinate of a platform that is locked by itself.
     pub equations: usize,
-    /// How many of the equations lock coordinates of platforms.
+    /// Number of equations that lock coordinates of platforms.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub locking: usize,
     /// Local (passive) freedoms: a link turns about its own axis and nothing else moves.
@@ -79,17 +79,17 @@ pub struct MobilityReport {
     /// The characteristic length that makes it dimensionless, in m.
     #[serde(rename = "normalising_length")]
     pub length: f64,
-    /// How the pose given was closed.
+    /// Correction of the given pose.
     #[serde(flatten)]
     pub pose: GivenPose,
-    /// What a finite step leaves of the closure equations, dimensionless; `None` if it does not settle.
+    /// Residual of the closure equations after a finite step, dimensionless; `None` if the step does not settle.
     pub gap_after_step: Option<f64>,
-    /// Whether the work was stopped before it was done: branches and other assemblies may be missing.
+    /// True if the work was stopped early: branches and other assemblies may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
 
-/// What kind of point of the configuration space a configuration is.
+/// Kind of a point of the configuration space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Character {
@@ -125,7 +125,7 @@ pub enum LocalFreedom {
 }
 
 impl LocalFreedom {
-    /// Whether the joint turns in it.
+    /// True if the joint turns in the freedom.
     pub(super) fn moves(&self, joint: &String) -> bool {
         match self {
             LocalFreedom::Joints(joints) | LocalFreedom::Platforms { joints, .. } => {
@@ -145,9 +145,9 @@ pub struct BranchReport {
     pub moving_joints: Vec<String>,
     /// Its motions at the configuration, as for the whole.
     pub twists: Vec<TwistSpace>,
-    /// Whether these motions are a curved cone that its `twists` span: not each of them is possible.
+    /// True if these motions are a curved cone, of which `twists` is the span: not every motion in it is possible.
     pub cone: bool,
-    /// Whether `twists` are only known to about the length of a step: the branch is shaky throughout.
+    /// True if `twists` are known to about the length of a step only: the branch is shaky throughout.
     pub approximate: bool,
 }
 
@@ -160,7 +160,7 @@ pub struct Elsewhere {
     pub joints: Named<f64>,
 }
 
-/// Whether a count is left out of a report.
+/// True for a count that is left out of a report.
 #[allow(clippy::trivially_copy_pass_by_ref)] // serde passes it so
 fn is_zero(number: &usize) -> bool {
     *number == 0

@@ -16,7 +16,7 @@ use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, Wa
 
 type At = Place<Configuration<f64>>;
 
-/// What a motion along a segment of inputs met.
+/// Singularities met by a motion along a segment of inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AlongReport {
     /// The mechanism's name.
@@ -29,9 +29,9 @@ pub struct AlongReport {
     pub outputs: Vec<String>,
     /// Outputs that may hide what their positions lose.
     pub coupled: Vec<Coupled>,
-    /// What is moved, from its value at the start to that at the end.
+    /// The driven coordinates, with their values at the start and at the end.
     pub moved: Vec<Bound>,
-    /// How the motion ended.
+    /// End of the motion.
     pub ending: AlongEnd,
     /// The joint whose limit was reached, if one was.
     pub limit: Option<String>,
@@ -43,7 +43,7 @@ pub struct AlongReport {
     pub sure_steps: usize,
     /// The length that makes the matrices dimensionless, in m.
     pub normalising_length: f64,
-    /// Whether the work was stopped before the motion ended.
+    /// True if the work was stopped before the motion ended.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
@@ -53,19 +53,19 @@ pub struct AlongReport {
 pub struct Crossing {
     /// The part of the segment that was gone.
     pub part: f64,
-    /// What is moved there, rad or m.
+    /// Values of the driven coordinates there, rad or m.
     pub moved: Vec<f64>,
     /// The joints there, rad or m, in the order of the file.
     pub joints: Vec<f64>,
-    /// Whether what is moved turns back here: driven, it locks.
+    /// True at a fold: the driven coordinates turn back here, and as inputs they lock.
     pub fold: bool,
-    /// Whether branches cross here.
+    /// True if branches cross here.
     pub branches: bool,
-    /// What it is.
+    /// Kinds of singularity and freedoms gained or lost.
     pub singularity: Singularity,
 }
 
-/// How a motion ended.
+/// End of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AlongEnd {
@@ -220,7 +220,7 @@ struct Tests<'m> {
 }
 
 impl Tests<'_> {
-    /// What is met in a step, in order; things at the same place are one.
+    /// Events in a step, in order; those at one place are one.
     fn met(&mut self, curve: &mut Curve, step: &Segment, method: &Continuation) -> Vec<Met> {
         let mut found: Vec<Met> = Vec::new();
         for (place, event) in &step.events {
@@ -289,7 +289,7 @@ impl Tests<'_> {
         places
     }
 
-    /// What is singular at a place, if something is.
+    /// Classifies a place; `None` if it is regular and neither a fold nor a crossing.
     fn crossing(
         &mut self,
         curve: &Curve,

@@ -1,4 +1,4 @@
-//! What kind of singularity a configuration is.
+//! Classification of singular configurations.
 
 mod resisted;
 
@@ -33,7 +33,7 @@ pub enum Zlatanov {
     PassiveMotion,
 }
 
-/// What is singular about a configuration; empty at a regular one.
+/// Singularity of a configuration; empty at a regular one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Singularity {
     /// The type of Gosselin and Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither.
@@ -52,16 +52,16 @@ pub struct Singularity {
     pub idle_inputs: Option<Movement>,
     /// Wrenches that outputs resist in the freedoms they lost, whatever the inputs do.
     pub resisted: Vec<Resisted>,
-    /// How far the nearest singularity is.
+    /// Distances from the nearest singularities, as singular values.
     pub distances: Distances,
-    /// Whether a regular configuration nearby was found; without it a rank lost everywhere looks regular.
+    /// True if a regular configuration nearby was found; without one a rank lost everywhere looks regular.
     pub compared: bool,
 }
 
 /// Infinitesimal motions, with other things at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Movement {
-    /// How many are independent.
+    /// Number of independent motions.
     pub freedoms: usize,
     /// The joints that move; rates of a single motion are parts of a unit vector, rad and
     /// characteristic lengths.
@@ -75,7 +75,7 @@ pub struct Movement {
 pub struct Moving {
     /// Its name.
     pub joint: String,
-    /// How fast; `None` if several motions are independent.
+    /// Rate; `None` if several motions are independent.
     pub rate: Option<f64>,
 }
 
@@ -101,7 +101,7 @@ pub struct Distances {
 }
 
 impl Singularity {
-    /// Whether anything is singular.
+    /// True if the configuration is singular.
     pub fn is_singular(&self) -> bool {
         !self.zlatanov.is_empty()
     }
@@ -176,7 +176,7 @@ impl<'m> Classifier<'m> {
         self.decompositions(at).map(|found| columns - found.rank())
     }
 
-    /// What is singular at an assembled configuration.
+    /// Classifies an assembled configuration.
     pub fn at(&mut self, at: &Configuration<f64>) -> Singularity {
         let generic = self.generic;
         let matrices = self.decompositions(at);
@@ -300,7 +300,7 @@ impl<'m> Classifier<'m> {
     }
 }
 
-/// Which matrix loses rank.
+/// Matrix that loses rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -311,7 +311,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether a singularity is of this kind, or of both.
+    /// True if a singularity is of this kind, or of both.
     pub(super) fn is_of(self, singularity: &Singularity) -> bool {
         let own = match self {
             Kind::Direct => 2,

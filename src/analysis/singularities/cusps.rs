@@ -6,16 +6,16 @@ use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
 type At = Place<Singular>;
 
-/// The places on a curve where the motion v that is gained is possible to second order too, with
-/// M(x) v = 0 and nothing of (∂M/∂v) v outside the image of M.
+/// Cusps of a curve: places at which the gained motion v is possible to second order too, with M(x) v = 0 and (∂M/∂v) v
+/// in the image of M.
 ///
 /// Elsewhere two solutions meet on the locus, there three: in the plane of two inputs its image has a
 /// cusp, round which one solution turns into another without a singularity between them.
 /// Sources: McAree and Daniel 1999; Zein, Wenger and Chablat 2008.
 pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Singular>) -> Vec<At> {
-    /// What is less is rounding: v leads on along a whole motion.
+    /// A bend below this is rounding: v leads on along a whole motion.
     const STILL: f64 = 1e-7;
-    /// What is left at a cusp.
+    /// Largest bend at a cusp.
     const THERE: f64 = 1e-9;
     /// Configurations this near are one; where loci cross three solutions meet as well.
     const SAME: f64 = 1e-5;

@@ -26,9 +26,9 @@ impl Sample {
         last.and_then(|last| values.get(last)).map_or(0.0, |v| *v)
     }
 
-    /// Whether nothing but rounding is left of the last singular value.
+    /// True if the last singular value is zero to rounding.
     fn vanishes(&self) -> bool {
-        /// What is rounding beside the largest one.
+        /// Rounding of singular values, relative to the largest.
         const ROUNDING: f64 = 1e-12;
         self.least() <= ROUNDING * self.largest()
     }

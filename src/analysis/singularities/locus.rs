@@ -44,7 +44,7 @@ pub struct LocusReport {
     pub starts: [usize; 2],
     /// Starts that led to a singular configuration in the box, direct and inverse.
     pub arrived: [usize; 2],
-    /// Whether direct and inverse singularities were sought: not where they are everywhere.
+    /// True for each kind, direct and inverse, that was sought: a kind that is singular everywhere is not.
     pub sought: [bool; 2],
     /// The start that led to the curve found last, direct and inverse.
     pub last_new: [Option<usize>; 2],
@@ -52,25 +52,25 @@ pub struct LocusReport {
     pub seed: u64,
     /// The length that makes the matrices dimensionless, in m.
     pub normalising_length: f64,
-    /// Whether the work was stopped before it was done: loci may be missing.
+    /// True if the work was stopped early: loci may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
 
-/// What a curve of singular configurations is in the box, or several that look alike there.
+/// A curve of singular configurations in the box, or several that coincide there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Locus {
-    /// Which matrix loses rank on it.
+    /// Matrix that loses rank on it.
     pub kind: Kind,
-    /// Whether it is a curve, or a point where only what is not in the box moves, if anything does.
+    /// Curve, or single point over which only coordinates outside the box move, if any do.
     pub shape: Shape,
     /// The curves of configurations that were found over it, each over all of it or a part.
     pub configurations: usize,
-    /// How many random starts led to it; none if it was found where other loci cross.
+    /// Number of random starts that led to it; 0 if it was found from a crossing of other loci.
     pub met: usize,
-    /// Whether its configurations make a closed curve.
+    /// True if its configurations make a closed curve.
     pub closed: bool,
-    /// How its first and its last configuration end it; the same if it closes.
+    /// Ends at its first and at its last configuration; both [`LocusEnd::Closed`] if it closes.
     pub ends: [LocusEnd; 2],
     /// Least and greatest value of the two coordinates on it, rad or m, located to rounding.
     pub extents: [[f64; 2]; 2],
@@ -80,11 +80,11 @@ pub struct Locus {
     pub joints: Vec<Vec<f64>>,
     /// Positions (m) and quaternions (w, x, y, z) of the platforms at its points.
     pub poses: Vec<Vec<[f64; 10]>>,
-    /// What is singular in its middle.
+    /// Singularity at its middle.
     pub singularity: Singularity,
-    /// Where other loci cross it: the two coordinates.
+    /// Crossings with other loci: the two coordinates.
     pub crossings: Vec<[f64; 2]>,
-    /// Where three solutions meet on it, with their configurations, in order of the coordinates.
+    /// Cusps, at which three solutions meet, in order of the coordinates.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cusps: Vec<Cusp>,
 }
@@ -106,7 +106,7 @@ pub struct Cusp {
 /// The question holds the two coordinates in the middle of the box, `held` leaves them free; singularities refer to
 /// `inputs`. Gauss–Newton steps lead from random configurations to closure and singularity at once; the curve through
 /// each new one is followed both ways, to its beginning, an edge of the box or a limit. Isolated points are found too.
-/// Where loci of one kind cross there may be one of the other that random starts hardly meet: crossings are starts too.
+/// Crossings of loci of one kind are starts too, as there may be loci of the other kind that random starts hardly meet.
 ///
 /// Spins of links about their own lines must stand still in the question, for the motion gained to be unique.
 ///

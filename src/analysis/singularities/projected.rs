@@ -1,4 +1,4 @@
-//! The loci as they appear in the box: which coincide there, and which are points.
+//! Loci as they appear in the box: curves that coincide there, and single points.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::number::{real, sorting::sort_by};
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
-/// What a curve of configurations is in the box.
+/// Image of a curve of configurations in the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -68,7 +68,7 @@ impl<'t> Projection<'t> {
         }
     }
 
-    /// Whether all its configurations are one.
+    /// True if all its configurations are one.
     fn stands_still(&self, curve: &LocusCurve) -> bool {
         let mut places = self.traced.places.iter();
         let Some(first) = places.next() else {
@@ -90,7 +90,7 @@ impl<'t> Projection<'t> {
         distinct
     }
 
-    /// Whether the curve passes over a point of the box, which is located on it to rounding.
+    /// True if the curve passes over a point of the box, which is located on it to rounding.
     fn passes(&self, curve: &mut LocusCurve, region: &Region, point: [f64; 2]) -> bool {
         if self.points.iter().any(|own| apart(*own, point) < SAME) {
             return true;
@@ -116,9 +116,10 @@ impl<'t> Projection<'t> {
         false
     }
 
-    /// Whether the curve passes over points spread over all of another: algebraic curves share a component or few points.
+    /// True if the curve passes over points spread over all of another: algebraic curves share a component or few
+    /// points.
     ///
-    /// Where curves cross a point may be lost to rounding, so that one of three neighbours suffices.
+    /// Near a crossing of curves a point may be lost to rounding, so that one of three neighbours suffices.
     fn covers(&self, other: &Projection, curve: &mut LocusCurve, region: &Region) -> bool {
         /// Points that are tested, and parts of the distance between two of them.
         const TRIED: usize = 12;

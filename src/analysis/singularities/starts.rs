@@ -25,20 +25,20 @@ pub(super) struct Search<'m> {
     pub classifier: Classifier<'m>,
 }
 
-/// What starts led to.
+/// Curves found from starts.
 pub(super) struct Found {
     pub kind: Kind,
     pub curve: LocusCurve,
     /// Curves, and isolated points as curves of one place, each with how many random starts met it.
     pub known: Vec<(Traced<Singular>, usize)>,
     pub starts: usize,
-    /// How many of them led into the box.
+    /// Number of starts that led into the box.
     pub arrived: usize,
     /// The start that led to the locus found last.
     pub last_new: Option<usize>,
 }
 
-/// Whether more starts are likely to lead to new curves, by the share of curves met once (Good 1953).
+/// True if more starts are likely to lead to new curves, by the share of curves met once (Good 1953).
 fn more_is_likely(found: &Found) -> bool {
     /// Fewer arrivals say nothing.
     const ARRIVALS: usize = 20;
@@ -114,7 +114,7 @@ impl Search<'_> {
     /// The singular configuration in the box that Gauss–Newton steps lead to, and whether it is isolated; its tangent
     /// then has no meaning.
     ///
-    /// Where the determinant has an extremum of zero, as for a 5-bar whose cranks part as far as its couplers reach, the
+    /// If the determinant has an extremum of zero, as for a 5-bar whose cranks part as far as its couplers reach, the
     /// locus is an isolated point: the augmented system loses rank, and each step halves the distance only.
     fn arrival(
         &self,

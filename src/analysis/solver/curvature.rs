@@ -10,8 +10,8 @@ use crate::linear::{DENSE_LIMIT, norm, singular_values};
 /// The rate at which the Jacobian changes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curvature {
-    /// What makes a change of each input, then of each number of the state, dimensionless; 0 where the Jacobian does not
-    /// depend on it.
+    /// Factors that make changes of the inputs, then of the state, dimensionless; 0 where the Jacobian does not depend
+    /// on the number.
     pub weights: Vec<f64>,
     /// The largest change of the Jacobian for a unit change of all these found, in the Frobenius norm.
     pub largest: f64,

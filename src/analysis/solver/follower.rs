@@ -16,7 +16,7 @@ use crate::system::{Coordinate, Question};
 use certain::{Certain, Jacobians};
 use past::{Mask, Past};
 
-/// How motions are followed.
+/// Settings of a follower.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Following {
     /// A point is a solution when no dimensionless row exceeds this.
@@ -43,7 +43,7 @@ impl Default for Following {
 pub struct Follower<'a> {
     plan: Plan<'a>,
     settings: Following,
-    /// Where the coordinates that change stand among the inputs.
+    /// Indices of the changing coordinates among the inputs.
     changing: Vec<usize>,
     /// The values of all inputs at the start.
     inputs: Vec<f64>,
@@ -51,7 +51,8 @@ pub struct Follower<'a> {
     free: Vec<usize>,
     program: Batch,
     results: Results,
-    /// What makes changes of the numbers that change, then of the state, dimensionless, and how fast the Jacobian changes.
+    /// Factors that make changes of the changing inputs, then of the state, dimensionless, and the rate of the
+    /// Jacobian.
     curvature: Curvature,
 }
 
@@ -62,13 +63,13 @@ enum Section {
     Rows = 1,
     /// The step, and the state moved by it.
     Step = 2,
-    /// What follows from the state.
+    /// The numbers that follow from the state.
     Reached = 3,
     /// The Jacobian and its inverse.
     Jacobian = 4,
 }
 
-/// Where the results of the program are.
+/// Registers of the results of the program.
 #[derive(Clone, Debug)]
 struct Results<T = usize> {
     /// The sum of the squares of all rows.
@@ -302,7 +303,7 @@ impl<'a> Follower<'a> {
         solved.map(|of| of != 0)
     }
 
-    /// Where the last [`solve`](Self::solve) led: all motions' values of each coordinate, in the order of
+    /// Values reached by the last [`solve`](Self::solve): all motions' values of each coordinate, in the order of
     /// [`Coordinate::all`], in rad and m.
     pub fn columns<'m>(&self, motions: &'m Motions) -> impl Iterator<Item = &'m [f64; BATCH]> {
         let columns = self.results.columns.iter();

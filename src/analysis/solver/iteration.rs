@@ -1,4 +1,4 @@
-//! What Newton's method runs on: all closure equations, or fewer where platforms leave.
+//! Equations of Newton's method: all closure equations, or fewer where platforms leave.
 
 use super::placing::placings;
 use super::{NoSolver, Plan, Variable};
@@ -8,7 +8,7 @@ use crate::mechanism::{Configuration, Dimensions};
 use crate::solve::Equations;
 use crate::system::{Held, System};
 
-/// What Newton's method runs on.
+/// Equations, Jacobian and step of Newton's method.
 pub(super) struct Iteration {
     /// With the factors by which no closure row is larger.
     pub rows: Vec<(Recorded, f64)>,
@@ -16,11 +16,11 @@ pub(super) struct Iteration {
     pub jacobian: Vec<Vec<Recorded>>,
     /// The steps of unknowns by their places.
     pub step: Vec<(usize, Recorded)>,
-    /// What is divided by in a step.
+    /// Pivots of a step.
     pub pivots: Vec<Pivot>,
-    /// What follows afterwards, by its places in the state.
+    /// Numbers of the state that follow afterwards, by their places.
     pub placed: Vec<(usize, Recorded)>,
-    /// What is divided by there.
+    /// Pivots of these.
     pub placing: Vec<Pivot>,
 }
 

@@ -25,7 +25,7 @@ pub(super) struct Placing {
     pub platform: usize,
     /// Its closures; the distance of the first two balls takes the place of the first, and so on.
     pub closures: [usize; 3],
-    /// What the balls are joined to.
+    /// The frames that the balls are joined to.
     tips: [Frame; 3],
     /// The balls in the platform.
     balls: [Vector3<f64>; 3],
@@ -154,7 +154,7 @@ impl Placing {
     }
 }
 
-/// Where the origins of frames are.
+/// Origins of frames in ground, in m.
 fn points<T: Number>(
     dimensions: &Dimensions<T>,
     frames: [Frame; 3],

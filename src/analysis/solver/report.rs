@@ -33,7 +33,7 @@ pub struct FrameProgram {
 pub struct Divisor {
     /// Its place.
     pub place: Place,
-    /// The place of what is made of it.
+    /// The place of its reciprocal.
     pub inverse: Place,
     /// Its natural size: it is small where it is small beside this.
     pub scale: f64,
@@ -56,7 +56,7 @@ impl Divisor {
 pub struct Radicand {
     /// Its place.
     pub place: Place,
-    /// The place of what it is small beside.
+    /// The place of the number beside which it is small.
     pub size: Place,
 }
 
@@ -67,26 +67,26 @@ pub struct ClosedProgram {
     pub state: Vec<Place>,
     /// The places of the signs by which the nearest solution is chosen, in their order.
     pub signs: Vec<Place>,
-    /// What must not be negative.
+    /// Numbers that must not be negative.
     pub radicands: Vec<Radicand>,
-    /// What is divided by, and the size below which it is zero.
+    /// Divisors, each with the size below which it is zero.
     pub divisors: Vec<(Place, f64)>,
 }
 
-/// A solver as a straight-line program. Its inputs are numbered: what is held, then the state, then a step of the
-/// unknowns.
+/// A solver as a straight-line program. Its inputs are numbered: the held coordinates, then the state, then a step of
+/// the unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Solver {
     /// Name of the mechanism.
     pub mechanism: String,
-    /// What is held.
+    /// The held coordinates.
     pub inputs: Vec<Component>,
-    /// By which numbers a configuration is kept.
+    /// The numbers that define a configuration.
     pub state: Vec<Component>,
     /// The place in ground, in m, from which positions of platforms in the state are measured.
     #[serde(default, skip_serializing_if = "is_origin")]
     pub centre: [f64; 3],
-    /// How many unknowns a step has: one for each free joint, six for each free platform.
+    /// Number of unknowns of a step: one for each free joint, six for each free platform.
     pub unknowns: usize,
     /// All operations; operands stand before what uses them.
     pub operations: Vec<Operation>,
@@ -103,7 +103,7 @@ pub struct Solver {
     pub curvature: f64,
     /// The weights of the inputs, then of the state; 0 where it does not depend on them.
     pub weights: Vec<f64>,
-    /// What is divided by.
+    /// Pivots of the step.
     pub pivots: Vec<Divisor>,
     /// The unknowns that are iterated, with the places of their components of the step −J⁻¹ r, dimensionless.
     pub step: Vec<(usize, Place)>,

@@ -1,4 +1,4 @@
-//! What closures and joints pass on from body to body.
+//! Reactions: wrenches that closures and joints transmit from body to body.
 
 use std::collections::HashMap;
 
@@ -26,7 +26,7 @@ pub struct Reaction {
     pub force: [f64; 3],
     /// Moment about the point, in N·m.
     pub moment: [f64; 3],
-    /// For the components of force and moment whether equilibrium determines them.
+    /// For each component of force and moment, true if equilibrium determines it.
     pub unique: [bool; 6],
 }
 
@@ -133,7 +133,7 @@ fn parent(mechanism: &Mechanism, chain: usize, row: usize) -> Body {
     })
 }
 
-/// How much of each state of stress to add for the least sum of squares of all reactions.
+/// Multiples of the states of stress that, added, make the sum of squares of all reactions least.
 pub(super) fn least(found: &[Reaction], stresses: &[Vec<Reaction>], length: f64) -> Vec<f64> {
     let columns: Vec<f64> = stresses.iter().flat_map(|s| stacked(s, length)).collect();
     let opposite: Vec<f64> = stacked(found, length).map(|x| -x).collect();

@@ -1,4 +1,4 @@
-//! Where a motion without inputs begins, and in which sense it goes.
+//! Start and sense of a motion without inputs.
 
 use std::ops::ControlFlow;
 

@@ -15,9 +15,10 @@ pub struct Stretch {
     pub ends: [Configuration<f64>; 2],
     /// The parts of the time that are gone there.
     times: [f64; 2],
-    /// What is prescribed along it instead of the inputs: the coordinate that moves most.
+    /// The coordinate prescribed along it instead of the inputs, which moves most; `None` where the inputs are
+    /// prescribed.
     along: Option<Driven>,
-    /// How far, in rad and characteristic lengths, a configuration may be from its ends.
+    /// Largest distance of a configuration from its ends, in rad and characteristic lengths.
     reach: f64,
 }
 
@@ -37,7 +38,7 @@ pub struct Passage<'m> {
     pace: Pace,
     schedule: Option<&'m Schedule>,
     scales: Vec<(Coordinate, f64)>,
-    /// What solves with the inputs prescribed, or with a coordinate.
+    /// Trackers, each with the coordinate prescribed, or `None` for the inputs.
     trackers: Vec<(Option<Coordinate>, MotionTracker)>,
 }
 

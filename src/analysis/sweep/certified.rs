@@ -1,4 +1,4 @@
-//! Whether the rows of a motion lie on one branch, by interval arithmetic between them.
+//! Proof by interval arithmetic that the rows of a motion lie on one branch.
 //!
 //! A box round two configurations is certified if, for all inputs between theirs, it holds exactly one zero of as many
 //! combinations of the closures as there are joint variables (Neumaier 1990, §5.1): then one continuous branch leads from
@@ -21,7 +21,7 @@ use moving::{Moving, joint};
 /// Half the side of the box that holds a configuration's exact place, in rad or characteristic lengths.
 const EXACT: f64 = 1e-8;
 
-/// How often the way between two rows is halved.
+/// Largest number of halvings of the way between two rows.
 const HALVINGS: usize = 24;
 
 /// Parts of that way that are halved at most, all of one length.
@@ -30,10 +30,10 @@ const MOST_PARTS: usize = 1024;
 /// Joint variables at most: a box takes as many operations as their cube.
 const MOST_VARIABLES: usize = 100;
 
-/// What is certified of the branch between the rows of a motion.
+/// Certificate of the branch between the rows of a motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// Why nothing is certified.
+    /// The reason if nothing is certified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unfit: Option<Unfit>,
     /// Boxes in which the branch is certified, end to end.
@@ -43,7 +43,7 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether all rows are shown to lie on one branch.
+    /// True if all rows are proved to lie on one branch.
     pub fn is_whole(&self) -> bool {
         self.unfit.is_none() && self.uncertified.is_empty()
     }
@@ -168,7 +168,7 @@ impl<'m> Certifier<'m> {
         open.iter().for_each(|(_, from, to)| self.note(from, to));
     }
 
-    /// Whether one continuous branch leads from one place to another.
+    /// True if one continuous branch is proved to lead from one place to another.
     fn holds(&mut self, from: &Place, to: &Place) -> bool {
         let (Some(start), Some(end), Some(sides)) = (&from.exact, &to.exact, around(from, to))
         else {
@@ -228,7 +228,7 @@ impl Place {
         }
     }
 
-    /// Where the inputs are in the middle; `None` if nothing regular is found there.
+    /// The place at the middle of the inputs; `None` if nothing regular is found there.
     fn between(
         space: &mut JointSpace,
         driven: &[Driven],

@@ -25,10 +25,10 @@ use class::{class, grashof};
 use course::Course;
 use tracing::{Found, SAME, Tracing};
 
-/// How to look for circuits.
+/// Settings of a search for circuits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitsSettings {
-    /// How carefully curves are followed.
+    /// Tolerances and step lengths of the continuation.
     pub continuation: Continuation,
     /// Steps after which a curve is given up; ten times as many are made for all curves together.
     pub most_steps: usize,

@@ -15,7 +15,7 @@ pub struct Dwell {
     pub name: String,
     /// Its unit.
     pub unit: SiUnit,
-    /// How far it may be from the value, to either side.
+    /// Largest deviation from the value, to either side.
     pub tolerance: f64,
     /// The value.
     pub value: f64,
@@ -168,7 +168,7 @@ fn windows(samples: &[Sample], width: f64) -> Vec<[usize; 2]> {
     all
 }
 
-/// Where a band is left, before and after a sample in it.
+/// Places at which a band is left, before and after a sample in it.
 fn ends(samples: &[Sample], core: usize, [low, high]: [f64; 2], at: &mut At) -> [f64; 2] {
     let slack = 1e-13 * low.abs().max(high.abs());
     let beyond = |value: f64| match value {
@@ -194,7 +194,7 @@ fn ends(samples: &[Sample], core: usize, [low, high]: [f64; 2], at: &mut At) -> 
     })
 }
 
-/// Where a function changes its sign between two places, by false position with halved heights.
+/// Place at which a function changes its sign between two others, by false position with halved heights.
 ///
 /// Source: Dowell and Jarratt, A modified regula falsi method (Illinois), 1971.
 fn crossing([inside, outside]: [f64; 2], f: &mut dyn FnMut(f64) -> Option<f64>) -> f64 {

@@ -1,4 +1,4 @@
-//! How inputs go through their ranges in time.
+//! Motion laws of inputs: position over time.
 
 use serde::{Deserialize, Serialize};
 

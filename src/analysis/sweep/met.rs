@@ -12,7 +12,7 @@ use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 /// Something special that was met, with where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Met {
-    /// What it is.
+    /// Its kind.
     #[serde(flatten)]
     pub kind: MetKind,
     /// The part of the inputs' segment that was gone; `null` without inputs.
@@ -27,7 +27,7 @@ pub struct Met {
     pub singularity: Option<u8>,
 }
 
-/// What can be met.
+/// Kind of special point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "met")]
 pub enum MetKind {
@@ -51,7 +51,7 @@ pub enum MetKind {
         limit: f64,
         /// rad or m.
         unit: SiUnit,
-        /// Whether it is the upper one.
+        /// True for the upper limit.
         upper: bool,
     },
     /// A traced point stands still for an instant: its path has a cusp.
@@ -65,7 +65,7 @@ pub enum MetKind {
     Closed,
     /// Branches meet.
     Crossing {
-        /// How many infinitesimal freedoms there are.
+        /// Number of infinitesimal freedoms.
         freedoms: usize,
         /// The branches that pass.
         branches: Vec<Passing>,
@@ -75,9 +75,9 @@ pub enum MetKind {
 /// A branch that passes through a crossing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Passing {
-    /// Whether it is the one that was followed.
+    /// True for the branch that was followed.
     pub followed: bool,
-    /// How fast each joint moves along it, in the order of the file: the components of the unit
+    /// Rate of each joint along it, in the order of the file: components of the unit
     /// tangent, lengths over the characteristic length.
     pub rates: Vec<f64>,
 }
@@ -87,11 +87,11 @@ pub(super) struct Record<'m> {
     mechanism: &'m Mechanism,
     inputs: Vec<Driven>,
     points: &'m [NamedPoint],
-    /// What the motion has come to so far.
+    /// The report of the motion so far.
     pub so_far: SweepReport,
 }
 
-/// What is listed at most.
+/// Special points listed at most.
 const MOST: usize = 1000;
 
 impl<'m> Record<'m> {
@@ -209,7 +209,7 @@ impl<'m> Record<'m> {
         })
     }
 
-    /// Why the motion cannot begin: branches may cross where it starts.
+    /// Report of a motion that cannot begin, with the limit exceeded or the branches that cross at its start.
     pub fn no_start(
         mut self,
         curve: &mut Curve,

@@ -13,7 +13,7 @@ use crate::system::Moved;
 pub struct MotionsReport {
     /// The mechanism's name.
     pub mechanism: String,
-    /// What moved most from the values guessed to the assembly where the motion begins.
+    /// The joint or platform that moved most from its guess to the assembly at the start of the motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<Moved>,
     /// The motions.
@@ -25,28 +25,28 @@ pub struct MotionsReport {
 pub struct MotionReport {
     /// The number of the mode, if it was asked for.
     pub mode: Option<usize>,
-    /// How it ended, in words; the output fills it in.
+    /// End of the motion in words; the output fills it in.
     pub sentence: String,
-    /// What it came to.
+    /// The sweep.
     #[serde(flatten)]
     pub sweep: SweepReport,
-    /// How the inputs went through their ranges; none without inputs.
+    /// Motion law of the inputs; none without inputs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pace: Option<Pace>,
-    /// How many rows the table has that the inputs go through, if one gives their motion.
+    /// Number of rows of the table of inputs, if one gives their motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<usize>,
     /// The least and greatest values of the quantities asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub extremes: Vec<Extremum>,
-    /// How straight the traced paths are, if that is asked for.
+    /// Straightness of the traced paths, if that is asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub straightness: Vec<Straightness>,
-    /// Where quantities dwell, if that is asked for; none for one without values.
+    /// Dwells of quantities, if that is asked for; none for a quantity without values.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dwells: Vec<Dwell>,
-    /// What the columns are: the number of the step, joints, platforms, traced points, the time if quantities were
-    /// asked for, and these.
+    /// Names and units of the columns: number of the step, joints, platforms, traced points, and if quantities were
+    /// asked for, the time and these.
     pub columns: Vec<Variable>,
     /// The rows in SI units and rad; what is not known is `None`.
     pub values: Vec<Vec<Option<f64>>>,
@@ -62,22 +62,22 @@ pub struct Extremum {
     /// The value of one that does not change.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constant: Option<f64>,
-    /// Where it is least.
+    /// Its least value.
     pub least: Option<Extreme>,
-    /// Where it is greatest.
+    /// Its greatest value.
     pub greatest: Option<Extreme>,
-    /// Where it grows without bound.
+    /// Places at which it grows without bound.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unbounded: Vec<Pole>,
     /// True if there may be values beyond these, since not all of the curve could be bounded.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub at_least: bool,
-    /// Why it has no value anywhere.
+    /// The reason if it has no value anywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub missing: Option<Missing>,
 }
 
-/// Why a quantity has no value.
+/// Reasons for which a quantity has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Missing {
@@ -98,11 +98,11 @@ pub struct Pole {
     pub inputs: Vec<f64>,
     /// The joints there, in m or rad, in the order of the file.
     pub joints: Vec<f64>,
-    /// Whether it grows upwards just before, and just after; none where it does not grow or is not known.
+    /// True if it grows upwards, just before and just after; none where it does not grow or is not known.
     pub upwards: [Option<bool>; 2],
 }
 
-/// A value of a quantity and where it has it.
+/// A value of a quantity with the place where it is taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extreme {
     /// The value.
@@ -115,11 +115,11 @@ pub struct Extreme {
     pub joints: Vec<f64>,
 }
 
-/// What the columns of rows are.
+/// Columns of the rows of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Columns {
     variables: Vec<Variable>,
-    /// From where configurations measure positions.
+    /// Position in ground, in m, from which configurations measure positions.
     centre: Vector3<f64>,
 }
 

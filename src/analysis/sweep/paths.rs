@@ -13,16 +13,17 @@ use crate::solve::Continuation;
 use crate::system::{Curve, Event, FrameTwists, Segment};
 use crossings::double_points;
 
-/// What is special on the path of a point.
+/// Cusps and double points of the path of a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathReport {
     /// The point, as it was asked for.
     pub point: String,
     /// The joints, in the order of the file.
     pub variables: Vec<Variable>,
-    /// Where it stands still for an instant while the mechanism moves, in the order in which this was met.
+    /// Cusps, at which the point stands still for an instant while the mechanism moves, in the order in which they were
+    /// met.
     pub cusps: Vec<PathPoint>,
-    /// Where its path crosses itself, sorted.
+    /// Double points, at which its path crosses itself, sorted.
     pub double_points: Vec<PathPoint>,
     /// The order of the whole algebraic curve, all circuits and complex points included, where it was asked for and
     /// is certain: with so many points a line in its plane meets it, or a plane a curve in space.
@@ -33,7 +34,7 @@ pub struct PathReport {
 /// A point of a path with the configurations that lead there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathPoint {
-    /// Where it is, in ground, in m.
+    /// Position in ground, in m.
     pub position: [f64; 3],
     /// The joints, rad or m, in the order of the file: one row for each passage.
     pub joints: Vec<Vec<f64>>,
@@ -102,7 +103,7 @@ impl Tracer {
         (still && !self.retraces(curve, method, &place)).then_some(place)
     }
 
-    /// Whether the path comes back the way it went where the point stands still, as at the end of an arc.
+    /// True if the path comes back the way it went from a point at rest, as at the end of an arc.
     fn retraces(&mut self, curve: &mut Curve, method: &Continuation, still: &At) -> bool {
         const STEPS: usize = 12;
         /// At a cusp the way back is off by about the third power of the step.
@@ -154,7 +155,7 @@ impl Trail {
         }
     }
 
-    /// What was met on a step, with the cusps of paths: roots, by the number of their point.
+    /// Events of a step with the cusps of paths, which are roots by the number of their point.
     pub fn events(&mut self, curve: &mut Curve, leg: &Segment) -> Vec<(At, Event)> {
         let mut events = leg.events.clone();
         let met = events.len();
@@ -199,7 +200,7 @@ impl Trail {
 }
 
 impl Tracer {
-    /// What there is on the path over several curves; none if it is a point.
+    /// Cusps and double points of the path over several curves.
     pub fn report(
         &mut self,
         curve: &mut Curve,

@@ -3,7 +3,7 @@
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Kinematics, Mechanism, NamedPoint, Placement, Point};
 
-/// Where traced points are, without allocating.
+/// Positions of traced points, without allocation.
 pub struct Paths {
     kinematics: Kinematics<f64>,
     placement: Placement<f64>,

@@ -19,7 +19,7 @@ pub(super) struct Rows {
     same: f64,
     /// The next row ahead, as a number of steps from the start of the segment.
     next: i64,
-    /// Whether the inputs move towards the end of the segment.
+    /// True if the inputs move towards the end of the segment.
     forward: bool,
     pub sent: Sent,
     method: Continuation,
@@ -190,12 +190,12 @@ impl Sent {
     }
 }
 
-/// How far rows between two places may be from the first of them.
+/// Largest distances of rows between two places from the first of them.
 #[derive(Clone, Copy)]
 struct Reach {
     along: f64,
     across: f64,
-    /// Whether branches cross at one of them.
+    /// True if branches cross at one of them.
     singular: bool,
 }
 
@@ -211,7 +211,7 @@ impl Reach {
     }
 }
 
-/// What is held with the inputs held too; `None` where a coordinate belongs to a whole orientation.
+/// The held coordinates with the inputs held too; `None` where a coordinate belongs to a whole orientation.
 pub(super) fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
     let mut held = held.clone();
     for input in inputs {

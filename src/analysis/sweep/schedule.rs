@@ -34,7 +34,7 @@ impl Schedule {
         }
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.times.len()
     }

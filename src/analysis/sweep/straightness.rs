@@ -1,4 +1,4 @@
-//! How straight a path is.
+//! Straightness of a path.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::linear::{Svd, dot};
 use crate::number::{real, sorting::sort_by};
 use crate::solve::summit;
 
-/// The straight line that a path over a motion comes nearest to, and how near.
+/// The straight line nearest to a path over a motion, and the largest distance from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Straightness {
     /// The point whose path it is.
@@ -15,9 +15,9 @@ pub struct Straightness {
     pub through: [f64; 3],
     /// The line's direction: a unit vector.
     pub direction: [f64; 3],
-    /// How far the path goes along the line, in m.
+    /// Length of the path along the line, in m.
     pub length: f64,
-    /// How far it is from the line where it is farthest, in m.
+    /// Largest distance of the path from the line, in m.
     pub deviation: f64,
     /// True if it may be farther, since not all of the curve could be looked at.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -76,7 +76,7 @@ impl Straightness {
         Straightness::of(point, &places)
     }
 
-    /// How far along the line a place is from where the line is said to go through, and how far off.
+    /// Position of a place along the line, from the point it goes through, and its distance from the line, in m.
     fn apart(&self, place: &[f64; 3]) -> [f64; 2] {
         let from: [f64; 3] = std::array::from_fn(|k| place[k] - self.through[k]);
         let along = dot(&from, &self.direction);

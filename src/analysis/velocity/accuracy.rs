@@ -1,4 +1,4 @@
-//! Whether rates are rates of a motion, and how well they are known.
+//! Accuracy of rates, and the test for rates that exist to first order only.
 
 use super::{Accuracy, FirstOrderOnly};
 use crate::linear::norm;
@@ -29,7 +29,7 @@ pub(super) fn of(
     rest: &Tangent,
     drive: &Drive,
 ) -> Accuracy {
-    /// What rounding leaves of a dimensionless residual, even where it is evaluated as zero.
+    /// Rounding of a dimensionless residual, also of one evaluated as zero.
     const ROUNDING: f64 = 1e-15;
     let Some((_, direction)) = rest.decomposition.weakest() else {
         return Accuracy {
@@ -71,7 +71,7 @@ pub(super) fn of(
     }
 }
 
-/// Whether the rates given exist to first order only.
+/// Finds out if the given rates exist to first order only.
 ///
 /// One infinitesimal freedom is decided by a finite step, several by second order: no accelerations meet the closure
 /// equations. `motion` must be factorised at the configuration.

@@ -55,7 +55,7 @@ pub(super) fn followed(mechanism: &Mechanism, points: &[Point]) -> Vec<Point> {
     all
 }
 
-/// How these points move, that the motion places.
+/// Velocities and accelerations of points that the motion places.
 pub(super) fn rates(
     mechanism: &Mechanism,
     motion: &mut Motion,

@@ -23,8 +23,8 @@ pub struct InputOutput {
     pub columns: Vec<Axis>,
     /// Row by row; an entry has the unit of its row over that of its column.
     pub entries: Vec<Vec<f64>>,
-    /// How many rows at the end belong to points followed. Rank, condition and manipulability leave
-    /// them out, unless there are no other rows.
+    /// Number of rows at the end that belong to points followed. Rank, condition and manipulability leave them out,
+    /// unless there are no other rows.
     pub followed: usize,
     /// Its rank, once lengths are divided by the normalising length.
     pub rank: usize,
@@ -42,7 +42,7 @@ pub struct InputOutput {
 /// A row or column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// What it is.
+    /// Name of the coordinate or component.
     pub name: String,
     /// `rad/s` or `m/s`.
     pub unit: SiUnit,
@@ -169,7 +169,7 @@ pub(crate) struct Outputs<'m, T = f64> {
     kept: Vec<bool>,
     /// Scales of the rows, then of the columns.
     scales: [Vec<f64>; 2],
-    /// How many rows at the end belong to points followed.
+    /// Number of rows at the end that belong to points followed.
     followed: usize,
 }
 

@@ -15,7 +15,7 @@ use crate::mechanism::{
 use crate::number::Number;
 use crate::system::{Coordinate, LoopPart, MechanismLoop, Neighbourhood, loops};
 
-/// How well a driven joint moves the output link of a loop in a plane.
+/// Transmission angle of a planar loop, from its driven link to its output link.
 ///
 /// The coupler passes a force along the line between its hinges. Its *pressure angle* is the one
 /// between that line and the way the output link moves at their hinge; the *transmission angle* is
@@ -48,7 +48,7 @@ type Spot = (usize, Point);
 
 /// Three joints of a loop in a plane: between driven link and coupler, coupler and output link, and what holds that.
 struct Dyad {
-    /// What is reported of it, but for the angles.
+    /// Its report, but for the angles.
     names: Transmission,
     first: Spot,
     second: Spot,
@@ -57,7 +57,7 @@ struct Dyad {
     normals: Vec<(usize, Vector3<f64>)>,
 }
 
-/// What holds an output link.
+/// Guide of an output link.
 enum Post {
     Hinge(Spot),
     /// A slide along a direction of a frame.
@@ -208,14 +208,14 @@ fn hinge(part: &LoopPart) -> Option<[f64; 6]> {
     (unit.is_finite() && parallel).then_some(first)
 }
 
-/// What moves as the inputs say.
+/// Joints and closures whose motion follows from the inputs.
 struct Known {
     joints: Vec<bool>,
     closures: HashSet<String>,
 }
 
 impl Known {
-    /// For each part of a loop whether its motion is known: of a hinge at the cut also by the other turns.
+    /// For each part of a loop, true if its motion is known: of a hinge at the cut also by the other turns.
     fn parts(&self, one: &HingedLoop) -> Vec<bool> {
         let parts = &one.all.parts;
         let is_known = |part: &LoopPart| match part.closure {
@@ -245,7 +245,7 @@ impl Known {
     }
 }
 
-/// What a joint is called: by its variable if it has one, else the link after it, or the closure.
+/// Name of a joint: its variable if it has one, else the link after it, or the closure.
 fn name(mechanism: &Mechanism, part: &LoopPart) -> String {
     match (&part.names[..], part.closure) {
         ([name], _) | ([name, ..], true) => name.clone(),
@@ -281,7 +281,7 @@ fn drivers(found: &MechanismLoop, known: &[bool]) -> Vec<(usize, bool)> {
     drivers
 }
 
-/// What transmits motion in a loop of which three joints are not known.
+/// The dyads of a loop that has three joints left.
 fn dyads_of(
     mechanism: &Mechanism,
     found: &HingedLoop,

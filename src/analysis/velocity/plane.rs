@@ -3,7 +3,7 @@
 use crate::geometry::Vector3;
 use crate::linear::norm;
 
-/// What counts as zero beside one, dimensionless.
+/// Components below this are zero, relative to 1, dimensionless.
 pub(super) const ZERO: f64 = 1e-9;
 
 /// The two halves of a twist.

@@ -30,13 +30,13 @@ impl Region {
         self.inside.iter().filter(|inside| **inside).count()
     }
 
-    /// Whether some may be among these.
+    /// True if the range of nodes overlaps the set's.
     fn meets(&self, nodes: Range<usize>) -> bool {
         nodes.start < self.ends[1] && nodes.end > self.ends[0]
     }
 }
 
-/// How large a set of nodes is, in the units of the mapped coordinates: a length, an area of
+/// Size of a set of nodes, in the units of the mapped coordinates: a length, an area of
 /// polygons, or the volume between parallel areas (trapezoidal rule).
 ///
 /// `cut` gives the fraction of the edge that is inside, from a node of the set towards its

@@ -1,4 +1,4 @@
-//! What bounds modes and parts aspects: points on the edges of the grid, and curves through them.
+//! Boundaries of modes and aspects: points on the edges of the grid, and curves through them.
 
 mod curves;
 mod kinds;
@@ -22,7 +22,7 @@ pub(super) struct Boundary<'a> {
 }
 
 impl Boundary<'_> {
-    /// Where solutions within limits end on the edges of the grid, and where signs change.
+    /// Points on edges of the grid at which solutions within limits end or a determinant changes sign.
     pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
         let Flood { problem, grid, .. } = *self.fill;
         let inputs = problem.locks(&problem.inputs);

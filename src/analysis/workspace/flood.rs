@@ -1,4 +1,4 @@
-//! Spreading over the nodes of the grid from assembled configurations.
+//! Grid continuation: from assembled configurations over the nodes of the grid.
 
 mod arrivals;
 mod configurations;

@@ -1,4 +1,4 @@
-//! Where the home assembly stands on a map: in which mode, in which aspect.
+//! Position of the home assembly on a map: its mode and its aspect.
 
 use std::f64::consts::TAU;
 
@@ -121,7 +121,8 @@ fn corners(grid: &Grid, at: &[f64]) -> Vec<usize> {
     nodes
 }
 
-/// What regular motion along one mapped coordinate after the other leads to, if it does.
+/// The configuration that regular motion along one mapped coordinate after the other leads to; `None` if it does not
+/// arrive.
 fn along(
     fill: &Flood,
     home: &Configuration<f64>,

@@ -1,4 +1,4 @@
-//! What was reached, put in order: modes, aspects, cells.
+//! The map: reached solutions by modes, aspects and cells.
 
 mod cells;
 mod report;
@@ -226,7 +226,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// What is held beside the mapped coordinates, with its values.
+    /// Coordinates held but not mapped, with their values.
     fn held(&self) -> Vec<(Coordinate, f64)> {
         let question = &self.problem.question;
         let (held, start) = (question.held().joints, question.start());
@@ -251,7 +251,7 @@ impl<'a> Map<'a> {
         })
     }
 
-    /// How large a region is, where these of the solutions at its nodes belong to it.
+    /// Size of the part of a region in which a solution satisfies `belongs`, in the units of the mapped coordinates.
     fn size(&self, region: &Region, belongs: &(dyn Fn(&usize) -> bool + Sync), cuts: &Cuts) -> f64 {
         let reach = |node: usize, direction: usize| {
             let solutions = self.reached_set.at(node).filter(belongs);

@@ -1,4 +1,4 @@
-//! What a map is of: the mapped coordinates, their grid, and the rates at its nodes.
+//! The mapped problem: coordinates, their grid, and the rates at its nodes.
 
 mod condition;
 mod grid;

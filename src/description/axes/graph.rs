@@ -85,7 +85,7 @@ impl Graph {
         self.bodies.iter().position(|body| body.value == name)
     }
 
-    /// For each body how many joints lie between it and the ground.
+    /// For each body the number of joints between it and the ground.
     fn depths(&self) -> Vec<usize> {
         let mut depths = vec![usize::MAX; self.bodies.len()];
         depths[0] = 0;
@@ -125,7 +125,7 @@ impl Graph {
 }
 
 impl AxesDescription {
-    /// Whether the joints stand one behind the other and name no bodies.
+    /// True for a serial chain: joints in sequence that name no bodies.
     pub(crate) fn is_serial(&self) -> bool {
         self.joints
             .iter()
@@ -231,7 +231,7 @@ impl AxesDescription {
         unless(problems, cuts)
     }
 
-    /// What cut joints lose with their variables.
+    /// Problems of cut joints that were driven or have limits, which go with their variables.
     pub(crate) fn lost_by_cuts(&self, is_cut: impl Fn(&str) -> bool) -> Vec<Problem> {
         let mut lost = Vec::new();
         let cut = |joint: &&Named<AxisDescription>| {

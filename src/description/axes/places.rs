@@ -1,4 +1,4 @@
-//! Where things are in the drawing, as displacements and lengths.
+//! Positions in the drawing, as displacements and lengths.
 
 use super::AxisPlace;
 use crate::algebra::{Expression, Function, Node, Operator};
@@ -18,7 +18,7 @@ pub(super) fn difference(from: &[Entry; 3], to: &[Entry; 3]) -> [Entry; 3] {
     })
 }
 
-/// Where displacements lead.
+/// Position of the origin after the displacements.
 pub(super) fn origin(steps: &[Displacement]) -> [Entry; 3] {
     match steps {
         [] => [zero(), zero(), zero()],

@@ -7,8 +7,8 @@ use crate::description::{Entry, GROUND, Named, Spanned, place_of};
 type Ball = (usize, Spanned<String>, [Entry; 3]);
 
 impl AxesDescription {
-    /// The same with rods in place of bodies that have nothing but two balls, for their spin moves nothing; and the names
-    /// of these bodies.
+    /// The description with rods in place of bodies that have nothing but two balls, for their spin moves nothing; and
+    /// the names of these bodies.
     pub(super) fn with_rods(&self) -> (AxesDescription, Vec<String>) {
         let mut axes = self.clone();
         let mut rods: Vec<String> = Vec::new();

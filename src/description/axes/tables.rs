@@ -27,7 +27,7 @@ use crate::description::{
     PlatformDescription, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
 };
 
-/// Joint coordinates, and what was chosen to make tables of them.
+/// Joint coordinates, with the choices made in writing tables of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coordinates {
     /// The file, rods of bodies written as such.
@@ -36,7 +36,7 @@ pub struct Coordinates {
     pub cut: Vec<String>,
     /// Bodies with nothing but two balls, taken for rods.
     pub rods: Vec<String>,
-    /// What is odd.
+    /// Warnings.
     pub warnings: Vec<Problem>,
 }
 
@@ -64,7 +64,7 @@ impl AxesDescription {
     /// The mechanism file of the same mechanism; it remembers the coordinates.
     ///
     /// # Errors
-    /// With all that is wrong with the way bodies hang together.
+    /// All problems of the connection of bodies.
     pub fn tables(&self) -> Result<Description, Vec<Problem>> {
         let (axes, rods) = self.with_rods();
         let graph = Graph::of(&axes)?;
@@ -254,7 +254,7 @@ impl Tables<'_> {
         Expression::name(name).into()
     }
 
-    /// Where the file wants the frame of a body.
+    /// Frame of a body as the file gives it, if it does.
     fn frame_given(&self, body: usize) -> Option<Vec<Displacement>> {
         let index = place_of(&self.axes.bodies, &self.graph.bodies[body].value)?;
         Some(frame_of(&self.axes.bodies[index].value, 0, &[]))

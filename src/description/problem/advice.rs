@@ -1,4 +1,4 @@
-//! The words beside the title of a problem: a label for the offending text, and what to do about it.
+//! Words beside the title of a problem: a label for the offending text, and the remedy.
 
 mod axes;
 
@@ -9,7 +9,7 @@ use crate::description::words::quoted;
 use crate::description::{VERSION, listed};
 
 impl ProblemKind {
-    /// What is wrong, in one sentence without a full stop.
+    /// The problem in one sentence without a full stop.
     pub fn title(&self) -> String {
         self.to_string()
     }
@@ -112,7 +112,7 @@ impl ProblemKind {
 }
 
 impl Note {
-    /// How another place is involved in the problem.
+    /// Label of another place involved in the problem.
     pub fn label(self) -> String {
         match self {
             Self::FirstHere(Noun::Field) => "first given here".into(),
@@ -125,7 +125,7 @@ impl Note {
     }
 }
 
-/// How the link length of a row becomes positive. Tx(−a) = Rz(180°) Tx(a) Rz(−180°), and Rx(α) Rz(180°) = Rz(180°)
+/// Remedy for a negative link length. Tx(−a) = Rz(180°) Tx(a) Rz(−180°), and Rx(α) Rz(180°) = Rz(180°)
 /// Rx(−α): the frame between the link and its neighbour turns about its own z.
 fn positive(row: usize, turned: &Turned) -> String {
     let beside = match turned.beside {

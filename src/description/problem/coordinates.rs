@@ -1,4 +1,4 @@
-//! What can be wrong with joint coordinates.
+//! Problems of joint coordinates.
 
 use std::ops::Range;
 
@@ -104,7 +104,7 @@ impl AxesProblem {
         ProblemKind::Axes(Box::new(self)).at(span.clone())
     }
 
-    /// Whether tables are made nevertheless.
+    /// True if tables are made nevertheless.
     pub fn is_warning(&self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! What the parts of a file are called.
+//! Words for the parts of a file.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -41,7 +41,7 @@ impl Display for Scope {
 }
 
 impl Expected {
-    /// What a tuple is made of.
+    /// Elements of a tuple.
     pub(in crate::description) fn unit(self) -> &'static str {
         match self {
             Self::ClosureFrames(kind) if kind.has_length() => "value",

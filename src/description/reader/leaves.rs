@@ -1,4 +1,4 @@
-//! What has no fields of its own: texts, entries, conventions, transforms.
+//! Values without fields of their own: texts, entries, conventions, transforms.
 
 use super::*;
 use crate::algebra::{Expression, ParseError};
@@ -120,7 +120,7 @@ impl Reader {
         Some((*found?, content))
     }
 
-    /// The same of a word with nothing behind it.
+    /// One of the known words, without parentheses.
     pub(super) fn bare_word<T: Copy>(
         &mut self,
         piece: Piece,

@@ -20,7 +20,7 @@ impl<'a> Fields<'a> {
         Some(self.pieces.swap_remove(place).1)
     }
 
-    /// Whether one of some fields is there, rightly spelt or not.
+    /// True if one of some fields is there, rightly spelt or not.
     pub(super) fn gives(&self, fields: &[&str]) -> bool {
         let there = |field| self.pieces.iter().any(|(name, _)| name == field);
         fields
@@ -28,7 +28,7 @@ impl<'a> Fields<'a> {
             .any(|field| there(field) || self.misspelt.contains(field))
     }
 
-    /// Where to point at something that is missing: all of a structure would be too much to underline.
+    /// Place to underline where something is missing: the first byte only, as all of a structure would be too much.
     pub(super) fn head(&self) -> Range<usize> {
         self.span.start..self.span.start + 1
     }

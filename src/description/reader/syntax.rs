@@ -1,4 +1,4 @@
-//! Whether a text is RON at all.
+//! RON syntax of a whole text.
 
 use ron::Error;
 use serde::Deserialize;
@@ -7,7 +7,7 @@ use serde::de::IgnoredAny;
 use crate::description::lexemes::unclosed;
 use crate::description::{Lines, Note, Problem, ProblemKind};
 
-/// Where the value begins, if the text from `start` on is one RON value.
+/// Checks that the text from `start` on is one RON value; returns the place at which that begins.
 pub(super) fn check(text: &str, start: usize) -> Result<usize, Box<Problem>> {
     let body = &text[start..];
     let mut begin = start;
@@ -29,13 +29,13 @@ pub(super) fn check(text: &str, start: usize) -> Result<usize, Box<Problem>> {
     }
 }
 
-/// Where the value begins that the text holds from `start` on, whether or not it is well formed.
+/// Place at which the value after `start` begins, well formed or not.
 pub(super) fn begin(text: &str, start: usize) -> Option<usize> {
     let deserializer = ron::Deserializer::from_str(&text[start..]).ok()?;
     Some(text.len() - deserializer.remainder().len())
 }
 
-/// What to say of an error that `ron` met at `offset`.
+/// The problem for an error that `ron` met at `offset`.
 fn problem(text: &str, offset: usize, error: Error) -> Problem {
     let found = text[offset..].chars().next();
     let end = text.trim_end().len();

@@ -1,4 +1,4 @@
-//! Words for what is wrong with an expression.
+//! Words for errors in expressions.
 
 use super::{joined, quoted};
 use crate::algebra::{Function, Measure, MeasureErrorKind, ParseErrorKind, Unit};
@@ -53,7 +53,7 @@ pub(in crate::description) fn help(error: &ParseErrorKind) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// What other programs call a function.
+/// Our name for a function that other programs call so.
 fn alias(name: &str) -> Option<&'static str> {
     match name {
         "arcsin" => Some("asin"),

@@ -1,10 +1,10 @@
-//! Words for what `ron` finds wrong with the syntax of a file.
+//! Words for errors of `ron` in the syntax of a file.
 
 use ron::Error;
 
 use crate::algebra::shown;
 
-/// What is wrong, a label for the place, and what to do about it.
+/// Title, label of the place, and remedy.
 pub(in crate::description) struct Words {
     pub title: String,
     pub label: &'static str,

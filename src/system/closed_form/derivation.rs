@@ -1,4 +1,4 @@
-//! Which unknown follows from which equations.
+//! Derivation of a closed form: the order of unknowns, and the equations each follows from.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ pub(super) struct Group {
     pub(super) rows: Vec<Trigonometric>,
 }
 
-/// A rule found, for an unknown and what stands beside it.
+/// The rule found for an unknown angle or slide, with the known angle `beside` it in its sum.
 pub(super) struct Found {
     pub closure: usize,
     pub unknown: Unknown,
@@ -26,7 +26,7 @@ pub(super) struct Found {
 
 pub(super) struct Derivation<'a> {
     mechanism: &'a Mechanism,
-    /// What is looked for, and what cannot be found by these rules: poses of platforms, joints that turn and slide.
+    /// Symbols still unknown; `never` are those that these rules cannot find: poses of platforms and helical joints.
     pub(super) unknown: BTreeSet<u32>,
     pub(super) never: BTreeSet<u32>,
     /// The value of every symbol at the sample.
@@ -36,11 +36,11 @@ pub(super) struct Derivation<'a> {
     angles: u32,
     pub(super) groups: Vec<Group>,
     steps: Vec<Step>,
-    /// Joint variables that follow when all of a sum is known, and from which closure.
+    /// Joint variables that follow once their whole sum is known, with the closure it is from.
     pending: Vec<(u32, Wave, usize)>,
     platforms_left: Vec<usize>,
     pub(super) budget: Budget,
-    /// What is smaller is zero, for the squares of lengths.
+    /// Numbers smaller than this are zero, for squares of lengths.
     pub(super) least: f64,
 }
 
@@ -120,7 +120,7 @@ impl<'a> Derivation<'a> {
         self.left()
     }
 
-    /// What is found, and what is left.
+    /// The steps found, with the closures, joints and platforms that they leave.
     pub fn left(&self) -> ClosedSolution {
         let letters = Letters(self.mechanism);
         let open = self.groups.iter().filter(|group| {
@@ -161,7 +161,7 @@ impl<'a> Derivation<'a> {
         std::array::from_fn(|_| expressions.next().expect("one for each formula"))
     }
 
-    /// Joint variables of which the sum is known.
+    /// Finds joint variables whose sum is known.
     fn settle(&mut self) {
         loop {
             let open: BTreeSet<u32> = self.pending.iter().map(|(x, ..)| *x).collect();
@@ -311,7 +311,7 @@ impl<'a> Derivation<'a> {
         Some(())
     }
 
-    /// As expressions, without a factor that all formulas share: lengths that are positive in this mechanism.
+    /// The formulas as expressions, divided by factors that all share: lengths that are positive in this mechanism.
     fn written(&self, rule: &Rule<Trigonometric>) -> Rule {
         let length = |symbol: u32| {
             let is_parameter = (symbol as usize) < self.mechanism.parameters().len();

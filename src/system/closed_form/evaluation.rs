@@ -1,4 +1,4 @@
-//! The formulas over numbers.
+//! Evaluation of closed forms over numbers.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::number::{Number, real};
 use crate::solve::Equations;
 use crate::system::{Question, System, check_count};
 
-/// How the two solutions of a step are told apart, and what becomes of its numbers.
+/// Choice between the two solutions of a step, and treatment of roots and quotients.
 pub trait Branching<T> {
     /// The sign of the next step that has two solutions; `slope` is that of its equation at the value nearby, by which the nearer
     /// one is chosen.
@@ -25,12 +25,12 @@ pub trait Branching<T> {
     fn quotient(&mut self, of: T, over: T) -> T;
 }
 
-/// What comes of all combinations of signs.
+/// Outcome of all combinations of signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tried {
-    /// How many are real.
+    /// Number of real solutions.
     pub real: usize,
-    /// How many leave a variable undetermined.
+    /// Number of combinations that leave a variable undetermined.
     pub undetermined: usize,
     /// The largest closure residual of the real ones, in characteristic lengths and rad.
     pub residual: f64,
@@ -127,7 +127,7 @@ impl ClosedSolution {
         (determined, left_out)
     }
 
-    /// All combinations of signs for the held values of a configuration.
+    /// Evaluates all combinations of signs for the held values of a configuration.
     pub fn tried(&self, question: &Question, inputs: &Configuration<f64>) -> Tried {
         let mechanism = question.mechanism();
         let held = question.held_coordinates().into_iter();
@@ -149,7 +149,8 @@ impl ClosedSolution {
         }
     }
 
-    /// Whether it gives every unknown of a question that is not overdetermined, and holds at a configuration.
+    /// True if the question is determined, every unknown is found, and a combination of signs gives a real solution for
+    /// the held values of a configuration.
     pub fn solves(&self, question: &Question, at: &Configuration<f64>) -> bool {
         let determined = self.is_complete() && check_count(question).is_ok();
         determined && self.tried(question, at).real > 0

@@ -1,4 +1,4 @@
-//! Which rule an unknown follows by.
+//! Choice of the rule for an unknown.
 
 use std::collections::BTreeSet;
 

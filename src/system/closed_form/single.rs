@@ -7,21 +7,21 @@ use num_rational::Ratio;
 use super::Rule;
 use crate::algebra::{Budget, ByUnknowns, Monomial, Trigonometric, Wave};
 
-/// What is unknown in an equation: the angle that is a sum of joint variables, or a slide.
+/// The unknown of an equation: an angle that is a sum of joint variables, or a slide.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Unknown {
     Angle(Vec<(u32, Ratio<i64>)>),
     Slide(u32),
 }
 
-/// How much is unknown.
+/// Unknowns of an equation.
 pub(super) enum Content {
     Nothing,
     One(Unknown),
     More,
 }
 
-/// An equation sorted by what is unknown in it.
+/// The unknowns of an equation.
 pub(super) fn content(equation: &ByUnknowns) -> Content {
     let mut found = BTreeSet::new();
     for monomial in equation.keys() {

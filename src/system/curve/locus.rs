@@ -82,7 +82,8 @@ impl LocusCurve {
         change
     }
 
-    /// What of (∂M/∂v) v is outside the image of M: where inputs or outputs must move for v to go on to second order.
+    /// The component of (∂M/∂v) v outside the image of M: zero where v goes on to second order with inputs or outputs
+    /// at rest.
     pub fn bend(&mut self, point: &Singular) -> Vec<f64> {
         let (rows, columns) = (self.locked.rows(), self.locked.columns());
         let change = self.change(point);

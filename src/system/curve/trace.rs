@@ -14,7 +14,7 @@ pub trait ConfigurationCurve: SolutionCurve {
     fn configuration(point: &Self::Point) -> &Configuration<f64>;
     /// The configurations among which it is a curve.
     fn closed(&self) -> &Curve;
-    /// Whether a component of a step between configurations distinguishes curves.
+    /// True if a component of a step between configurations distinguishes curves.
     fn sees(&self, component: usize) -> bool;
 
     /// The step from one configuration to another, whole turns left out: as the first components of a tangent.
@@ -46,11 +46,11 @@ impl ConfigurationCurve for Curve {
     }
 }
 
-/// How a curve ends.
+/// End of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocusEnd {
-    /// Where it began.
+    /// At its own start: a closed curve.
     Closed,
     /// At an edge of the box.
     Box,
@@ -65,9 +65,9 @@ pub enum LocusEnd {
 pub struct Traced<P> {
     /// Places on it, in order.
     pub places: Vec<Place<P>>,
-    /// How the first and the last end it; the same if it closes.
+    /// Ends at the first place and at the last; both [`LocusEnd::Closed`] if the curve closes.
     pub ends: [LocusEnd; 2],
-    /// Where other curves cross it.
+    /// Crossings with other curves.
     pub crossings: Vec<Place<P>>,
 }
 
@@ -76,11 +76,11 @@ pub struct Traced<P> {
 pub struct Region<'m> {
     /// The mechanism with its limits.
     pub mechanism: &'m Mechanism,
-    /// What stands still: its limits do not count.
+    /// Held coordinates: their limits do not count.
     pub held: &'m Held<f64>,
     /// The coordinates of the box.
     pub sides: &'m [Driven],
-    /// How carefully curves are followed.
+    /// Tolerances and step lengths of the continuation.
     pub method: &'m Continuation,
     /// Asked at every step whether to go on; a curve that is not ends there as lost.
     pub watch: &'m Watch<'m>,
@@ -104,7 +104,8 @@ impl Region<'_> {
         }
     }
 
-    /// How far a configuration is inside each bound of the box, then of limits, in rad and characteristic lengths.
+    /// Distances of a configuration inside each bound of the box, then inside limits, in rad and characteristic
+    /// lengths.
     fn margins(&self, at: &Configuration<f64>) -> Vec<f64> {
         let length = self.mechanism.characteristic_length();
         let unit = |is_angle: bool| if is_angle { 1.0 } else { 1.0 / length };
@@ -124,7 +125,7 @@ impl Region<'_> {
         margins
     }
 
-    /// Whether it is inside all of them.
+    /// True if a configuration is inside the box and the limits.
     pub fn inside(&self, at: &Configuration<f64>) -> bool {
         self.margins(at).into_iter().all(|margin| margin >= -BESIDE)
     }
@@ -283,7 +284,8 @@ pub fn neared<C: SolutionCurve>(
     None
 }
 
-/// Where a curve passes through a place: the number of the last point before it, and the part of the way to the next.
+/// Position of a place on a traced curve: the index of the last point before it plus the part of the way to the next;
+/// `None` if the curve does not pass through it.
 pub fn met_at<C: ConfigurationCurve>(
     curve: &mut C,
     traced: &Traced<C::Point>,

@@ -33,7 +33,7 @@ impl MotionTracker {
         }
     }
 
-    /// The same with other settings of the method.
+    /// Tracker with other settings of the method.
     pub fn with(self, warm: Warm) -> Self {
         MotionTracker { warm, ..self }
     }

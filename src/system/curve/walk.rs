@@ -28,7 +28,7 @@ pub enum Event {
         joint: usize,
         /// The limit, rad or m.
         value: f64,
-        /// Whether it is the upper one.
+        /// True for the upper limit.
         upper: bool,
     },
     /// The inputs reach the start (`false`) or the end (`true`) of the segment.
@@ -44,13 +44,13 @@ pub enum Event {
 /// A piece of a curve without branch points inside, and what was met on it, in order.
 #[derive(Clone, Debug)]
 pub struct Segment {
-    /// Where it begins.
+    /// Its beginning.
     pub from: At,
-    /// Where it ends; its Jacobian is singular if branches meet there.
+    /// Its end; the Jacobian there is singular if branches meet.
     pub to: At,
     /// The length of the curve up to its beginning, in rad and characteristic lengths.
     pub gone: f64,
-    /// What was met, with the place.
+    /// Events on it, each with its place.
     pub events: Vec<(At, Event)>,
 }
 
@@ -104,7 +104,7 @@ impl<'m> Walk<'m> {
         self
     }
 
-    /// Where the walk is.
+    /// The present place of the walk.
     pub fn place(&self) -> &At {
         &self.place
     }
@@ -336,7 +336,7 @@ impl Segment {
 }
 
 impl Event {
-    /// Whether following ends there.
+    /// True if following ends at the event.
     pub fn ends(&self) -> bool {
         matches!(self, Event::Limit { .. } | Event::End(_) | Event::Closed)
     }

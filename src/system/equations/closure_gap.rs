@@ -5,7 +5,7 @@ use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::real;
 
-/// How far a closure is open.
+/// Gap of a closure.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Gap {
     /// Distance in m: between origins, from the length of a `Distance`, or along blocked directions of a slide.

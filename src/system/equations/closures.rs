@@ -1,4 +1,4 @@
-//! Where the axes of closures lie, and what their rows resist.
+//! Axes of closures in ground, and their constraint wrenches.
 
 use super::{System, Work};
 use crate::geometry::Vector3;
@@ -17,7 +17,7 @@ pub struct ClosureAxes<T> {
 /// The constraint wrenches of a closure: what its rows resist, acting on side B.
 #[derive(Clone, Debug)]
 pub struct ClosureWrenches<T> {
-    /// Where the forces attack on side A and side B, in ground, in m.
+    /// Points of attack of the forces on side A and side B, in ground, in m.
     pub points: [Vector3<T>; 2],
     /// Number of the closure's first row among all rows.
     pub first_row: usize,

@@ -1,4 +1,4 @@
-//! Coordinates: what can be held, driven or mapped.
+//! Coordinates that can be held, driven or mapped.
 
 use super::System;
 use super::layout::Unknown;
@@ -45,7 +45,7 @@ impl Coordinate {
         }
     }
 
-    /// Whether its value is an angle, in rad; otherwise a length, in m.
+    /// True if its value is an angle, in rad; otherwise it is a length, in m.
     pub fn is_angle(self, mechanism: &Mechanism) -> bool {
         match self {
             Coordinate::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
@@ -54,7 +54,7 @@ impl Coordinate {
         }
     }
 
-    /// What makes it dimensionless: 1 for an angle, the characteristic length in m for a length.
+    /// Divisor that makes it dimensionless: 1 for an angle, the characteristic length in m for a length.
     pub fn scale(self, mechanism: &Mechanism) -> f64 {
         match self.is_angle(mechanism) {
             true => 1.0,
@@ -84,7 +84,8 @@ impl Coordinate {
         }
     }
 
-    /// The same, a position from the [centre](crate::mechanism::Dimensions::centre): of two, the difference counts.
+    /// Its value with positions measured from the [centre](crate::mechanism::Dimensions::centre); for differences of
+    /// values.
     pub(crate) fn about_centre<T: Number>(self, at: &Configuration<T>) -> T {
         match self {
             Coordinate::Joint(joint) => at.joints[joint],
@@ -112,7 +113,7 @@ impl Coordinate {
         })
     }
 
-    /// What its value measures.
+    /// Dimension of its value: angle or length.
     pub fn measure(self, mechanism: &Mechanism) -> Measure {
         match self.is_angle(mechanism) {
             true => Measure::Angle,
@@ -120,7 +121,7 @@ impl Coordinate {
         }
     }
 
-    /// How fast it changes with a twist (ω; v/L) of its platform, dimensionless.
+    /// Its derivative by the twist (ω; v/L) of its platform, dimensionless.
     pub fn slope(self, pose: &Pose<f64>, length: f64) -> [f64; 6] {
         match self {
             Coordinate::Joint(_) => [0.0; 6],

@@ -4,7 +4,7 @@ use super::{System, Work};
 use crate::linear::{Decomposition, Rows, SPECTRUM_LIMIT, dense, dot};
 
 impl System<f64> {
-    /// Whether there are more unknowns than all singular values are computed for.
+    /// True if there are more unknowns than all singular values are computed for.
     pub fn is_large(&self) -> bool {
         self.unknowns.len() > SPECTRUM_LIMIT
     }

@@ -13,7 +13,7 @@ impl<T: Factorable> System<T> {
         to
     }
 
-    /// The same in place.
+    /// Moves a configuration by dimensionless steps of the unknowns, in place.
     #[inline]
     pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
         for (joint, value) in at.joints.iter_mut().enumerate() {
@@ -60,7 +60,7 @@ impl<T: Factorable> System<T> {
         step
     }
 
-    /// The same, into a slice as long as there are unknowns.
+    /// As [`System::difference`], into a slice as long as there are unknowns.
     pub fn difference_into(
         &self,
         from: ConfigurationRef<T>,

@@ -4,7 +4,7 @@ use crate::linear::{Block, Factorable, SparseStep};
 use crate::mechanism::{Closure, Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
 
-/// What is held of a platform.
+/// Held coordinates of a platform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HeldPlatform<T> {
     /// Nothing: its pose is to be found.
@@ -15,7 +15,7 @@ pub enum HeldPlatform<T> {
     Partly(HeldParts<T>),
 }
 
-/// What is held of a platform in part.
+/// Held coordinates of a platform whose pose is not held as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeldParts<T> {
     /// Single coordinates with their values, m and rad.
@@ -27,7 +27,7 @@ pub struct HeldParts<T> {
 }
 
 impl<T: Copy> HeldPlatform<T> {
-    /// What is held of it in part.
+    /// The parts held, if it is held in part.
     pub fn parts(&self) -> Option<&HeldParts<T>> {
         match self {
             HeldPlatform::Partly(parts) => Some(parts),
@@ -58,7 +58,7 @@ impl<T: Copy> HeldPlatform<T> {
 }
 
 impl HeldPlatform<f64> {
-    /// What is held of it in part, to be added to; `None` if its whole pose is held.
+    /// The parts held, to be added to; `None` if the whole pose is held.
     pub fn parts_mut(&mut self) -> Option<&mut HeldParts<f64>> {
         if let HeldPlatform::Free = self {
             *self = HeldPlatform::Partly(HeldParts::default());
@@ -79,17 +79,17 @@ impl HeldPlatform<f64> {
     }
 }
 
-/// Which coordinates of a mechanism are held.
+/// Held coordinates of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Held<T> {
-    /// For each joint whether its variable keeps the value it has in the starting configuration.
+    /// For each joint, true if its variable keeps the value of the starting configuration.
     pub joints: Vec<bool>,
-    /// For each platform what is held of it.
+    /// Held coordinates of each platform.
     pub platforms: Vec<HeldPlatform<T>>,
 }
 
 impl<T: Number> Held<T> {
-    /// The same over another number.
+    /// The held coordinates over another number.
     pub fn map<U: Number>(&self, mut f: impl FnMut(T) -> U) -> Held<U> {
         let platforms = self.platforms.iter().map(|part| match part {
             HeldPlatform::Free => HeldPlatform::Free,
@@ -111,7 +111,7 @@ impl<T: Number> Held<T> {
 }
 
 impl Held<f64> {
-    /// Puts what is held without an equation of its own where it is in a configuration.
+    /// Copies from `at` the values that are held without an equation of their own.
     pub fn keep(&self, at: &Configuration<f64>, to: &mut Configuration<f64>) {
         for (i, _) in self.joints.iter().enumerate().filter(|(_, held)| **held) {
             to.joints[i] = at.joints[i];
@@ -296,7 +296,7 @@ impl Layout {
     }
 }
 
-/// What stands for all that a thing has been joined to.
+/// Root of a union–find set.
 pub(super) fn root(owner: &mut [usize], mut i: usize) -> usize {
     while owner[i] != i {
         owner[i] = owner[owner[i]];

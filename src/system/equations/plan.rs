@@ -1,10 +1,10 @@
-//! Where the derivatives of each closure go in the Jacobian.
+//! Places of the derivatives of each closure in the Jacobian.
 
 use super::layout::{Layout, Unknown};
 use crate::linear::Factorable;
 use crate::mechanism::{Closure, Mover, Side};
 
-/// Where the derivatives of one closure go.
+/// Places of the derivatives of one closure: rows, and a column for each unknown.
 #[derive(Clone, Debug)]
 pub(super) struct ClosurePlan<T> {
     /// First row among all rows.

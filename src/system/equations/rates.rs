@@ -1,4 +1,4 @@
-//! What following a solution along a change of the inputs needs beyond Newton's method.
+//! Rates of the equations, for following a solution while the inputs change.
 
 use super::layout::HoldRow;
 use super::{System, Work};
@@ -80,8 +80,8 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// What is positive where angles that are held by themselves are at their values, and negative half a turn from there,
-    /// where entire rows vanish too.
+    /// For each platform angle held by itself a number that is positive at its value, and negative half a turn from
+    /// there, which the entire rows also allow.
     pub fn sides_of_angles(&self, work: &Work<T>) -> Vec<T> {
         let side = |hold: &HoldRow<T>| match hold {
             HoldRow::Coordinate(platform, coordinate, value) => {
@@ -160,7 +160,7 @@ impl<T: Factorable> System<T> {
         work.jacobian.trust(RANK_TOLERANCE);
     }
 
-    /// How many unknowns the factors last made leave undetermined.
+    /// Number of unknowns that the factors last made leave undetermined.
     pub fn undetermined(&self, work: &Work<T>) -> usize {
         work.jacobian.nullity()
     }
@@ -198,7 +198,8 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// How many independent directions the Jacobian maps to pivots this small beside the largest, or to rounding.
+    /// Number of independent directions that the Jacobian maps to pivots smaller than `tolerance` times the largest, or
+    /// to rounding.
     pub fn nullity(&self, tolerance: f64, work: &Work<T>) -> usize {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let pivots = pivots_of(rows, columns, &self.dense_jacobian(work));

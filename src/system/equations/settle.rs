@@ -7,19 +7,19 @@ use crate::solve::{
     Equations, Newton, Report, Stage, Stop, Watch, deflating_step, step_off_saddle,
 };
 
-/// Newton's method from `at`. Where equations only touch zero, as those of rods stretched straight, it
-/// nears a solution ever more slowly: it is led there by the slopes that vanish there. Where it ends at a
-/// saddle, as rods a little longer than a straight line, it goes on from beside that.
+/// Newton's method from `at`, also where convergence is slow. Near a solution at which equations only touch zero, as
+/// those of rods stretched straight, the slopes that vanish there lead to it. From a saddle of the residual, as of rods
+/// a little longer than a straight line, the iteration goes on from a point to the side.
 pub fn solve(
     newton: &Newton,
     system: &System<f64>,
     at: &mut Configuration<f64>,
     work: &mut Work<f64>,
 ) -> Report {
-    /// What may be left then, which is of second order in the distance.
+    /// Largest residual for the search of such a solution: of second order in the distance to it.
     const NEARLY: f64 = 1e-5;
     const SADDLE: f64 = 0.05;
-    /// How far from where Newton's method ends a saddle is.
+    /// Farthest distance of a saddle from the end of Newton's method.
     const NEAR: f64 = 0.1;
     const REACH: f64 = 1e-3;
     /// A few for each part that is straight.

@@ -20,7 +20,7 @@ pub struct Count {
     pub held: usize,
 }
 
-/// Where a mechanism is examined.
+/// Configurations at which a mechanism is examined.
 enum Place {
     Start,
     Assembly,
@@ -138,7 +138,7 @@ fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), Q
     Ok(())
 }
 
-/// Whether the rates of the held coordinates make sense at a configuration.
+/// Checks that the rates of the held coordinates are defined at a configuration.
 ///
 /// # Errors
 /// If an angle is held of a platform whose pitch is ±90°, where roll and yaw turn about one axis.
@@ -150,7 +150,7 @@ pub fn check_angles(question: &Question, at: &Configuration<f64>) -> Result<(), 
     Ok(())
 }
 
-/// Whether the rate of a platform coordinate makes sense at a configuration.
+/// Checks that the rate of a platform coordinate is defined at a configuration.
 ///
 /// # Errors
 /// If it is an angle and the pitch is ±90°.

@@ -1,4 +1,4 @@
-//! Demands made by name, and which of them contradict one another.
+//! Demands made by name, and contradictions between them.
 
 use crate::algebra::words;
 use crate::system::Coordinate;
@@ -6,7 +6,7 @@ use crate::system::Coordinate;
 /// A demand on one joint, coordinate or platform, by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Demand {
-    /// What to do with it.
+    /// Hold, free or guess.
     pub verb: Verb,
     /// Its name.
     pub name: String,
@@ -15,7 +15,7 @@ pub struct Demand {
 }
 
 words! {
-    /// What a question does with a joint, coordinate or platform.
+    /// Treatment of a joint, coordinate or platform in a question.
     Verb {
         /// Its value is given.
         Hold = "hold",
@@ -26,7 +26,7 @@ words! {
     }
 }
 
-/// What the name in a demand stands for.
+/// Meaning of the name in a demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     /// A joint or a coordinate of a platform.
@@ -36,7 +36,7 @@ pub(crate) enum Target {
 }
 
 impl Target {
-    /// Whether both are the same, or one is part of the other.
+    /// True if the two are equal, or one is part of the other.
     pub(crate) fn meets(self, other: Target) -> bool {
         match (self, other) {
             (Target::Pose(whole), Target::Coordinate(part))
@@ -47,7 +47,7 @@ impl Target {
 }
 
 impl Verb {
-    /// Whether two demands of one target cannot both be meant.
+    /// True if two demands on one target contradict each other.
     pub(crate) fn clashes(self, other: Verb) -> bool {
         match (self, other) {
             (Verb::Free, Verb::Free) => false,

@@ -1,4 +1,4 @@
-//! What a question drives, and how fast.
+//! Rates and accelerations of the held coordinates.
 
 use thiserror::Error;
 
@@ -19,7 +19,7 @@ pub struct Drive {
     pub rates: Vec<f64>,
     /// Their accelerations.
     pub accelerations: Vec<f64>,
-    /// Whether a rate or acceleration was given.
+    /// True if a rate or acceleration was given.
     pub given: bool,
     /// Platforms that are turned by rates of roll, pitch and yaw.
     angles: Vec<Angles>,
@@ -30,14 +30,14 @@ pub struct Drive {
 /// A platform with the rates and the accelerations of its roll, pitch and yaw.
 type Angles = (usize, [[f64; 3]; 2]);
 
-/// What is given to a coordinate.
+/// Derivative given to a coordinate.
 #[derive(Clone, Copy)]
 enum Order {
     Rate,
     Acceleration,
 }
 
-/// Why a rate, an acceleration or a force cannot be given.
+/// Reasons for which a rate, an acceleration or a force cannot be given.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DriveError {
     /// The name or the value is wrong.
@@ -50,7 +50,7 @@ pub enum DriveError {
         name: String,
         /// The name that was probably meant.
         suggestion: Option<String>,
-        /// What is held.
+        /// Names of the held coordinates.
         held: Vec<String>,
     },
     /// The coordinate is not held, so that its rate follows.
@@ -58,7 +58,7 @@ pub enum DriveError {
     NotHeld {
         /// The coordinate.
         name: String,
-        /// What is held.
+        /// Names of the held coordinates.
         held: Vec<String>,
     },
     /// A single coordinate has a rate, and a whole platform was named.
@@ -72,7 +72,7 @@ pub enum DriveError {
     /// The platform of that name turns as given only where its whole orientation is held.
     #[error("an angular velocity of `{0}` can be given only if its whole orientation is held")]
     NotTurned(String),
-    /// How the platform of that name turns was given both by its angles and about the axes of ground.
+    /// The angular velocity of the platform of that name was given both by its angles and about the axes of ground.
     #[error("the rotation of `{0}` is given twice, by its angles and about the axes of ground")]
     Mixed(String),
     /// Nothing is held, for the mechanism is a structure: nothing can be driven.
@@ -237,7 +237,7 @@ impl Drive {
     }
 }
 
-/// Whether the mechanism has no freedom near the start of a question.
+/// True if the mechanism has no freedom near the start of a question.
 fn is_structure(question: &Question) -> bool {
     let near = Mobility::near(question.mechanism(), &question.start());
     near.is_some_and(|mobility| mobility.count() == 0)

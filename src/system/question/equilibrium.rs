@@ -23,7 +23,7 @@ pub struct Equilibrium {
     pub generalised: Vec<f64>,
     /// λ, then τ, in N·m: of many solutions that of least norm.
     pub forces: Vec<f64>,
-    /// What is left of the equations: not zero where nothing resists the load.
+    /// Residual of the equations, in N·m: not zero where nothing resists the load.
     pub left: Vec<f64>,
 }
 
@@ -77,7 +77,7 @@ impl Equilibrium {
         }
     }
 
-    /// The same for the rows of a large J and S.
+    /// Equilibrium from the rows of a large J and S, by elimination.
     fn of_groups(rows: Vec<Rows>, generalised: Vec<f64>, opposite: &[f64]) -> Self {
         const STRESSES: usize = 3;
         let equations = Elimination::of(generalised.len(), rows);

@@ -1,4 +1,4 @@
-//! Questions that cannot be put, and the words for them.
+//! Errors in questions, and their words.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -8,7 +8,7 @@ use super::demand::Demand;
 use crate::description::{count, listed};
 use crate::mechanism::{Value, ValueError};
 
-/// Why a question cannot be put.
+/// Reasons for which a question cannot be put.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum QuestionError {
     /// No joint, platform or platform coordinate has the name.
@@ -20,19 +20,19 @@ pub enum QuestionError {
     },
     /// The value is no number, expression or pose.
     Value {
-        /// What the value was for.
+        /// The joint, coordinate or platform that was given the value.
         name: String,
         /// The value as given.
         text: String,
-        /// What is wrong with it.
+        /// The error in it.
         #[source]
         error: ValueError,
     },
-    /// The same joint or coordinate is held or guessed twice, or held and freed.
+    /// Two demands on one joint or coordinate: held or guessed twice, or held and freed.
     Contradiction {
-        /// What was demanded first.
+        /// The earlier demand.
         first: Demand,
-        /// What was demanded then.
+        /// The later demand.
         second: Demand,
     },
     /// Only joints can be freed, not what has this name.
@@ -75,7 +75,7 @@ impl QuestionError {
         }
     }
 
-    /// What is wrong, without what to do about it.
+    /// The error without the remedy.
     pub fn title(&self) -> String {
         match self {
             QuestionError::UnknownName { name, .. } => {

@@ -18,7 +18,7 @@ pub struct Load {
     pub joints: Vec<(usize, f64)>,
 }
 
-/// Why a load cannot be given.
+/// Reasons for which a load cannot be given.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ForceError {
     /// The value is wrong.
@@ -51,7 +51,7 @@ pub enum ForceError {
     /// A platform, or a coordinate of one, is loaded by a wrench.
     #[error("`{name}` is not a joint: a platform is loaded by a wrench")]
     Platform {
-        /// What was named.
+        /// The name given.
         name: String,
         /// The platform.
         platform: String,

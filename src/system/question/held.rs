@@ -1,4 +1,4 @@
-//! What a question holds.
+//! Held coordinates of a question.
 
 use super::Question;
 use crate::geometry::{Pose, RollPitchYaw};
@@ -50,12 +50,12 @@ impl Question<'_> {
         })
     }
 
-    /// For each joint whether it is held by name rather than by the file.
+    /// For each joint, true if it is held by name rather than by the file.
     pub fn joints_held_by_name(&self) -> &[bool] {
         &self.held_by_name
     }
 
-    /// Whether a whole pose is given: that of the file, or a guess for all that is to be found.
+    /// True if every coordinate of the start is given: by the file's pose, or by guesses for all that is to be found.
     pub fn gives_pose(&self) -> bool {
         let known = |(held, guessed): (&bool, &bool)| *held || *guessed;
         let platforms = self.held().platforms;

@@ -1,4 +1,4 @@
-//! What the names and values given to a question mean.
+//! Resolves names and values given to a question.
 
 use super::demand::{Demand, Target, Verb};
 use super::{Question, QuestionError, actuated};
@@ -38,7 +38,7 @@ impl Question<'_> {
         Ok((coordinate, self.number(name, &value.into(), coordinate)?))
     }
 
-    /// What a name stands for, unless something else was demanded of it before.
+    /// Resolves a name and records the demand, unless it contradicts an earlier one.
     pub(super) fn demand(
         &mut self,
         verb: Verb,

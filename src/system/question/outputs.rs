@@ -17,7 +17,7 @@ pub fn actuated(mechanism: &Mechanism) -> Vec<Coordinate> {
     actuated.map(|(i, _)| Coordinate::Joint(i)).collect()
 }
 
-/// What is driven: the held coordinates if all of them are joints, else the actuated joints.
+/// The inputs: the held coordinates if all of them are joints, else the actuated joints.
 pub fn inputs_of(question: &Question) -> Vec<Coordinate> {
     let held = question.held_coordinates();
     let joint = |held: &Coordinate| match *held {

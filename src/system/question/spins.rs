@@ -1,4 +1,4 @@
-//! Links that spin about their own lines stand still.
+//! Local freedoms of links, spins about their own lines, stopped.
 
 use super::Question;
 use crate::description::Role;
@@ -6,7 +6,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{Coordinate, Held, Mobility, Neighbourhood, Spin, System, Unknown};
 
-/// What stands still so that a link does not spin about its own line.
+/// A coordinate that stays where it is so that a link does not spin about its own line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Still {
     /// A passive joint of the link.
@@ -24,7 +24,7 @@ impl Still {
         }
     }
 
-    /// What is held, and what stands still too.
+    /// The held coordinates with these added.
     pub fn beside(all: &[Still], mut held: Held<f64>) -> Held<f64> {
         for still in all {
             match *still {
@@ -58,8 +58,8 @@ impl Still {
 }
 
 impl Question<'_> {
-    /// The same question where links that only spin about their own lines, as a rod between two balls, do not: for
-    /// each such freedom a coordinate stays where it is, a passive joint of the link, or else the spin of a platform.
+    /// Stops links that only spin about their own lines, as a rod between two balls does (local freedoms): for each
+    /// such freedom a coordinate stays where it is, a passive joint of the link, or else the spin of a platform.
     /// These do not count as held: nobody chose them, and nothing else depends on them.
     ///
     /// Without it a finite number of assemblies would be infinite, and each configuration of a curve one of a surface.
@@ -97,18 +97,18 @@ impl Question<'_> {
         self
     }
 
-    /// The same question about a mechanism none of whose links spins about its own line, which then is not worked out.
+    /// Skips the search for local spins, for a mechanism that is known to have none.
     pub(crate) fn without_spins(mut self) -> Self {
         self.spinless = true;
         self
     }
 
-    /// What stands still in this question so that links do not spin.
+    /// Coordinates that stay where they are so that links do not spin about their own lines.
     pub fn still(&self) -> &[Still] {
         &self.still
     }
 
-    /// What is held, and what stands still in this question too.
+    /// The held coordinates with those added that stop local spins.
     pub fn with_still(&self, held: Held<f64>) -> Held<f64> {
         Still::beside(&self.still, held)
     }

@@ -10,7 +10,7 @@ use crate::number::real;
 use crate::solve::{Equations, Newton, Watch};
 use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
-/// How far a closure of a given pose is open.
+/// Gap of a closure at a given pose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WidestGap {
     /// Name of the closure.
@@ -27,14 +27,14 @@ impl WidestGap {
         (self.distance / mechanism.characteristic_length()).max(self.angle)
     }
 
-    /// Whether it is more than what a pose is rounded by when it is written down; beside a length in m.
+    /// True if the gap is wider than the rounding of written poses explains: over 1 % of a length (m), or 0.01 rad.
     pub fn is_wide(&self, length: f64) -> bool {
         const ROUNDED: f64 = 1e-2;
         self.distance > ROUNDED * length || self.angle > ROUNDED
     }
 }
 
-/// How to look for the assembled configuration near the start of a question.
+/// Settings of the search for the assembled configuration near the start of a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closing {
     /// The iteration that closes the mechanism.
@@ -52,7 +52,7 @@ impl Default for Closing {
 }
 
 impl Closing {
-    /// The usual way with another seed.
+    /// Default settings with another seed.
     pub fn seeded(seed: u64) -> Self {
         Closing {
             newton: Newton::default(),
@@ -67,7 +67,7 @@ impl Closing {
         close(question, &self.newton, starts, watch).map_err(Analysed::NotClosed)
     }
 
-    /// The same for a question that must leave no freedom.
+    /// As [`Closing::start`], for a question that must leave no freedom.
     ///
     /// # Errors
     /// Those of [`check_count`].
@@ -94,29 +94,28 @@ pub struct Moved {
     pub name: String,
     /// The unit of the distance, rad or m.
     pub unit: SiUnit,
-    /// How far it moved, in rad or m.
+    /// Distance it moved, in rad or m.
     pub distance: f64,
-    /// The same in rad or characteristic lengths.
+    /// The distance in rad or characteristic lengths.
     pub size: f64,
 }
 
 impl Moved {
-    /// Whether the pose given was only rounded: nothing moved by more than a small part of a radian or of the length.
+    /// True if the given pose was only rounded: nothing moved by more than 0.1 rad or 0.1 characteristic lengths.
     pub fn is_small(&self) -> bool {
         self.size <= SMALL
     }
 }
 
-/// How the pose given was closed, in reports about the mechanism closed there.
+/// Correction of the given pose, for reports about the configuration closed from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GivenPose {
     /// The widest gap it had; `None` if it was assembled but for rounding.
     pub given_gap: Option<WidestGap>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than
-    /// rounded.
+    /// The joint or platform that moved most from its guess, or from a pose of the file that was more than rounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<Moved>,
-    /// Whether what the file holds kept its values when the mechanism was closed.
+    /// True if the coordinates held by the file kept their values when the mechanism was closed.
     pub kept: bool,
     /// Names of the joints that are outside their limits in the assembled configuration.
     pub outside_limits: Vec<String>,
@@ -129,9 +128,9 @@ pub struct Closed {
     pub configuration: Configuration<f64>,
     /// The widest gap of the file's pose; `None` without closures or from other values.
     pub given: Option<WidestGap>,
-    /// What moved most from the values guessed, or from the file's pose if that is not merely rounded.
+    /// The joint or platform that moved most from its guess, or from the file's pose if that is not merely rounded.
     pub moved: Option<Moved>,
-    /// Whether what the question holds kept its values.
+    /// True if the held coordinates kept their values.
     pub kept: bool,
 }
 
@@ -156,7 +155,7 @@ impl<R> Analysed<R> {
         }
     }
 
-    /// The same without taking it away.
+    /// As [`Analysed::closed`], by reference.
     pub fn report(&self) -> Option<&R> {
         match self {
             Analysed::Closed(report) => Some(report),
@@ -176,7 +175,7 @@ pub struct NotClosed {
     pub left: Option<WidestGap>,
     /// Names of the held coordinates.
     pub held: Vec<String>,
-    /// Whether the search was stopped before all starts were made.
+    /// True if the search was stopped before all starts were made.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
@@ -187,7 +186,7 @@ pub struct NotClosed {
 pub struct TooLarge {
     /// The mechanism's name.
     pub mechanism: String,
-    /// How many unknowns it has with nothing held.
+    /// Number of unknowns with nothing held.
     pub unknowns: usize,
 }
 
@@ -256,7 +255,7 @@ pub fn close(
 }
 
 impl Closed {
-    /// What reports say of it.
+    /// The correction of the given pose, as reports give it.
     pub fn pose(&self, mechanism: &Mechanism) -> GivenPose {
         let given = self.given.clone();
         GivenPose {
@@ -292,7 +291,8 @@ fn with_file_loose(
     System::new(question.mechanism().dimensions(), &held).solved(newton, start)
 }
 
-/// What moved most of the guesses in assembling, or of the file's pose if that is more than rounding.
+/// The guessed joint or platform that moved most in assembling; without guesses, the one that moved most from the
+/// file's pose, if by more than rounding.
 pub fn moved(question: &Question, to: &Configuration<f64>) -> Option<Moved> {
     let start = &question.start();
     let guessed = [question.guessed_joints(), question.guessed_platforms()];
@@ -305,7 +305,8 @@ pub fn moved(question: &Question, to: &Configuration<f64>) -> Option<Moved> {
     }
 }
 
-/// What moves most between two configurations, beyond rounding and idle turns, or of what is `among` these.
+/// The joint or platform that moves most between two configurations, beyond rounding and local spins; of all, or of
+/// those in `among`.
 fn farthest(
     question: &Question,
     from: &Configuration<f64>,
@@ -353,7 +354,7 @@ fn farthest(
     all.max_by(|a, b| a.size.total_cmp(&b.size))
 }
 
-/// Whether there are more unknowns than the spectrum is computed for.
+/// Report of a mechanism with more unknowns than singular values are computed for.
 pub fn too_large(mechanism: &Mechanism) -> Option<TooLarge> {
     let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
     (unknowns > SPECTRUM_LIMIT).then(|| TooLarge {

@@ -5,7 +5,7 @@ use rand::Rng;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Joint, Mechanism, PlatformPose};
 
-/// Where random values of a joint are drawn from: its limits, a turn, or a characteristic length round home.
+/// Range of random values of a joint: its limits, one turn, or a characteristic length either way from home.
 pub fn sampling_range(joint: &Joint, home: f64, length: f64) -> (f64, f64) {
     match joint.limits {
         Some((low, high)) if low.is_finite() && high.is_finite() => (low, high),

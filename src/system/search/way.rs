@@ -1,4 +1,4 @@
-//! The path from home to the values that a question holds, in small steps.
+//! Continuation from home to the held values, in small steps.
 
 use std::borrow::Cow;
 
@@ -12,12 +12,12 @@ use crate::system::HeldPlatform;
 /// Longest step of anything held, in rad or characteristic lengths.
 const STEP: f64 = 0.2;
 
-/// A way of more steps leads somewhere else altogether.
+/// Longest continuation, in steps: a longer way is not tried.
 const MOST: f64 = 64.0;
 
 impl Search<'_> {
-    /// Where the mechanism arrives, in the assembly mode of home, when what is held moves from home to its
-    /// values in small steps. `None` if home does not assemble, the way is long or a step fails.
+    /// The configuration reached in the assembly mode of home, as held coordinates move from home to their values in
+    /// small steps. `None` if home does not assemble, the way is too long or a step fails.
     pub(crate) fn moved_from_home(&mut self) -> Option<Attempt> {
         let home = self.mechanism.home();
         let to = self.question.start();
@@ -62,7 +62,7 @@ impl Search<'_> {
         None
     }
 
-    /// How far what is held moves at most, in rad or characteristic lengths.
+    /// Largest change of a held coordinate, in rad or characteristic lengths.
     fn longest_change(&self, home: &Configuration<f64>, to: &Configuration<f64>) -> f64 {
         let length = self.mechanism.characteristic_length();
         let mut longest: f64 = 0.0;

@@ -67,12 +67,12 @@ impl Cone {
         cone
     }
 
-    /// How many independent forms there are.
+    /// Number of independent forms.
     pub fn forms(&self) -> usize {
         self.forms.len()
     }
 
-    /// Whether all of a space of motions is on the cone, to the accuracy of extrapolated tangents.
+    /// True if a whole space of motions is on the cone, to the accuracy of extrapolated tangents.
     pub fn contains_all(&self, motions: &[Vec<f64>]) -> bool {
         /// Forms have coefficients of unit norm.
         const ZERO: f64 = 0.03;
@@ -159,8 +159,8 @@ impl Cone {
         reach: f64,
         rng: &mut impl Rng,
     ) -> Option<FlatSet> {
-        /// Where equations only touch zero, solutions are known to half their digits, and what vanishes
-        /// there is this small beside the largest singular value.
+        /// Singular values below this part of the largest are zero: solutions at which equations only touch zero are
+        /// known to half their digits.
         const HALF: f64 = 1e-5;
         let flat = Tangent {
             motions: self.flat()?,
@@ -184,7 +184,7 @@ impl Cone {
         })
     }
 
-    /// Whether second order excludes nothing.
+    /// True if second order excludes no motion.
     pub fn is_all(&self) -> bool {
         self.forms.is_empty()
     }
@@ -276,7 +276,8 @@ impl Neighbourhood<'_> {
         (0.05 * reach < distance && distance < 5.0 * reach).then_some((at, way))
     }
 
-    /// Where steps in the span of the motions arrive, if all arrive where they aim: not where branches meet.
+    /// Configurations reached by steps in random directions of the span of the motions; `None` if one does not arrive
+    /// about where it aims, as where branches meet.
     pub fn follows(
         &mut self,
         at: &Tangent,

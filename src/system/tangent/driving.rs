@@ -1,4 +1,4 @@
-//! How the rates of held coordinates move everything else.
+//! Rates of all unknowns for rates of the held coordinates.
 
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
@@ -19,7 +19,7 @@ pub struct Driving {
     places: Vec<usize>,
 }
 
-/// How the rate of a held coordinate enters.
+/// Entrance of the rate of a held coordinate into the equations.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     at: Entrance,
@@ -27,7 +27,7 @@ struct Entry {
     turning: Option<(usize, PoseCoordinate)>,
 }
 
-/// Where it enters, or the first of three components does.
+/// Row or unknown at which a rate enters; the first of three for an angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Entrance {
     /// It is the rate of one of all unknowns.
@@ -84,7 +84,7 @@ impl Driving {
         }
     }
 
-    /// Where the rates of the held coordinates enter, each with what enters there.
+    /// Entrances of the held coordinates' rates, each with the number that enters.
     pub(super) fn entering<'a, T: Number>(
         &'a self,
         at: &'a Configuration<T>,

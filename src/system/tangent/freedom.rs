@@ -27,7 +27,7 @@ impl Freedoms {
         Freedoms::of(&system, at, &mut system.work())
     }
 
-    /// The same for equations that are at hand.
+    /// As [`Freedoms::at`], with equations and storage at hand.
     pub fn of(system: &System<f64>, at: &Configuration<f64>, work: &mut Work<f64>) -> Self {
         system.linearise(at, work);
         let unknowns = system.unknowns().to_vec();
@@ -63,7 +63,7 @@ impl Freedoms {
         }
     }
 
-    /// The same ratio over the unknowns that are determined.
+    /// Condition number over the determined unknowns: largest singular value over the smallest that counts.
     pub fn condition_of_determined(&self) -> f64 {
         let counted = self.rank().min(self.singular_values.len());
         match self.singular_values[..counted] {
@@ -88,7 +88,7 @@ impl Freedoms {
         moving(mechanism, &self.unknowns, &self.motions)
     }
 
-    /// Whether all motions are local: links turn about their own axes, and no point moves.
+    /// True if all motions are local freedoms: links turn about their own axes, and no point moves.
     pub fn are_local(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
         if self.motions.is_empty() {
             return true;
@@ -138,7 +138,7 @@ impl Mobility {
         Mobility::among(mechanism, start, 0..4)
     }
 
-    /// The same without the start itself, which may be singular.
+    /// As [`Mobility::near`], without the start itself, which may be singular.
     pub fn beside(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 1..4)
     }
@@ -194,7 +194,7 @@ impl Mobility {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
     }
 
-    /// Whether the freedoms are finite, tried along one that mixes them: those of a shaky structure are not.
+    /// True if the freedoms are finite, tried along one motion that mixes them; false for a shaky structure.
     pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
         let mut near = Neighbourhood::new(mechanism);
         let tangent = near.tangent(self.at.clone());
@@ -228,7 +228,7 @@ impl Mobility {
         chosen
     }
 
-    /// How fast a coordinate changes along each freedom.
+    /// Rate of a coordinate along each freedom.
     fn rates(&self, mechanism: &Mechanism, places: &Places, candidate: Coordinate) -> Vec<f64> {
         match candidate {
             Coordinate::Joint(joint) => self.freedoms.rates(places, Unknown::Joint(joint), &[1.0]),

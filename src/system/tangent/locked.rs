@@ -32,7 +32,7 @@ pub struct Locked {
 }
 
 impl Lock {
-    /// How many rates it has.
+    /// Number of its rates.
     pub fn rows(self) -> usize {
         match self {
             Lock::Coordinate(_) => 1,
@@ -53,7 +53,7 @@ impl Lock {
         }
     }
 
-    /// What it is called.
+    /// Name of the coordinate, frame or point.
     pub fn name(self, mechanism: &Mechanism) -> String {
         match self {
             Lock::Coordinate(coordinate) => coordinate.name(mechanism),
@@ -69,7 +69,7 @@ impl Locked {
         Locked::without_spins(mechanism, &Held::nothing(mechanism), locks)
     }
 
-    /// The same where platforms that do not spin in `held` do not spin.
+    /// M with platforms kept from spinning about the lines about which they do not spin in `held`.
     pub fn without_spins(mechanism: &Mechanism, held: &Held<f64>, locks: &[Lock]) -> Self {
         let mut still = Held::nothing(mechanism);
         for (still, held) in still.platforms.iter_mut().zip(&held.platforms) {

@@ -16,7 +16,7 @@ pub struct MechanismLoop {
     pub closure: String,
     /// Its bodies in order, from the one where its two chains part.
     pub bodies: Vec<Body>,
-    /// What joins each body to the next, and the last to the first.
+    /// Joints and closures that connect each body to the next, and the last to the first.
     pub parts: Vec<LoopPart>,
 }
 
@@ -31,7 +31,7 @@ pub struct LoopPart {
     pub joints: Vec<usize>,
     /// (ω; v/L) at the origin of ground for each freedom.
     pub twists: Vec<[f64; 6]>,
-    /// Whether it is a closure.
+    /// True for a closure.
     pub closure: bool,
 }
 

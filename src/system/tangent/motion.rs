@@ -27,7 +27,7 @@ pub use frames::FrameMotion;
 pub struct Motion<T: Factorable = f64> {
     coordinates: Vec<Coordinate>,
     driving: Driving,
-    /// What makes the rates of the held coordinates dimensionless.
+    /// Sizes of the held coordinates' dimensionless units, in m and rad.
     units: Vec<T>,
     held: Held<f64>,
     system: System<T>,
@@ -52,7 +52,7 @@ struct Changing<T: Factorable> {
     rows: Vec<usize>,
     path: Configuration<Dual<T>>,
     rates: Vec<Dual<T>>,
-    /// Whether its frames are placed along the path of the rates last computed.
+    /// True if the frames are placed along the path of the rates last computed.
     placed: bool,
 }
 
@@ -91,7 +91,7 @@ impl<T: Factorable> Motion<T> {
         Motion::placing(mechanism, coordinates, &[], |held| held)
     }
 
-    /// The same that also places some frames, where more stands still, such as links that would spin.
+    /// As [`Motion::new`], with frames to be placed and further coordinates held still, such as local spins.
     pub fn placing(
         mechanism: &Mechanism,
         coordinates: &[Coordinate],
@@ -130,7 +130,7 @@ impl<T: Factorable> Motion<T> {
         }
     }
 
-    /// What is held, every platform coordinate for itself.
+    /// The held coordinates in the form of the solver, every platform coordinate singly unless it turns as a whole.
     pub fn held(&self) -> &Held<f64> {
         &self.held
     }
@@ -199,7 +199,7 @@ impl<T: Factorable> Motion<T> {
         all.map(|i| self.response(i).to_vec()).collect()
     }
 
-    /// The same for one of them.
+    /// Rates of all unknowns for a unit rate of one held coordinate, the others at rest.
     pub fn response(&mut self, i: usize) -> &[T] {
         self.given[0].fill(T::zero());
         self.given[0][i] = T::one() / self.units[i];
@@ -234,7 +234,7 @@ impl<T: Factorable> Motion<T> {
         [&self.rates, &self.accelerations]
     }
 
-    /// Whether rates and accelerations are determined where it was last factorised.
+    /// True if rates and accelerations are determined where it was last factorised.
     pub fn is_determined(&self) -> bool {
         self.system.undetermined(&self.work) == 0
     }

@@ -59,7 +59,7 @@ impl<'a> Neighbourhood<'a> {
         }
     }
 
-    /// The same; steps of large mechanisms can be stopped.
+    /// Lets `watch` stop the steps of large mechanisms.
     pub fn watched(self, watch: &'a Watch<'a>) -> Self {
         Neighbourhood {
             watch: Some(watch),
@@ -126,8 +126,8 @@ impl<'a> Neighbourhood<'a> {
         rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
     }
 
-    /// Whether the equations of an independent part of the mechanism that do not vanish everywhere are independent at a
-    /// configuration: then its motions there are finite.
+    /// True if the equations of an independent part of the mechanism, but for those that vanish everywhere, are
+    /// independent at a configuration: then its motions there are finite.
     pub fn is_regular(&mut self, at: &Configuration<f64>, own: &[bool]) -> bool {
         let left = self.system.linearise(at, &mut self.work).largest;
         let jacobian = self.system.dense_jacobian(&self.work);
@@ -176,7 +176,7 @@ impl<'a> Neighbourhood<'a> {
         self.system.residual(at, &mut self.work).largest
     }
 
-    /// Whether motions are local freedoms: links turn about their own axes and nothing else moves.
+    /// True if motions are local freedoms: links turn about their own axes and nothing else moves.
     pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
         let moved = self.displacements(at, motions);
         let mut rates = moved.iter().flat_map(|rows| &rows.entries);
@@ -333,7 +333,7 @@ impl Tangent {
         }
     }
 
-    /// How many unknowns there are.
+    /// Number of unknowns.
     pub fn columns(&self) -> usize {
         match (self.motions.first(), self.idle.first()) {
             (Some(motion), _) | (None, Some(motion)) => motion.len(),

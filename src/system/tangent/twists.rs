@@ -62,7 +62,7 @@ impl<T: Number> FrameTwists<T> {
         )
     }
 
-    /// The same for frames that are placed together with others.
+    /// As [`FrameTwists::new`], for frames placed together with others by `kinematics`.
     pub fn sharing(
         kinematics: &Kinematics<T>,
         dimensions: &Dimensions<T>,

@@ -1,4 +1,4 @@
-//! Which directions of motion are free: a finite step is possible along them.
+//! Free directions of motion: those along which a finite step is possible.
 
 use super::walk::MOVED_ON_A_BRANCH;
 use super::{Branch, Part, STEP, Search, see};
@@ -8,10 +8,11 @@ use crate::system::{FiniteStep, Tangent, combination};
 /// Directions of motion that are tried; all must be free for the mechanism to be regular.
 const DIRECTIONS: usize = 3;
 
-/// What a joint moves by at least in a finite step: at a dead point it moves to second order only.
+/// Least change of a joint that moves in a finite step: at a dead point it moves to second order only.
 const MOVED: f64 = 1e-7;
 
-/// What moves, and the gap that is left where steps were made; else the gap of one.
+/// For each unknown true if it moves, with the largest gap after the steps (`None` if none were made); as the error,
+/// the gap of a step that leaves the closures open.
 type Free = Result<(Vec<bool>, Option<f64>), Option<f64>>;
 
 impl Search<'_, '_> {
@@ -26,11 +27,10 @@ impl Search<'_, '_> {
         beside.min_by_key(|tangent| tangent.motions.len())
     }
 
-    /// What moves, and the gap that is left where steps were made, if all motions of an independent part are finite; else
-    /// the gap of one. Where its equations are independent they are, however near a singular configuration is where steps
-    /// do not lead back; shorter ones do.
+    /// Tests if all motions of an independent part are finite. Where its equations are independent they are, however
+    /// near a singular configuration is: steps that do not lead back are repeated shorter.
     pub(super) fn finite(&mut self, own: &[bool], tangent: &Tangent) -> Free {
-        /// How much shorter each step is, and how often.
+        /// Factor by which each step is shorter, and number of such steps.
         const SHORTER: f64 = 0.1;
         const TIMES: usize = 4;
         let steps = self.free(tangent, STEP);
@@ -49,7 +49,7 @@ impl Search<'_, '_> {
         }))
     }
 
-    /// The same by steps of a length along random directions.
+    /// Tests motions by steps of one length along random directions.
     fn free(&mut self, tangent: &Tangent, length: f64) -> Free {
         let mut moved = vec![false; tangent.columns()];
         let mut gap: f64 = 0.0;
@@ -123,8 +123,8 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Whether all equations of a large mechanism that do not vanish everywhere are independent: by the implicit
-    /// function theorem its motions are finite, also where it is too ill-conditioned for steps.
+    /// True if all equations of a large mechanism that do not vanish everywhere are independent: by the implicit
+    /// function theorem its motions are finite, even if it is too ill-conditioned for steps.
     fn is_independent(&self, tangent: &Tangent) -> bool {
         let system = self.near.system();
         let equations = self.near.mechanism().equations_that_vary() + system.hold_rows().len();
@@ -140,7 +140,7 @@ impl Search<'_, '_> {
         (dot(&way, direction) > ALONG).then_some(FiniteStep { at, gap })
     }
 
-    /// Whether random directions of motion are all free, so that every direction is.
+    /// True if several random directions of motion are all free; then, almost surely, every direction is.
     pub fn is_regular(&mut self, tangent: &Tangent, distance: f64, directions: usize) -> bool {
         (0..directions).all(|_| {
             let direction = combination(&tangent.motions, &mut self.rng);

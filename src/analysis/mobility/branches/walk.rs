@@ -19,7 +19,7 @@ pub(super) struct Directions {
     on_cone: usize,
     /// Tries between the basis vectors if none on the cone succeeds; on the cone alone `None`.
     between: Option<usize>,
-    /// How many were made on the cone, between the basis vectors, and along these.
+    /// Directions made so far: on the cone, between the basis vectors, and along these.
     made: [usize; 3],
 }
 
@@ -74,7 +74,7 @@ impl Directions {
 pub(super) struct Seen {
     /// The tangent there with the motions of the branch alone.
     beside: Tangent,
-    /// Whether every infinitesimal freedom there is finite.
+    /// True if every infinitesimal freedom there is finite.
     pub regular: bool,
     pub moved: Vec<bool>,
 }
@@ -85,12 +85,12 @@ impl Seen {
     }
 }
 
-/// Whether two orthonormal bases span the same but for angles of this sine.
+/// True if two orthonormal bases span the same space, up to angles of this sine.
 pub(super) fn same(a: &[Vec<f64>], b: &[Vec<f64>], sine: f64) -> bool {
     a.len() == b.len() && contains(a, b, sine)
 }
 
-/// Whether an orthonormal basis spans the vectors of another but for angles of this sine.
+/// True if an orthonormal basis spans the vectors of another, up to angles of this sine.
 pub(super) fn contains(space: &[Vec<f64>], vectors: &[Vec<f64>], sine: f64) -> bool {
     (vectors.iter()).all(|vector| norm(&left_of(vector, space)) < sine)
 }
@@ -190,7 +190,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
+    /// True if steps in the span of the motions arrive where they aim; false where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
         let Search { near, rng, .. } = &mut *self.search;
         at.motions.len() == 1 || near.follows(at, step, rng).is_some()

@@ -1,4 +1,4 @@
-//! Where motions went so far, and where they will be next.
+//! Backward differences of motions, and extrapolation to their next solutions.
 
 use crate::algebra::{BATCH, Registers};
 

@@ -1,4 +1,4 @@
-//! How joints and coordinates of platforms move over a circuit.
+//! Ranges and turning points of joints and platform coordinates over a circuit.
 
 use std::f64::consts::TAU;
 
@@ -15,11 +15,11 @@ pub(super) struct Course<'m> {
     closed: bool,
     /// Whole turns from one end to the other.
     turns: i64,
-    /// Where it was followed.
+    /// Values at the places of the curve.
     values: Vec<f64>,
-    /// Where it turns back, in order, located to rounding.
+    /// Values at its turning points, in order, located to rounding.
     turnings: Vec<f64>,
-    /// Where it turns back first, once round.
+    /// Value at its first turning point, once round.
     again: Option<f64>,
 }
 

@@ -13,11 +13,11 @@ type C = Complex<f64>;
 pub(super) enum End {
     /// At a real configuration.
     Real(Configuration<f64>),
-    /// Where the joint has gone all its way, or where a path came before.
+    /// At the end of the joint's range, or at a crossing that another path came to.
     Through,
     /// At infinity, where the joint has this value.
     Pole(f64),
-    /// Where other paths cross, on all that go on from there.
+    /// At a crossing of paths, with the places from which all others go on.
     Crossing(Vec<Place<Configuration<C>>>),
     Lost,
 }

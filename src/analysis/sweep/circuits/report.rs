@@ -7,7 +7,7 @@ use crate::algebra::SiUnit;
 use crate::analysis::sweep::PathReport;
 use crate::mechanism::{Mechanism, Role};
 
-/// How a joint, or a coordinate of a platform, moves over a circuit or branch.
+/// Range of a joint, or of a coordinate of a platform, over a circuit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointMotion {
     /// Its name.
@@ -22,25 +22,25 @@ pub struct JointMotion {
     pub high: f64,
 }
 
-/// What lies between two dead points of the input.
+/// Branch: a part of a circuit between two dead points of the input.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Branch {
     /// The lowest value of the input, rad or m.
     pub low: f64,
     /// The highest value.
     pub high: f64,
-    /// Whether the input makes whole turns on it.
+    /// True if the input makes whole turns on it.
     pub turns: bool,
 }
 
-/// What can be reached without taking the mechanism apart, along one curve.
+/// Circuit: all configurations reached along one curve without taking the mechanism apart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Circuit {
     /// Its number, from 1.
     pub number: usize,
-    /// Whether its curve closes; otherwise it has two ends at limits.
+    /// True if its curve closes; false if it has two ends at limits.
     pub closed: bool,
-    /// Whether it was followed to its end.
+    /// True if it was followed to its end.
     pub whole: bool,
     /// Its length, in rad and characteristic lengths.
     pub length: f64,
@@ -55,7 +55,7 @@ pub struct Circuit {
     pub crossings: Vec<Vec<f64>>,
     /// The circuits it crosses: with them it is one, and which is gone on is decided at the crossing.
     pub crosses: Vec<usize>,
-    /// How many of the seeds lie on it.
+    /// Number of seeds on it.
     pub seeds: usize,
     /// Values of all joints along it, in the order of the file, so near to one another that a line through them looks
     /// smooth.
@@ -119,7 +119,7 @@ pub struct CircuitsReport {
     /// Cusps and double points of the paths of points over all circuits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub paths: Vec<PathReport>,
-    /// Whether the work was stopped before it was done: circuits may be missing.
+    /// True if the work was stopped early: circuits may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }

@@ -18,7 +18,7 @@ pub(super) struct Found {
     /// Without their Jacobians.
     pub places: Vec<At>,
     pub turnings: Vec<(usize, At)>,
-    /// Where the joint of the slice turns back, and whether its value is greatest there.
+    /// Turning points of the joint of the slice, each true if its value is greatest there.
     pub folds: Vec<(At, bool)>,
     pub crossings: Vec<BranchPoint<Configuration<f64>>>,
     pub closed: bool,

@@ -1,4 +1,4 @@
-//! Where paths cross themselves and one another.
+//! Double points: crossings of paths with themselves and one another.
 
 use super::{At, PathPoint, STILL, Tracer};
 use crate::geometry::Vector3;
@@ -22,7 +22,7 @@ struct Piece {
     high: [f64; 3],
 }
 
-/// Where the paths over curves, each with whether it closes, cross themselves and one another.
+/// Double points of the paths over some curves; each curve comes with true if it closes.
 pub(super) fn double_points(
     tracer: &mut Tracer,
     curve: &mut Curve,

@@ -1,4 +1,4 @@
-//! Aspects of few nodes: whether a finer grid connects them with others.
+//! Joins aspects of few nodes with others that a finer grid connects them with.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::system::Driven;
 
 /// Aspects of fewer nodes are checked on a finer grid.
 const FEW: usize = 10;
-/// How many are at most.
+/// Most aspects checked so.
 const MOST: usize = 500;
 /// Solutions of a finer grid at most.
 const MOST_SHEETS: usize = 50_000;

@@ -144,7 +144,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where along a curve the mode changes: solutions meet there, and on a fold the curve turns back.
+    /// Points of a curve at which the mode changes: solutions meet there, and on a fold the curve turns back.
     fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
         if self.kind == Kind::Fold {
             let way = |i: usize| [0, 1].map(|k| points[i + 1][k] - points[i][k]);
@@ -165,7 +165,7 @@ impl Tracer<'_> {
     }
 }
 
-/// Where a configuration is along a curve, if it is near; none within if that is uncertain. Given are the differences of
+/// Position of a configuration along a curve, if it is near; `Some(None)` if uncertain. Given are the differences of
 /// the mapped coordinates from those of a place, and the step from a place.
 ///
 /// The tangent turns by less than a quarter of a radian from one place to the next, so that the curve

@@ -1,4 +1,4 @@
-//! What a boundary is: its kinds, the points found on edges of the grid, and curves.
+//! Boundaries: kinds, points on edges of the grid, and curves.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::analysis::workspace::problem::MapProblem;
 use crate::mechanism::Configuration;
 use crate::system::{Coordinate, LocusEnd};
 
-/// What a boundary is.
+/// Kind of a boundary.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BoundaryKind {
@@ -20,7 +20,7 @@ pub enum BoundaryKind {
     Limit {
         /// Its name.
         joint: String,
-        /// Whether it is the upper one.
+        /// True for the upper limit.
         upper: bool,
     },
 }
@@ -34,7 +34,7 @@ pub(crate) struct Crossing {
     pub at: Configuration<f64>,
     /// The part of the way from the solution to its neighbour.
     pub part: f64,
-    /// Whether the same point was met on another edge, at a node that they share.
+    /// True for a point already met on another edge, at a node that they share.
     pub again: bool,
 }
 
@@ -48,7 +48,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// Whether modes end there, or only aspects are parted.
+    /// True if modes end there; false if it only divides aspects.
     pub fn ends_reach(self) -> bool {
         matches!(self, Kind::Fold | Kind::Limit(..))
     }
@@ -57,19 +57,19 @@ impl Kind {
 /// A boundary curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryCurve {
-    /// What it is.
+    /// Its kind.
     pub kind: BoundaryKind,
-    /// Whether modes end there, or only aspects are parted.
+    /// True if modes end there; false if it only divides aspects.
     pub ends_reach: bool,
     /// The third mapped coordinate, rad or m, if there is one.
     pub slice: Option<f64>,
-    /// How its first and its last point end it.
+    /// Ends at its first and its last point.
     pub ends: [LocusEnd; 2],
     /// Points: the first two mapped coordinates, rad or m.
     pub points: Vec<[f64; 2]>,
     /// The joints at its points, rad or m, in the order of the file.
     pub joints: Vec<Vec<f64>>,
-    /// Which of its pieces bound which mode.
+    /// The pieces that bound modes.
     pub pieces: Vec<Piece>,
 }
 

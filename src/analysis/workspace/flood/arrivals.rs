@@ -1,10 +1,10 @@
-//! What steps arrive at.
+//! Solutions at the ends of steps.
 
 use super::configurations::Configurations;
 use crate::analysis::workspace::problem::Indicators;
 use crate::mechanism::{Configuration, ConfigurationRef};
 
-/// A configuration with its motions.
+/// A solution with its tangent motions, borrowed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving<'a> {
     pub at: ConfigurationRef<'a, f64>,
@@ -13,7 +13,7 @@ pub(crate) struct Moving<'a> {
     pub indicators: &'a Indicators,
 }
 
-/// The same, owned.
+/// A solution with its tangent motions, owned.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrival {
     pub at: Configuration<f64>,
@@ -41,10 +41,10 @@ impl Moving<'_> {
     }
 }
 
-/// What several steps side by side arrive at; the memory is used again.
+/// Solutions at the ends of several steps side by side; the memory is used again.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Arrivals {
-    /// For each step whether it does.
+    /// For each step, true if it arrived.
     arrived: Vec<bool>,
     at: Configurations,
     indicators: Vec<Indicators>,
@@ -59,7 +59,7 @@ impl Arrivals {
         self.indicators.resize(steps, Indicators::default());
     }
 
-    /// What a step arrives at.
+    /// Records the solution of a step.
     pub fn put(
         &mut self,
         step: usize,
@@ -88,7 +88,7 @@ impl Arrivals {
         })
     }
 
-    /// What all steps arrive at, in their order.
+    /// The solutions of all steps, in their order; `None` where a step did not arrive.
     pub fn iter(&self) -> impl Iterator<Item = Option<Moving<'_>>> {
         (0..self.arrived.len()).map(|step| self.get(step))
     }

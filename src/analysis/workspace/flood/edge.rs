@@ -7,7 +7,7 @@ use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Event, Lock, Locked, Monitor, Walk};
 
-/// What is met on the way.
+/// First event on an edge.
 #[derive(Clone, Debug)]
 pub(crate) enum Met {
     Neighbour(Configuration<f64>),
@@ -40,7 +40,7 @@ impl Edge {
     }
 }
 
-/// What ends a way besides its end and folds.
+/// Events that end a walk along an edge, besides its end and folds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Until<'l> {
     End,
@@ -50,7 +50,7 @@ pub(crate) enum Until<'l> {
 }
 
 impl Flood<'_> {
-    /// What is met first on an edge, located to rounding.
+    /// The first event on an edge, located to rounding.
     pub(crate) fn walk(&self, edge: &Edge, from: &Configuration<f64>, until: Until) -> Met {
         const LEGS: usize = 500;
         let problem = self.problem;

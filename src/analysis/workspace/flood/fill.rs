@@ -1,4 +1,4 @@
-//! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
+//! Continuation over the grid from seeds: every node in every mode that regular steps lead to.
 
 use rustc_hash::FxHashSet;
 
@@ -138,7 +138,7 @@ impl Flood<'_> {
         })
     }
 
-    /// Where single steps are too long: by shorter ones, then along the curve, which is far slower.
+    /// Ends of edges for which a single step is too long: by shorter steps, then along the curve, which is far slower.
     fn ends(
         &self,
         spread: &Spread,

@@ -1,4 +1,4 @@
-//! Distances between configurations and between tangents, and which of them are of one mode.
+//! Distances between configurations and between tangents, and the test for one mode.
 
 use std::f64::consts::PI;
 
@@ -33,16 +33,16 @@ struct SeenJoint {
     repeats: bool,
 }
 
-/// What the motion of one configuration says of another after a step.
+/// Tangent prediction from one configuration for a step along an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ahead<'a> {
     from: Moving<'a>,
     axis: usize,
     change: f64,
     motion: &'a [f64],
-    /// How far along the motion it is.
+    /// Distance along the motion.
     factor: f64,
-    /// How far from there it may be.
+    /// Largest distance of the solution from the prediction.
     miss: f64,
 }
 
@@ -90,7 +90,7 @@ impl Metric {
         }
     }
 
-    /// Whether two configurations are the same, so far as modes are concerned.
+    /// True if two configurations are equal in all unknowns that distinguish modes.
     pub fn same(&self, a: ConfigurationRef<f64>, b: ConfigurationRef<f64>) -> bool {
         // most that are not are recognised by one joint
         let mut joints = self.joints.iter();
@@ -102,11 +102,11 @@ impl Metric {
         self.seen_length(step.into_iter()) < SAME
     }
 
-    /// Whether two configurations of one node are the same, so far as modes are concerned, and not
-    /// of two modes that meet there by chance, as the lengths of cylinders are equal for an arm
-    /// bent to the one and to the other side: from there these go on in different ways.
+    /// True if two configurations of one node are equal in all unknowns that distinguish modes and belong to one mode.
+    /// Two modes may meet there by chance, as the lengths of cylinders are equal for an arm bent to the one and to the
+    /// other side: from there they go on in different ways.
     pub fn meets(&self, a: Moving, b: Moving) -> bool {
-        /// What conditioning leaves of the motions of one mode.
+        /// Relative difference of the motions of one mode, from conditioning.
         const ALIKE: f64 = 1e-4;
         if !self.same(a.at, b.at) {
             return false;
@@ -123,7 +123,7 @@ impl Metric {
         change <= ALIKE * ALIKE * size
     }
 
-    /// How far two configurations are apart in all unknowns.
+    /// Distance of two configurations in all unknowns, in rad and characteristic lengths.
     pub fn apart(&self, a: ConfigurationRef<f64>, b: ConfigurationRef<f64>) -> f64 {
         let mut step = vec![0.0; self.free.unknowns()];
         self.free.difference_but_turns_into(a, b, &mut step);
@@ -156,7 +156,7 @@ impl Metric {
         }
     }
 
-    /// Whether each of two configurations lies where the tangent of the other predicts it, and the
+    /// True if each of two configurations lies where the tangent of the other predicts it, and the
     /// motions are [alike](Self::alike).
     ///
     /// All joints must lie there, also those that do not distinguish modes: what does may be near
@@ -191,7 +191,7 @@ impl Metric {
             && self.alike(from, to, ahead.change / self.units[ahead.axis], storage)
     }
 
-    /// Whether the motions at two configurations, a step of the given length of the mapped
+    /// True if the motions at two configurations, a step of the given length of the mapped
     /// coordinates apart, are near enough for these to be on one solution.
     ///
     /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N

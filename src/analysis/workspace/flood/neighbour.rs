@@ -1,4 +1,4 @@
-//! Steps from the nodes of a grid to their neighbours, and which of them are sure.
+//! Steps from the nodes of a grid to their neighbours, and the test for sure ones.
 
 use super::arrivals::{Arrivals, Moving};
 use super::metric::Metric;
@@ -87,7 +87,7 @@ impl Flood<'_> {
     }
 }
 
-/// What comes of items given to as many places as go side by side, in their order.
+/// Results for items taken in packs as large as go side by side, in their order.
 pub(crate) fn in_packs<I: Sync, R: Send>(
     steps: &Pool<Steps>,
     items: &[I],

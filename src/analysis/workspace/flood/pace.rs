@@ -1,4 +1,4 @@
-//! The way from a node to its neighbour in shorter steps, many ways side by side.
+//! Edges in shorter steps, many edges side by side.
 
 use super::arrivals::{Arrival, Arrivals, Moving};
 use super::neighbour::Flood;
@@ -8,17 +8,17 @@ use crate::analysis::workspace::problem::MOST_AXES;
 use crate::linear::norm;
 use crate::solve::Pool;
 
-/// Where the way along an edge ends.
+/// End of the way along an edge.
 pub(crate) enum End {
     /// At the neighbour.
     Arrived(Arrival),
-    /// Where the mode folds back before it.
+    /// At a fold of the mode, before the neighbour.
     Fold,
-    /// Where no step is certain.
+    /// At a point from which no step is certain.
     Stuck,
 }
 
-/// How far an edge has been gone.
+/// Progress along an edge.
 struct PacedStep {
     at: Arrival,
     axis: usize,
@@ -27,9 +27,9 @@ struct PacedStep {
     x: f64,
     /// The next change of the mapped coordinate.
     step: f64,
-    /// 1/‖N‖² where the way has been.
+    /// 1/‖N‖² at the point reached.
     slowness: f64,
-    /// Where that would vanish, going on straight.
+    /// Value of the mapped coordinate at which this would vanish, extrapolated on a straight line.
     fold: f64,
 }
 
@@ -38,7 +38,7 @@ impl PacedStep {
         self.end[self.axis] - self.x
     }
 
-    /// A step on, with what is met there; whether the mode folds back before the neighbour.
+    /// Takes a step and sets the next; true if the mode folds back before the neighbour.
     ///
     /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in
     /// proportion to x* − x. Towards a place where a leg merely turns fast it falls with the square

@@ -1,4 +1,4 @@
-//! What was reached, in the order of its nodes.
+//! The set of reached solutions, in the order of its nodes.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::mechanism::ConfigurationRef;
 pub(crate) struct NodeSolution {
     pub node: usize,
     pub indicators: Indicators,
-    /// Whether all joints are within their limits.
+    /// True if all joints are within their limits.
     pub within: bool,
     /// For each direction of the grid.
     pub links: [Link; MOST_DIRECTIONS],
@@ -22,7 +22,7 @@ pub(crate) struct NodeSolution {
 /// The number of a solution; as many as do not fit in it do not fit in memory.
 pub(crate) type Number = u32;
 
-/// How a node goes on in a direction.
+/// Connection of a solution with a neighbouring node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Link {
     /// Not examined yet, or outside the box.
@@ -143,7 +143,7 @@ impl ReachedSet {
     }
 }
 
-/// Whether the determinants of direct and inverse singularities are negative, alike in an aspect.
+/// Signs of the determinants of direct and inverse singularities, true if negative: equal within an aspect.
 pub(crate) type Signs = [bool; 2];
 
 /// The signs of a solution; none outside limits and on singularities.
@@ -151,7 +151,7 @@ pub(crate) fn signs(solution: &NodeSolution) -> Option<Signs> {
     signs_of(&solution.indicators, solution.within)
 }
 
-/// The same of indicators, within limits or not.
+/// Signs of the determinants; none outside limits and on singularities.
 pub(crate) fn signs_of(indicators: &Indicators, within: bool) -> Option<Signs> {
     let inside = within && indicators.direct != 0.0 && indicators.inverse != 0.0;
     inside.then_some([indicators.direct < 0.0, indicators.inverse < 0.0])

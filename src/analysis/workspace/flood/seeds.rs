@@ -1,4 +1,4 @@
-//! Assembled configurations to begin with.
+//! Seeds: assembled configurations from which the grid is reached.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -13,7 +13,7 @@ use crate::mechanism::{Configuration, turn_near};
 use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
 use crate::system::{System, Work, random_configuration, sets_of_angles, with_coordinates};
 
-/// What was found at the nodes that were searched.
+/// Seeds found at the nodes that were searched.
 #[derive(Default)]
 pub(crate) struct ModeSeeds {
     pub seeds: Vec<(usize, Configuration<f64>)>,
@@ -22,8 +22,8 @@ pub(crate) struct ModeSeeds {
 }
 
 impl ModeSeeds {
-    /// What was found at each node. Of the sets of angles of a ball written as three rows the one on the side of home is
-    /// taken, so that no mode is there twice.
+    /// Seeds from the solutions at each node. Of the two sets of angles of a ball written as three rows the one on the
+    /// side of home is taken, so that no mode is there twice.
     pub fn of(
         fill: &Flood,
         found: impl IntoIterator<Item = (usize, Vec<Configuration<f64>>)>,
@@ -163,7 +163,7 @@ fn put_in(problem: &MapProblem, values: &[f64], at: &Configuration<f64>) -> Conf
 /// Starts at each node that is probed.
 pub(crate) const PROBES: usize = 8;
 
-/// What a few random starts at each of many nodes find that is not reached yet: small regions.
+/// Seeds in small regions not reached yet: from a few random starts at each of many nodes.
 pub(crate) fn probe(
     fill: &Flood,
     reached: &Spread,

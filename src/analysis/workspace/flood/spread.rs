@@ -1,4 +1,4 @@
-//! What was reached so far, in the order in which it was.
+//! Solutions reached so far, in the order of discovery.
 
 use super::arrivals::Moving;
 use super::configurations::Configurations;
@@ -11,7 +11,7 @@ use crate::mechanism::ConfigurationRef;
 /// A step to be taken: from a solution in a direction.
 pub(crate) type Task = (usize, usize);
 
-/// What was reached so far.
+/// Solutions reached so far, and the steps that remain.
 pub(crate) struct Spread {
     solutions: Vec<NodeSolution>,
     at: Configurations,
@@ -63,7 +63,7 @@ impl Spread {
         join(&mut self.roots, from, to);
     }
 
-    /// What stands for all that a solution is connected with, so far as is known.
+    /// The root of all solutions connected with this one, so far as is known.
     pub fn root(&mut self, number: usize) -> usize {
         root(&mut self.roots, number)
     }
@@ -92,7 +92,7 @@ impl Spread {
         known.map(|(number, _)| number)
     }
 
-    /// Whether a solution of a node has this configuration, whatever its motions.
+    /// True if a solution of a node has this configuration, whatever its motions.
     pub fn has(&self, fill: &Flood, node: usize, at: ConfigurationRef<f64>) -> bool {
         let mut solutions = self.moving_at(node);
         solutions.any(|(_, known)| fill.metric.same(known.at, at))

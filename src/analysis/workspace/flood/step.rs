@@ -1,4 +1,4 @@
-//! From a node to its neighbour.
+//! Newton's method from a node to its neighbour.
 
 mod side_by_side;
 
@@ -12,13 +12,13 @@ use crate::solve::Equations;
 use crate::system::{System, Work};
 use side_by_side::{End, SideBySide};
 
-/// Where a step begins.
+/// Start of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Start<'a> {
     pub from: ConfigurationRef<'a, f64>,
     /// A tangent and how far along it the solution is expected.
     pub along: Option<(&'a [f64], f64)>,
-    /// How far that may be, dimensionless; infinite if anything is as good.
+    /// Length of the prediction, dimensionless; infinite if any solution is wanted.
     pub reach: f64,
     /// The mapped coordinates there, and zeros.
     pub values: [f64; MOST_AXES],
@@ -42,7 +42,7 @@ pub(crate) struct Steps {
 /// Part of a step that its first correction may be, and so on: beyond it others may be as near.
 pub(crate) const SURE: f64 = 0.3;
 
-/// How long corrections may be.
+/// Longest correction allowed.
 #[derive(Clone, Copy, Debug)]
 struct Reach(f64);
 
@@ -53,7 +53,7 @@ impl Reach {
         if far { 20 } else { 8 }
     }
 
-    /// Whether a correction is short enough; the next one must be shorter.
+    /// True if a correction is short enough; the next one must be shorter.
     pub fn allows(&mut self, size: f64) -> bool {
         /// Corrections this small are rounding.
         const SMALL: f64 = 1e-9;

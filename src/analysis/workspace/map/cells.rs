@@ -25,7 +25,7 @@ pub struct AxisReport {
 /// A table of nodes in modes, sorted by nodes and modes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cells {
-    /// What the columns of its rows are: see [`Cell::values`].
+    /// Names and units of its columns, as in [`Cell::values`].
     pub columns: Vec<Variable>,
     /// Mapped coordinates, joints and coordinates that follow in a row.
     pub(crate) widths: [usize; 3],
@@ -60,7 +60,8 @@ pub struct Cell<'a> {
     /// The determinant of the rates of the inputs for those of what is mapped and held: zero at
     /// direct singularities. Dimensionless; none if it is not reported.
     pub direct: Option<f64>,
-    /// The same for outputs: zero at inverse singularities.
+    /// The determinant of the rates of the outputs for those of what is mapped and held: zero at inverse singularities.
+    /// Dimensionless; none if it is not reported.
     pub inverse: Option<f64>,
     /// The joints, rad or m, in the order of the file.
     pub joints: &'a [f64],
@@ -141,12 +142,12 @@ impl Cells {
         Some(self)
     }
 
-    /// How many there are.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.parts.iter().map(|part| part.nodes.len()).sum()
     }
 
-    /// Whether there are none.
+    /// True if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -8,7 +8,7 @@ use crate::algebra::SiUnit;
 use crate::analysis::workspace::boundary::{BoundaryCurve, BoundaryKind};
 use crate::mechanism::Variable;
 
-/// Where a mechanism reaches in a box of coordinates, and how.
+/// Workspace of a mechanism in a box of coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct WorkspaceReport {
@@ -18,7 +18,7 @@ pub struct WorkspaceReport {
     pub variables: Vec<Variable>,
     /// The mapped coordinates.
     pub axes: Vec<AxisReport>,
-    /// What is held beside them.
+    /// Coordinates held but not mapped, with their values.
     pub held: Vec<HeldReport>,
     /// Coordinates of platforms that are neither mapped nor held.
     pub following: Vec<CoordinateReport>,
@@ -38,7 +38,7 @@ pub struct WorkspaceReport {
     pub reached_size: f64,
     /// The modes.
     pub modes: Vec<ModeReport>,
-    /// Where the home assembly stands; none if it does not assemble with what is held.
+    /// Position of the home assembly; none if it does not assemble with the held values.
     #[serde(default)]
     pub home: Option<HomeReport>,
     /// The aspects, numbered through all modes.
@@ -61,7 +61,7 @@ pub struct WorkspaceReport {
     pub seed: u64,
     /// The length in m that makes the Jacobian dimensionless.
     pub normalising_length: f64,
-    /// Whether the work was stopped before it was done: nodes, modes and boundaries may be missing.
+    /// True if the work was stopped early: nodes, modes and boundaries may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
     /// Every node in every mode that reaches it, those outside limits too.
@@ -126,7 +126,7 @@ pub struct ModeReport {
     pub joints: Vec<f64>,
 }
 
-/// Where the assembly near home, or near what was guessed, stands on a map.
+/// Position on a map of the assembly near home, or near the guess.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HomeReport {
     /// The mapped coordinates, rad or m.
@@ -170,9 +170,9 @@ pub struct Conditioned {
 /// A boundary point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryPoint {
-    /// What bounds.
+    /// Kind of boundary.
     pub kind: BoundaryKind,
-    /// Whether the mode ends there, or only aspects are parted.
+    /// True if the mode ends there; false if it only divides aspects.
     pub ends_reach: bool,
     /// The mode that it bounds.
     pub mode: usize,

@@ -2,7 +2,7 @@
 
 use crate::linear::{RANK_TOLERANCE, norm, orthogonalise, rotate};
 
-/// Whether `input` loses rank, and the condition number of the matrix that takes its `n` columns to
+/// True if `input` loses rank, and the condition number of the matrix that takes its `n` columns to
 /// those of `moved`: infinite if it does.
 ///
 /// With the singular value decomposition input = U Σ Vᵀ it is that of moved·V·Σ⁻¹, by one-sided Jacobi

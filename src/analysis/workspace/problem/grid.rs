@@ -52,7 +52,7 @@ impl Grid {
         self.axes.iter().map(|axis| axis.nodes).product()
     }
 
-    /// How far neighbours along an axis are apart.
+    /// Distance of neighbours along an axis, rad or m.
     pub fn spacing(&self, axis: usize) -> f64 {
         let Axis {
             from, to, nodes, ..

@@ -1,4 +1,4 @@
-//! What a map asks at each of its nodes.
+//! The question posed at each node of a map.
 
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::linear::Factorable;
@@ -20,7 +20,7 @@ pub(crate) struct MapProblem<'m> {
     pub inputs: Vec<Coordinate>,
     /// As many coordinates of platforms, if there are so many that are independent.
     pub outputs: Vec<Coordinate>,
-    /// For each joint whether whole turns of it change nothing that is held.
+    /// For each joint, true if whole turns of it change nothing that is held.
     pub turns: Vec<bool>,
 }
 
@@ -71,12 +71,13 @@ impl<'m> MapProblem<'m> {
             .at_values(axes.zip(values.iter().copied()))
     }
 
-    /// Whether direct singularities are other than where modes end.
+    /// True if direct singularities are other configurations than ends of modes, which they are where inputs are held.
     pub fn tells_direct(&self) -> bool {
         !self.inputs.is_empty() && !self.holds(&self.inputs)
     }
 
-    /// Whether inverse singularities are.
+    /// True if inverse singularities are other configurations than ends of modes, which they are where outputs are
+    /// held.
     pub fn tells_inverse(&self) -> bool {
         !self.outputs.is_empty() && !self.holds(&self.outputs)
     }
@@ -91,7 +92,7 @@ impl<'m> MapProblem<'m> {
         self.mechanism.outside_limits(joints).next().is_none()
     }
 
-    /// What stands still in a motion: coordinates, and joints because links would spin.
+    /// Locks of a motion with these coordinates at rest, and with the joints that stop local spins.
     pub fn locks(&self, of: &[Coordinate]) -> Vec<Lock> {
         let still = self.question.still().iter();
         let joints = still
@@ -100,7 +101,7 @@ impl<'m> MapProblem<'m> {
         (of.iter().copied().chain(joints).map(Lock::Coordinate)).collect()
     }
 
-    /// Whether exactly these are held.
+    /// True if exactly these coordinates are held.
     pub fn holds(&self, set: &[Coordinate]) -> bool {
         set.len() == self.held.len() && self.held.iter().all(|held| set.contains(held))
     }
@@ -123,7 +124,7 @@ impl<'m> MapProblem<'m> {
     }
 }
 
-/// What the equations hold at a node.
+/// Held values of the equations at a node.
 #[derive(Clone, Debug)]
 pub(crate) struct Targets {
     /// Mapped joints with the number of their axis.
@@ -197,7 +198,7 @@ impl Targets {
         }
     }
 
-    /// What the equations themselves hold, as [`set`](Self::set) takes it.
+    /// Numbers that the equations hold by rows, in the order of [`set`](Self::set).
     pub fn numbers(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let single = self.single.iter().map(|&(_, _, axis)| values[axis]);
         let turned = self.turned();
@@ -223,7 +224,7 @@ impl Targets {
         }
     }
 
-    /// Both for a node.
+    /// Puts the values of a node into the configuration and the equations.
     pub fn ask(&self, system: &mut System<f64>, at: &mut Configuration<f64>, values: &[f64]) {
         self.put(at, values);
         self.set(system, self.numbers(values));

@@ -1,4 +1,4 @@
-//! What moves how fast when the mapped and held coordinates do.
+//! Rates of inputs, outputs and platforms for unit rates of the mapped and held coordinates.
 
 use nalgebra::DMatrix;
 
@@ -22,7 +22,7 @@ pub(crate) struct Rates {
     held: Vec<Row>,
     inputs: Vec<Row>,
     outputs: Vec<Row>,
-    /// Whether outputs are other than what is held.
+    /// True if outputs are other coordinates than those held.
     tells_inverse: bool,
     /// Unknowns whose rates are what moves out where there are no outputs.
     moved: Vec<usize>,
@@ -50,7 +50,7 @@ pub(crate) struct Indicators {
     pub regular: bool,
     /// det(A N): zero where A N has lost rank, at direct singularities; 1 where it is not reported.
     pub direct: f64,
-    /// The same for outputs: zero at inverse singularities.
+    /// det(A N) of the outputs: zero at inverse singularities; 1 where it is not reported.
     pub inverse: f64,
     /// Condition number of the map from the inputs to the outputs, or else to what moves.
     pub condition: f64,
@@ -123,7 +123,7 @@ impl Rates {
         }
     }
 
-    /// What follows from the motions.
+    /// The determinants and the condition number of the motions.
     pub fn indicators(&mut self, at: &Configuration<f64>, found: &Motions<f64>) -> Indicators {
         let (n, unknowns) = (self.held.len(), self.unknowns());
         let motions = &found.motions;
@@ -216,7 +216,7 @@ impl Rates {
 /// boundary of a map would depend on the seed.
 const FASTEST: f64 = 1e5;
 
-/// How far unit rates and rows that stay closed may be off.
+/// Largest error of unit rates, and of rates at which closed rows open, relative to the motion.
 const OFF: f64 = 1e-6;
 
 /// The largest of several numbers without their signs; a NaN is larger than any.

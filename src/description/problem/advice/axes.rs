@@ -1,4 +1,4 @@
-//! The words for what is wrong with joint axes.
+//! Words for problems of joint axes.
 
 use crate::description::{AxesProblem, Convention, GROUND};
 

@@ -10,7 +10,7 @@ use crate::number::{Dual, Number};
 /// The motion of a frame in ground, to second order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameMotion {
-    /// Where its point is, in m.
+    /// Position of its point, in m.
     pub position: Vector3<f64>,
     /// Its twist at the point.
     pub twist: Twist<f64>,
@@ -19,7 +19,7 @@ pub struct FrameMotion {
 }
 
 impl<T: Factorable> FrameTwists<Dual<T>> {
-    /// How points, or origins of frames, that a motion places move.
+    /// Twists of points, or of origins of frames, that a motion places.
     pub fn moving(
         mechanism: &Mechanism,
         motion: &Motion<T>,

@@ -31,7 +31,7 @@ pub(super) fn of(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Held<f64>
     held
 }
 
-/// Whether a pose is held whole, with turns about the axes of ground.
+/// True if a pose is held whole, with turns about the axes of ground.
 fn whole(coordinates: &[Coordinate], platform: usize) -> bool {
     let all = coordinates.iter();
     let of_it = all.filter(|held| match held {

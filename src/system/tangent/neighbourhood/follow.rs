@@ -7,7 +7,7 @@ use crate::number::real;
 use crate::solve::Equations;
 use crate::system::equations::settle;
 
-/// Where a finite step along an infinitesimal motion leads.
+/// A finite step along an infinitesimal motion.
 #[derive(Clone, Debug)]
 pub struct FiniteStep {
     /// The configuration at which every equation in the range of the Jacobian holds.
@@ -30,7 +30,7 @@ impl Neighbourhood<'_> {
         distance: f64,
     ) -> Option<FiniteStep> {
         const STEPS: usize = 60;
-        /// What rounding leaves of a dimensionless residual.
+        /// Rounding of a dimensionless residual.
         const CLOSED: f64 = 4e-15;
         // a residual that is rounding asks for corrections of this length
         let noise = (CLOSED / from.decomposition.smallest()).max(1e-12);
@@ -70,7 +70,7 @@ impl Neighbourhood<'_> {
     ) -> Result<FiniteStep, Option<f64>> {
         /// A gap of a free motion: rounding. One infinitesimal to order five leaves 0.05⁶ = 1.6e-8 times its curvature.
         const FREE: f64 = 1e-11;
-        /// The same for a step so short that a freedom of second order would leave no more.
+        /// Gap of a free motion in a step so short that a freedom of second order would leave no more than [`FREE`].
         const FREE_IF_SHORT: f64 = 1e-13;
         const SHORT: f64 = 1e-3;
         let mut length = distance;
@@ -128,7 +128,7 @@ impl Neighbourhood<'_> {
         Some((along.next()?, along.collect()))
     }
 
-    /// Whether all motions are finite, tried along one that mixes them: those of a shaky structure are not.
+    /// True if all motions are finite, tried along one motion that mixes them; false for a shaky structure.
     pub fn is_mobile(&mut self, at: &Tangent) -> bool {
         const STEP: f64 = 0.05;
         let mut mixed = vec![0.0; self.system.unknowns().len()];
@@ -173,8 +173,8 @@ impl Neighbourhood<'_> {
         (distance < within).then_some(distance)
     }
 
-    /// What a motion ξ leaves of the equations to second order, apart from other motions: wᵀ H(ξ, ξ) for given w, wᵀ J
-    /// = 0.
+    /// Second-order residual of a motion ξ that other motions cannot correct: wᵀ H(ξ, ξ) for each given w with wᵀ J =
+    /// 0.
     pub fn second_order(
         &mut self,
         from: &Tangent,

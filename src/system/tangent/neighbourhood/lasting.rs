@@ -6,14 +6,14 @@ use crate::mechanism::Configuration;
 use crate::solve::Newton;
 use crate::system::tangent::shake::shaken;
 
-/// The motions at a configuration by what they are beside it.
+/// Motions at a configuration, divided into those that stay local beside it and those that do not.
 #[derive(Clone, Debug)]
 pub struct Lasting {
-    /// The motions, where only what lasts counts as idle.
+    /// The motions; only those that stay local count as idle.
     pub tangent: Tangent,
-    /// Those of the motions that are idle at the configuration only.
+    /// Motions that are local at this configuration only.
     pub locked: Vec<Vec<f64>>,
-    /// Orthonormal basis of the idle motions at a configuration beside it.
+    /// Orthonormal basis of the local freedoms at a configuration beside it.
     pub idle_beside: Vec<Vec<f64>>,
 }
 
@@ -27,9 +27,9 @@ impl Neighbourhood<'_> {
 }
 
 impl Tangent {
-    /// The same motions with only as many local freedoms as there are beside the configuration, the least near it; the
-    /// others are listed apart. In gimbal lock, for example, two of three joints turn against each other and move
-    /// nothing, but beside it the same freedom moves links.
+    /// Counts as local only as many freedoms as the configurations beside this one have at least; the others are listed
+    /// apart. In gimbal lock, for example, two of three joints turn against each other and move nothing, but beside it
+    /// the freedom moves links.
     pub fn lasting(self, near: &mut Neighbourhood) -> Lasting {
         let unlocked = |tangent: Tangent| Lasting {
             idle_beside: tangent.idle.clone(),

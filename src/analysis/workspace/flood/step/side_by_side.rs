@@ -16,7 +16,7 @@ use crate::system::{HeldPlatform, System};
 pub(super) struct SideBySide {
     program: Batch,
     registers: Registers,
-    /// How many numbers the equations hold; their registers are the first.
+    /// Number of held values in the equations; their registers are the first.
     asked: usize,
     /// The register of each number of a configuration.
     configuration: Vec<usize>,
@@ -30,7 +30,7 @@ pub(super) struct SideBySide {
     motions: Motions<usize>,
 }
 
-/// What became of a step.
+/// Outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
     Arrived,
@@ -184,7 +184,7 @@ impl SideBySide {
         ends.map(|end| end.unwrap_or(End::Lost)).collect()
     }
 
-    /// Where a place arrived, with its motions.
+    /// Copies the solution of a place, with its motions.
     pub fn get(&self, place: usize, at: &mut Configuration<f64>, motions: &mut Motions<f64>) {
         let number = |register: &usize| self.registers.rows(*register)[place];
         let (joints, platforms) = self.configuration.split_at(at.joints.len());
