@@ -14,7 +14,7 @@ use std::collections::HashSet;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use crate::linear::axis_aligned;
+use crate::linear::{Decomposition, axis_aligned};
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
@@ -153,6 +153,10 @@ pub fn mobility(
             Character::Regular if beside.is_none() => near.singular_within(&tangent, STEP),
             _ => None,
         },
+        neglected: match found.character {
+            Character::Structure | Character::Regular => None,
+            _ => neglected(&tangent.decomposition).filter(|_| !near.system().is_large()),
+        },
         length: mechanism.characteristic_length(),
         pose: closed.pose(mechanism),
         gap_after_step: found.gap,
@@ -167,6 +171,15 @@ pub fn mobility(
     report.elsewhere = elsewhere(search, (&held, &closed.configuration), &report);
     report.interrupted = watch.is_stopped();
     Analysed::Closed(report)
+}
+
+/// The largest singular value beyond the rank, beside the largest, if no rounding of a double solution explains it.
+fn neglected(of: &Decomposition) -> Option<f64> {
+    /// Joints of a double solution are uncertain by the root of its residual, which is rounding.
+    const UNCERTAIN: f64 = 2e-8;
+    let values = of.singular_values();
+    let part = values.get(of.rank())? / values.first()?;
+    (part > UNCERTAIN).then_some(part)
 }
 
 /// Random starts from which assemblies of another mobility are sought.

@@ -34,6 +34,7 @@ impl Report for MobilityReport {
         closing::document(&self.mechanism, words::mobility(self), &self.pose, self.length)
             .remarks(remarks)
             .interrupted(self.interrupted, "branches and other assemblies")
+            .notes(words::judged(self))
             .note(words::counted(self))
             .notes(idle.map(|idle| format!("not counted: {idle}")))
             .notes(words::locked(self))

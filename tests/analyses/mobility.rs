@@ -11,6 +11,7 @@ use linkwork::ask;
 use linkwork::description::Description;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::Mechanism;
+use linkwork::output::Report;
 use linkwork::solve::Watch;
 use linkwork::system::{Analysed, Question, TwistSpace};
 
@@ -658,6 +659,55 @@ fn three_equal_cranks_in_line_move_whatever_the_seed() {
     let report = of(&cranks);
     assert_eq!(report.character, Character::Singular);
     assert_eq!((report.mobility, report.infinitesimal), (1, 2));
+}
+
+/// Equal cranks 1 m apart at an angle, the tips of neighbours joined by bars of 1 m: parallelograms that fold flat at 0.
+fn parallel_cranks(number: usize, radius: f64, angle: f64) -> Mechanism {
+    let (x, y) = (radius * angle.cos(), radius * angle.sin());
+    let hinge = |name: String, x: f64, y: f64, between: [String; 2]| {
+        format!(
+            r#""{name}": Revolute(point: ({x:?}, {y:?}, 0), direction: (0, 0, 1), between: {between:?}),"#
+        )
+        .replace('[', "(")
+        .replace(']', ")")
+    };
+    let mut joints = String::new();
+    for i in 0..number {
+        let (at, crank) = (i as f64, format!("crank {i}"));
+        joints += &hinge(format!("q{i}"), at, 0.0, ["ground".into(), crank.clone()]);
+        if i > 0 {
+            let bar = format!("bar {i}");
+            let before = format!("crank {}", i - 1);
+            joints += &hinge(format!("a{i}"), at - 1.0 + x, y, [before, bar.clone()]);
+            joints += &hinge(format!("b{i}"), at + x, y, [bar, crank]);
+        }
+    }
+    read(&format!(
+        r#"Axes(version: 1, name: "cranks", joints: {{ {joints} }})"#
+    ))
+}
+
+#[test]
+fn beside_a_flat_pose_parallel_cranks_have_one_freedom() {
+    let mut singular = 0;
+    for (number, radius) in [(4, 0.3), (6, 0.5), (6, 0.3)] {
+        for angle in [1e-1, 1e-3, 1e-5, 1e-6, 5e-7, 1e-8] {
+            let report = of(&parallel_cranks(number, radius, angle));
+            // every loop is a parallelogram: they shift on a circle together
+            assert_eq!(report.mobility, 1, "{number} {radius} {angle}");
+            let (unknowns, rank) = (report.unknowns, report.rank);
+            assert_eq!(rank + report.infinitesimal, unknowns);
+            let regular = report.character == Character::Regular;
+            assert_eq!(regular, report.infinitesimal == 1, "{number} {radius} {angle}");
+            let said = report.document().notes.join(" ");
+            let judged = said.contains("The configuration judged, ");
+            assert_eq!(judged, report.neglected.is_some(), "{said}");
+            // far from 1e-7 of the largest on either side nothing has to be said
+            assert_eq!(judged, !regular && angle > 1e-7, "{number} {radius} {angle}");
+            singular += usize::from(judged);
+        }
+    }
+    assert!(singular >= 4);
 }
 
 #[test]

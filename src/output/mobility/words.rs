@@ -11,7 +11,9 @@ use crate::output::quantity::{clause, coarse, form, if_any, metres, signed, trip
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
     let answer = closing::after_moving(report.pose.moved.as_ref(), mobility(report));
-    let mut sentences = vec![answer, counted(report)];
+    let mut sentences = vec![answer];
+    sentences.extend(judged(report));
+    sentences.push(counted(report));
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
         let verb = form(report.redundant, "is", "are");
@@ -37,6 +39,16 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
     sentences.extend(closing::given(&report.pose));
     sentences.join(" ")
+}
+
+/// The pose that was judged, where that is beside the singular one it is taken for.
+pub(super) fn judged(report: &MobilityReport) -> Option<String> {
+    let part = report.neglected?;
+    let at = listed(values(&report.variables, report.joints.values()));
+    Some(format!(
+        "The configuration judged, {at}, is beside a singular one and is taken for it: singular values of up to {part:.1e} of \
+         the largest count as 0."
+    ))
 }
 
 /// What is special about the configuration though its freedoms are all there.

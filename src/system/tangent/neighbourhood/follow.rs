@@ -1,7 +1,7 @@
 //! Finite steps from an assembled configuration.
 
 use super::{Neighbourhood, Tangent};
-use crate::linear::{RANK_TOLERANCE, Svd, add, dot, norm};
+use crate::linear::{Svd, add, dot, norm};
 use crate::mechanism::Configuration;
 use crate::number::real;
 use crate::solve::Equations;
@@ -61,7 +61,8 @@ impl Neighbourhood<'_> {
     }
 
     /// The finite step along a motion if there is one: `distance`, or as much shorter as it takes to settle, near a
-    /// singular configuration about the distance to that. `Err` has the gap of one that leaves the closures open.
+    /// singular configuration about the distance to that. `Err` has the gap of one that leaves the closures open, and
+    /// `None` if no step settles that is long enough to tell.
     pub fn free_step(
         &mut self,
         from: &Tangent,
@@ -73,8 +74,11 @@ impl Neighbourhood<'_> {
         /// Gap of a free motion in a step so short that a freedom of second order would leave no more than [`FREE`].
         const FREE_IF_SHORT: f64 = 1e-13;
         const SHORT: f64 = 1e-3;
+        /// A second-order freedom leaves κℓ²/2 of a dimensionless equation with curvature κ: beside a step shorter than
+        /// this, √(`FREE_IF_SHORT`/κ) with κ = 1e-3, it cannot be told from a free one.
+        const SHORTEST: f64 = 1e-5;
         let mut length = distance;
-        while length > RANK_TOLERANCE {
+        while length > SHORTEST {
             if let Some(step) = self.follow(from, direction, length) {
                 let free = if length < SHORT { FREE_IF_SHORT } else { FREE };
                 return match step.gap <= free {
