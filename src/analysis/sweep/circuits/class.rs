@@ -94,8 +94,9 @@ pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Optio
         return None;
     };
     let chains = &mechanism.dimensions().chains;
+    let pose = |frame: Frame| mechanism.poses_about_centre(&[frame], home)[0];
     let place = |(chain, row): (usize, usize)| {
-        let before = mechanism.transform(Frame::Ground, Frame::Link { chain, row }, home);
+        let before = pose(Frame::Link { chain, row });
         (before * chains[chain].rows[row].before).position
     };
     let [mut a, mut b] = grounded.map(|(chain, row, _)| place((chain, row)));
@@ -112,10 +113,8 @@ pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Optio
         chain: *chain,
         row: *row,
     };
-    let normal = mechanism.transform(Frame::Ground, link, home);
-    let normal = normal.rotation.0[2];
-    let closure = mechanism.closures()[0].frames[0];
-    let d = mechanism.transform(Frame::Ground, closure, home).position;
+    let normal = pose(link).rotation.0[2];
+    let d = pose(mechanism.closures()[0].frames[0]).position;
     let length = |from: Vector3<f64>, to: Vector3<f64>| (to - from).cross(&normal).norm();
     let lengths = [length(a, b), length(a, c), length(c, d), length(d, b)];
     let mut sorted = lengths;
