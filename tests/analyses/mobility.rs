@@ -698,12 +698,20 @@ fn beside_a_flat_pose_parallel_cranks_have_one_freedom() {
             let (unknowns, rank) = (report.unknowns, report.rank);
             assert_eq!(rank + report.infinitesimal, unknowns);
             let regular = report.character == Character::Regular;
-            assert_eq!(regular, report.infinitesimal == 1, "{number} {radius} {angle}");
+            assert_eq!(
+                regular,
+                report.infinitesimal == 1,
+                "{number} {radius} {angle}"
+            );
             let said = report.document().notes.join(" ");
             let judged = said.contains("The configuration judged, ");
             assert_eq!(judged, report.neglected.is_some(), "{said}");
             // far from 1e-7 of the largest on either side nothing has to be said
-            assert_eq!(judged, !regular && angle > 1e-7, "{number} {radius} {angle}");
+            assert_eq!(
+                judged,
+                !regular && angle > 1e-7,
+                "{number} {radius} {angle}"
+            );
             singular += usize::from(judged);
         }
     }
