@@ -11,6 +11,7 @@ mod live;
 mod request;
 mod shown;
 mod state;
+mod words;
 
 use std::sync::Arc;
 
@@ -18,18 +19,19 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::analysis::assembly::AssemblySettings;
-use crate::analysis::sweep::{MetKind, Row, SweepReport, SweepSettings};
-use crate::ask::{AskError, Question, Solved, Steering};
+use crate::analysis::sweep::{MetKind, Row, SweepSettings};
+use crate::algebra::Measure;
+use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::output::JsonReport;
 use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
 use crate::output::json::render;
-use crate::output::sweep::{sentence, worded};
+use crate::output::sweep::worded;
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
-use request::{Analysis, Load, Press, Request, Sweep};
+use request::{Analysis, Load, Measured, Press, Request, Sweep};
 use state::State;
 
 /// What a page keeps between requests.
@@ -59,7 +61,7 @@ struct Refusal(Value);
 
 impl From<AskError> for Refusal {
     fn from(error: AskError) -> Self {
-        Refusal(json!({ "error": error.to_string() }))
+        Refusal(json!({ "error": words::refused(&error) }))
     }
 }
 
@@ -105,7 +107,7 @@ impl Page {
                 let grip = grip::points(&mechanism, &grip)?;
                 let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
                 let report = steering.pull(&grip, to, sight, watch);
-                Ok(self.frame(stopped(&report).as_deref()))
+                Ok(self.frame(words::stopped(&report).as_deref()))
             }
             Request::Press { load } => {
                 self.load = load;
@@ -116,8 +118,31 @@ impl Page {
                 Ok(self.frame(None))
             }
             Request::Gained => live::gained(self.steering()?, watch),
-            Request::Show { at } => {
-                Ok(json!({ "scene": Scene::of(&mechanism, &configuration(&at, &mechanism)?) }))
+            Request::Ways => {
+                let ways = self.steering()?.ways_on(watch);
+                let states = ways.iter().map(|at| {
+                    json!({ "at": State::of(at), "scene": Scene::of(&mechanism, at) })
+                });
+                Ok(json!({ "states": states.collect::<Vec<_>>() }))
+            }
+            Request::Number { text, measure } => {
+                let measure = match measure {
+                    Measured::Angle => Measure::Angle,
+                    Measured::Length => Measure::Length,
+                    Measured::Force => Measure::Force,
+                };
+                let value = Written::from(text.as_str()).number(&mechanism, measure);
+                let value = value.map_err(|error| nothing(&format!("{text}: {error}")))?;
+                Ok(json!({ "value": value }))
+            }
+            Request::Show { at, frames } => {
+                let at = configuration(&at, &mechanism)?;
+                let scene = Scene::of(&mechanism, &at);
+                let scene = match frames {
+                    true => scene.with_frames(&mechanism, &at),
+                    false => scene,
+                };
+                Ok(json!({ "scene": scene }))
             }
             Request::Picture { from, labels } => {
                 let view = from.map_or(View::Natural, |(azimuth, elevation)| {
@@ -168,7 +193,7 @@ impl Page {
             Some(at) => asked.steering_near(&at, watch),
             None => asked.steering(watch),
         };
-        let why = steering.as_ref().err().map(ToString::to_string);
+        let why = steering.as_ref().err().map(words::refused);
         self.steering = steering.ok();
         self.load = load.load.clone();
         self.watch(load.quantities.clone());
@@ -192,7 +217,7 @@ impl Page {
         });
         let targets: Vec<(Coordinate, f64)> = targets.collect::<Result<_, Refusal>>()?;
         let report = steering.move_to(&targets, watch);
-        Ok(self.frame(stopped(&report).as_deref()))
+        Ok(self.frame(words::stopped(&report).as_deref()))
     }
 
     /// What the command line answers too.
@@ -307,14 +332,11 @@ impl Page {
             "at": State::of(&at),
             "values": shown::values(mechanism, &at),
             "held": self.steering.as_ref().map(shown::held),
+            "limits": words::limits(mechanism, &at),
+            "crossed": self.steering.as_ref().is_some_and(Steering::is_crossed),
             "figures": self.steering.as_ref().map(shown::figures),
         })
     }
-}
-
-/// Why a motion did not reach its end.
-fn stopped(report: &SweepReport) -> Option<String> {
-    (!report.ending.is_whole()).then(|| sentence(report))
 }
 
 fn not_assembled() -> Refusal {

@@ -1,17 +1,15 @@
 //! Moving a mechanism by hand: from where it is to new values of what is held, on its branch.
 
+mod pull;
+mod ways;
+
 use std::sync::Arc;
 
 use super::{AskError, Question};
 use crate::analysis::sweep::{Row, SweepEnd, SweepReport, SweepSettings, sweep};
-use crate::geometry::Vector3;
-use crate::linear::{Decomposition, norm};
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Watch;
-use crate::system::{
-    self, Coordinate, Driven, FrameTwists, Freedoms, Held, QuestionError, Still, System,
-    check_count,
-};
+use crate::system::{self, Coordinate, Driven, Held, QuestionError, Still, check_count};
 
 /// A mechanism in a configuration, with what is held of it.
 #[derive(Clone, Debug)]
@@ -23,6 +21,10 @@ pub struct Steering {
     at: Configuration<f64>,
     /// The singular configuration that stopped the last motion.
     stopped: Option<Configuration<f64>>,
+    /// Where what is held last decided the configuration well.
+    regular: Option<Configuration<f64>>,
+    /// Whether it has been pulled through a dead point of what is held, and not back.
+    crossed: bool,
 }
 
 /// Before a dead point a motion stops at least this far away, in rad or characteristic lengths: the rest of the mechanism,
@@ -70,6 +72,8 @@ impl Question {
             still: resolved.with_spins_still().still().to_vec(),
             at,
             stopped: None,
+            regular: None,
+            crossed: false,
         })
     }
 
@@ -122,6 +126,11 @@ impl Steering {
     /// Whether a singular configuration stopped the last motion.
     pub fn is_stopped(&self) -> bool {
         self.stopped.is_some()
+    }
+
+    /// Whether it has been pulled through a dead point of what is held, on to another branch.
+    pub fn is_crossed(&self) -> bool {
+        self.crossed
     }
 
     /// The same at the singular configuration that stopped the last motion, if one did.
@@ -185,10 +194,29 @@ impl Steering {
             };
         }
         let (report, end) = self.moved(&inputs, watch);
+        let leaves = |ending| matches!(ending, SweepEnd::Complete | SweepEnd::Limit);
+        if !leaves(report.ending)
+            && let Some(from) = self.regular.take()
+            && from != self.at
+        {
+            // too near to a dead point to tell its branches apart: back to the one on which it came
+            let mut back = Steering {
+                at: from,
+                ..self.clone()
+            };
+            let again = back.move_to(targets, watch);
+            if leaves(again.ending) {
+                *self = back;
+                return again;
+            }
+        }
         self.stopped = None;
         let part = report.met.last().and_then(|met| met.part).unwrap_or(0.0);
         match report.ending {
-            SweepEnd::Complete | SweepEnd::Limit => self.at = end,
+            SweepEnd::Complete | SweepEnd::Limit => {
+                self.at = end;
+                self.regular = Some(self.at.clone());
+            }
             SweepEnd::Fold | SweepEnd::Crossing => {
                 let size = |input: &Driven| {
                     (input.to - input.from).abs() / input.coordinate.scale(&self.mechanism)
@@ -213,77 +241,6 @@ impl Steering {
             _ => {}
         }
         report
-    }
-
-    /// Moves what is held so that the weighted mean of points, such as a point of a rod between its ends, comes near to a
-    /// place, both seen along `sight`: the step of least squares on the motions that what is held has together, damped
-    /// (J. Baillieul 1985, C. Wampler 1986), and no longer than is sure.
-    pub fn pull(
-        &mut self,
-        grip: &[(Point, f64)],
-        to: [f64; 3],
-        sight: Option<[f64; 3]>,
-        watch: &Watch,
-    ) -> SweepReport {
-        /// What counts as much as a motion of one, in characteristic lengths: a weak motion is not forced.
-        const DAMPING: f64 = 0.03;
-        /// The longest step, in rad and characteristic lengths.
-        const LONGEST: f64 = 0.5;
-        let mechanism = self.mechanism.clone();
-        let length = mechanism.characteristic_length();
-        let loose = self.held_but(&self.driven);
-        let freedoms = Freedoms::at(mechanism.dimensions(), &loose, &self.at);
-        let motions = &freedoms.motions;
-        let points: Vec<Point> = grip.iter().map(|(point, _)| *point).collect();
-        let twists = FrameTwists::new(mechanism.dimensions(), &freedoms.unknowns, &points);
-        let placement = twists.placed(&self.at);
-        let mean = |of: &dyn Fn(usize) -> Vector3<f64>| {
-            let weighted = grip.iter().enumerate();
-            weighted.fold(Vector3::zero(), |sum, (i, (_, weight))| {
-                sum + of(i).times(*weight)
-            })
-        };
-        let seen = |v: Vector3<f64>| match sight.map(Vector3) {
-            Some(sight) => v - sight.times(v.dot(&sight) / sight.dot(&sight)),
-            None => v,
-        };
-        let from = mean(&|i| twists.origin(i, &placement));
-        let way = seen(mechanism.to_centre(Vector3(to)) - from).times(1.0 / length);
-        let mut matrix = Vec::new();
-        for (k, motion) in motions.iter().enumerate() {
-            let velocity = seen(mean(&|i| twists.twist(i, &placement, motion).velocity));
-            matrix.extend(velocity.times(1.0 / length).0);
-            matrix.extend((0..motions.len()).map(|row| if row == k { DAMPING } else { 0.0 }));
-        }
-        let rows = 3 + motions.len();
-        let right = [&way.0[..], &vec![0.0; motions.len()]].concat();
-        let parts = Decomposition::of(rows, motions.len(), &matrix).solve(&right);
-        let shorter = (LONGEST / norm(&parts).max(LONGEST)).min(1.0);
-        let system = System::new(mechanism.dimensions(), &loose);
-        let targets = self.driven.iter().map(|&of| {
-            let slope = of.slope_in(&system, &self.at);
-            let rate = |motion: &Vec<f64>| -> f64 {
-                slope
-                    .iter()
-                    .map(|(column, slope)| slope * motion[*column])
-                    .sum()
-            };
-            let step: f64 = motions
-                .iter()
-                .zip(&parts)
-                .map(|(m, part)| part * rate(m))
-                .sum();
-            let to = of.of(&mechanism, &self.at) + shorter * step * of.scale(&mechanism);
-            let limits = match of {
-                Coordinate::Joint(joint) => mechanism.joints()[joint].limits,
-                _ => None,
-            };
-            (
-                of,
-                limits.map_or(to, |(low, high)| to.clamp(low.min(high), high)),
-            )
-        });
-        self.move_to(&targets.collect::<Vec<_>>(), watch)
     }
 
     fn moved(&self, inputs: &[Driven], watch: &Watch) -> (SweepReport, Configuration<f64>) {
@@ -311,6 +268,8 @@ impl Steering {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Vector3;
+    use crate::mechanism::Point;
 
     fn four_bar() -> Question {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/four_bar.ron");
@@ -364,6 +323,63 @@ mod tests {
         }
         let reached = steering.at().joints[0];
         assert!((reached - angle).abs() < 1e-3, "{reached} is not {angle}");
+    }
+
+    /// The rocker is held, and the pin of the crank is pulled all the way round, through both of its dead points.
+    #[test]
+    fn a_crank_is_pulled_through_the_dead_points_of_the_rocker_that_is_held() {
+        let watch = &Watch::none();
+        let asked = four_bar().free("theta1").hold("phi1", "129 deg");
+        let mut steering = asked.steering(watch).unwrap();
+        let point = Point::from(steering.mechanism().frame("left.2").unwrap());
+        let begin = steering.at().joints[0];
+        let mut crossed = 0;
+        for step in 1..=72 {
+            let angle = begin + f64::from(step) * 5_f64.to_radians();
+            let before = steering.is_crossed();
+            for _ in 0..4 {
+                steering.pull(&[(point, 1.0)], [angle.cos(), angle.sin(), 0.0], None, watch);
+            }
+            crossed += usize::from(before != steering.is_crossed());
+            let reached = steering.at().joints[0];
+            assert!((reached - angle).abs() < 0.02, "{reached} is not {angle}");
+        }
+        // a turn passes both dead points
+        assert_eq!(crossed, 2);
+        assert!(!steering.is_crossed());
+    }
+
+    /// The plate of a 3-RPS manipulator is pulled far down, past where its three lengths decide its pose, and back up.
+    #[test]
+    fn a_plate_that_is_pulled_down_comes_back() {
+        let watch = &Watch::none();
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/three_rps.ron");
+        let asked = Question::new(Mechanism::load(file).unwrap());
+        let mut steering = asked.steering(watch).unwrap();
+        let point = Point::from(steering.mechanism().frame("top").unwrap());
+        let place = |steering: &Steering| point.at(steering.mechanism(), steering.at());
+        let home = place(&steering);
+        let down = |k: usize| home - Vector3([0.0, 0.0, 0.05 * k as f64]);
+        for k in (0..16).chain((0..16).rev()) {
+            for _ in 0..3 {
+                steering.pull(&[(point, 1.0)], down(k).0, None, watch);
+            }
+        }
+        for _ in 0..20 {
+            steering.pull(&[(point, 1.0)], home.0, None, watch);
+        }
+        let missed = (place(&steering) - home).norm();
+        assert!(missed < 1e-2, "it stays {missed} m away");
+        // up, to where its legs end, and down again
+        for k in [40, 1] {
+            for _ in 0..30 {
+                let to = home + Vector3([0.0, 0.0, 0.05 * f64::from(k)]);
+                steering.pull(&[(point, 1.0)], to.0, None, watch);
+            }
+            let longest = steering.at().joints.iter().skip(1).step_by(2);
+            assert!(longest.clone().all(|l| *l <= 1.2 + 1e-6));
+            assert_eq!(longest.clone().any(|l| *l > 1.2 - 1e-5), k == 40);
+        }
     }
 
     /// A platform that is held whole moves along one of its coordinates; its legs are then as long as the points they join

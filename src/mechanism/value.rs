@@ -28,7 +28,7 @@ impl Value {
     }
 
     /// The number, in m, rad, N or N·m, and per unit of time for a rate.
-    pub(crate) fn number(&self, mechanism: &Mechanism, wanted: Measure) -> Result<f64, ValueError> {
+    pub fn number(&self, mechanism: &Mechanism, wanted: Measure) -> Result<f64, ValueError> {
         Ok(self.read(mechanism, wanted)?.0)
     }
 

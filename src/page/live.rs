@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::Refusal;
+use super::{Refusal, words};
 use super::request::Press;
 use crate::algebra::SiUnit;
 use crate::ask::Steering;
@@ -44,7 +44,7 @@ pub fn readings(steering: &Steering, list: &str) -> Value {
                 json!([of.name, shown.unwrap_or_else(|| UNKNOWN.into())])
             })
             .collect(),
-        Err(error) => json!({ "error": error.to_string() }),
+        Err(error) => json!({ "error": words::refused(&error) }),
     }
 }
 
@@ -58,7 +58,7 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
     let found = steering.forces(&point, load.force, &Watch::none());
     let report = match found {
         Ok(found) => found.closed(),
-        Err(error) => return (scene, json!({ "error": error.to_string() })),
+        Err(error) => return (scene, json!({ "error": words::refused(&error) })),
     };
     let Some(report) = report else {
         return (scene, Value::Null);

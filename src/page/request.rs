@@ -34,8 +34,16 @@ pub enum Request {
     Hold { names: Vec<String> },
     /// Puts the mechanism into an assembled configuration.
     Go { at: State },
-    /// Only shows a configuration.
-    Show { at: State },
+    /// The ways to go on from the singular configuration where the mechanism is or was stopped.
+    Ways,
+    /// The number of an expression, in rad, m or N.
+    Number { text: String, measure: Measured },
+    /// Only shows a configuration, with the frames that have names if they are asked for.
+    Show {
+        at: State,
+        #[serde(default)]
+        frames: bool,
+    },
     /// A picture as SVG: seen as the mechanism is seen best, or from azimuth and elevation in rad.
     Picture {
         #[serde(default)]
@@ -51,6 +59,14 @@ pub enum Request {
     },
     /// Moves one coordinate over a range, or follows the whole curve.
     Sweep(Sweep),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Measured {
+    Angle,
+    Length,
+    Force,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
