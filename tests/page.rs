@@ -45,15 +45,30 @@ fn the_solver_in_the_page_answers_as_the_program_does() {
     }
 }
 
-#[test]
-fn the_page_works_in_a_browser() {
+/// Runs a script in Chromium, if that is here.
+fn browse(script: &str) {
     let driver = root().join("tests/page/node_modules/puppeteer-core");
     match (chromium().exists(), driver.exists()) {
-        (true, true) if node_is_here() => run("browser.mjs"),
+        (true, true) if node_is_here() => run(script),
         (true, true) => {}
         (false, _) => println!("skipped: there is no Chromium"),
         (_, false) => println!("skipped: run `npm ci --prefix tests/page` first"),
     }
+}
+
+#[test]
+fn the_page_works_in_a_browser() {
+    browse("browser.mjs");
+}
+
+#[test]
+fn the_page_never_gets_stuck() {
+    browse("stuck.mjs");
+}
+
+#[test]
+fn mechanisms_are_drawn_in_the_page() {
+    browse("drawing.mjs");
 }
 
 /// What is answered to a request.

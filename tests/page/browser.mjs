@@ -1,104 +1,13 @@
 // The page in a real browser: every shipped file is shown, dead points hold, nothing hostile runs, nothing is loaded.
-import { execFileSync, spawn } from "node:child_process";
+import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import puppeteer from "puppeteer-core";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { files, root } from "./files.mjs";
-
-const program = process.env.LINKWORK;
-const folder = mkdtempSync(join(tmpdir(), "linkwork-page-"));
-const browser = await puppeteer.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
-});
-let wrong = 0;
-
-function check(holds, words) {
-  if (holds) return;
-  wrong++;
-  console.log(`wrong: ${words}`);
-}
-
-/** The page of a file, made by the program; every complaint of the browser and every request is counted. */
-async function opened(file, fragment = "") {
-  const path = join(folder, `${file.replaceAll(/[/.]/g, "_")}.html`);
-  if (process.env.PAGE) {
-    // a page that was built anew, filled in as the program does
-    const text = file && readFileSync(resolve(root, file), "utf8");
-    const data = JSON.stringify({ file, text, set: [], watch: false }).replaceAll("<", "\\u003c");
-    writeFileSync(path, readFileSync(process.env.PAGE, "utf8").replace("{mechanism}", () => data));
-  } else {
-    const given = ["view", file, "-o", path].filter(Boolean);
-    execFileSync(program, given, { cwd: root, stdio: ["ignore", "ignore", "inherit"] });
-  }
-  return shown(path, fragment);
-}
-
-async function shown(path, fragment = "") {
-  const page = await browser.newPage();
-  await page.setViewport({ width: 800, height: 500 });
-  page.complaints = [];
-  page.on("console", (message) => ["error", "warn"].includes(message.type()) && page.complaints.push(message.text()));
-  page.on("pageerror", (error) => page.complaints.push(error.message));
-  page.on("request", (request) => {
-    const own = request.url().startsWith("file:") || request.url().startsWith("blob:");
-    if (!own) page.complaints.push(`asks for ${request.url()}`);
-  });
-  await page.goto(`file://${path}${fragment}`);
-  await page.waitForSelector("html[data-ready]");
-  return page;
-}
-
-let shared = null;
-
-/** A file in the page that is open already, shown as the gallery shows it: as fast as that, for what no fresh page is needed. */
-async function loaded(file) {
-  shared ??= await opened("mechanisms/four_bar.ron");
-  await shared.bringToFront();
-  shared.complaints.length = 0;
-  const text = readFileSync(resolve(root, file), "utf8");
-  await shared.evaluate((file, text) => {
-    document.querySelectorAll("#panel details").forEach((part) => (part.open = true));
-    globalThis.linkwork.load({ file, text, set: [] });
-  }, file, text);
-  await drawn(shared);
-  return shared;
-}
-
-const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+import { browser, check, dragged, drawn, folder, inked, loaded, opened, program, run, said, shown, values } from "./harness.mjs";
 
 /** Files that are opened in pages of their own: planar, spatial, from joint coordinates. */
 const FRESH = ["four_bar", "stewart_gough_6ups", "axes/agile_eye"].map((name) => `mechanisms/${name}.ron`);
-
-/** How many pixels of the picture are not paper. */
-const inked = (page) => page.evaluate(() => {
-  const canvas = document.getElementById("canvas");
-  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
-  copy.drawImage(canvas, 0, 0);
-  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
-  let count = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    if (Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]) > 30) count++;
-  }
-  return count;
-});
-
-/** Takes hold of a place of the picture and moves it so many pixels. */
-async function dragged(page, [x, y], [right, down]) {
-  const box = await page.$eval("#canvas", (canvas) => canvas.getBoundingClientRect().toJSON());
-  await page.mouse.move(box.x + x, box.y + y);
-  await page.mouse.down();
-  for (let i = 1; i <= 12; i++) {
-    await page.mouse.move(box.x + x + (right * i) / 12, box.y + y + (down * i) / 12);
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
-  }
-  await page.mouse.up();
-}
-
-const values = (page) => page.evaluate(() => globalThis.linkwork.frame.values.map(([value]) => value));
-const said = (page) => page.$eval("#said", (element) => element.textContent);
 
 const tests = {
   async "every shipped file opens, without a complaint, and shows its mechanism"() {
@@ -129,7 +38,7 @@ const tests = {
   async "a slider moves the mechanism on its branch and stops at a dead point"() {
     // the rocker of a crank-rocker, driven: it locks where crank and coupler are in line
     const page = await loaded("mechanisms/four_bar.ron");
-    await page.evaluate(() => globalThis.linkwork.holdToo("phi1"));
+    await page.evaluate(() => globalThis.holding.hold("phi1"));
     const turns = ([, phi2]) => Math.sign(Math.sin(phi2));
     const before = await values(page);
     for (const way of [1, -1]) {
@@ -213,7 +122,7 @@ const tests = {
 
   async "a freedom gained at a dead point is shown moving"() {
     const page = await loaded("mechanisms/four_bar.ron");
-    await page.evaluate(() => globalThis.linkwork.holdToo("phi1"));
+    await page.evaluate(() => globalThis.holding.hold("phi1"));
     const home = (await values(page))[2];
     check((await page.$eval("#gained", (of) => of.textContent)) === "", "a freedom is gained at home");
     await page.evaluate((to) => globalThis.linkwork.move("phi1", to), home + 2);
@@ -438,21 +347,4 @@ const tests = {
   },
 };
 
-const wanted = process.argv.slice(2);
-try {
-  for (const [name, test] of Object.entries(tests)) {
-    if (wanted.length && !wanted.some((part) => name.includes(part))) continue;
-    const [before, begun] = [wrong, Date.now()];
-    try {
-      await test();
-    } catch (error) {
-      wrong++;
-      console.log(`wrong: ${error.stack}`);
-    }
-    console.log(`${wrong === before ? "ok" : "FAILED"}  ${name} (${Date.now() - begun} ms)`);
-  }
-} finally {
-  await browser.close();
-  rmSync(folder, { recursive: true, force: true });
-}
-process.exit(wrong ? 1 : 0);
+await run(tests);

@@ -23,6 +23,10 @@ export class Editor {
     model.onLoaded(() => {
       if (!this.own) this.area.value = model.file.text;
     });
+    model.onBlank(() => {
+      this.area.value = model.file.text;
+      this.problems([]);
+    });
     model.onProblems((problems) => this.problems(problems));
   }
 

@@ -32,6 +32,7 @@ export function keyboard(
       ArrowDown: () => choose(1),
       "+": () => zoom(1.25),
       "-": () => zoom(0.8),
+      Home: () => model.home(),
     };
     const act = acts[event.key] ?? (/^[1-5]$/.test(event.key) ? () => look(Number(event.key) - 1) : null);
     if (!act || event.ctrlKey || event.altKey || event.metaKey) return;

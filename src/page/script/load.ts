@@ -4,6 +4,7 @@ import type { Arrows } from "./arrows";
 import { button, element, find } from "./elements";
 import type { Model } from "./model";
 import type { Pick } from "./shapes";
+import { expression } from "./sliders";
 import type { Named, Triple } from "./types";
 
 /** In N. */
@@ -70,10 +71,9 @@ export class Load {
 
   private written() {
     const point = this.point.value.trim();
-    const force = this.parts.map((part) => Number(part.value.replace(",", ".")));
-    if (!point) this.remove();
-    else if (force.every(Number.isFinite)) this.press(point, force as Triple);
-    else find("load-said").textContent = "A force is three numbers.";
+    if (!point) return this.remove();
+    const force = this.parts.map((part) => this.model.number(expression(part.value.replace(/N\s*$/, ""), false), "force"));
+    if (force.every((part) => part !== null)) this.press(point, force as Triple);
   }
 
   private press(point: string, force: Triple) {

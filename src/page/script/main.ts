@@ -1,6 +1,7 @@
 // The page: everything is put together here.
 import { Vector3 } from "three";
 import { Background } from "./background";
+import { Desk } from "./desk";
 import { dragging } from "./drag";
 import { Drawing, guides, jointSize, planeOf, points } from "./drawing";
 import { Editor } from "./editor";
@@ -18,6 +19,9 @@ import { Motion } from "./motion";
 import { Parameters } from "./parameters";
 import { Scenery } from "./scenery";
 import { Sliders } from "./sliders";
+import { Undo } from "./undo";
+import { Holding } from "./holding";
+import { newFile } from "./newfile";
 import { Quantities } from "./quantities";
 import { Solver } from "./solver";
 import { Stage, type View } from "./stage";
@@ -25,6 +29,7 @@ import { onThemeChange } from "./theme";
 import type { Scene, Triple } from "./types";
 import { Values } from "./values";
 import { watching } from "./watching";
+import { WaysOn } from "./wayson";
 
 const VIEWS: [string, View][] = [["Plane", "plane"], ["Iso", "iso"], ["Front", "front"], ["Side", "side"], ["Top", "top"]];
 
@@ -45,6 +50,8 @@ class Picture {
   private other: Scene | null = null;
   private shown = "";
   private rest = 0;
+  /** Whether a drawing board is over it. */
+  private drawn = false;
 
   constructor(private readonly model: Model) {
     this.stage.world.add(this.drawing.shapes.group, this.scenery.shapes.group);
@@ -73,7 +80,7 @@ class Picture {
   /** What has moved out of the picture is brought back, unless somebody has chosen what to see. */
   private follow() {
     const { stage, scene } = this;
-    if (scene && stage.camera.zoom === 1 && !stage.canvas.classList.contains("dragging")) stage.include(points(scene));
+    if (scene && !this.drawn && stage.camera.zoom === 1 && !stage.canvas.classList.contains("dragging")) stage.include(points(scene));
   }
 
   instead(scene: Scene | null) {
@@ -115,8 +122,27 @@ class Picture {
     this.drawing.size = jointSize(scene, extent);
     this.scenery.arrows.extent = extent;
     find("views").querySelector<HTMLElement>("[data-view=plane]")!.hidden = this.drawing.plane === null;
+    if (this.drawn) return;
     if (mechanism.name !== this.shown) this.look(this.drawing.plane ? "plane" : "iso");
     this.shown = mechanism.name;
+  }
+
+  /** Makes room for a drawing in the plane of x and y. */
+  board() {
+    const all = this.scene ? [...points(this.scene), ...guides(this.scene, this.drawing.size)] : [-1, 1].map((side) => new Vector3(0.16 * side, 0.09 * side, 0));
+    const towards = new Vector3(0, 0, 1);
+    this.stage.look("plane", all, { right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0), towards });
+    this.stage.zoom(0.75);
+  }
+
+  /** Hides the solids behind a drawing board. */
+  hide(hidden: boolean) {
+    this.drawing.shapes.group.visible = this.scenery.shapes.group.visible = !hidden;
+    find("labels").hidden = hidden;
+    this.drawn = hidden;
+    this.shown = "";
+    if (!hidden) this.begin();
+    this.stage.draw();
   }
 
   /** Whether a planar mechanism is seen along its normal. */
@@ -155,14 +181,9 @@ const traced = (picture: Picture) =>
 async function begin() {
   const module = await globalThis.solver;
   const model = new Model(await Solver.of(module), new Background(module), say);
-  const sliders = new Sliders((name, to) => model.move(name, to));
-  const values = new Values(
-    (name) => model.holdToo(name),
-    () => {
-      model.again();
-      say("All held coordinates are needed to determine the configuration: choose another one to hold in its place.");
-    },
-  );
+  const sliders = new Sliders((name, to) => model.move(name, to), (of, text) => model.moveTo(of, text));
+  const holding = new Holding(model);
+  const values = new Values((name) => holding.hold(name), (name) => holding.release(name));
   const picture = new Picture(model);
   model.onLoaded(() => {
     const { mechanism } = model;
@@ -173,7 +194,14 @@ async function begin() {
   model.onMoved(() => {
     sliders.show(model.mechanism!, model.frame!);
     values.show(model.mechanism!, model.frame!);
-    find("branch").textContent = model.frame!.assembled ? `On ${model.branch}.` : "";
+    const { assembled, crossed, said, limits } = model.frame!;
+    const branch = crossed ? `another branch than ${model.branch}, across a dead point` : model.branch;
+    find("branch").textContent = assembled ? `On ${branch}.` : "";
+    if (!said && limits.length) say(limits.map(([, words]) => words).join(" "));
+  });
+  new WaysOn(model, (scenes) => {
+    picture.scenery.ghosts = scenes;
+    picture.draw();
   });
   new ModeList(model, (scenes) => {
     picture.scenery.ghosts = scenes;
@@ -194,8 +222,23 @@ async function begin() {
     Object.assign(picture.scenery, { screws, swung });
     picture.draw();
   });
+  const undo = new Undo(model);
+  find("views").append(...undo.buttons, button("Home", () => model.home(), { id: "home", title: "As in the file (Home key)" }));
   new Quantities(model);
   new Parameters(model);
+  const desk = new Desk(model, picture.stage, {
+    look: () => picture.board(),
+    hide: (hidden) => picture.hide(hidden),
+    trace: (point) => motion.tracePoint(point),
+  });
+  find("edit").addEventListener("click", () => desk.open(!desk.on));
+  newFile(model, () => desk.begin());
+  model.onBlank(() => {
+    document.body.classList.add("blank");
+    find("name").textContent = "New drawing";
+    find("source").textContent = "";
+  });
+  model.onLoaded(() => document.body.classList.remove("blank"));
   new Editor(model);
   exporting(model, picture.stage, () => picture.drawing.shapes.group, () => picture.inPlane, () => picture.labels.shown);
   dragging(picture.stage, model, load, (point) => motion.take(point));
@@ -227,7 +270,7 @@ async function begin() {
   if (given.watch) watching(model);
   requestAnimationFrame(() => performance.mark("picture"));
   // for whoever tests or scripts the page
-  Object.assign(globalThis, { linkwork: model, picture });
+  Object.assign(globalThis, { linkwork: model, picture, holding, desk });
   document.documentElement.dataset.ready = "true";
 }
 

@@ -1,8 +1,8 @@
 // The mechanism in the page, what is held of it and where it is; all listeners are notified of changes.
 import { Background } from "./background";
-import { nearest } from "./sliders";
+import { expression, nearest } from "./sliders";
 import type { Solver } from "./solver";
-import { type Frame, type Loaded, type Mechanism, type Press, type Problem, Refused, type Request, type Scene, type State } from "./types";
+import { type Coordinate, type Frame, type Loaded, type Mechanism, type Press, type Problem, Refused, type Request, type Scene, type State } from "./types";
 
 /** A mechanism file with parameters at other values. */
 export interface File {
@@ -31,9 +31,10 @@ export class Model {
   branch = "";
   private readonly loaded: (() => void)[] = [];
   private readonly moved: (() => void)[] = [];
+  private readonly blanks: (() => void)[] = [];
   private readonly problems: ((problems: Problem[]) => void)[] = [];
 
-  constructor(private readonly solver: Solver, readonly background: Background, private readonly say: (words: string) => void) {}
+  constructor(private readonly solver: Solver, readonly background: Background, readonly say: (words: string) => void) {}
 
   onLoaded(act: () => void) {
     this.loaded.push(act);
@@ -41,6 +42,18 @@ export class Model {
 
   onMoved(act: () => void) {
     this.moved.push(act);
+  }
+
+  onBlank(act: () => void) {
+    this.blanks.push(act);
+  }
+
+  /** A file in which nothing is yet. */
+  blank(file: File) {
+    this.background.stop();
+    [this.file, this.mechanism, this.frame, this.pressed, this.quantities] = [file, null, null, null, ""];
+    this.say("");
+    this.blanks.forEach((act) => act());
   }
 
   onProblems(act: (problems: Problem[]) => void) {
@@ -75,6 +88,11 @@ export class Model {
     this.say(`${set.map(([name, value]) => `${name} = ${value}`).join(", ")}: ${why}`);
   }
 
+  /** As the file has it: what is held and where it is. */
+  home() {
+    this.load(this.file, { held: null, at: null, load: this.pressed, quantities: this.quantities });
+  }
+
   place(): Place {
     const { frame, pressed, quantities } = this;
     return { held: frame?.held ?? null, at: frame?.assembled ? frame.at : null, load: pressed, quantities };
@@ -84,22 +102,43 @@ export class Model {
     const index = this.mechanism?.coordinates.findIndex((of) => of.name === name) ?? -1;
     const of = this.mechanism?.coordinates[index];
     if (!of || !this.frame) return;
+    if (!this.frame.held?.includes(name)) return;
     const from = this.frame.values[index]![0];
     this.change({ do: "move", to: [[name, nearest(of, to, from)]] });
   }
 
-  /** Holds a coordinate in place of one of those that are held, the last that gives way. */
-  holdToo(name: string) {
-    const before = this.frame?.held ?? [];
-    const others = before.toReversed().map((released) => before.filter((held) => held !== released));
-    for (const rest of others) {
-      if (this.holds([...rest, name])) {
-        this.say("");
-        return;
-      }
+  /** Moves a held coordinate to what an expression says. */
+  moveTo(of: Coordinate, text: string) {
+    const measure = of.angle ? "angle" : "length";
+    const value = this.number(expression(text, of.angle), measure);
+    if (value === null) return;
+    const said = this.frame?.said;
+    this.move(of.name, value);
+    if (this.frame?.said === said) this.say(said ?? "");
+  }
+
+  /** The number of an expression, in rad, m or N; nothing if it is none, which is said. */
+  number(text: string, measure: "angle" | "length" | "force"): number | null {
+    try {
+      return this.ask<{ value: number }>({ do: "number", text, measure }).value;
+    } catch (error) {
+      this.refuse(error);
+      return null;
     }
-    this.holds(before);
-    this.say(`${name} cannot be held in place of any of these: it depends on them or does not move.`);
+  }
+
+  /** How well these decide where the mechanism is if they are held, as a condition number; `before` are held again. */
+  could(names: string[], before: string[]): number | null {
+    try {
+      const { held, figures } = this.ask<Frame>({ do: "hold", names });
+      const all = new Set(held ?? []);
+      return all.size === names.length && names.every((name) => all.has(name)) ? (figures?.condition ?? null) : null;
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      return null;
+    } finally {
+      this.ask<Frame>({ do: "hold", names: before });
+    }
   }
 
   /** Holds these; whether they decide where the mechanism is, so that no others are held. */

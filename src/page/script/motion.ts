@@ -57,6 +57,14 @@ export class Motion {
     this.point.value = point;
   }
 
+  /** Moves what is held and shows the path of a point. */
+  tracePoint(point: string) {
+    this.point.value = point;
+    find("motion").closest("details")!.open = true;
+    this.inputs();
+    void this.sweep().then(() => this.rows.length && !this.playing && this.play());
+  }
+
   private inputs() {
     const held = this.model.frame?.held ?? [];
     const names = [...held, "the whole curve"];

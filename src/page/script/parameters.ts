@@ -1,11 +1,25 @@
-// Sliders for the parameters of the file; those that depend on others follow.
+// Sliders and fields for the parameters of the file; those that depend on others follow.
 import { button, element, find } from "./elements";
 import type { Model } from "./model";
+import { expression, fill, onWritten } from "./sliders";
+import type { Parameter } from "./types";
+
+const STEPS = 400;
+
+interface Row {
+  name: string;
+  /** Ends of the slider. */
+  ends: [number, number];
+  range: HTMLInputElement | null;
+  field: HTMLInputElement;
+}
 
 export class Parameters {
-  /** The values of the file, around which sliders go. */
-  private given = new Map<string, number>();
-  private text = "";
+  private rows: Row[] = [];
+  private built = "";
+  /** What a slider asks for, until the next picture. */
+  private waiting: [Parameter, number] | null = null;
+  private readonly back = button("As in the file", () => this.model.set([]));
 
   constructor(private readonly model: Model) {
     model.onLoaded(() => this.show());
@@ -14,28 +28,50 @@ export class Parameters {
   private show() {
     const { mechanism, file } = this.model;
     if (!mechanism) return;
-    if (file.text !== this.text) {
-      this.text = file.text;
-      this.given.clear();
+    const { parameters } = mechanism;
+    const built = JSON.stringify([file.text, parameters.map((of) => of.name)]);
+    if (built !== this.built) {
+      this.built = built;
+      this.build(parameters);
     }
-    const rows = mechanism.parameters.filter((parameter) => parameter.free).map(({ name, written, value, angle }) => {
-      if (!this.given.has(name)) this.given.set(name, value);
-      const middle = this.given.get(name)!;
-      const [low, high] = middle === 0 ? [-1, 1] : [Math.min(0, 2 * middle), Math.max(0, 2 * middle)];
-      const range = element("input", { type: "range", min: "0", max: "400", "aria-label": name, "data-parameter": name });
-      range.value = String(Math.round(((value - low) / (high - low)) * 400));
-      range.addEventListener("change", () => {
-        const wanted = low + (Number(range.value) / 400) * (high - low);
-        const others = this.model.file.set.filter(([other]) => other !== name);
-        const text = angle ? `${rounded((wanted * 180) / Math.PI)} deg` : rounded(wanted);
-        this.model.set([...others, [name, text]]);
-      });
-      return element("label", { class: "slider" }, element("span", {}, name), range, element("output", {}, written));
+    parameters.forEach((of, i) => {
+      const { ends: [low, high], range, field } = this.rows[i]!;
+      fill(field, of.written);
+      if (range && !range.matches(":active")) range.value = String(Math.round(((of.value - low) / (high - low)) * STEPS));
+      if (range) range.disabled = !of.free;
     });
-    const back = button("As in the file", () => this.model.set([]));
-    back.disabled = file.set.length === 0;
-    find("parameters").replaceChildren(...rows, element("p", {}, back));
-    find("parameters").closest("details")!.hidden = rows.length === 0;
+    this.back.disabled = file.set.length === 0;
+    find("parameters").closest("details")!.hidden = parameters.length === 0;
+  }
+
+  private build(parameters: Parameter[]) {
+    const rows = parameters.map((of) => {
+      const { name, value, free } = of;
+      const ends: [number, number] = value === 0 ? [-1, 1] : [Math.min(0, 2 * value), Math.max(0, 2 * value)];
+      const field = element("input", { type: "text", class: "value", "aria-label": `${name}, value`, "data-written": name, autocomplete: "off" });
+      onWritten(field, () => this.set(name, expression(field.value, of.angle)));
+      const range = free ? element("input", { type: "range", min: "0", max: String(STEPS), "aria-label": name, "data-parameter": name }) : null;
+      range?.addEventListener("input", () => {
+        if (!this.waiting) requestAnimationFrame(() => this.slide());
+        this.waiting = [of, ends[0] + (Number(range.value) / STEPS) * (ends[1] - ends[0])];
+      });
+      const row = element("div", { class: range ? "slider" : "slider wide" }, element("span", {}, name), ...(range ? [range] : []), field);
+      return { row, name, ends, range, field };
+    });
+    this.rows = rows;
+    find("parameters").replaceChildren(...rows.map(({ row }) => row), element("p", {}, this.back));
+  }
+
+  private slide() {
+    if (!this.waiting) return;
+    const [{ name, angle }, wanted] = this.waiting;
+    this.waiting = null;
+    this.set(name, angle ? `${rounded((wanted * 180) / Math.PI)} deg` : rounded(wanted));
+  }
+
+  private set(name: string, text: string) {
+    const others = this.model.file.set.filter(([other]) => other !== name);
+    this.model.set([...others, [name, text]]);
   }
 }
 

@@ -1,4 +1,4 @@
-// A slider for each coordinate that is held.
+// A slider and a field for each coordinate that is held.
 import { element, find } from "./elements";
 import type { Coordinate, Frame, Mechanism } from "./types";
 
@@ -8,15 +8,19 @@ const TURN = 2 * Math.PI;
 interface Slider {
   of: Coordinate;
   index: number;
+  row: HTMLElement;
   range: HTMLInputElement;
-  value: HTMLElement;
+  value: HTMLInputElement;
 }
 
 export class Sliders {
   private sliders: Slider[] = [];
   private names = "";
 
-  constructor(private readonly move: (name: string, to: number) => void) {}
+  constructor(
+    private readonly move: (name: string, to: number) => void,
+    private readonly write: (of: Coordinate, text: string) => void,
+  ) {}
 
   show(mechanism: Mechanism, frame: Frame) {
     const held = frame.held ?? [];
@@ -25,10 +29,14 @@ export class Sliders {
       this.names = names;
       this.build(mechanism, held);
     }
+    const limits = new Map(frame.limits);
     for (const slider of this.sliders) {
       const [value, shown] = frame.values[slider.index]!;
-      slider.value.textContent = shown;
-      slider.range.setAttribute("aria-valuetext", shown);
+      const limit = limits.get(slider.of.name);
+      fill(slider.value, shown);
+      slider.range.setAttribute("aria-valuetext", limit ?? shown);
+      slider.row.classList.toggle("limit", limit !== undefined);
+      slider.row.title = limit ?? "";
       if (document.activeElement !== slider.range || !slider.range.matches(":active")) {
         slider.range.value = String(this.position(slider.of, value));
       }
@@ -43,14 +51,14 @@ export class Sliders {
       const range = element("input", {
         type: "range", min: "0", max: String(STEPS), step: "1", "aria-label": name, "data-name": name,
       });
-      const value = element("output");
-      const slider = { of, index, range, value };
+      const value = element("input", { type: "text", class: "value", "aria-label": `${name}, value`, "data-value": name, autocomplete: "off" });
+      const row = element("div", { class: "slider" }, element("span", {}, of.name), range, value);
+      const slider = { of, index, row, range, value };
       range.addEventListener("input", () => this.move(name, this.target(slider)));
+      onWritten(value, () => this.write(of, value.value));
       return [slider];
     });
-    const rows = this.sliders.map(({ of, range, value }) =>
-      element("label", { class: "slider" }, element("span", {}, of.name), range, value),
-    );
+    const rows = this.sliders.map(({ row }) => row);
     const none = element("p", { class: "soft" }, "Nothing is held: the mechanism has no freedom.");
     find("sliders").replaceChildren(...(rows.length ? rows : [none]));
   }
@@ -70,4 +78,25 @@ export class Sliders {
 /** Of an angle without limits the turn nearest to where it is. */
 export function nearest(of: Coordinate, to: number, from: number): number {
   return of.angle && !of.limits ? to + TURN * Math.round((from - to) / TURN) : to;
+}
+
+/** Text into a field in which nobody is writing; as it is now it is not yet changed. */
+export function fill(field: HTMLInputElement, text: string) {
+  if (document.activeElement === field && field.value !== field.defaultValue) return;
+  if (field.defaultValue !== text) field.defaultValue = text;
+  if (field.value !== text) field.value = text;
+}
+
+/** What is written in a field counts once it is done. */
+export function onWritten(field: HTMLInputElement, act: () => void) {
+  field.addEventListener("change", () => {
+    field.defaultValue = field.value;
+    act();
+  });
+}
+
+/** A number alone is in degrees where an angle is meant; the sign of degrees is their unit. */
+export function expression(text: string, angle: boolean): string {
+  const written = text.trim().replaceAll("°", " deg").replace(/(\d),(\d)/g, "$1.$2").replaceAll("−", "-");
+  return angle && /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(written) ? `${written} deg` : written;
 }

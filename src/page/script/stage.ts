@@ -124,6 +124,17 @@ export class Stage {
     return [above!, below!];
   }
 
+  /** Moves the camera by so much along x and y. */
+  pan(x: number, y: number) {
+    for (const moved of [this.camera.position, this.orbit.target]) {
+      moved.x += x;
+      moved.y += y;
+    }
+    this.camera.updateMatrixWorld();
+    this.orbit.update();
+    this.draw();
+  }
+
   zoom(factor: number) {
     this.camera.zoom *= factor;
     this.camera.updateProjectionMatrix();

@@ -63,6 +63,7 @@ export interface Scene {
   wheels?: Wheel[];
   arrows?: Arrow[];
   screws?: Screw[];
+  frames?: { name: string; at: Triple; axes: [Triple, Triple, Triple] }[];
 }
 
 /** A configuration: joints in rad and m; platforms as position and unit quaternion, scalar first. */
@@ -81,6 +82,10 @@ export interface Frame {
   at: State;
   values: Shown[];
   held: string[] | null;
+  /** Joints at a limit, with words for it. */
+  limits: [string, string][];
+  /** Whether it was pulled through a dead point of what is held, on to another branch. */
+  crossed: boolean;
   figures: { condition: number | null; shown: string; stopped: boolean } | null;
   forces: Forces | { error: string } | null;
   quantities: Named[] | { error: string } | null;
@@ -210,7 +215,9 @@ export type Request =
   | { do: "gained" }
   | { do: "hold"; names: string[] }
   | { do: "go"; at: State }
-  | { do: "show"; at: State }
+  | { do: "ways" }
+  | { do: "number"; text: string; measure: "angle" | "length" | "force" }
+  | { do: "show"; at: State; frames?: boolean }
   | { do: "picture"; from?: [number, number] | null; labels?: boolean }
   | { do: "ask"; what: "solve" | "assemblies" | "mobility"; as_filed?: boolean }
   | { do: "sweep"; input?: [string, number, number]; steps: number; follow?: boolean; points?: string[]; report?: string[] };

@@ -10,7 +10,7 @@ export class Values {
   private cells: HTMLElement[] = [];
   private boxes: HTMLInputElement[] = [];
 
-  constructor(private readonly hold: (name: string) => void, private readonly keep: () => void) {}
+  constructor(private readonly hold: (name: string) => void, private readonly release: (name: string) => void) {}
 
   show(mechanism: Mechanism, frame: Frame) {
     const names = JSON.stringify(mechanism.coordinates);
@@ -19,8 +19,11 @@ export class Values {
       this.build(mechanism);
     }
     const held = new Set(frame.held ?? []);
+    const limits = new Map(frame.limits);
     mechanism.coordinates.forEach((of, i) => {
       this.cells[i]!.textContent = frame.values[i]![1];
+      this.cells[i]!.parentElement!.classList.toggle("limit", limits.has(of.name));
+      this.cells[i]!.title = limits.get(of.name) ?? "";
       this.boxes[i]!.checked = held.has(of.name);
       this.boxes[i]!.disabled = frame.held === null;
     });
@@ -36,7 +39,7 @@ export class Values {
       const box = element("input", { type: "checkbox", "aria-label": `hold ${of.name}`, "data-name": of.name });
       box.addEventListener("change", () => {
         if (box.checked) this.hold(of.name);
-        else this.keep();
+        else this.release(of.name);
       });
       const cell = element("td", { class: "right" });
       this.boxes.push(box);
