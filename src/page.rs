@@ -18,9 +18,9 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::algebra::Measure;
 use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::sweep::{MetKind, Row, SweepSettings};
-use crate::algebra::Measure;
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
@@ -120,9 +120,9 @@ impl Page {
             Request::Gained => live::gained(self.steering()?, watch),
             Request::Ways => {
                 let ways = self.steering()?.ways_on(watch);
-                let states = ways.iter().map(|at| {
-                    json!({ "at": State::of(at), "scene": Scene::of(&mechanism, at) })
-                });
+                let states = ways
+                    .iter()
+                    .map(|at| json!({ "at": State::of(at), "scene": Scene::of(&mechanism, at) }));
                 Ok(json!({ "states": states.collect::<Vec<_>>() }))
             }
             Request::Number { text, measure } => {

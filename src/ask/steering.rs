@@ -338,7 +338,12 @@ mod tests {
             let angle = begin + f64::from(step) * 5_f64.to_radians();
             let before = steering.is_crossed();
             for _ in 0..4 {
-                steering.pull(&[(point, 1.0)], [angle.cos(), angle.sin(), 0.0], None, watch);
+                steering.pull(
+                    &[(point, 1.0)],
+                    [angle.cos(), angle.sin(), 0.0],
+                    None,
+                    watch,
+                );
             }
             crossed += usize::from(before != steering.is_crossed());
             let reached = steering.at().joints[0];

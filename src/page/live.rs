@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{Refusal, words};
 use super::request::Press;
+use super::{Refusal, words};
 use crate::algebra::SiUnit;
 use crate::ask::Steering;
 use crate::geometry::Vector3;

@@ -13,18 +13,26 @@ pub fn stopped(report: &SweepReport) -> Option<String> {
     let met = report.met.last().map(|met| &met.kind);
     Some(match (report.ending, met) {
         (ending, _) if ending.is_whole() => return None,
-        (SweepEnd::Limit | SweepEnd::OutsideLimits, Some(MetKind::Limit { joint, limit, unit, upper })) => {
-            at_limit(joint, *upper, &quantity(*limit, *unit))
-        }
+        (
+            SweepEnd::Limit | SweepEnd::OutsideLimits,
+            Some(MetKind::Limit {
+                joint,
+                limit,
+                unit,
+                upper,
+            }),
+        ) => at_limit(joint, *upper, &quantity(*limit, *unit)),
         (SweepEnd::Fold, Some(MetKind::Fold { locked, .. })) => format!(
             "A dead point of {}. Go back, drag a body across, or choose a way on.",
             listed(locked)
         ),
         (SweepEnd::Crossing | SweepEnd::SingularStart, _) => {
-            "Branches meet here. Go back, drag a body the way it should go, or choose a way on.".into()
+            "Branches meet here. Go back, drag a body the way it should go, or choose a way on."
+                .into()
         }
         (SweepEnd::Lost, _) => {
-            "The motion cannot be followed farther this way. Go back, or drag a body another way.".into()
+            "The motion cannot be followed farther this way. Go back, or drag a body another way."
+                .into()
         }
         _ => sentence(report),
     })
@@ -59,7 +67,10 @@ fn at_limit(joint: &str, upper: bool, limit: &str) -> String {
 pub fn refused(error: &AskError) -> String {
     match error {
         AskError::Quantity { error, .. } => match &**error {
-            QuantityError::Unknown { suggestion: Some(meant), .. } => {
+            QuantityError::Unknown {
+                suggestion: Some(meant),
+                ..
+            } => {
                 format!("{error}: did you mean `{meant}`?")
             }
             _ => error.to_string(),

@@ -72,7 +72,9 @@ impl Steering {
         };
         let mut report = by.move_to(&targets, watch);
         let went = norm(&system.difference(&self.at, &by.at));
-        if !report.ending.is_whole() && report.ending != SweepEnd::Limit && went < 0.1 * norm(&parts)
+        if !report.ending.is_whole()
+            && report.ending != SweepEnd::Limit
+            && went < 0.1 * norm(&parts)
         {
             let there = by.stopped.as_ref().unwrap_or(&self.at);
             if let Some(at) = self.slipped(&pulled, &system, there, watch) {
