@@ -84,7 +84,7 @@ enum Wrench {
     Text(String),
 }
 
-/// What is asked of a mechanism. Every analysis refuses a question that is wrong in itself.
+/// A question about a mechanism. Every analysis refuses one that is wrong in itself.
 ///
 /// A fresh question holds the actuated joints at home, starts at the home configuration and moves nothing. Coordinates
 /// are named as for [`system::Question`]; values are numbers in m and rad, or texts as in the file ([`Value`]).
@@ -178,7 +178,7 @@ impl Question {
         self
     }
 
-    /// Which of several assemblies is meant.
+    /// Chooses among several assemblies.
     pub fn mode(mut self, mode: Mode) -> Self {
         self.mode = mode;
         self
@@ -250,7 +250,7 @@ impl Question {
         self
     }
 
-    /// The same as `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
+    /// Applies a wrench given as `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
     pub fn wrench_text(mut self, frame: impl Into<String>, text: impl Into<String>) -> Self {
         let wrench = Wrench::Text(text.into());
         self.wrenches.push((frame.into(), wrench));
@@ -269,8 +269,8 @@ impl Question {
         self
     }
 
-    /// A name of a coordinate with values. An output that follows a joint is that joint, at the values where it has these.
-    /// What is wrong with values is said when the question is asked.
+    /// A name of a coordinate with values. An output that follows a joint is that joint, at the values where it has
+    /// these. Errors in values are reported when the question is asked.
     fn led<const N: usize>(&mut self, name: String, values: [Value; N]) -> (String, [Value; N]) {
         let name = self.placed(name);
         let Some(follower) = self.mechanism.follower(&name) else {
@@ -302,8 +302,8 @@ impl Question {
         name
     }
 
-    /// The same question with the mechanism measured by its dimensions and by what is held. What is wrong with values
-    /// is said when the question is asked.
+    /// Measures the mechanism by its dimensions and by the held lengths. Errors in values are reported when the
+    /// question is asked.
     fn measured(mut self) -> Self {
         if let Some(measured) =
             (self.given_lengths()).and_then(|held| self.mechanism.measured_by(&held))
@@ -340,7 +340,7 @@ impl Question {
         Some(lengths)
     }
 
-    /// What is held, free and guessed, resolved.
+    /// Resolves the held, free and guessed coordinates.
     ///
     /// # Errors
     /// If a name or a value is wrong, or two demands contradict one another.
@@ -348,13 +348,13 @@ impl Question {
         self.put(system::Question::new(&self.mechanism))
     }
 
-    /// The same where the actuated joints are held only if that is asked for.
+    /// As [`Question::resolved`], with the actuated joints held only if that is asked for.
     fn released(&self) -> Result<system::Question<'_>, AskError> {
         let released = system::Question::new(&self.mechanism).free("actuated");
         self.put(released.map_err(AskError::Question)?)
     }
 
-    /// What is freed is freed first, so that one joint of several that are free can be held.
+    /// Puts the demands to a question: first what is freed, so that one joint of several that are free can be held.
     fn put<'q>(
         &self,
         mut question: system::Question<'q>,

@@ -81,13 +81,13 @@ commands! {
     merge: Merge,
 }
 
-/// What a command has to say.
+/// Answer of a command.
 struct Answer {
-    /// What was asked for.
+    /// Output on stdout.
     data: String,
-    /// What is odd about it.
+    /// Remarks on stderr.
     remarks: String,
-    /// Whether the answer is yes, or at least not no.
+    /// False if the answer is negative (exit status 1).
     yes: bool,
 }
 
@@ -100,7 +100,7 @@ impl Answer {
         }
     }
 
-    /// The same with remarks that come first.
+    /// Puts remarks before its own.
     fn after(self, remarks: String) -> Self {
         Answer {
             remarks: remarks + &self.remarks,
@@ -109,11 +109,11 @@ impl Answer {
     }
 }
 
-/// Why a command has no answer, ready to be read.
+/// The reason for which a command has no answer, in words.
 struct Refusal(String);
 
 impl Refusal {
-    /// What went wrong where no option is to blame.
+    /// An error that is not in an option.
     fn error(said: impl Display) -> Self {
         Refusal(format!("error: {said}\n"))
     }

@@ -79,7 +79,7 @@ pub mod motion {}
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/performance.md"))]
 pub mod performance {}
 
-/// The same questions from Python.
+/// The questions of the guide asked from Python.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/python.md"))]
 pub mod python {}
 

@@ -1,6 +1,6 @@
 //! The Python module `linkwork._linkwork`: a thin layer over [`ask`](crate::ask) and [`output`](crate::output).
 //!
-//! What a Python user reads stands in `python/linkwork/__init__.py`, which gives these few functions signatures and
+//! The text for Python users is in `python/linkwork/__init__.py`, which gives these few functions signatures and
 //! documentation.
 
 mod asked;
@@ -120,7 +120,7 @@ impl Mechanism {
         parameters.map(|p| (p.name.to_string(), p.value)).collect()
     }
 
-    /// What is odd about the file, in words; empty if nothing is.
+    /// Warnings about the file, in words; empty if there are none.
     fn warnings(&self, name: &str) -> String {
         diagnostics::warnings(&self.mechanism, name, &self.text, Style::Plain)
     }

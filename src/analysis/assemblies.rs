@@ -33,7 +33,7 @@ use answer::{Question, grouped};
 use family::{C, Family, KnownBound, Member};
 use search::question;
 
-/// How hard to search.
+/// Settings of the search for generic solutions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssembliesSettings {
     /// The random seed of starts and paths. The list of assemblies does not depend on it unless solutions are missed.
@@ -61,15 +61,15 @@ impl Default for AssembliesSettings {
     }
 }
 
-/// What to work out for each question besides the solutions.
+/// Results worked out for each question besides the solutions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
     /// Interval certificates.
     pub certificates: bool,
     /// The complex solutions that are not real.
     pub all_complex: bool,
-    /// A look from other starts for what no path leads to: sets of infinitely many assemblies apart
-    /// from all others, and assemblies that the search missed.
+    /// A search from other starts for solutions that no path leads to: sets of infinitely many assemblies apart
+    /// from all others, and assemblies that were missed.
     pub starts: bool,
     /// A proof that the real assemblies are all that there are.
     pub proof: Option<Pruning>,
@@ -86,7 +86,7 @@ impl Default for Wanted {
     }
 }
 
-/// Why a question cannot be put.
+/// Reasons for which a question cannot be put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum AssembliesError {
     /// An expression has no value near the mechanism's own dimensions.
@@ -193,7 +193,7 @@ impl AssemblySolver {
         })
     }
 
-    /// Whether the search for generic solutions was stopped before it was done.
+    /// True if the search for generic solutions was stopped early.
     pub fn is_interrupted(&self) -> bool {
         self.interrupted
     }
@@ -371,7 +371,7 @@ fn freedoms_beside_home(mechanism: &Mechanism, held: &Held<f64>) -> Option<usize
     freedoms.min()
 }
 
-/// The same coordinates held, at the values they have at home.
+/// The held coordinates at their values at home.
 fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
     let home = mechanism.home();
     let mut held = held.clone();

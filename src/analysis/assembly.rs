@@ -16,7 +16,7 @@ pub use report::{AssemblyReport, JointVariable, Left, Outcome};
 /// A condition number above this is worth a warning: four digits of the joint values are lost.
 const POOR_CONDITION: f64 = 1e4;
 
-/// How to look for an assembled configuration.
+/// Settings of the search for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssemblySettings {
     /// The iteration.
@@ -99,7 +99,7 @@ pub fn assemble(
     })
 }
 
-/// Goes on from where Newton's method ended to the closest approach, which may be assembled after all. Whether it is a
+/// Continues from the end of Newton's method to the closest approach, which may be assembled after all; true if it is a
 /// local minimum of the gaps.
 fn walk_on(search: &Search, newton: &Newton, attempt: &mut Attempt) -> bool {
     let system = search.system();
@@ -262,7 +262,7 @@ impl Reporter<'_> {
         }
     }
 
-    /// Where freedoms are left, they are no singularity.
+    /// Report of an assembled configuration with freedoms left, which are no singularity.
     fn with_freedoms(&self, attempt: Attempt, freedoms: &Freedoms, left: &Left) -> AssemblyReport {
         let mut near = Neighbourhood::holding(self.mechanism, self.search.held());
         let residual = near.residual(&attempt.at);

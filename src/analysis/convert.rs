@@ -1,4 +1,4 @@
-//! The same mechanism in the other convention, or broken at another joint.
+//! Conversion of a mechanism to the other convention, or to another cut joint.
 //!
 //! Nothing is evaluated: rows are moved and turned round as they are written, so that names and
 //! expressions stay. Only home values of new variables are numbers.
@@ -18,7 +18,7 @@ pub use cognates::{CognateError, cognates};
 pub use coordinates::to_axes;
 pub use cut::{CutError, possible_cuts};
 
-/// What is to be changed.
+/// Changes to be made.
 #[derive(Clone, Debug, Default)]
 pub struct ConvertSettings {
     /// The convention of all chains; `None` leaves each as it is.
@@ -27,17 +27,17 @@ pub struct ConvertSettings {
     pub cut: Option<String>,
 }
 
-/// A mechanism file that says the same another way.
+/// A converted mechanism file, with its differences.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Conversion {
     /// The file, serialised as its text.
     #[serde(rename = "file", with = "mechanism_text")]
     pub description: Description,
-    /// What it no longer says, or says by other names.
+    /// Frames renamed, and information lost.
     pub notes: Vec<ConversionNote>,
 }
 
-/// What a converted file says differently.
+/// A difference of a converted file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "note", rename_all = "snake_case")]
 pub enum ConversionNote {
@@ -69,7 +69,7 @@ pub enum ConversionNote {
     CouplerPoint {
         /// The point of the linkage that was given.
         point: String,
-        /// The same point of the other.
+        /// The corresponding point of the other.
         now: String,
     },
     /// Variables that take the place of a closure.
@@ -81,7 +81,7 @@ pub enum ConversionNote {
     },
 }
 
-/// Why a mechanism is not converted.
+/// Reasons for which a mechanism is not converted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConvertError {
     /// It cannot be broken there.
@@ -92,7 +92,7 @@ pub enum ConvertError {
         "the variable `{0}` never occurs alone with the factor 1 or -1, so that no joint can have it as its own"
     )]
     NotAlone(String),
-    /// What came out is not a mechanism.
+    /// The result is not a mechanism.
     #[error("the converted file is not a mechanism: {}", titles(.0))]
     Wrong(Vec<Problem>),
 }
@@ -102,7 +102,7 @@ fn titles(problems: &[Problem]) -> String {
     titles.join("; ")
 }
 
-/// The same mechanism, written another way.
+/// Writes the mechanism in another convention, or cut at another joint.
 ///
 /// # Errors
 /// If the cut asked for is not possible.

@@ -23,7 +23,7 @@ pub use given::{AxesError, joint_axes};
 /// The most joints of one file of axes.
 const MOST_JOINTS: usize = 1000;
 
-/// How frames are placed.
+/// Settings of frame placement.
 #[derive(Clone, Debug, Default)]
 pub struct FramesSettings {
     /// The convention of the tables; that of the file, or else the modified one.
@@ -35,20 +35,20 @@ pub struct FramesSettings {
 pub struct FramesReport {
     /// Name of the mechanism.
     pub mechanism: String,
-    /// How the rows of the tables are read.
+    /// Convention of the rows of the tables.
     pub convention: Convention,
     /// The chains with their frames.
     pub chains: Vec<PlacedChain>,
-    /// Where loops were cut, and why there; `None` for a serial chain.
+    /// Cuts of loops, with those compared; `None` for a serial chain.
     pub cuts: Option<CutReport>,
     /// Largest angle in rad by which an axis or the tool differs from the one given.
     pub turned: f64,
-    /// The same in m.
+    /// Largest distance in m by which an axis or the tool differs from the one given.
     pub moved: f64,
     /// The mechanism file, serialised as its text.
     #[serde(rename = "file", with = "mechanism_text")]
     pub description: Description,
-    /// What is odd about the file of axes: places in its text, which are not serialised.
+    /// Warnings about the file of axes, with places in its text, which are not serialised.
     #[serde(skip)]
     pub warnings: Vec<Problem>,
 }
@@ -81,9 +81,9 @@ pub struct PlacedChain {
     pub on: String,
     /// The joints, one for each row.
     pub joints: Vec<String>,
-    /// Whether frame 0 is the frame it stands on or the base given.
+    /// True if frame 0 is the frame it stands on or the base given.
     pub starts_at_base: bool,
-    /// Whether the last frame is the tool given.
+    /// True if the last frame is the tool given.
     pub ends_at_tool: bool,
     /// The common normals N₀ … N_n that x₀ … x_n lie on.
     pub normals: Vec<PlacedNormal>,
@@ -98,15 +98,15 @@ pub struct PlacedChain {
 /// A common normal between consecutive axes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlacedNormal {
-    /// How the axes lie; `None` at an end where nothing given fixes it.
+    /// Relation of the axes; `None` at an end where nothing given fixes it.
     pub relation: Option<Relation>,
     /// Angle in rad between the axes as given.
     pub angle: f64,
     /// Distance in m between the axes as given.
     pub distance: f64,
-    /// Where it starts, in m.
+    /// Its start, in m.
     pub from: [f64; 3],
-    /// Where it ends, in m.
+    /// Its end, in m.
     pub to: [f64; 3],
     /// Unit vector along it.
     pub x: [f64; 3],
@@ -132,20 +132,20 @@ pub struct PlacedAxis {
     pub point: [f64; 3],
     /// Its direction.
     pub direction: [f64; 3],
-    /// Whether the joint slides along it.
+    /// True if the joint slides along it.
     pub prismatic: bool,
 }
 
-/// Where loops were cut.
+/// Cuts of loops.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CutReport {
     /// The joints that were cut.
     pub cut: Vec<String>,
-    /// Whether the file named them.
+    /// True if the file named them.
     pub given: bool,
     /// The ways to cut that were compared, simplest first; the first is the one taken.
     pub ways: Vec<CutChoice>,
-    /// Whether there are more ways than were compared.
+    /// True if there are more ways than were compared.
     pub more: bool,
 }
 
@@ -156,7 +156,7 @@ pub struct CutChoice {
     pub longest: usize,
     /// Entries and displacements that are not zero, joint variables left out.
     pub entries: usize,
-    /// How many of the cut joints are prismatic.
+    /// Number of cut joints that are prismatic.
     pub prismatic: usize,
     /// The joints cut.
     pub cut: Vec<String>,
@@ -255,7 +255,7 @@ fn far_normals(
 /// Places frames on joint axes and reads the tables off them.
 ///
 /// # Errors
-/// With all that is wrong with the axes, in the order of the file.
+/// With all problems of the axes, in the order of the file.
 pub fn frames(
     axes: &AxesDescription,
     settings: &FramesSettings,

@@ -1,4 +1,4 @@
-//! What a mechanism file means, part by part.
+//! Overview of a mechanism file, part by part.
 
 mod count;
 mod loops;
@@ -17,7 +17,7 @@ use crate::mechanism::{
     Chain, FixedStep, Formula, Given, JointKind, Mechanism, NamedClosure, Platform, Row, Symbol,
 };
 
-/// Says what a mechanism consists of.
+/// Lists the parts of a mechanism, with its loops and the count of its freedoms.
 pub fn overview(mechanism: &Mechanism) -> Overview {
     let parameters = mechanism.parameters().iter();
     let closed_forms = mechanism.closed_forms().iter();
@@ -103,7 +103,7 @@ fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
     joints.collect()
 }
 
-/// Whether a variable that turns something and slides something is that of a screw: gears with racks have such too.
+/// True if a variable that turns something and slides something is that of a screw: gears with racks have such too.
 fn is_screw(mechanism: &Mechanism, name: &str) -> bool {
     let given = mechanism.coordinates().map(|made| &made.axes.joints);
     let given = given.and_then(|joints| joints.iter().find(|joint| joint.name.value == name));

@@ -37,8 +37,8 @@ impl Question {
         Ok(mobility(&self.resolved()?, &settings, watch))
     }
 
-    /// How everything moves when the held coordinates move at the rates of the question; those without one stand still.
-    /// Points of the question are followed.
+    /// Rates and accelerations of everything for those of the question's held coordinates; held coordinates without a
+    /// rate stand still. Points of the question are followed.
     pub fn velocity(&self, watch: &Watch) -> Result<Analysed<VelocityReport>, AskError> {
         let question = self.resolved()?;
         let points = self.followed()?;
@@ -69,7 +69,7 @@ impl Question {
         Ok(load)
     }
 
-    /// What is locked.
+    /// Resolves the locked coordinates.
     fn locked(&self, watch: &Watch) -> Result<Vec<Coordinate>, AskError> {
         let plain = system::Question::new(&self.mechanism);
         let mut locked: Vec<Coordinate> = Vec::new();
@@ -106,7 +106,7 @@ impl Question {
         compare(&self.mechanism, &settings, watch)
     }
 
-    /// What the mechanism has in closed form.
+    /// The mechanism's formulas in closed form.
     ///
     /// # Errors
     /// If an expression of the file has no value in letters.
@@ -159,7 +159,7 @@ impl Question {
         Ok(named.map(|named| named.point).collect())
     }
 
-    /// The same with their names.
+    /// The points of the question with their names.
     pub(super) fn named_points(&self) -> Result<Vec<NamedPoint>, AskError> {
         let points = self.points.iter().enumerate().map(|(index, text)| {
             let wrong = |error| AskError::Point(Role::Point.item(index), error);

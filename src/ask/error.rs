@@ -8,7 +8,7 @@ use crate::description::{count, listed};
 use crate::mechanism::QuantityError;
 use crate::system::{DriveError, ForceError, PointError, QuestionError};
 
-/// What a name or a value is in a question.
+/// Role of a name or a value in a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Something held.
@@ -73,7 +73,7 @@ impl Role {
     }
 }
 
-/// Why a question has no answer as it is posed.
+/// Reasons for which a question has no answer as it is posed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AskError {
@@ -83,10 +83,10 @@ pub enum AskError {
     /// The question as a whole holds too much or too little.
     #[error("{0}")]
     Question(QuestionError),
-    /// The same for a map.
+    /// The question of a map holds too much or too little.
     #[error("{error}")]
     Mapped {
-        /// What is wrong.
+        /// The error.
         error: Box<QuestionError>,
         /// The mapped coordinates.
         mapped: Vec<String>,
@@ -114,21 +114,21 @@ pub enum AskError {
     /// A quantity is wrong.
     #[error("{error}")]
     Quantity {
-        /// Which list it stands in.
+        /// The list that it stands in.
         item: Item,
         /// The expression.
         text: String,
-        /// What is wrong with it.
+        /// The error in it.
         error: Box<QuantityError>,
     },
     /// A quantity cannot be known on the motion.
     #[error("`{quantity}` has no value: {error}")]
     Unmeasured {
-        /// Which list it stands in.
+        /// The list that it stands in.
         item: Item,
         /// Its name.
         quantity: String,
-        /// Why.
+        /// The reason.
         error: Unmeasured,
     },
     /// The time of a motion is none.
@@ -150,13 +150,13 @@ pub enum AskError {
     /// A motion begins outside the limits of a joint.
     #[error("the motion begins outside the limits of `{name}`")]
     OutsideLimits {
-        /// Which input.
+        /// The input.
         item: Item,
         /// The joint.
         name: String,
         /// Its limits in m or rad.
         limits: (f64, f64),
-        /// Whether it turns.
+        /// True if it turns.
         is_angle: bool,
     },
     /// A mapped coordinate is held or freed too.
@@ -183,17 +183,17 @@ pub enum AskError {
     /// A motion of so many steps.
     #[error("a motion has 1 to {most} steps, not {given}")]
     Steps {
-        /// How many were given.
+        /// The number given.
         given: usize,
-        /// How many can be made.
+        /// The largest number allowed.
         most: usize,
     },
     /// Random starts, or nodes that are searched.
     #[error("a search has 1 to {most} starts or nodes, not {given}")]
     Starts {
-        /// How many were given.
+        /// The number given.
         given: usize,
-        /// How many there can be.
+        /// The largest number allowed.
         most: usize,
     },
     /// Nothing is left to move: this holds as much as the mechanism has freedoms.
@@ -213,7 +213,7 @@ pub enum AskError {
     NoSuchMode {
         /// The number.
         mode: usize,
-        /// How many modes there are.
+        /// Number of modes.
         modes: usize,
     },
     /// No input can be driven.
@@ -237,9 +237,9 @@ pub enum AskError {
     /// The nodes of a map are not one number or one for each coordinate, or too few.
     #[error("{}", wrong_grid(nodes, *axes))]
     Grid {
-        /// What was given.
+        /// The numbers of nodes given.
         nodes: Vec<usize>,
-        /// How many coordinates are mapped.
+        /// Number of mapped coordinates.
         axes: usize,
     },
     /// A map would take too much memory.
@@ -251,9 +251,9 @@ pub enum AskError {
     TooFine {
         /// Its nodes.
         nodes: f64,
-        /// What they take.
+        /// Memory that they take, in bytes.
         bytes: f64,
-        /// What they may take.
+        /// Memory that they may take, in bytes.
         most: f64,
     },
     /// More was reached than memory allows.
@@ -264,7 +264,7 @@ pub enum AskError {
     TooMany {
         /// The nodes in modes that may be kept.
         cells: usize,
-        /// What they may take in bytes.
+        /// Memory that they may take, in bytes.
         most: f64,
     },
     /// The search for assemblies cannot be made.
@@ -281,7 +281,7 @@ pub enum AskError {
     Interrupted,
 }
 
-/// Why a quantity cannot be known on a motion.
+/// Reasons for which a quantity cannot be known on a motion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unmeasured {
     /// It depends on what is driven, and nothing is.
@@ -292,7 +292,7 @@ pub enum Unmeasured {
     NotHeld {
         /// The coordinate.
         name: String,
-        /// What is held or moved as an input.
+        /// Names of the coordinates that are held or moved as inputs.
         held: Vec<String>,
     },
     /// Nothing is loaded.

@@ -1,4 +1,4 @@
-//! What is read off a mechanism while it is moved by hand: quantities, forces, freedoms gained.
+//! Quantities, forces and freedoms gained while a mechanism is moved by hand.
 
 use super::quantities::{Meter, Metered};
 use super::{AskError, Steering};
@@ -24,9 +24,9 @@ pub struct Reading {
 /// Freedoms gained at a singular configuration.
 #[derive(Clone, Debug)]
 pub struct Gained {
-    /// Where that is.
+    /// The singular configuration.
     pub at: Configuration<f64>,
-    /// What is singular there.
+    /// Report on its singularity.
     pub report: SingularitiesReport,
     /// Of each freedom configurations from one side to the other, which close to first order.
     pub swings: Vec<Vec<Configuration<f64>>>,
@@ -98,7 +98,7 @@ impl Steering {
     /// # Errors
     /// If something is held that cannot be.
     pub fn gained(&self, watch: &Watch) -> Result<Option<Gained>, AskError> {
-        /// How far the swings go, in rad or characteristic lengths, of the component that moves most.
+        /// Amplitude of the swings, in rad or characteristic lengths, of the component that moves most.
         const SWING: f64 = 0.25;
         /// Configurations to either side.
         const PHASES: i32 = 6;

@@ -26,7 +26,7 @@ pub struct Many {
     pub names: Vec<String>,
     /// Row by row; not a number in rows that were not reached.
     pub values: Vec<f64>,
-    /// Whether each row was reached.
+    /// For each row, true if it was reached.
     pub reached: Vec<bool>,
     /// True if the work was stopped before it was done; then rows are missing at the end, of unsorted values all.
     pub interrupted: bool,
@@ -40,7 +40,7 @@ impl Question {
     /// are certain to keep to the branch, so each row is on the branch of the row before it unless the path between them
     /// is lost; after at most 256 rows it begins again.
     /// Unsorted values of one coordinate, most of them far from the one before, are followed from the least to the greatest.
-    /// Where there are 1,000 rows and more, 32 paths are followed at a time in the widest vector registers of the processor,
+    /// For 1,000 rows and more, 32 paths are followed at a time in the widest vector registers of the processor,
     /// on all cores, with the same results on any number of cores and in registers of any width. A row to which no path
     /// leads, as beyond a dead point, is not reached.
     ///

@@ -1,4 +1,4 @@
-//! Which of several assemblies is meant: their numbers, and where work begins.
+//! Choice among several assemblies: their numbers, and the starts of work.
 
 use super::{AskError, Question, RESTARTS};
 use crate::analysis::assemblies::{
@@ -10,7 +10,7 @@ use crate::mechanism::Configuration;
 use crate::solve::{Newton, Watch};
 use crate::system::{self, Count, QuestionError, Search, check_count};
 
-/// Which assembly work begins in.
+/// Assembly in which work begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Mode {
     /// The one found near the start.
@@ -24,7 +24,7 @@ pub enum Mode {
 
 /// Keeps generic solutions from one question to the next.
 pub trait Store: Send + Sync {
-    /// What it has.
+    /// The solutions kept, if there are any.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -40,10 +40,10 @@ pub trait Store: Send + Sync {
     fn keep(&self, generic: &GenericSolutions);
 }
 
-/// What solving came to.
+/// Outcome of solving.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solved {
-    /// Where the search ended.
+    /// The search ended, with or without an assembly.
     Ended(Box<AssemblyReport>),
     /// The mode could not be followed from home to what is held.
     Lost(Box<LostMode>),
@@ -52,8 +52,8 @@ pub enum Solved {
 /// Assembled configurations to begin with: numbers of their modes, if they were asked for, and where they are.
 pub type Modes = Vec<(Option<usize>, Configuration<f64>)>;
 
-/// What is worked out where only the numbers of modes are wanted. The numbers depend on what is found, so that
-/// everything that numbers modes searches as hard as [`Question::assemblies`] does.
+/// Results needed to number modes. The numbers depend on the solutions found, so that everything that numbers modes
+/// searches as hard as [`Question::assemblies`] does.
 pub(super) const NUMBERED: Wanted = Wanted {
     certificates: false,
     all_complex: false,
@@ -62,7 +62,7 @@ pub(super) const NUMBERED: Wanted = Wanted {
 };
 
 impl Question {
-    /// What is held beside what the mechanism allows.
+    /// Compares the held coordinates with the freedoms of the mechanism.
     ///
     /// # Errors
     /// If the question is wrong, or holds more or less than the mechanism has freedoms.
@@ -126,7 +126,7 @@ impl Question {
         self.starts(&question.with_spins_still(), watch)
     }
 
-    /// Where work begins: near the start, or in the mode or modes asked for.
+    /// Assembled configurations from which work begins: near the start, or in the mode or modes asked for.
     pub(super) fn starts(
         &self,
         question: &system::Question,

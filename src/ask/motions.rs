@@ -12,7 +12,7 @@ use crate::mechanism::{
 use crate::solve::Watch;
 use crate::system::{Driven, Held, Moved};
 
-/// What is sought between the rows of a motion.
+/// Results located between the rows of a motion.
 #[derive(Default)]
 struct Located {
     extremes: Vec<Extremum>,
@@ -29,9 +29,9 @@ pub struct Motions<'q> {
     pub(super) metered: Metered<'q>,
     /// Quantities that may dwell, by their numbers, with tolerances.
     pub(super) dwells: Vec<(usize, f64)>,
-    /// Where each begins, with the number of its mode if one was asked for.
+    /// Start of each motion, with the number of its mode if one was asked for.
     pub starts: super::Modes,
-    /// What moved most from the values guessed to where the motion begins.
+    /// The joint or platform that moved most from its guess to the start of the motion.
     pub(super) moved: Option<Moved>,
 }
 
@@ -46,12 +46,12 @@ impl Motions<'_> {
         &self.settings.points
     }
 
-    /// What the columns of rows are.
+    /// Columns of the rows.
     pub fn columns(&self) -> Columns {
         Columns::new(self.mechanism, self.points(), self.quantities())
     }
 
-    /// What the columns of quantities are: the time if any is asked for and inputs move, then these.
+    /// Columns of the quantities: the time if there are quantities and inputs move, then the quantities.
     pub fn quantities(&self) -> Vec<Variable> {
         let of = |quantity: &Quantity| Variable::new(&quantity.name, quantity.unit);
         let quantities: Vec<Variable> = self.metered.quantities.iter().map(of).collect();
@@ -60,7 +60,7 @@ impl Motions<'_> {
         time.into_iter().chain(quantities).collect()
     }
 
-    /// The same with rows between those asked for, so near to one another that a line through them looks smooth.
+    /// Adds rows between those asked for, so near to one another that a line through them looks smooth.
     #[must_use]
     pub fn smooth(mut self, smooth: bool) -> Self {
         self.settings.between = smooth;
@@ -117,7 +117,7 @@ impl Motions<'_> {
         self.measured(start, sink, watch).0
     }
 
-    /// The same with what is sought between rows too.
+    /// As [`Motions::run`], with the results located between rows.
     fn measured(
         &self,
         start: &Configuration<f64>,

@@ -140,7 +140,7 @@ impl Question {
         named.map(|text| (text.clone(), text)).collect()
     }
 
-    /// Why a quantity cannot be known.
+    /// The reason for which a quantity cannot be known, if there is one.
     fn unmeasured(
         &self,
         held: &system::Question,

@@ -82,13 +82,13 @@ pub(super) fn middles(ranges: &[Driven]) -> Vec<f64> {
     ranges.iter().map(|r| 0.5 * (r.from + r.to)).collect()
 }
 
-/// What is held while these move.
+/// The held coordinates less those that move.
 pub(super) fn still(held: Held<f64>, moved: &[Driven]) -> Held<f64> {
     let without = |held: Held<f64>, input: &Driven| held.without(input.coordinate);
     moved.iter().fold(held, without)
 }
 
-/// Whether it is a coordinate of a platform or of a point.
+/// True for a coordinate of a platform or of a point.
 pub(super) fn of_platform(mechanism: &Mechanism, coordinate: &Coordinate) -> bool {
     match *coordinate {
         Coordinate::Joint(joint) => mechanism.is_of_point(joint),

@@ -10,7 +10,7 @@ pub struct Holdable {
     pub name: String,
     /// The value, rad or m; `None` for the value in the file.
     pub value: Option<f64>,
-    /// Whether it is an angle.
+    /// True if it is an angle.
     pub is_angle: bool,
 }
 

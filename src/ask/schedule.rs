@@ -7,7 +7,7 @@ use crate::analysis::sweep::Schedule;
 use crate::description::nearest;
 use crate::system::{self, Coordinate, QuestionError};
 
-/// What is wrong with a table of inputs over time, and where.
+/// An error in a table of inputs over time, with its place.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{line}:{column}: {kind}")]
 pub struct TableError {
@@ -15,11 +15,11 @@ pub struct TableError {
     pub line: usize,
     /// The character in it where the value stands, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// Kind of error.
     pub kind: TableErrorKind,
 }
 
-/// What is wrong with a table of inputs over time.
+/// Errors of a table of inputs over time.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TableErrorKind {
     /// It is no table.

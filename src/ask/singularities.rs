@@ -14,7 +14,7 @@ use crate::system::{
 };
 
 impl Question {
-    /// Whether and how the assembled configuration is singular.
+    /// Classifies the assembled configuration: regular, or singular and how.
     ///
     /// # Errors
     /// If the question is wrong, holds too much or too little, or has no such mode.

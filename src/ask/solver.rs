@@ -37,7 +37,7 @@ impl Question {
         const WIDEST: f64 = 0.3;
         /// The most of it for one configuration, so that each is near the one before it however few there are.
         const PER_STEP: f64 = 0.003;
-        /// How often they are halved where the mechanism cannot follow.
+        /// Number of times they are halved if the mechanism cannot follow.
         const HALVINGS: usize = 8;
         let (question, start) = self.posed(watch)?;
         let mut amplitude = WIDEST.min(PER_STEP * count as f64);

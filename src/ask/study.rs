@@ -28,21 +28,21 @@ const ASSEMBLIES: &str = "assemblies";
 /// Rows computed at once at most: they are kept until all are done, and take some 200 bytes each.
 const MOST_ROWS: usize = 10_000_000;
 
-/// What a study asks.
+/// A study: a question with some names varied.
 #[derive(Clone)]
 pub struct Study {
     question: Question,
     points: Points,
     varied: Vec<Varied>,
     ranges: Vec<Spread>,
-    /// Whether assemblies are counted.
+    /// True if assemblies are counted.
     counted: bool,
     columns: Vec<Variable>,
-    /// Whether links spin about their own lines.
+    /// True if links spin about their own lines.
     spins: bool,
 }
 
-/// What is varied: a parameter or a coordinate.
+/// A varied parameter or coordinate.
 #[derive(Clone)]
 struct Varied {
     name: String,
@@ -58,7 +58,7 @@ pub struct StudyRows {
     pub columns: Vec<Variable>,
     /// The rows in their order; empty where something is not determined.
     pub rows: Vec<Vec<Option<f64>>>,
-    /// Whether the work was stopped before it was done; then rows are missing at the end.
+    /// True if the work was stopped early; then rows are missing at the end.
     pub interrupted: bool,
 }
 
@@ -249,7 +249,7 @@ impl Study {
         Ok(study)
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn count(&self) -> usize {
         self.points.count().unwrap_or_default()
     }
@@ -298,7 +298,7 @@ impl Study {
         }
     }
 
-    /// What the columns are, and whether links spin about their own lines. Both, and whether what is held fits the
+    /// The columns, and true if links spin about their own lines. Both, and the check that the held coordinates fit the
     /// freedoms, are decided once, with the dimensions of the file: they change at special dimensions only.
     fn named(&self) -> Result<(Vec<Variable>, bool), AskError> {
         let mechanism = self.question.mechanism();

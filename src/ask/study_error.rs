@@ -1,6 +1,6 @@
-//! Studies that there are not.
+//! Errors of studies.
 
-/// Why there is no study.
+/// Reasons for which there is no study.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StudyError {
     /// Nothing is varied.
@@ -14,17 +14,17 @@ pub enum StudyError {
     Unknown {
         /// The name.
         name: String,
-        /// What was probably meant.
+        /// The name that was probably meant.
         suggestion: Option<String>,
     },
     /// No value of what is varied.
     #[error("`{name}` cannot be `{text}`: {why}")]
     Value {
-        /// What is varied.
+        /// The varied name.
         name: String,
         /// The value.
         text: String,
-        /// Why it is none.
+        /// The reason.
         why: String,
     },
     /// A name with two ranges.
@@ -39,9 +39,9 @@ pub enum StudyError {
     /// Other points than there are ranges.
     #[error("{given} are given for {wanted} varied names")]
     Width {
-        /// What is given.
+        /// The number given, in words.
         given: String,
-        /// How many are varied.
+        /// Number of varied names.
         wanted: usize,
     },
     /// No points, or more than can be counted.

@@ -60,8 +60,8 @@ impl Question {
 
     /// The assembly near home, or near the guess, with the mapped coordinates where it has them.
     ///
-    /// Where actuated joints are free on the map, that is the one with the actuated joints at home, and what else is
-    /// held moves from there to its values.
+    /// If actuated joints are free on the map, this is the assembly with the actuated joints at home, from which the
+    /// held coordinates then move to their values.
     fn home(&self, axes: &[Driven], watch: &Watch) -> Result<Option<Configuration<f64>>, AskError> {
         let closed = |question: system::Question, restarts: usize| {
             self.nearest(&question.with_spins_still(), restarts, watch)
@@ -90,7 +90,7 @@ impl Question {
         Ok(closed(question, 0))
     }
 
-    /// Whether coordinates of platforms are mapped or held, so that actuated joints are free.
+    /// True if coordinates of platforms are mapped or held, so that actuated joints are free.
     fn is_inverse(&self, axes: &[Driven]) -> Result<bool, AskError> {
         let held = self.resolved()?.held_coordinates();
         let mapped = axes.iter().map(|axis| axis.coordinate);

@@ -47,7 +47,7 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// The same with guesses for what is free.
+    /// As [`Split::pose`], with guesses for free coordinates.
     pub fn pose(&self, source: &Source) -> Result<Posed<'_>, Refusal> {
         let mut posed = self.split.pose(source)?;
         posed.values(Role::Guess, "--guess", &self.guess, Question::guess);
@@ -124,7 +124,7 @@ impl<'o> Posed<'o> {
         }
     }
 
-    /// The same of values that an option gives to names.
+    /// Adds values that an option gives to names.
     pub fn values(
         &mut self,
         role: Role,
@@ -194,12 +194,12 @@ impl<'o> Posed<'o> {
         self.loaded.answer(format, &report)
     }
 
-    /// What is wrong with what is held, with options that put it right.
+    /// The error in the held coordinates, with options that correct it.
     pub fn complaint(&self, error: &QuestionError) -> Complaint {
         held_wrong(&self.question, &self.given, error)
     }
 
-    /// What is wrong with the question, under the option that says so if one does.
+    /// The error in the question, under its option if it is in one.
     fn refusal(&self, error: &AskError) -> Refusal {
         if let AskError::Store(said) = error {
             return Refusal(said.clone());
@@ -209,7 +209,7 @@ impl<'o> Posed<'o> {
     }
 }
 
-/// What is wrong with a question that options posed, and the one that says so if one does.
+/// The error in a question posed by options, and the option that it is in, if it is in one.
 pub fn said<'o>(
     question: &Question,
     given: &[(Role, Given<'o>)],

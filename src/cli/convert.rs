@@ -42,7 +42,7 @@ pub struct Convert {
     format: Format,
 }
 
-/// How a file says where joints are.
+/// Form in which a file gives its joints.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Form {
     /// Joint coordinates: points and directions

@@ -83,7 +83,7 @@ impl Export {
     }
 }
 
-/// What a format cannot say, or what was decided where a file left it open.
+/// Losses of a format, and decisions that a file left open, a line each.
 pub fn remarks(said: &[Remark]) -> String {
     let lines = said.iter().map(|remark| {
         let word = if remark.is_loss() { "warning" } else { "note" };

@@ -7,7 +7,7 @@ use linkwork::output::{Document, JsonReport, Report, html, json, markdown, text}
 use super::written::rows;
 use super::{Answer, Refusal, lines};
 
-/// How an answer is written.
+/// Format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// For reading in a terminal
@@ -40,7 +40,7 @@ impl Format {
         self.answer_by(report, report.document())
     }
 
-    /// The same with another document.
+    /// As [`Format::answer`], with another document.
     pub fn answer_by(
         self,
         report: &impl JsonReport,
@@ -72,7 +72,7 @@ impl Format {
     }
 }
 
-/// What is said on stderr where only rows are written.
+/// Note on stderr where only rows are written.
 pub fn beside_rows(report: &impl Report, whole: bool) -> String {
     if !whole {
         let said = "interrupted: the rows end before the answer does";

@@ -72,7 +72,7 @@ pub struct Loaded {
     /// The parameters that `--set` gave another value.
     pub set: Vec<String>,
     text: String,
-    /// What the file says, with what `--set` changed.
+    /// Description of the file, with changes by `--set`.
     pub description: Description,
     pub mechanism: Arc<Mechanism>,
 }

@@ -18,7 +18,7 @@ const MAX_BYTES: u64 = 1 << 28;
 /// An ordinary file with stored solutions, or the place for one.
 pub struct Store {
     path: PathBuf,
-    /// Where the file itself stands, links followed.
+    /// Place of the file itself, links followed.
     place: PathBuf,
     exists: bool,
 }
@@ -58,7 +58,7 @@ impl Store {
         })
     }
 
-    /// What is stored; nothing if there is no file yet, or an empty one.
+    /// The stored solutions; nothing if there is no file yet, or an empty one.
     fn read(&self) -> Result<Option<GenericSolutions>, Refusal> {
         if !self.exists {
             return Ok(None);

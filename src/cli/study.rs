@@ -176,7 +176,7 @@ impl Study {
     }
 }
 
-/// How many rows a file has of a shard that was interrupted, and they with their header.
+/// Number of rows in the file of an interrupted shard, and these with their header.
 fn unfinished(path: &Path, label: Label, of: &Range<usize>) -> Option<(usize, String)> {
     // what is no file may never end
     let text = path.is_file().then(|| fs::read_to_string(path).ok())??;

@@ -57,7 +57,7 @@ impl View {
     }
 }
 
-/// What only a mechanism file can have was asked for without one.
+/// Error where a mechanism file is needed and none is named.
 fn nameless(why: &str) -> Refusal {
     Complaint::new(why)
         .help("name the mechanism file: `linkwork view FILE …`")

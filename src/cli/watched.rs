@@ -57,12 +57,12 @@ pub fn watched<R>(work: impl FnOnce(&Watch) -> R) -> R {
     result
 }
 
-/// How often Ctrl-C was pressed since the first long work began.
+/// Number of times Ctrl-C was pressed since the first long work began.
 pub fn interruptions() -> usize {
     INTERRUPTIONS.load(Ordering::Relaxed)
 }
 
-/// Whether work that is not done ends, as Ctrl-C was pressed more than so many times.
+/// True if unfinished work ends, as Ctrl-C was pressed more than so many times.
 pub fn cuts_short(before: usize) -> bool {
     let pressed = interruptions() > before;
     if pressed {
@@ -71,7 +71,7 @@ pub fn cuts_short(before: usize) -> bool {
     pressed
 }
 
-/// Whether any work ended so: where Ctrl-C came later the answer is whole.
+/// True if any work was cut short: where Ctrl-C came later the answer is whole.
 pub fn was_cut_short() -> bool {
     CUT_SHORT.load(Ordering::Relaxed)
 }

@@ -14,7 +14,7 @@ use super::words::question::{
     driven_complaint, frame_names, load_complaint, meant, no_point, no_quantity, quoted,
 };
 
-/// What ranges are for, which decides the words.
+/// Use of ranges, which decides the words.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Ranged {
     Input,
@@ -37,7 +37,7 @@ impl Ranged {
 const ONE_OF_THEM: &str = "give only one of them";
 const COARSER: &str = "give a coarser --grid, or map a part of the box at a time";
 
-/// What is wrong with a question, and with which part of the option that says so, if one does. `hold_released` writes
+/// The error in a question, and the part of its option that it is in, if it is in one. `hold_released` writes
 /// the options that hold coordinates beside free inputs.
 pub fn complaint(
     mechanism: &Mechanism,

@@ -1,4 +1,4 @@
-//! What is written beside an answer: rows as they come, and pictures.
+//! Output beside an answer: rows as they come, and pictures.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -41,7 +41,7 @@ impl Lines {
         }
     }
 
-    /// Whether somebody still reads.
+    /// True while there is a reader.
     pub fn open(&self) -> bool {
         self.failed.is_none()
     }
@@ -141,7 +141,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-/// The same where there is no answer without it. What is there already and no ordinary file, such as a device, is
+/// Saves a file without which there is no answer. A place that exists and is no ordinary file, such as a device, is
 /// written to.
 pub fn save(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
     let written = match std::fs::metadata(path) {
@@ -152,7 +152,7 @@ pub fn save(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
     written.map_err(|error| Refusal::error(said(error)))
 }
 
-/// What goes to stdout of a text: all, or nothing where it is written to a file.
+/// The text for stdout: all of it, or nothing if it is written to a file.
 pub fn written(text: String, file: Option<&Path>) -> Result<String, Refusal> {
     let Some(path) = file else {
         return Ok(text);

@@ -15,14 +15,14 @@ use super::unroll::{Unrolled, describe};
 use super::urdf;
 use crate::description::{Convention, Description, LoadError, load_text, nearest};
 
-/// How a file is read.
+/// Settings of an import.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportSettings {
     /// The convention of the tables.
     pub convention: Convention,
     /// Links and sites whose frames are kept under their names.
     pub frames: Vec<String>,
-    /// Whether the frames of all links and sites are kept.
+    /// True if the frames of all links and sites are kept.
     pub all_frames: bool,
     /// Folders beside that of the model from which included files may be read.
     pub include_from: Vec<PathBuf>,
@@ -39,7 +39,7 @@ pub struct Imported {
     pub links: Vec<String>,
 }
 
-/// Why a file of another program could not be read.
+/// Reasons for which a file of another program could not be read.
 #[derive(Debug, Error)]
 pub enum ImportError {
     /// The file could not be opened, or is not text.
@@ -81,7 +81,7 @@ pub fn load(
     import(&name, &text, &files, loops, settings).map_err(ImportError::Wrong)
 }
 
-/// Whether a file lies in one of these folders, links followed. Of a file that does not exist the folder decides.
+/// True if a file lies in one of these folders, links followed. Of a file that does not exist the folder decides.
 fn is_within(path: &Path, folder: &Path, more: &[PathBuf]) -> bool {
     let resolved = |path: &Path| match path.as_os_str().is_empty() {
         true => Path::new(".").canonicalize(),
@@ -94,7 +94,7 @@ fn is_within(path: &Path, folder: &Path, more: &[PathBuf]) -> bool {
     allowed.any(|folder| resolved(folder).is_ok_and(|folder| place.starts_with(folder)))
 }
 
-/// The same for a text; `files` reads the files it includes.
+/// Imports a text; `files` reads the files it includes.
 ///
 /// # Errors
 /// If the text has problems.

@@ -16,7 +16,7 @@ pub(super) struct Names {
     /// The frames on each body: the name requested, the place, the name given. Frames of bodies, sites and closures that are
     /// called alike are the same only where they are in the same place.
     frames: HashMap<usize, Vec<(String, Pose<f64>, String)>>,
-    /// What had to be renamed.
+    /// Renamed elements.
     pub renamed: Vec<Remark>,
 }
 

@@ -90,7 +90,7 @@ fn next_char(text: &str, start: usize) -> usize {
         .map_or(start, |c| start + c.len_utf8())
 }
 
-/// Where the start tag of an element stands.
+/// Place of the start tag of an element.
 pub(super) fn tag(node: Node) -> Range<usize> {
     let range = node.range();
     let text = node.document().input_text();
@@ -98,7 +98,7 @@ pub(super) fn tag(node: Node) -> Range<usize> {
     range.start..end.max(range.start)
 }
 
-/// Where the value of an attribute stands.
+/// Place of the value of an attribute.
 fn value_span(node: Node, name: &str) -> Range<usize> {
     let found = node.attribute_node(name);
     found.map_or_else(|| tag(node), |attribute| attribute.range_value())
@@ -231,7 +231,7 @@ impl Problems {
         found.map(|(_, meaning)| *meaning)
     }
 
-    /// What an attribute names, if it was found.
+    /// The object that an attribute names, if it was found.
     pub fn known<'k, T>(
         &mut self,
         found: Option<T>,

@@ -10,7 +10,7 @@ use crate::description::{Lines, joined, listed};
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{kind}")]
 pub struct ImportProblem {
-    /// What is wrong.
+    /// Kind of problem.
     pub kind: ImportProblemKind,
     /// The bytes of the text it concerns; none if it concerns the whole file.
     pub span: Option<Range<usize>>,
@@ -89,7 +89,7 @@ pub enum ImportProblemKind {
     #[error("the axis of joint `{joint}` has no direction")]
     NoAxis {
         joint: String,
-        /// How the format writes an axis.
+        /// Example of an axis as the format writes it.
         example: &'static str,
     },
     /// A quaternion or a pair of axes that gives no orientation.

@@ -147,7 +147,7 @@ pub enum Remark {
 }
 
 impl Remark {
-    /// Whether something of the mechanism is missing in the file.
+    /// True if a part of the mechanism is missing in the file.
     pub fn is_loss(&self) -> bool {
         matches!(
             self,

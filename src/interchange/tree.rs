@@ -4,7 +4,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::number::real;
 
-/// How a joint moves its body.
+/// Motion of a body by its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// About its axis by an angle in rad.
@@ -22,7 +22,7 @@ pub enum Motion {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// How it moves.
+    /// Its motion.
     pub motion: Motion,
     /// The unit direction of its axis in the body; meaningless if it has no axis.
     pub axis: Vector3<f64>,
@@ -34,7 +34,7 @@ pub struct Joint {
     pub home: f64,
     /// Lowest and highest value.
     pub limits: Option<(f64, f64)>,
-    /// Whether it is driven.
+    /// True if it is driven.
     pub actuated: bool,
 }
 
@@ -125,7 +125,7 @@ impl Body {
         }
     }
 
-    /// Whether the body has a ball or free joint.
+    /// True if the body has a ball or free joint.
     pub(super) fn floats(&self) -> bool {
         self.joints.iter().any(|joint| joint.motion.floats())
     }

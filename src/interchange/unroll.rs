@@ -92,7 +92,7 @@ pub(super) fn describe(
     })
 }
 
-/// Where a body that moves by rows is: its chain and its last row; the pose of that link frame at the references.
+/// Position of a body that moves by rows: its chain and its last row; the pose of that link frame at the references.
 #[derive(Clone)]
 struct Placed {
     chain: usize,
@@ -135,7 +135,7 @@ fn sum(constant: &Entry, terms: &[(String, f64)]) -> Entry {
     Expression::sum(terms.chain([(1.0, &constant.expression)])).into()
 }
 
-/// Whether a pose can be left out because it is the identity.
+/// True if a pose can be left out because it is the identity.
 fn is_identity(pose: &Pose<f64>) -> bool {
     Displacement::of_pose(pose).is_empty()
 }

@@ -28,7 +28,7 @@ struct ResolvedChain {
     name: String,
     doubtful: bool,
     on: Option<Frame>,
-    /// Whether it is attached to itself through other chains.
+    /// True if it is attached to itself through other chains.
     in_ring: bool,
     convention: description::Convention,
     base: Vec<FixedStep>,
@@ -82,7 +82,7 @@ impl Mechanism {
         Mechanism::read_within(path, MAX_BYTES)
     }
 
-    /// The same for a file of at most so many bytes.
+    /// As [`Mechanism::read`], for a file of at most so many bytes.
     ///
     /// # Errors
     /// If the file cannot be read or is not well formed; then with all its problems.

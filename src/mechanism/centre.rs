@@ -92,7 +92,7 @@ impl Mechanism {
         }
     }
 
-    /// The same place from the centre.
+    /// A position in ground as one from the centre.
     pub(crate) fn to_centre<T: Number>(&self, place: Vector3<T>) -> Vector3<T> {
         match self.dimensions.centre == [0.0; 3] {
             true => place,

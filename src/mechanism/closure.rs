@@ -47,7 +47,7 @@ pub struct Closure<T> {
     inverse_length: f64,
 }
 
-/// How much of the poses of its two frames the rows of a closure use.
+/// Parts of the poses of its two frames that the rows of a closure use.
 pub(crate) fn needs(kind: ClosureKind, kept: &Kept) -> [Need; 2] {
     match kind.conditions().axes {
         _ if only_points(kind, kept) => [Need::Position; 2],
@@ -58,7 +58,7 @@ pub(crate) fn needs(kind: ClosureKind, kept: &Kept) -> [Need; 2] {
     }
 }
 
-/// Whether all rows of a closure that are evaluated are components of its gap.
+/// True if all rows of a closure that are evaluated are components of its gap.
 fn only_points(kind: ClosureKind, kept: &Kept) -> bool {
     kind.conditions().origins && !kept[3..kind.equations()].contains(&true)
 }
@@ -119,7 +119,7 @@ impl<T: Number> Closure<T> {
         joints.into_iter().collect()
     }
 
-    /// Whether a joint variable occurs in the length of the closure.
+    /// True if a joint variable occurs in the length of the closure.
     pub(crate) fn extends_with(&self, joint: usize) -> bool {
         self.extension.0.iter().any(|(j, _)| *j == joint)
     }
@@ -192,7 +192,8 @@ impl<T: Number> Closure<T> {
         all
     }
 
-    /// What vanishes besides where the axes point the same way: a·b − 1, or the trace − 3.
+    /// Expression that, beside the conditions, vanishes only where the axes point the same way: a·b − 1, or the trace −
+    /// 3.
     pub(crate) fn alignment(&self, placement: &Placement<T>) -> Option<T> {
         let [a, b] = self.frames(placement);
         match self.kind.conditions().axes {

@@ -93,7 +93,7 @@ impl<T> Configuration<T> {
 }
 
 impl<T: Number> Configuration<T> {
-    /// The same configuration over another number.
+    /// The configuration over another number.
     pub fn map<U: Number>(&self, mut f: impl FnMut(T) -> U) -> Configuration<U> {
         Configuration {
             joints: self.joints.iter().map(|&x| f(x)).collect(),

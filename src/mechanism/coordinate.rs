@@ -23,7 +23,7 @@ words! {
 }
 
 impl PoseCoordinate {
-    /// Whether it is an angle, in rad; otherwise a length, in m.
+    /// True if it is an angle, in rad; otherwise it is a length, in m.
     pub fn is_angle(self) -> bool {
         matches!(self, Self::Roll | Self::Pitch | Self::Yaw)
     }

@@ -46,7 +46,7 @@ pub struct RowDimensions<T> {
 }
 
 impl<T> RowDimensions<T> {
-    /// Whether a joint variable occurs in the row.
+    /// True if a joint variable occurs in the row.
     pub fn moves(&self) -> bool {
         !self.turn.0.is_empty() || !self.slide.0.is_empty()
     }
@@ -105,7 +105,7 @@ impl<T> Dimensions<T> {
         Pose::translation(Vector3(self.centre.map(|x| T::zero() - T::from_f64(x))))
     }
 
-    /// The same dimensions over another number, as constants.
+    /// The dimensions over another number, as constants.
     pub fn map<U>(&self, mut lift: impl FnMut(T) -> U) -> Dimensions<U>
     where
         T: Number,
@@ -159,7 +159,7 @@ impl<T> Dimensions<T> {
         self.joint_scales.push(self.joint_scales[joint]);
     }
 
-    /// The same dimensions with a link or tip frame as ground; only the frames that it carries keep their place.
+    /// The dimensions with a link or tip frame as ground; only the frames that it carries keep their place.
     pub(super) fn standing_on(&self, frame: Frame) -> Dimensions<T>
     where
         T: Number,

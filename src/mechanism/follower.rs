@@ -13,7 +13,7 @@ pub struct Follower {
     pub offset: f64,
     /// Its motion for a unit of the joint.
     pub factor: f64,
-    /// Whether it is an angle or a length.
+    /// Angle or length.
     pub measure: Measure,
 }
 
@@ -30,7 +30,7 @@ impl Follower {
 }
 
 impl Mechanism {
-    /// What the output of that name follows, if it follows one joint; none for the name of a joint.
+    /// The joint that an output follows, if it follows one; none for the name of a joint.
     pub fn follower(&self, name: &str) -> Option<Follower> {
         if self.joint(name).is_some() {
             return None;

@@ -60,7 +60,7 @@ impl Mechanism {
         &self.closures
     }
 
-    /// Whether a closure is a rod with a ball at each end.
+    /// True if a closure is a rod with a ball at each end.
     pub(crate) fn has_rods(&self) -> bool {
         let mut closures = self.closures.iter();
         closures.any(|closure| closure.kind.has_length())
@@ -81,7 +81,7 @@ impl Mechanism {
         self.coordinates.as_deref()
     }
 
-    /// Whether the file itself names this frame; tables made of joint coordinates have frames of their own besides.
+    /// True if the file itself names this frame; tables made of joint coordinates have frames of their own besides.
     pub fn is_given(&self, frame: &str) -> bool {
         self.coordinates().is_none_or(|made| made.axes.names(frame))
     }
@@ -205,13 +205,13 @@ impl Mechanism {
         poses.try_into().expect("one for each frame")
     }
 
-    /// The same for any number of frames.
+    /// Poses of any number of frames.
     pub fn placed(&self, frames: &[Frame], at: &Configuration<f64>) -> Vec<Pose<f64>> {
         let poses = self.poses_about_centre(frames, at).into_iter();
         poses.map(|pose| self.shifted(pose)).collect()
     }
 
-    /// The same with positions from the centre, to which differences belong.
+    /// Poses of frames with positions from the centre, for differences of positions.
     pub(crate) fn poses_about_centre(
         &self,
         frames: &[Frame],
@@ -350,7 +350,7 @@ pub(super) fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> 
 }
 
 impl Row {
-    /// Whether a joint variable occurs in the row.
+    /// True if a joint variable occurs in the row.
     pub(crate) fn moves(&self) -> bool {
         let mut joints = joints_of(&self.theta).chain(joints_of(&self.d));
         joints.next().is_some()

@@ -93,8 +93,8 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
 }
 
 impl Mechanism {
-    /// What turns with the x axis along the link of a row of a chain, counted from 0. `None` if something else is
-    /// written in the frame that turns: a closure that its x axis affects, or a closed form.
+    /// The parts that turn with the x axis along the link of a row of a chain, counted from 0. `None` if something else
+    /// is written in the frame that turns: a closure that its x axis affects, or a closed form.
     fn turned_with(&self, chain: usize, row: usize) -> Option<Turned> {
         let rows = self.chains[chain].rows.len();
         let (turning, beside) = match self.chains[chain].convention {

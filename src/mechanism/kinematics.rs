@@ -62,7 +62,7 @@ impl<T: Number> Kinematics<T> {
         Kinematics::needing(dimensions, frames.into_iter().map(|f| (f, Need::Pose)))
     }
 
-    /// The same, with only the needed part of each frame's pose evaluated.
+    /// As [`Kinematics::new`], with only the needed part of each frame's pose evaluated.
     pub(crate) fn needing(
         dimensions: &Dimensions<T>,
         frames: impl IntoIterator<Item = (Frame, Need)>,
@@ -85,7 +85,7 @@ impl<T: Number> Kinematics<T> {
         plan
     }
 
-    /// The same plan over another number, for which constants are what they are for this one.
+    /// The plan over another number, with the constants of this one.
     pub(super) fn map<U>(&self, lift: impl Fn(T) -> U + Copy) -> Kinematics<U> {
         let form = |form: &LinearForm<T>| {
             let terms = form.0.iter().map(|&(joint, factor)| (joint, lift(factor)));
@@ -235,7 +235,7 @@ impl<T: Number> Kinematics<T> {
         self.place_chains(&at.joints, placement);
     }
 
-    /// The same, with platforms of given poses.
+    /// As [`Kinematics::place`], with platforms at given poses.
     pub(crate) fn place_on(
         &self,
         platforms: &[Pose<T>],

@@ -13,7 +13,7 @@ use crate::number::sorting::sort_by_key;
 #[derive(Clone, Copy)]
 pub(crate) struct Letters<'a>(pub &'a Mechanism);
 
-/// How many letters a platform's pose has: n, s, a and p.
+/// Number of letters of a platform's pose: n, s, a and p.
 const OF_POSE: usize = 12;
 
 impl Letters<'_> {
@@ -74,7 +74,7 @@ impl Letters<'_> {
         self.values_at(&self.0.home())
     }
 
-    /// The same elsewhere, over any number.
+    /// The values of all letters but local names at a configuration, over any number.
     pub fn values_at<T: Number>(&self, at: &Configuration<T>) -> Vec<T> {
         let parameters = self.0.parameters().iter();
         let parameters = parameters.map(|parameter| T::from_f64(parameter.value));
@@ -229,7 +229,7 @@ impl<'a> Formal<'a> {
     }
 }
 
-/// How a frame moves for a unit rate of a joint variable.
+/// Twist of a frame for a unit rate of a joint variable.
 pub(crate) struct Twist {
     pub joint: usize,
     pub omega: Vector3<Symbolic>,
@@ -240,7 +240,7 @@ pub(crate) struct ClosureInLetters {
     pub gap: Vector3<Symbolic>,
     pub length: Symbolic,
     pub conditions: Vec<Symbolic>,
-    /// What vanishes besides where the axes point the same way.
+    /// Expression that, beside the conditions, vanishes only where the axes point the same way.
     pub alignment: Option<Symbolic>,
 }
 

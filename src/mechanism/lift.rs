@@ -21,7 +21,7 @@ pub(super) fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T,
     })
 }
 
-/// What all parts give. Collecting results does not know their number, and allocates again as they grow.
+/// The results for all parts. Collecting results does not know their number, and allocates again as they grow.
 fn each<A, B>(
     parts: &[A],
     mut over: impl FnMut(&A) -> Result<B, EvaluationError>,
@@ -114,7 +114,7 @@ impl Mechanism {
         self.dimensions_about(self.dimensions.centre, parameters)
     }
 
-    /// The same with positions from another centre, in m.
+    /// As [`Mechanism::dimensions_over`], with positions from another centre, in m.
     pub(super) fn dimensions_about<T: Number>(
         &self,
         centre: [f64; 3],
@@ -156,8 +156,8 @@ impl Mechanism {
         Ok(dimensions)
     }
 
-    /// The same mechanism with the characteristic length that belongs to its dimensions and to lengths that are held,
-    /// in m; `None` if it has that already.
+    /// The mechanism with the characteristic length of its dimensions and of held lengths, in m; `None` if it has that
+    /// already.
     ///
     /// Within a factor of ten of the file's own characteristic length the file's is kept, so that figures
     /// for different values of the inputs can be compared.
@@ -173,7 +173,7 @@ impl Mechanism {
         (length != self.dimensions.characteristic_length).then(|| self.clone().measured(length))
     }
 
-    /// The same mechanism with a characteristic length, in m.
+    /// The mechanism with another characteristic length, in m.
     pub(super) fn measured(mut self, length: f64) -> Self {
         measure(Arc::make_mut(&mut self.dimensions), length, &self.joints);
         self
@@ -219,9 +219,9 @@ impl Mechanism {
     }
 }
 
-/// How far the bases of chains on the ground are from the origin; where those of one part of the mechanism all lie to one
-/// side of it, from the nearest place of the box round them. Where a drawing has its origin is no dimension, nor how far
-/// apart parts are that have nothing to do with one another.
+/// Distances of the bases of chains on the ground from the origin; where those of one part of the mechanism all lie to
+/// one side of it, from the nearest place of the box round them. The origin of a drawing is no dimension, nor is the
+/// distance between parts that have nothing to do with one another.
 fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64> {
     let places = places_on_ground(dimensions);
     let part = |of: usize| {

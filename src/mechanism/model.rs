@@ -31,12 +31,12 @@ pub struct Parameter {
     pub value: f64,
     /// Its dimension, as far as the units in its definition determine it.
     pub measure: Measure,
-    /// Whether nothing in its definition says in what unit it is if it is an angle.
+    /// True if nothing in its definition shows its unit, should it be an angle.
     pub bare: bool,
 }
 
 words! {
-    /// How a joint moves.
+    /// Kind of motion of a joint variable.
     JointKind {
         /// Revolute: the variable is an angle in rad and occurs in `theta` only.
         Revolute = "revolute",
@@ -52,7 +52,7 @@ words! {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Whether it is driven.
+    /// Actuated or passive.
     pub role: Role,
     /// Its kind, inferred from the columns in which its variable occurs.
     pub kind: JointKind,
@@ -63,14 +63,14 @@ pub struct Joint {
 }
 
 impl JointKind {
-    /// Whether the variable is an angle (rad); otherwise a length (m).
+    /// True if the variable is an angle (rad); otherwise it is a length (m).
     pub fn is_angle(self) -> bool {
         self != JointKind::Prismatic
     }
 }
 
 impl Joint {
-    /// Whether a value is within the limits, where there are any. An angle counts modulo a turn.
+    /// True if a value is within the limits, where there are any. An angle counts modulo a turn.
     pub fn allows(&self, value: f64) -> bool {
         // what a solver returns for a joint held at its limit may be off by rounding
         const ROUNDING: f64 = 1e-9;
@@ -130,7 +130,7 @@ pub struct Chain {
 /// The home of a joint, and its lowest and highest value.
 pub(crate) type JointHome = (Formula, Option<[Formula; 2]>);
 
-/// Where joints and platforms are at home, and the limits of joints, as written.
+/// Home values of joints and platforms, and the limits of joints, as written.
 #[derive(Clone, Debug)]
 pub(crate) struct Homes {
     pub joints: Vec<JointHome>,
@@ -167,7 +167,7 @@ pub struct Closure {
 pub struct ClosedForm {
     /// Its name.
     pub name: String,
-    /// Where it is printed.
+    /// Publication in which it is printed.
     pub source: Option<String>,
     /// Local names with their definitions, each after those it uses.
     pub locals: Vec<(String, Formula)>,

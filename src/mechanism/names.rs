@@ -16,7 +16,7 @@ pub(super) struct Names<'a> {
     chains: HashMap<&'a str, usize>,
     platforms: HashMap<&'a str, usize>,
     description: &'a Description,
-    /// How many unknown names are compared with all others to find a suggestion.
+    /// Number of unknown names still to be compared with all others for a suggestion.
     suggestions: Cell<usize>,
 }
 

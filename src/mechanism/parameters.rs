@@ -58,8 +58,9 @@ impl Mechanism {
         Ok(values.into_iter().map(|v| v.unwrap_or(T::zero())).collect())
     }
 
-    /// The same mechanism with other values of some parameters, by their indices, in m or rad or without unit: what depends
-    /// on them, homes and limits too, has the value of its definition there. Nothing is read or resolved again; the
+    /// The mechanism with other values of some parameters, by their indices, in m or rad or without unit: homes, limits
+    /// and whatever else depends on them take the values of their definitions there. Nothing is read or resolved again;
+    /// the
     /// warnings are those of the file.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
-//! Whether a mechanism moves in a plane.
+//! Planar mechanisms: the plane of motion.
 
 use super::{ClosureKind, Convention, Frame, Mechanism};
 use crate::geometry::Vector3;
 
-/// How far from 0 or 1 the cosine between axes may be that are perpendicular or parallel.
+/// Largest distance from 0 or 1 of the cosine between axes that count as perpendicular or parallel.
 const STRAIGHT: f64 = 1e-9;
 
 impl Mechanism {

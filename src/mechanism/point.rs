@@ -10,7 +10,7 @@ use crate::number::Number;
 pub struct Point {
     /// The frame.
     pub frame: Frame,
-    /// Where it is in the frame, in m.
+    /// Its position in the frame, in m.
     pub offset: [f64; 3],
 }
 
@@ -35,7 +35,7 @@ impl NamedPoint {
     }
 }
 
-/// Why a text is not a point.
+/// Reasons for which a text is not a point.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs)]
 pub enum PointError {
@@ -88,12 +88,12 @@ impl Point {
         Ok(Point { frame, offset })
     }
 
-    /// Whether it is the origin of its frame.
+    /// True for the origin of its frame.
     pub fn is_origin(&self) -> bool {
         self.offset == [0.0; 3]
     }
 
-    /// Where it is when its frame has this pose.
+    /// Its position if its frame has this pose.
     #[inline]
     pub fn placed<T: Number>(&self, pose: &Pose<T>) -> Vector3<T> {
         match self.is_origin() {
@@ -102,7 +102,7 @@ impl Point {
         }
     }
 
-    /// Where it is in ground, in m.
+    /// Its position in ground, in m.
     pub fn at(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> Vector3<f64> {
         self.placed(&mechanism.poses([self.frame], at)[0])
     }

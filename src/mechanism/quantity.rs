@@ -10,7 +10,7 @@ use crate::description::nearest;
 /// A quantity with its unit, which is known before it is evaluated anywhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Its value in SI units and rad.
     pub expression: Expression<Measured>,
@@ -18,7 +18,7 @@ pub struct Quantity {
     pub unit: SiUnit,
 }
 
-/// What a name in a quantity stands for.
+/// Meaning of a name in a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measured {
     /// The parameter of that index.
@@ -41,7 +41,7 @@ pub enum Measured {
     Figure(Figure),
 }
 
-/// How often a coordinate is differentiated by time.
+/// Order of differentiation by time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Order {
     /// The coordinate itself.
@@ -63,14 +63,14 @@ words! {
         Manipulability = "manipulability",
         /// Least singular value of the closures with the inputs at rest.
         Direct = "distance:direct",
-        /// The same with the outputs at rest.
+        /// Least singular value of the closures with the outputs at rest.
         Inverse = "distance:inverse",
-        /// The same with nothing held.
+        /// Least singular value of the closures with nothing held.
         Constraint = "distance:constraint",
     }
 }
 
-/// Why a text is not a quantity.
+/// Reasons for which a text is not a quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum QuantityError {
@@ -95,7 +95,7 @@ const TRANSMISSION: &str = "transmission";
 const CURVATURE: &str = "curvature";
 
 impl Figure {
-    /// Whether it is the distance from singularities of a kind.
+    /// True for a distance from singularities.
     pub fn is_distance(self) -> bool {
         matches!(self, Figure::Direct | Figure::Inverse | Figure::Constraint)
     }
@@ -156,7 +156,7 @@ impl Quantity {
         })
     }
 
-    /// What its names stand for.
+    /// Meanings of its names.
     pub fn measured(&self) -> impl Iterator<Item = &Measured> {
         self.expression.names().map(|(measured, _)| measured)
     }
@@ -179,7 +179,7 @@ impl Quantity {
 }
 
 impl Measured {
-    /// What a name stands for: a joint, a parameter, a coordinate of a point, `left.x`, `top.yaw` or
+    /// Resolves a name: a joint, a parameter, a coordinate of a point, `left.x`, `top.yaw` or
     /// `[left+0.5,0.2].y`, of the only platform also by its word alone; a rate, `velocity:l1`, `velocity:top.x`,
     /// `acceleration:left`; the curvature of a path, `curvature:left`; a force, `force:l1`; `transmission`, or `transmission:B` of the loop of closure B; a
     /// [`Figure`].
@@ -287,7 +287,7 @@ fn coordinate(
     Some(point(mechanism, of).map(|point| Measured::Place(point, coordinate, order)))
 }
 
-/// What of the motion of a joint, a coordinate, or a point a kind is: a rate, or the curvature of a path.
+/// Resolves a rate or a curvature of a kind, of a joint, a coordinate or a point.
 fn moving(mechanism: &Mechanism, kind: &str, name: &str) -> Option<Result<Measured, PointError>> {
     if kind == CURVATURE {
         return Some(point(mechanism, name).map(Measured::Curvature));

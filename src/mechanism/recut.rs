@@ -1,4 +1,4 @@
-//! The same mechanism broken at other joints, so that only joint variables are unknown.
+//! A mechanism broken at other joints, so that only joint variables are unknown.
 //!
 //! A platform that hangs on balls alone is replaced by the distances between their centres. Any other is carried by
 //! the joint of one of its closures. A chain that ends in a rigid closure is broken at a joint near its middle instead,
@@ -54,12 +54,12 @@ impl Carried {
         }
     }
 
-    /// Whether the pitch covers half a turn only, because yaw and roll go all the way round.
+    /// True if the pitch covers half a turn only, because yaw and roll go all the way round.
     pub fn halves_pitch(&self) -> bool {
         self.freedoms().contains(&PoseCoordinate::Roll)
     }
 
-    /// What comes after the variables: the axes of a universal joint are perpendicular.
+    /// Pose after the variables: the axes of a universal joint are perpendicular.
     fn last<T: Number>(&self) -> Pose<T> {
         match self.kind {
             Some(ClosureKind::Universal) => Pose::rotation(Axis::X, T::degrees(90.0)),
@@ -236,8 +236,8 @@ impl<T: Number> Recut<T> {
         true
     }
 
-    /// Which open platform is carried next, as a place among them, and by which closure: that which leaves it the least
-    /// freedom.
+    /// The open platform to be carried next, as a place among them, with the closure that carries it: the one that
+    /// leaves it the least freedom.
     fn next(&self, of: &Dimensions<T>, open: &[usize]) -> (usize, Option<usize>) {
         let mut best = (0, None);
         let mut most = 0;

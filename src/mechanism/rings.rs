@@ -14,8 +14,8 @@ use crate::number::real;
 type Ball = (usize, usize);
 
 impl Mechanism {
-    /// The same place of all bodies but rings with every combination of the sets of angles that balls have; the
-    /// configuration itself comes first.
+    /// The configuration, then those with every other combination of the two sets of angles of balls: all bodies but
+    /// rings keep their poses.
     pub fn sets_of_angles(&self, at: &Configuration<f64>) -> Vec<Configuration<f64>> {
         let mut sets = vec![at.clone()];
         for ball in self.balls() {

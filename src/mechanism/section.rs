@@ -43,7 +43,7 @@ impl Mechanism {
         self.with_slides(&point.name, point.point, vec![base], &slides)
     }
 
-    /// Whether a joint is a coordinate of a point ([`Mechanism::with_coordinates_of`]): no other name has a dot.
+    /// True if a joint is a coordinate of a point ([`Mechanism::with_coordinates_of`]): no other name has a dot.
     pub fn is_of_point(&self, joint: usize) -> bool {
         self.joints[joint].name.contains('.')
     }
@@ -53,18 +53,18 @@ impl Mechanism {
         joints.filter(|&joint| self.is_of_point(joint)).count() / 3
     }
 
-    /// How many chains and closures there are but for those that make coordinates of points joints, which come last.
+    /// Numbers of chains and closures but for those that make coordinates of points joints, which come last.
     pub fn own_parts(&self) -> [usize; 2] {
         let points = self.points_as_joints();
         [self.chains.len() - 2 * points, self.closures.len() - points]
     }
 
-    /// How many unknowns and equations, of equal number and independent, make coordinates of points joints.
+    /// Number of unknowns, and of as many independent equations, that make coordinates of points joints.
     pub fn slides_of_points(&self) -> usize {
         3 * self.points_as_joints()
     }
 
-    /// Whether a body is one of the slides that make coordinates of a point joints.
+    /// True if a body is one of the slides that make coordinates of a point joints.
     pub fn is_slide_of_point(&self, body: Body) -> bool {
         let Body::Link { chain, .. } = body else {
             return false;

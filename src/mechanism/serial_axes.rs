@@ -9,7 +9,7 @@
 //! The modified row k is (α_{k−1}, a_{k−1}, d_k, θ_k), the standard row k is (θ_k, d_k, a_k, α_k).
 //! z_k points along the given direction of axis k, so a joint's variable keeps its sense.
 //!
-//! Where the axes leave a choice, the entry concerned becomes zero at the variable's zero:
+//! If the axes leave a choice, the entry concerned becomes zero at the variable's zero:
 //!
 //! | axes k, k + 1 | choice |
 //! |---|---|
@@ -66,12 +66,12 @@ impl JointAxis {
         }
     }
 
-    /// How far the variable turns and slides at home, in rad and m.
+    /// Turn and travel of the variable at home, in rad and m.
     pub(super) fn home_motion(&self) -> (f64, f64) {
         (self.turn * self.home, self.slide * self.home)
     }
 
-    /// Whether the joint is prismatic, so that its axis has no position.
+    /// True if the joint is prismatic, so that its axis has no position.
     pub fn is_prismatic(&self) -> bool {
         self.turn == 0.0
     }

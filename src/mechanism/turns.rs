@@ -31,7 +31,7 @@ pub(crate) fn principal(angle: f64, rounding: f64) -> f64 {
 }
 
 impl Mechanism {
-    /// Whether a full turn of the joint leaves every frame where it is: not if it also slides, or if
+    /// True if a full turn of the joint leaves every frame where it is; false if it also slides, or if
     /// its variable turns some row by a fraction.
     pub fn repeats(&self, joint: usize) -> bool {
         self.cycles[joint] == Some(1.0)

@@ -142,7 +142,7 @@ impl From<&Value> for Value {
     }
 }
 
-/// What is wrong with a value.
+/// Errors of a value.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum ValueError {
@@ -164,7 +164,7 @@ pub enum ValueError {
 }
 
 impl ValueError {
-    /// The same problem in a file, for a number or an expression.
+    /// The error as a problem of a file, for a number or an expression.
     pub(super) fn problem(&self) -> Option<ProblemKind> {
         Some(match self {
             ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
@@ -197,7 +197,7 @@ pub fn number_of(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f
     Ok(read(mechanism, text, wanted)?.0)
 }
 
-/// The same, with what is wrong with it if it is an angle without unit.
+/// The value, with the problem of an angle without unit.
 fn read(
     mechanism: &Mechanism,
     text: &str,

@@ -32,10 +32,10 @@ impl Colour {
     }
 }
 
-/// How an outline is drawn.
+/// Style of an outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
-    /// What it is filled with, and how much of it covers what is below, from 0 to 1.
+    /// Fill colour, and its opacity from 0 to 1.
     pub fill: Option<(Colour, f64)>,
     /// The line round it, and how wide that is.
     pub stroke: Option<(Colour, f64)>,
@@ -58,7 +58,7 @@ impl Style {
         }
     }
 
-    /// The same with a line round it.
+    /// Adds a line round it.
     pub(crate) fn edged(self, colour: Colour, width: f64) -> Self {
         Style {
             stroke: Some((colour, width)),
@@ -74,14 +74,14 @@ impl Style {
     }
 }
 
-/// Which part of words is at their place.
+/// Part of a text that is at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Where they begin.
+    /// Its beginning.
     Start,
     /// Their middle.
     Middle,
-    /// Where they end.
+    /// Its end.
     End,
 }
 
@@ -92,9 +92,9 @@ pub enum Shape {
     Outline {
         /// The points.
         points: Vec<Pixel>,
-        /// Whether a line leads back to the first.
+        /// True if a line leads back to the first point.
         closed: bool,
-        /// How it is drawn.
+        /// Its style.
         style: Style,
     },
     /// Words on one line.
@@ -105,9 +105,9 @@ pub enum Shape {
         at: Pixel,
         /// Height of the letters.
         size: f64,
-        /// What of them is there.
+        /// Part of the text that is at this place.
         anchor: Anchor,
-        /// Whether they run upwards.
+        /// True if it runs upwards.
         upwards: bool,
     },
 }
@@ -144,7 +144,7 @@ impl Shape {
         }
     }
 
-    /// The same, mixed with white.
+    /// The shape with its colours mixed with white.
     pub(crate) fn faint(mut self, part: f64) -> Self {
         if let Shape::Outline { style, .. } = &mut self {
             for (colour, _) in style.fill.iter_mut().chain(&mut style.stroke) {
@@ -162,7 +162,7 @@ pub struct Canvas {
     pub width: f64,
     /// Pixels down.
     pub height: f64,
-    /// What is in it, the lowest first, on white.
+    /// Its shapes, the lowest first, on white.
     pub shapes: Vec<Shape>,
 }
 

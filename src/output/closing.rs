@@ -17,11 +17,11 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
     }
 }
 
-/// What is least at a closest approach of a mechanism with rods.
+/// Measure that is least at a closest approach of a mechanism with rods.
 pub(super) const SQUARED_LENGTHS: &str = "a rod of length L whose ends are d apart counts as (d² − L²)/2, not as d − L: \
      closest means the least sum of squares of all closure equations";
 
-/// How far the pose given was off.
+/// Gap of the given pose.
 pub(super) fn given(pose: &GivenPose) -> Option<String> {
     let moved = match pose.kept {
         true => "",
@@ -38,7 +38,7 @@ pub(super) fn given(pose: &GivenPose) -> Option<String> {
     })
 }
 
-/// Whether an answer is about the values that the file holds: those of a rounded pose may change a
+/// True if an answer holds for the values in the file: those of a rounded pose may change a
 /// little, but a file that cannot be assembled was answered for another mechanism.
 fn is_about_the_file(pose: &GivenPose, length: f64) -> bool {
     let given = pose.given_gap.as_ref();
@@ -63,12 +63,12 @@ pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
     }
 }
 
-/// How far the pose given was off, and how far guesses moved to an assembly beside them.
+/// Gap of the given pose, and distance of guesses from an assembly beside them.
 pub(super) fn notes(pose: &GivenPose) -> impl Iterator<Item = String> {
     given(pose).into_iter().chain(beside(pose.moved.as_ref()))
 }
 
-/// How far the given pose moved to an assembly near it.
+/// Distance of the given pose from an assembly near it.
 pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
     let moved = moved.filter(|moved| moved.is_small())?;
     let way = way(moved);
@@ -77,7 +77,7 @@ pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
     ))
 }
 
-/// How far the start of a search moved, whether or not it ended beside it.
+/// Distance from the start of a search to its end, near or far.
 pub(super) fn from_start(moved: &Moved) -> String {
     format!(
         "from the given pose {}, more than any other coordinate",

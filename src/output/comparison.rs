@@ -98,7 +98,7 @@ fn largest(form: &FormReport) -> String {
     }
 }
 
-/// What the numbers without unit mean, if there are any.
+/// Meaning of numbers without unit, if there are any.
 fn units(report: &CompareReport) -> String {
     let tried = |quantity| {
         let components = report.closed_forms.iter().flat_map(|form| &form.components);
@@ -122,7 +122,7 @@ fn unit(quantity: Quantity) -> SiUnit {
     }
 }
 
-/// What was proved of a form as a whole: the least that was proved of its components.
+/// Proof of a form as a whole: the weakest of those of its components.
 fn proof(form: &FormReport) -> &'static str {
     let proofs = || form.components.iter().map(|component| &component.proof);
     if proofs().any(|proof| matches!(proof, Proof::Different(_))) {

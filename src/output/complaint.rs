@@ -1,4 +1,4 @@
-//! What is wrong with a question or an option, as data: how it looks is decided where it is shown.
+//! Errors of questions and options, as data: each door words and places them.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ pub struct Given<'a> {
     pub option: &'a str,
     /// The name before the equals sign.
     pub name: &'a str,
-    /// What follows the equals sign, if there is one.
+    /// Text after the equals sign, if there is one.
     pub value: Option<&'a str>,
 }
 
@@ -28,20 +28,20 @@ impl<'a> Given<'a> {
     }
 }
 
-/// What is wrong with something, in words.
+/// An error in words.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Complaint {
-    /// What is wrong, in one sentence without a full stop.
+    /// The error, in one sentence without a full stop.
     pub title: String,
     /// A few words to stand under the offending part; may be empty.
     pub label: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: Option<String>,
-    /// Which part of the option is wrong, if one asked for it.
+    /// Part of the option that is wrong, if an option is.
     pub part: Part,
 }
 
-/// Which part of an option is wrong.
+/// Part of an option.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Part {
     /// The name.
@@ -53,7 +53,7 @@ pub enum Part {
 }
 
 impl Complaint {
-    /// What is wrong.
+    /// A complaint of this title.
     pub fn new(title: impl Into<String>) -> Self {
         Complaint {
             title: title.into(),
@@ -77,7 +77,7 @@ impl Complaint {
         Complaint { help, ..self }
     }
 
-    /// The same about another part of the option than its name.
+    /// Moves the complaint to another part of the option than its name.
     #[must_use]
     pub fn at(self, part: Part) -> Self {
         Complaint { part, ..self }

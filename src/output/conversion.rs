@@ -22,7 +22,7 @@ impl Report for Conversion {
     }
 }
 
-/// What a converted file says differently, in words.
+/// Difference of a converted file, in words.
 pub fn note(note: &ConversionNote) -> String {
     match note {
         ConversionNote::Renamed { from, to } => format!("the frame `{from}` is now `{to}`"),
@@ -48,11 +48,12 @@ pub fn note(note: &ConversionNote) -> String {
     }
 }
 
-/// Where tables cannot be rearranged as they are written, axes can.
+/// Remedy by joint axes, where tables cannot be rearranged as they are written.
 const BY_AXES: &str = "`linkwork frames FILE --format ron` gives the joint axes; with \
      `cut: [\"JOINT\"]` in that file, `linkwork frames` makes tables cut at that joint; ";
 
-/// Why a mechanism is not converted, unless it is what came out that is wrong. `possible` are the joints that can be cut.
+/// Reason for which a mechanism is not converted, unless it is the result that is wrong. `possible` are the joints that
+/// can be cut.
 pub fn complaint(error: &ConvertError, possible: &[String]) -> Complaint {
     let ConvertError::Cut(cut) = error else {
         return Complaint::new(error.to_string());

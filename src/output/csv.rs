@@ -66,14 +66,14 @@ impl<W: Write> Csv<W> {
         Ok(self.writer.write_field(&self.number)?)
     }
 
-    /// Where the rows go.
+    /// Target of the rows.
     pub fn target(&self) -> &W {
         self.writer.get_ref()
     }
 
-    /// What is not written yet goes out.
+    /// Writes the rest to the target and returns it.
     ///
-    /// # Errors
+    /// If it cannot be written.
     /// If it cannot be written.
     pub fn finish(mut self) -> io::Result<W> {
         self.writer.flush()?;

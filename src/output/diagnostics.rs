@@ -17,11 +17,11 @@ use crate::mechanism::Mechanism;
 /// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
 const MAX_WIDTH: usize = 2000;
 
-/// How many characters of a cut line are shown before the offending text, and from its beginning on.
+/// Characters of a cut line shown before the offending text, and from its beginning on.
 const BEFORE: usize = 40;
 const FROM: usize = 60;
 
-/// Whether to use colours.
+/// Plain text or colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Style {
     /// Letters only.
@@ -80,7 +80,7 @@ fn ended(mut problems: Vec<String>, kinds: &[(usize, &str)], path: &str, hidden:
     problems.join("\n\n") + "\n"
 }
 
-/// What is wrong with a file of another program.
+/// Errors of a file of another program.
 pub fn import(wrong: &WrongFile, style: Style) -> String {
     /// More problems are not shown.
     const MAX_SHOWN: usize = 50;
@@ -111,10 +111,10 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
     ended(shown, &[(all, "problem")], name, more)
 }
 
-/// Where something is wrong in a text.
+/// Places of an error in a text.
 struct Places {
     span: Range<usize>,
-    /// What belongs to it, with a few words each.
+    /// Other places that belong to it, with a few words each.
     related: Vec<(Range<usize>, String)>,
 }
 
@@ -193,8 +193,8 @@ impl<'a> Page<'a> {
         )
     }
 
-    /// What stands around the beginning of the offending text, if its line is too long to be shown. The columns are not
-    /// those of the file, so that the place stands beside it.
+    /// The surroundings of the offending text, if its line is too long to be shown. The columns are not those of the
+    /// file, so that the place is given beside it.
     fn cut<'p>(&'p self, complaint: &'p Complaint, span: &Range<usize>) -> Drawn<'p> {
         let line = self.lines.position(span.start).0;
         let window = self.lines.start(line)..self.lines.start(line + 1);
@@ -251,7 +251,7 @@ impl Complaint {
         self.at_level(Level::ERROR, style)
     }
 
-    /// The same as a warning, where there is an answer all the same.
+    /// Renders it as a warning, where there is an answer all the same.
     pub fn render_warning(&self, style: Style) -> String {
         self.at_level(Level::WARNING, style)
     }

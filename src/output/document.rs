@@ -26,23 +26,23 @@ pub(crate) use cells;
 /// quotes; anything else is to be shown as it stands.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Document {
-    /// What it is about: the mechanism's name.
+    /// Title: the mechanism's name.
     pub title: String,
     /// The answer, in a sentence or two; may be empty.
     pub answer: String,
-    /// What qualifies the answer, a line each.
+    /// Notes on the answer, a line each.
     pub notes: Vec<String>,
     /// The answer in detail.
     pub sections: Vec<Section>,
-    /// How the answer was found, a line each: shown last.
+    /// Method by which the answer was found, a line each: shown last.
     pub method: Vec<String>,
-    /// Whether the answer is no.
+    /// True if the answer is no.
     #[serde(skip)]
     pub no: bool,
-    /// What a reader must not overlook, a line each: said beside the document.
+    /// Warnings for the reader, a line each: said beside the document.
     #[serde(skip)]
     pub warnings: Vec<String>,
-    /// What JSON says in words beside the answer.
+    /// Remarks that JSON has in words beside the answer.
     #[serde(skip)]
     pub remarks: Remarks,
 }
@@ -52,11 +52,11 @@ pub struct Document {
 pub struct Section {
     /// The title.
     pub title: String,
-    /// What stands under it, in order.
+    /// Its contents, in order.
     pub blocks: Vec<Block>,
 }
 
-/// What a section is made of.
+/// Part of a section.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Block {
@@ -84,22 +84,22 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// The rows, with as many cells as there are columns.
     pub rows: Vec<Vec<Cell>>,
-    /// Whether it is drawn with lines, as a Denavit–Hartenberg table is.
+    /// True if it is drawn with lines, like a Denavit–Hartenberg table.
     pub ruled: bool,
 }
 
 /// The header of a column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
-    /// What stands in it; may be empty.
+    /// Its title; may be empty.
     pub title: String,
     /// The unit of its numbers, which are then shown without.
     pub unit: SiUnit,
-    /// Where its cells begin or end.
+    /// Alignment of its cells.
     pub align: Align,
 }
 
-/// Where the cells of a column are aligned.
+/// Alignment of the cells of a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Align {
@@ -194,7 +194,7 @@ impl Document {
         sections.into_iter().fold(self, Document::section)
     }
 
-    /// What to read, in order: the sections, then how the answer was found.
+    /// All sections in reading order, with the method last.
     pub(super) fn parts(&self) -> Vec<Section> {
         let method = Section::new("How it was found").list(self.method.clone());
         self.clone().section(method).sections

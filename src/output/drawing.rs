@@ -18,23 +18,23 @@ use crate::number::{real, sorting::sort_by};
 use crate::scene::{BodyShape, Scene, Triple};
 use labels::Labels;
 
-/// How a scene is drawn.
+/// Settings of a drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingSettings {
     /// From where.
     pub view: View,
-    /// Whether joints, rods and platforms are named.
+    /// True if joints, rods and platforms are named.
     pub labels: bool,
 }
 
 /// A scene with what is drawn faintly behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What stands above it.
+    /// Title above it.
     pub title: String,
-    /// What is seen.
+    /// The scene.
     pub scene: Scene,
-    /// The same mechanism in other places.
+    /// Further configurations of the mechanism, drawn faintly.
     pub ghosts: Vec<Scene>,
 }
 
@@ -44,7 +44,7 @@ const HEIGHT: f64 = 520.0;
 const MARGIN: f64 = 60.0;
 /// Pictures side by side, where there are several.
 const COLUMNS: usize = 3;
-/// How much of the colour of what is behind is left.
+/// Opacity of parts that lie behind.
 const FAINT: f64 = 0.3;
 
 /// Colours that people with any colour vision tell apart, from M. Okabe and K. Ito 2008.
@@ -104,7 +104,7 @@ pub fn sheet(panels: &[Panel], settings: &DrawingSettings) -> Canvas {
     canvas
 }
 
-/// The same mechanism in one configuration after the other with their titles, seen from one place.
+/// One mechanism in several configurations, each with its title, seen from one place.
 pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<Canvas> {
     let Some((_, first)) = scenes.first() else {
         return Vec::new();
@@ -153,7 +153,7 @@ impl Fit {
     }
 }
 
-/// What is drawn and where: a scene on its part of the picture.
+/// A scene with its part of the picture.
 struct Stage<'s> {
     scene: &'s Scene,
     camera: Camera,

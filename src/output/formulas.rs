@@ -48,7 +48,7 @@ fn notes(report: &FormulasReport) -> Vec<String> {
     notes
 }
 
-/// Whether the pose of a platform stands in an expression.
+/// True if the pose of a platform stands in an expression.
 fn needs_platform<'e>(
     report: &FormulasReport,
     expressions: impl IntoIterator<Item = &'e Expression>,

@@ -111,7 +111,7 @@ fn simple(way: &CutChoice) -> String {
     format!("{rows} in the longest chain, {entries}{prismatic}")
 }
 
-/// What relation the axes have, in words.
+/// Relation of the axes, in words.
 pub(super) fn relation(relation: Option<Relation>) -> &'static str {
     match relation {
         None => "free",
@@ -124,8 +124,8 @@ pub(super) fn relation(relation: Option<Relation>) -> &'static str {
     }
 }
 
-/// What gives x1 its sense where frame 0 follows it: the coordinates' x, or their y if the axis lies along x, or the axes
-/// themselves where x0 is at a right angle to that.
+/// Direction that gives x1 its sense where frame 0 follows it: the coordinates' x, or their y if the axis lies along x,
+/// or the axes themselves where x0 is at a right angle to that.
 pub(super) fn sense_of_first(chain: &PlacedChain) -> Option<&'static str> {
     let (free, first) = (chain.normals.first()?, chain.normals.get(1)?);
     if chain.starts_at_base || first.relation != Some(Relation::Intersecting) {
@@ -150,7 +150,7 @@ fn choice(normal: &PlacedNormal, k: usize) -> String {
     }
 }
 
-/// Where a decision changed what was given, or stands on an edge.
+/// Remark on a decision that changed the given axes, or is close to the tolerance.
 fn remark(normal: &PlacedNormal) -> Option<String> {
     let found = normal.relation?;
     let off = normal.angle.min(std::f64::consts::PI - normal.angle);
@@ -243,7 +243,7 @@ impl Report for AxesReport {
     }
 }
 
-/// Why the joints of a mechanism are not given by axes.
+/// Reason for which the joints of a mechanism are not given by axes.
 pub fn no_axes(error: &AxesError) -> Complaint {
     let complaint = Complaint::new(error.to_string());
     match error {

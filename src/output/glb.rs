@@ -121,7 +121,7 @@ fn bars(body: &BodyShape) -> Vec<[Point; 2]> {
     }
 }
 
-/// Where something that stretches from z = 0 to 1 goes from end to end, so wide in x and y, without spinning on the way.
+/// Placements of a solid that stretches from z = 0 to 1, from end to end, so wide in x and y, without spin on the way.
 fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>, [x, y]: [f64; 2]) -> Vec<Placed> {
     let mut before: Option<(Point, Quaternion<f64>)> = None;
     let places = ends.map(|[from, to]| {

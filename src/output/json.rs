@@ -6,11 +6,11 @@ use serde_json::Value;
 
 use super::report::{Remarks, Report};
 
-/// What every command prints as JSON: the fields of its report after those of the envelope. Numbers are in SI units and
+/// JSON answer of a command: the fields of its report after those of the envelope. Numbers are in SI units and
 /// rad. A field that both have, the name of the mechanism, stands once.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Answer<R> {
-    /// What stands before the report.
+    /// Fields before the report.
     #[serde(flatten)]
     pub envelope: Envelope,
     /// The report.
@@ -18,7 +18,7 @@ pub struct Answer<R> {
     pub report: R,
 }
 
-/// What every answer begins with.
+/// Fields with which every answer begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Envelope {
     /// The version of the program.

@@ -1,4 +1,4 @@
-//! What an assembled mechanism can do, as a document.
+//! Mobility of an assembled mechanism, as a document.
 
 mod words;
 

@@ -1,4 +1,4 @@
-//! What a mechanism file means, drawn as a lecture draws it, as a document.
+//! Overview of a mechanism file, as a document, drawn as in a lecture.
 
 use super::coordinates as given_coordinates;
 use super::document::{Document, Section, Table, TableOf};

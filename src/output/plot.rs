@@ -16,7 +16,7 @@ use style::{SHAPES, shade, stroke};
 /// A curve in a chart, or points that are marked alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What it is called in the legend.
+    /// Its name in the legend.
     pub label: String,
     /// Its points, those of a curve in order; a gap is a point that is not finite.
     pub points: Vec<(f64, f64)>,
@@ -35,15 +35,15 @@ impl Series {
 /// Values from 0 on a grid, as colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heat {
-    /// Where the grid begins and ends, cells and all.
+    /// Range of the grid to the right, cells included.
     pub x: (f64, f64),
-    /// The same upwards.
+    /// Range of the grid upwards, cells included.
     pub y: (f64, f64),
     /// Rows from below; what is not finite is left open.
     pub rows: Vec<Vec<f64>>,
     /// The upper end of the scale of colours, positive: the same for charts that are compared.
     pub highest: f64,
-    /// What the values are.
+    /// Name of the values.
     pub label: String,
 }
 
@@ -54,24 +54,24 @@ pub struct Strobe {
     pub view: View,
     /// The places.
     pub scenes: Vec<Scene>,
-    /// Where it begins and ends, in m to the right and up.
+    /// Its bounds, in m to the right and up.
     pub bounds: [(f64, f64); 2],
 }
 
 /// Curves over one pair of axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// What stands above it.
+    /// Title above it.
     pub title: String,
     /// The label of the horizontal axis, with its unit.
     pub x: String,
     /// The label of the vertical axis, with its unit.
     pub y: String,
-    /// Whether a unit is as long along both axes.
+    /// True if a unit is as long along both axes.
     pub equal: bool,
     /// From where to where the vertical axis goes at most: curves without bound are cut there.
     pub within: Option<(f64, f64)>,
-    /// What is under the curves.
+    /// Colours under the curves.
     pub heat: Option<Heat>,
     /// The mechanism under the curves, where they are paths in m.
     pub strobe: Option<Strobe>,
@@ -158,7 +158,7 @@ fn height(chart: &Chart) -> f64 {
     ABOVE + frame(chart)[1].max(legend) + BELOW
 }
 
-/// Where the axes begin and end.
+/// Ranges of the axes.
 fn ranges(chart: &Chart) -> [(f64, f64); 2] {
     if let Some(heat) = &chart.heat {
         return [heat.x, heat.y];

@@ -115,7 +115,7 @@ pub(super) fn clause<S: AsRef<str>>(names: &[S], one: &str, many: &str) -> Strin
     format!("{} {}", listed(names), form(names.len(), one, many))
 }
 
-/// What is said of names; nothing where there are none.
+/// A phrase about names; empty if there are none.
 pub(super) fn if_any<S: AsRef<str>>(names: &[S], said: impl FnOnce(String) -> String) -> String {
     match names {
         [] => String::new(),

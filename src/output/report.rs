@@ -1,4 +1,4 @@
-//! What every report can do to be shown.
+//! Traits of reports by which they are shown.
 
 pub use super::document::Remarks;
 use super::document::{Cell, Document};
@@ -8,12 +8,12 @@ pub trait Report {
     /// The report in words and tables, made of nothing but the report.
     fn document(&self) -> Document;
 
-    /// Whether the answer is yes, or at least not no.
+    /// False if the answer is negative (exit status 1).
     fn is_yes(&self) -> bool {
         !self.document().no
     }
 
-    /// What a reader must not overlook, a line each.
+    /// Warnings for the reader, a line each.
     fn warnings(&self) -> Vec<String> {
         self.document().warnings
     }
@@ -52,7 +52,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The same without columns that come again: a coordinate that moves or bounds a box is also a joint or part of a pose.
+    /// Drops columns that come again: a coordinate that moves or bounds a box is also a joint or part of a pose.
     #[must_use]
     pub fn once(self) -> Self {
         let columns = self.columns.iter().enumerate();

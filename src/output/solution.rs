@@ -132,7 +132,7 @@ fn idle(report: &AssemblyReport) -> Option<String> {
     (report.idle > 0).then(|| format!("{} {spin}", count(report.idle, "freedom")))
 }
 
-/// What is not known of other configurations with the same inputs.
+/// Remark on other configurations with the same inputs, as far as they are not known.
 fn others(report: &AssemblyReport) -> Option<String> {
     let solved = report.variables.iter().any(|joint| !joint.held) || !report.platforms.0.is_empty();
     let decided = report.is_assembled() && report.left.is_none();

@@ -9,14 +9,14 @@ use crate::analysis::solver::{Component, LEAST_PIVOT, Solver};
 use crate::ask::Example;
 use sections::Writer;
 
-/// How to write a solver.
+/// Settings of generated code.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Code {
     /// The language.
     pub language: Language,
     /// The numbers.
     pub precision: Precision,
-    /// What names in the code begin with; a Rust module needs none and has this one as its own.
+    /// Prefix of the names in the code; a Rust module needs none and has this one as its own.
     pub name: String,
 }
 
@@ -106,7 +106,7 @@ impl Code {
         lines.collect()
     }
 
-    /// What is solved, units and the order of arrays.
+    /// Heading: the unknowns, units and the order of arrays.
     fn heading(&self, solver: &Solver) -> String {
         let list = |components: &[Component]| -> String {
             let lines = components.iter().enumerate().map(|(i, component)| {

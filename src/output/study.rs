@@ -9,7 +9,7 @@ use crate::ask::{Study, StudyRows, part_of, regions};
 use crate::mechanism::Variable;
 use crate::number::mark;
 
-/// What the first column is called: with the number of all rows, so that a missing shard is noticed.
+/// Name of the first column, with the number of all rows, so that a missing shard is noticed.
 const ROW: &str = "row of ";
 
 /// The column that says whether the mechanism assembles.
@@ -24,7 +24,7 @@ pub fn csv(study: &Study, rows: &StudyRows) -> String {
     render(Rows::new(iter::once(first).chain(rest), rows))
 }
 
-/// How the columns of a study are spread over its rows, as comma-separated values.
+/// Statistics of the columns of a study over its rows, as comma-separated values.
 ///
 /// # Errors
 /// If the rows are not those of a study.
@@ -110,7 +110,7 @@ impl fmt::Display for Label {
     }
 }
 
-/// Why files are not the shards of one study.
+/// Reasons for which files are not the shards of one study.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MergeError {
     /// A file that is no shard.
@@ -154,7 +154,7 @@ pub enum MergeError {
         first: usize,
         /// The last before one that is there.
         last: usize,
-        /// How many there are in all.
+        /// Number of all shards.
         of: usize,
         /// The file that should have them.
         file: Option<String>,
@@ -279,7 +279,7 @@ pub fn merge(files: &[(String, String)]) -> Result<Merged, MergeError> {
     }
 }
 
-/// What is missing where rows are: the file that was interrupted, or the shards that are not there, or the rows.
+/// The missing part: the rest of an interrupted file, shards, or rows.
 fn missing(labels: &[(Label, &str)], first: usize, end: usize, of: usize) -> MergeError {
     let has = |label: &Label| part_of(of, label.part, label.of).is_ok_and(|r| r.contains(&first));
     let file = labels.iter().find(|(label, _)| has(label));

@@ -72,7 +72,7 @@ fn mode(motion: &MotionReport) -> String {
     mode.unwrap_or_default()
 }
 
-/// What qualifies a motion, by kind.
+/// Remarks on a motion, by kind.
 fn remarks(motion: &MotionReport) -> [Vec<String>; 4] {
     [
         words::certified(&motion.sweep),
@@ -199,7 +199,7 @@ pub fn row_values<'a>(
     first.into_iter().chain(values).chain([Cell::from(met)])
 }
 
-/// What a special row is called in the last column.
+/// Name of a special row in the last column.
 fn word(kind: &MetKind) -> &'static str {
     match kind {
         MetKind::Turning { .. } => "turning point",

@@ -1,4 +1,4 @@
-//! How an assembled mechanism moves, as a document.
+//! Velocities of an assembled mechanism, as a document.
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table, TableOf};
@@ -64,7 +64,7 @@ fn sentence(report: &VelocityReport) -> String {
     }
 }
 
-/// What is free although everything held stands still.
+/// Freedoms with all held coordinates at rest.
 fn gained(gain: &Gain, nothing_held: bool) -> String {
     let freedoms = count(gain.freedoms, "freedom");
     let moving = listed(&gain.moving);
@@ -110,7 +110,7 @@ fn infinitesimal(moving: &[String], only: &FirstOrderOnly) -> String {
     )
 }
 
-/// What is uncertain in the digits that are shown; nothing where they are all known.
+/// Uncertainty in the digits that are shown; empty where they are all known.
 fn doubt(report: &VelocityReport) -> String {
     /// Six decimals are shown.
     const SHOWN: f64 = 1e-6;

@@ -6,7 +6,7 @@ use serde::Serialize;
 const PAGE: &str = include_str!("../page/page.html");
 const PLACE: &str = "{mechanism}";
 
-/// What a page shows.
+/// Contents of a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Viewed {
     /// The name of the file.
@@ -15,7 +15,7 @@ pub struct Viewed {
     pub text: String,
     /// Parameters with other values, as expressions.
     pub set: Vec<(String, String)>,
-    /// Whether the page asks where it came from whether the file has changed.
+    /// True if the page asks the server that it came from for changes of the file.
     pub watch: bool,
 }
 

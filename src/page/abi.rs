@@ -1,4 +1,4 @@
-//! How a page calls: it puts a request in UTF-8 where [`room`] says, and reads the reply where [`reply`] says.
+//! Call interface of a page: it puts a request in UTF-8 at [`room`], and reads the reply at [`reply`].
 //!
 //! No pointer is followed here. The attributes alone count as unsafe: an exported name must be the only one of its kind
 //! in the module, and nothing else is exported from it.

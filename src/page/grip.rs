@@ -1,4 +1,4 @@
-//! What a pointer takes hold of.
+//! Grips: points and bodies taken hold of by a pointer.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! What a page reads off the mechanism while it moves, in the words and numbers of the command line.
+//! Values that a page reads off the mechanism while it moves, in the words and numbers of the command line.
 
 use serde_json::{Value, json};
 

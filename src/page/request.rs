@@ -1,4 +1,4 @@
-//! What a page can ask.
+//! Requests of a page.
 
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +51,7 @@ pub enum Request {
         #[serde(default)]
         labels: bool,
     },
-    /// What the command line answers too, with what is held where it is, or as the file has it.
+    /// An answer of the command line, with the coordinates held where they are, or as in the file.
     Ask {
         what: Analysis,
         #[serde(default)]
@@ -97,10 +97,10 @@ pub struct Load {
     /// Parameters with other values.
     #[serde(default)]
     pub set: Vec<(String, String)>,
-    /// What is held; as in the file if it is not given.
+    /// The held coordinates; as in the file if not given.
     #[serde(default)]
     pub held: Option<Vec<String>>,
-    /// Where the mechanism was, so that it stays on its branch.
+    /// An earlier configuration of the mechanism, so that it stays on its branch.
     #[serde(default)]
     pub near: Option<State>,
     #[serde(default)]

@@ -1,4 +1,4 @@
-//! What a page shows of a mechanism, in the words and numbers of the command line.
+//! Display of a mechanism on a page, in the words and numbers of the command line.
 
 use serde_json::{Value, json};
 
@@ -38,7 +38,7 @@ pub fn problems(text: &str, problems: &[Problem]) -> Vec<Value> {
     shown.collect()
 }
 
-/// What does not change as it moves.
+/// The parts that do not change as it moves.
 pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
     let parameters = mechanism.parameters().iter().zip(&description.parameters);
     let parameters = parameters.map(|(parameter, described)| {
@@ -107,7 +107,7 @@ pub fn held(steering: &Steering) -> Vec<String> {
     driven.map(|of| of.name(steering.mechanism())).collect()
 }
 
-/// How far the mechanism is from a singular configuration.
+/// Distance of the mechanism from a singular configuration.
 pub fn figures(steering: &Steering) -> Value {
     let mechanism = steering.mechanism();
     let freedoms = Freedoms::at(mechanism.dimensions(), &steering.held(), steering.at());

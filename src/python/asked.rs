@@ -1,4 +1,4 @@
-//! What a call gives, put into a question.
+//! Arguments of a call, put into a question.
 
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
@@ -70,7 +70,7 @@ enum Names {
     Several(Vec<String>),
 }
 
-/// What an argument is, where it may be that; else which argument it is and what it may be.
+/// Value of an argument, or an error that names the argument and its types.
 fn taken<'a, 'py, T: FromPyObject<'a, 'py>>(
     name: &str,
     wanted: &str,
@@ -102,10 +102,10 @@ const COUNT: &str = "a whole number from 0 on";
 const FLAG: &str = "True or False";
 const TEXT: &str = "a text";
 
-/// How analyses work.
+/// Settings of analyses.
 #[derive(Default)]
 pub struct Settings {
-    /// Whether a mode is meant by its number, for which all assemblies are searched.
+    /// True if a mode is chosen by its number, for which all assemblies are searched.
     pub numbered: bool,
     pub assemblies: Wanted,
     pub singularities: SingularitiesSettings,
@@ -219,7 +219,7 @@ impl Asked {
         Ok(asked)
     }
 
-    /// The same with what a study varies, which is wrong where it is.
+    /// Adds the varied names of a study; an error if one is wrong.
     pub fn varied(
         mechanism: Arc<Mechanism>,
         given: &Bound<'_, PyDict>,
@@ -318,7 +318,7 @@ impl Asked {
         self.question = change(self.question.clone());
     }
 
-    /// What is wrong with the question, in the words of the command line, under what says so if something does.
+    /// The error in the question, in the words of the command line, under the argument that it is in, if it is in one.
     pub fn refusal(&self, error: &Refused) -> PyErr {
         let parts = self
             .parts

@@ -49,7 +49,7 @@ pub struct Report(Box<dyn Shown>);
 
 #[pymethods]
 impl Report {
-    /// Whether the answer is yes, or at least not no.
+    /// False if the answer is negative (exit status 1).
     #[getter]
     fn yes(&self) -> bool {
         self.0.yes()

@@ -18,7 +18,7 @@ pub trait LeastSquares {
     fn stepped(&self, at: &Self::Point, model: &Self::Model, damping: f64) -> (Self::Point, f64);
 }
 
-/// What is left of a problem at a point.
+/// Sums of squares of a problem at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misfit {
     /// The sum of squares of the equations.
@@ -28,7 +28,7 @@ pub struct Misfit {
 }
 
 impl Misfit {
-    /// Where a problem has no value.
+    /// The sums at a point at which a problem has no value.
     pub const NONE: Misfit = Misfit {
         equations: f64::INFINITY,
         squares: f64::INFINITY,
@@ -67,16 +67,16 @@ impl Default for LevenbergMarquardt {
     }
 }
 
-/// Where a search ended.
+/// End of a search.
 #[derive(Clone, Debug)]
 pub struct Fitted<P> {
     /// The point.
     pub point: P,
-    /// What is left there.
+    /// The sums of squares there.
     pub misfit: Misfit,
     /// The steps taken or tried.
     pub steps: u64,
-    /// Whether no step improves the point, or the last was smaller than the tolerance.
+    /// True if no step improves the point, or the last was smaller than the tolerance.
     pub converged: bool,
 }
 

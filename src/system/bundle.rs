@@ -30,11 +30,11 @@ use crate::system::{Held, System, Work};
 pub struct Bundle<'m> {
     mechanism: &'m Mechanism,
     held: Held<f64>,
-    /// Which of the independent parameters are unknown.
+    /// Indices of the unknown ones among the independent parameters.
     numbers: Vec<usize>,
     /// The unit in which steps of each are measured.
     sizes: Vec<f64>,
-    /// Where they are to stay, within about their sizes.
+    /// Values near which they stay, within about their sizes.
     near: Option<Vec<f64>>,
     /// By configuration.
     targets: BTreeMap<usize, Vec<Target>>,
@@ -285,7 +285,7 @@ impl LeastSquares for Bundle<'_> {
 }
 
 impl Bundle<'_> {
-    /// How far the shared numbers are from where they are to stay, in their units.
+    /// Distances of the shared numbers from the values near which they stay, in their units.
     fn departures(&self, numbers: &[f64]) -> impl Iterator<Item = f64> {
         let near = self.near.iter().flatten();
         let pairs = near.zip(numbers).zip(&self.sizes);
@@ -295,12 +295,12 @@ impl Bundle<'_> {
 }
 
 impl Arrow {
-    /// How many independent conditions the closures leave for the shared numbers.
+    /// Number of independent conditions of the closures on the shared numbers.
     pub fn conditions(&self) -> usize {
         self.reduced.conditions()
     }
 
-    /// How many directions of the shared numbers neither closures nor targets determine.
+    /// Number of directions of the shared numbers that neither closures nor targets determine.
     pub fn undetermined(&self) -> usize {
         self.reduced.undetermined()
     }

@@ -44,7 +44,7 @@ pub(super) struct Question<'a> {
     pub bound: Option<&'a KnownBound>,
     pub system: System<f64>,
     pub watch: &'a Watch<'a>,
-    /// Whether the search for generic solutions was stopped.
+    /// True if the search for generic solutions was stopped.
     pub interrupted: bool,
 }
 
@@ -82,7 +82,7 @@ struct Group {
     dimension: usize,
 }
 
-/// What was gathered for a report.
+/// Solutions gathered for a report.
 #[derive(Default)]
 pub(super) struct Gathered {
     pub found: Vec<Found>,
@@ -227,7 +227,7 @@ impl Question<'_> {
         )
     }
 
-    /// Whether each roll, pitch or yaw that is held has its value, and not one half a turn from it.
+    /// True if each held roll, pitch or yaw has its value, false if one is half a turn from it.
     fn has_held_angles(&self, x: &[C]) -> bool {
         const UNDETERMINED: f64 = 1e-9;
         let joints = self.coordinates.free_joints.len();

@@ -36,8 +36,8 @@ pub(crate) struct Family {
     pub parameters: Vec<C>,
     /// Lengths with factors among the parameters.
     lengths: Vec<Length>,
-    /// Whether the dimensions make the family: there are no inputs, or they only spin links, which carries no solution to
-    /// another.
+    /// True if the dimensions make the family: there are no inputs, or they only spin links, which carries no solution
+    /// to another.
     pub by_dimensions: bool,
     pub home: Configuration<f64>,
     /// Number of closure equations that do not vanish everywhere.
@@ -220,7 +220,7 @@ impl Family {
         Member { parameters, inputs }
     }
 
-    /// Which inputs are lengths.
+    /// For each flat input, true if it is a length.
     pub fn lengths_among_inputs(&self) -> Vec<bool> {
         let lengths = self.coordinates.inputs.iter().map(|input| match *input {
             Input::Joint(j) => vec![!self.mechanism.joints()[j].kind.is_angle()],
@@ -273,7 +273,7 @@ impl Family {
         x
     }
 
-    /// What is held when only the joints at these places of the unknowns are free.
+    /// Held coordinates with only the joints at these places of the unknowns free.
     pub fn held_but(&self, places: &[usize]) -> Held<C> {
         let mut joints = vec![true; self.held.joints.len()];
         for &place in places {

@@ -15,7 +15,7 @@ use crate::system::{Held, System};
 /// The configuration at the target inputs, or why the mode was not followed to them.
 pub type Followed = Result<Configuration<f64>, LostReason>;
 
-/// Where a mode ceases to exist.
+/// A point at which a mode ceases to exist.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
     /// The part of the way that was gone, from 0 to 1.
@@ -24,7 +24,7 @@ pub struct Fold {
     pub inputs: Named<f64>,
     /// Joint values there, rad or m.
     pub joints: Named<f64>,
-    /// Whether the two modes turn back there, at a place known to the last digits. Otherwise they
+    /// True if the two modes turn back there, at a place known to the last digits. Otherwise they
     /// cross, or no more is known than that the mode cannot be followed beyond.
     pub turns_back: bool,
 }
@@ -38,12 +38,12 @@ pub struct LostMode {
     pub variables: Vec<Variable>,
     /// The number of the mode at home.
     pub mode: usize,
-    /// Why it was not.
+    /// The reason.
     #[serde(flatten)]
     pub reason: LostReason,
 }
 
-/// Why a mode was not followed.
+/// Reasons for which a mode was not followed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "outcome")]
 pub enum LostReason {
@@ -56,7 +56,7 @@ pub enum LostReason {
     /// Assemblies meet already at home, and its number does not tell which of them to follow.
     #[serde(rename = "modes_meet_at_home")]
     MeetAtHome {
-        /// How many meet: 0 if it is one of infinitely many.
+        /// Number of assemblies that meet: 0 if it is one of infinitely many.
         multiplicity: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! Whether the listed assemblies are all the real ones: interval branch and prune over the joint variables that
+//! Proof that the listed assemblies are all the real ones: interval branch and prune over the joint variables that
 //! distinguish them.
 //!
 //! Around each listed assembly a box is made that contains at most one; everything outside of these boxes is excluded
@@ -15,7 +15,7 @@ use crate::number::{Interval, Number};
 use crate::solve::{Pruning, Sides, Watch, isolated, prune as prune_boxes};
 use crate::system::{Held, JointSpace, Unfit};
 
-/// How far slides go for which no bound follows, in characteristic lengths.
+/// Range of slides for which no bound follows, in characteristic lengths.
 const FAR: f64 = 1000.0;
 
 /// Looks for real assemblies beside those given with their numbers. What is held without an equation is where `asked`
@@ -114,7 +114,7 @@ struct Space {
     sides: Sides,
     periods: Vec<Option<Interval>>,
     names: Vec<Option<(String, SiUnit)>>,
-    /// Whether an unknown may have values beyond its side.
+    /// For each unknown, true if it may have values beyond its side.
     cut: Vec<bool>,
     unbounded: Vec<String>,
 }

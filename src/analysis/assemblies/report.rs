@@ -41,19 +41,19 @@ pub struct Assembly {
     /// opposite signs lie on different sides of a singularity. 0 where solutions meet, and where the rows that are
     /// independent at most assemblies depend on one another.
     pub determinant_sign: i8,
-    /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many. Where no paths are
-    /// counted ([`Fit`]) it is the least number that the equations allow, and where freedoms are left anything above
-    /// 1 says only that the assembly is singular.
+    /// Number of solutions that meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many. Where no paths
+    /// are counted ([`Fit`]) it is the least number that the equations allow, and where freedoms are left anything
+    /// above 1 says only that the assembly is singular.
     pub multiplicity: usize,
     /// The dimension of the set of assemblies that this one is a sample of; 0 if it is isolated.
     pub dimension: usize,
-    /// Whether an interval test has proved that a box of `radius` holds exactly one solution.
+    /// True if an interval test has proved that a box of `radius` holds exactly one solution.
     pub certified: bool,
     /// Half the side of that box in the dimensionless unknowns, rad or characteristic lengths.
     pub radius: Option<f64>,
-    /// Why the assembly is not certified.
+    /// Reason for which the assembly is not certified.
     pub uncertified_because: Option<String>,
-    /// Whether all joints are within their limits.
+    /// True if all joints are within their limits.
     pub within_limits: bool,
     /// Names of the joints that are not.
     pub outside_limits: Vec<String>,
@@ -75,16 +75,16 @@ impl Assembly {
     }
 }
 
-/// How near the mechanism comes to being assembled, where it cannot be.
+/// Closest approach to assembly of a mechanism that cannot be assembled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosestApproach {
     /// The gap of each closure.
     pub gaps: Named<Gap>,
     /// The closure with the largest gap.
     pub worst: String,
-    /// Whether no small motion comes closer.
+    /// True if no small motion comes closer.
     pub local_minimum: bool,
-    /// Whether rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
+    /// True if rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
     /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub squared_lengths: bool,
@@ -94,7 +94,7 @@ pub struct ClosestApproach {
     pub platforms: Named<PoseReport>,
 }
 
-/// How the question fits the mechanism.
+/// Number of held inputs compared with the freedoms of the mechanism.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
@@ -130,7 +130,7 @@ pub enum Traced {
 /// Assemblies that are connected, infinitely many, at the target inputs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Continuum {
-    /// How many coordinates can be chosen freely on it.
+    /// Number of coordinates that can be chosen freely on it.
     pub dimension: usize,
     /// Paths that end on it.
     pub paths: usize,
@@ -146,11 +146,11 @@ pub struct ListedJoint {
     pub name: String,
     /// The unit of its values, rad or m.
     pub unit: SiUnit,
-    /// Whether its value was given.
+    /// True if its value was given.
     pub held: bool,
-    /// Whether its values repeat with every turn, without limits that tell turns apart.
+    /// True if its values repeat with every turn, without limits that tell turns apart.
     pub periodic: bool,
-    /// Whether its value is to be found and no number of turns leads back to the same place: it travels as it turns, or
+    /// True if its value is to be found and no number of turns leads back to the same place: it travels as it turns, or
     /// turns something by a ratio that is no fraction.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub winding: bool,
@@ -224,13 +224,13 @@ pub struct AssembliesReport {
     pub generic: usize,
     /// The largest number of isolated complex solutions that the structure is known to have.
     pub bound: Option<usize>,
-    /// Which structure that is, and where the bound is shown.
+    /// The structure with the source of the bound.
     pub bound_source: Option<String>,
-    /// Whether the trace test holds, and for what. It is run where no known bound is reached, and given up where it would
-    /// take more paths than the loops that it saves.
+    /// Loops for which the trace test holds; `None` if it does not, or was not run. It is run where no known bound is
+    /// reached, and given up where it would take more paths than the loops that it saves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub traced: Option<Traced>,
-    /// How the question fits the mechanism.
+    /// Number of held inputs compared with the freedoms of the mechanism.
     pub fit: Fit,
     /// Newton seeds tried at the generic member.
     pub seeds: usize,
@@ -243,18 +243,18 @@ pub struct AssembliesReport {
     /// The most paths lost in one of them. If it is not 0, a solution whose path each of them lost may be missing.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub lost_in_loops: usize,
-    /// Whether the search ended at its limits and not because nothing more was found.
+    /// True if the search ended at its limits and not because nothing more was found.
     pub exhausted: bool,
     /// The random seed.
     pub seed: u64,
-    /// Which closure rows the certificates and determinants use, if not all.
+    /// Number of the closure rows that certificates and determinants use, and of all; `None` if all are used.
     pub independent_rows: Option<(usize, usize)>,
-    /// Where there is no real assembly: the best that can be done.
+    /// Closest approach to assembly, if there is no real assembly.
     pub closest: Option<ClosestApproach>,
-    /// What branch and prune over boxes found out about all real assemblies, if it was asked for.
+    /// Result of branch and prune over boxes on all real assemblies, if it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proof: Option<Proof>,
-    /// Whether the work was stopped before it was done: assemblies may be missing.
+    /// True if the work was stopped early: assemblies may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
@@ -281,22 +281,22 @@ pub struct Part {
     pub modes: Vec<usize>,
 }
 
-/// What interval branch and prune says of all real assemblies: of every angle, and of the `ranges` of everything else.
+/// Result of interval branch and prune on all real assemblies: over every angle, and the `ranges` of everything else.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Proof {
-    /// Why nothing was proved.
+    /// Reason for which nothing was proved.
     pub unfit: Option<Unfit>,
-    /// How many joint variables tell assemblies apart.
+    /// Number of joint variables that distinguish assemblies.
     pub unknowns: usize,
     /// Boxes that were looked at.
     pub boxes: usize,
     /// Boxes that were not, when the number allowed was reached or the search was stopped.
     pub waiting: usize,
-    /// Whether it ended because ever more boxes too small to be halved are left, as about a set of infinitely many
+    /// True if it ended because ever more boxes too small to be halved are left, as about a set of infinitely many
     /// solutions.
     #[serde(default)]
     pub crowded: bool,
-    /// What is covered of joints that may go beyond it: the limits of those that do not come back to the same place.
+    /// Ranges covered of joints that may go beyond them: the limits of those that do not come back to the same place.
     pub ranges: Vec<Range>,
     /// Those of them without limits, for which no bound follows from the lengths: within 1000 characteristic lengths.
     pub unbounded: Vec<String>,
@@ -311,7 +311,7 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// Whether it shows that no real assembly is missing.
+    /// True if no real assembly is missing.
     pub fn is_complete(&self) -> bool {
         let parts = self.left.is_empty() && self.missing.is_empty() && self.excluded.is_empty();
         self.unfit.is_none() && self.waiting == 0 && parts
@@ -325,7 +325,7 @@ pub struct ComplexAssembly {
     pub joints: Named<[f64; 2]>,
     /// Positions (3, m) and quaternions (4) of the platforms.
     pub platforms: Named<Vec<[f64; 2]>>,
-    /// How many solutions meet here.
+    /// Number of solutions that meet here.
     pub multiplicity: usize,
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
     /// Jacobian; `null` where solutions meet.
@@ -352,7 +352,7 @@ pub(super) fn is_zero(count: &usize) -> bool {
 }
 
 impl AssembliesReport {
-    /// Whether an isolated assembly may be missing.
+    /// True if an isolated assembly may be missing.
     pub fn may_lack_some(&self) -> bool {
         match &self.proof {
             Some(proof) if !proof.is_complete() => return true,

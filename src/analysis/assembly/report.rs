@@ -1,4 +1,4 @@
-//! Where the search for an assembled configuration ended.
+//! Report of the search for an assembled configuration.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,15 +11,15 @@ use crate::system::{FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_
 /// Freedoms that nothing held decides.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Left {
-    /// How many.
+    /// Number of freedoms.
     pub freedoms: usize,
     /// Coordinates that decide them if they are held too.
     pub hold: Vec<String>,
-    /// How many more are free to first order because the configuration is singular.
+    /// Number of further freedoms, to first order only, at a singular configuration.
     pub singular: usize,
 }
 
-/// How the search ended. Joints, platforms and closures are given by name.
+/// End of the search. Joints, platforms and closures are given by name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Outcome {
@@ -33,7 +33,7 @@ pub enum Outcome {
     },
     /// Assembled at a singular configuration: something moves although all inputs are held.
     Singular {
-        /// What can move: joints and platforms, the most mobile first.
+        /// Joints and platforms that can move, the most mobile first.
         moving: Vec<String>,
         /// The closure whose equations depend on the others, if the mechanism has closures.
         #[serde(
@@ -50,7 +50,7 @@ pub enum Outcome {
     CannotBeAssembled {
         /// The closure with the widest gap at the closest approach.
         worst: String,
-        /// Whether the closest approach is a true local minimum of the gaps.
+        /// True if the closest approach is a true local minimum of the gaps.
         local_minimum: bool,
     },
     /// No start assembles, and none settled either.
@@ -60,29 +60,29 @@ pub enum Outcome {
     },
 }
 
-/// A joint variable and what the question makes of it.
+/// A joint variable and its part in the question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointVariable {
     /// Its name.
     pub name: String,
     /// The unit of its values, rad or m.
     pub unit: SiUnit,
-    /// Whether it is driven.
+    /// Actuated or passive.
     pub role: Role,
-    /// Whether its value was given; otherwise it was solved for.
+    /// True if its value was given; false if it was solved for.
     pub held: bool,
     /// Lowest and highest value, rad or m, if it has limits.
     pub limits: Option<(f64, f64)>,
-    /// Whether its value is within them.
+    /// True if its value is within them.
     pub within_limits: bool,
 }
 
-/// Where the search for an assembled configuration ended.
+/// Result of the search for an assembled configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AssemblyReport {
     /// Name of the mechanism.
     pub mechanism: String,
-    /// How it ended.
+    /// End of the search.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Newton steps of the start that succeeded.
@@ -97,7 +97,7 @@ pub struct AssemblyReport {
     /// [`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT) unknowns; infinite, in JSON `null`, at a singular configuration.
     #[serde(deserialize_with = "infinite_if_null")]
     pub condition: f64,
-    /// Whether the condition number is poor.
+    /// True if the condition number is poor.
     pub near_singular: bool,
     /// Freedoms of the mechanism, if it assembles near the start.
     pub mobility: Option<usize>,
@@ -107,10 +107,11 @@ pub struct AssemblyReport {
     /// is then the one nearest to the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<Left>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than rounded, where it assembles.
+    /// The joint or platform that moved most from its guess, or from a pose of the file that was more than rounded, if
+    /// the mechanism assembles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<Moved>,
-    /// Names of what is held.
+    /// Names of the held coordinates.
     pub held: Vec<String>,
     /// Joint values of the assembled configuration, or of the closest approach, rad or m.
     pub joints: Named<f64>,
@@ -128,17 +129,17 @@ pub struct AssemblyReport {
     /// is far from it.
     #[serde(default, skip_serializing_if = "is_origin")]
     pub centre: [f64; 3],
-    /// For each closure how far it is open.
+    /// Gap of each closure.
     pub gaps: Named<Gap>,
     /// The joint variables.
     pub variables: Vec<JointVariable>,
-    /// Whether rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
+    /// True if rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
     /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub squared_lengths: bool,
-    /// What is odd about the file or the answer, one sentence each.
+    /// Warnings about the file or the answer, one sentence each.
     pub warnings: Vec<String>,
-    /// Whether the search was stopped before all starts were made.
+    /// True if the search was stopped before all starts were made.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
 }
@@ -157,7 +158,7 @@ impl AssemblyReport {
         }
     }
 
-    /// Whether the configuration closes every loop.
+    /// True if the configuration closes every loop.
     pub fn is_assembled(&self) -> bool {
         !matches!(
             self.outcome,
@@ -165,7 +166,7 @@ impl AssemblyReport {
         )
     }
 
-    /// What is worth a warning about the configuration.
+    /// Warning about the configuration, if it is near a singular one.
     pub fn warning(&self) -> Option<String> {
         let singular = matches!(self.outcome, Outcome::Singular { .. });
         (self.near_singular && !singular).then(|| {

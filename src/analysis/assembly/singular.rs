@@ -1,4 +1,4 @@
-//! What makes a configuration singular for the held inputs.
+//! Diagnosis of a configuration that is singular for the held inputs.
 
 use super::Outcome;
 use crate::linear::{Svd, dot};
@@ -6,7 +6,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Freedoms, Held, HeldPlatform, STILL, System, Unknown};
 
-/// Names what moves though the inputs are held, the closure whose equations depend on the others
+/// Names the joints and platforms that move although the inputs are held, the closure with dependent equations
 /// there, and the held joints that cannot drive the mechanism.
 ///
 /// With J over the free and H over the held unknowns, w with wᵀJ = 0 and wᵀH ≠ 0 is a combination

@@ -12,7 +12,7 @@ use crate::number::{Complex, complex, real};
 use crate::solve::{Newton, Watch};
 use crate::system::{MechanismLoop, Neighbourhood, Question, close, loops};
 
-/// Why a mechanism has no cognates.
+/// Reasons for which a mechanism has no cognates.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CognateError {
     /// It is no 4-bar.

@@ -1,4 +1,4 @@
-//! The same chains in the other convention.
+//! Chains in the other convention.
 //!
 //! Both are the product base · J₁ L₁ J₂ … L_{n−1} J_n · tip with J = Rz(θ)·Tz(d), L = Tx(a)·Rx(α).
 //! A modified row is L_{k−1} J_k, a standard row J_k L_k: twist and length move to the neighbouring

@@ -85,7 +85,7 @@ struct Drawing<'a> {
     /// Ground from each frame in the drawing, and from the axis before each row.
     places: BTreeMap<Frame, Steps>,
     bodies: BTreeMap<Body, String>,
-    /// What is drawn so far.
+    /// The drawing so far.
     axes: AxesDescription,
     /// The variables that have a joint of their name.
     own: BTreeSet<String>,
@@ -111,7 +111,7 @@ fn axis_of(before: &[Displacement], row: &Row, convention: Convention, fixed: [E
     }
 }
 
-/// Whether something is turned by other than right angles.
+/// True if something is turned by other than right angles.
 fn is_oblique(steps: &[Displacement]) -> bool {
     let oblique = |step: &Displacement| match step {
         Displacement::Rotate(_, angle) => match angle.expression.fixed_value() {
@@ -226,7 +226,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Whether a body is the last link of its chain, which then has the frame and the name of the tip.
+    /// True if a body is the last link of its chain, which then has the frame and the name of the tip.
     fn carries_tip(&self, body: Body) -> bool {
         let Body::Link { chain, .. } = body else {
             return false;

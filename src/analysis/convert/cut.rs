@@ -1,4 +1,4 @@
-//! The same mechanism broken at another joint.
+//! Conversion to another cut joint.
 //!
 //! A joint in row r of a chain becomes a closure. What hangs behind it keeps its connexion through
 //! one of the old closures, which becomes rows: with K the motion of that joint, the chain
@@ -27,7 +27,7 @@ use closure_rows::ClosureRows;
 
 pub use error::CutError;
 
-/// Where the joint stands.
+/// Place of the joint in its chain.
 struct Place {
     joint: usize,
     chain: usize,

@@ -9,7 +9,7 @@ use crate::description::{
 };
 use crate::mechanism::PoseCoordinate;
 
-/// What stands for a frame in the new file: a frame and a displacement from it.
+/// Substitute for a frame in the new file: another frame and a displacement from it.
 pub(super) struct Substitute {
     pub frame: String,
     pub steps: Vec<Displacement>,
@@ -117,7 +117,8 @@ pub(super) fn rename(
     }
 }
 
-/// Where the name of a quantity, such as `velocity:[left+1].x`, names a frame, if it does.
+/// Place of the name of a frame in that of a quantity, such as `velocity:[left+1].x`; of others, of what follows the
+/// kind.
 pub(super) fn frame_in(name: &str) -> Range<usize> {
     let start = name.find(':').map_or(0, |colon| colon + 1);
     if let Some(inside) = name[start..].strip_prefix('[') {

@@ -7,7 +7,7 @@ use crate::description::{
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 
-/// Why a mechanism's joints are not given by axes.
+/// Reasons for which a mechanism's joints are not given by axes.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AxesError {
     /// A row that is not one revolute or prismatic joint with a variable of its own.

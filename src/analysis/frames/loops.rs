@@ -1,4 +1,4 @@
-//! Closed mechanisms: which joints are cut. `build.rs` makes chains and closures of what is left.
+//! Cuts of closed mechanisms. `build.rs` makes chains and closures of what is left.
 
 use std::collections::BTreeSet;
 

@@ -138,7 +138,7 @@ fn declared(joint: &Named<AxisDescription>) -> Named<JointDescription> {
     }
 }
 
-/// Where the direction is given.
+/// Place of the direction in the file.
 fn place_span(joint: &AxisDescription) -> std::ops::Range<usize> {
     let span = |entries: &[Entry; 3]| entries[0].span.start..entries[2].span.end;
     match &joint.place {

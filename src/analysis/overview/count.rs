@@ -1,4 +1,4 @@
-//! How many freedoms counting leads to expect (Chebyshev, Grübler, Kutzbach).
+//! Freedoms expected by count (Chebyshev, Grübler, Kutzbach).
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ pub struct MobilityCount {
     pub equations: usize,
     /// M, the same as variables + 6·platforms − equations.
     pub mobility: i64,
-    /// The same with 3 in place of 6, if all joints move in one plane.
+    /// The count with 3 in place of 6, if all joints move in one plane.
     pub planar: Option<PlanarCount>,
 }
 

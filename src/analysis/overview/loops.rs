@@ -10,7 +10,7 @@ use crate::mechanism::{Body, Frame, Mechanism};
 pub struct Loop {
     /// The closure that closes it: no earlier closure and no chain does.
     pub closed_by: String,
-    /// What one passes going round, beginning and ending at the same body.
+    /// Bodies and joints in order round the loop, beginning and ending at the same body.
     pub steps: Vec<LoopStep>,
 }
 
@@ -28,7 +28,7 @@ pub enum LoopStep {
     Closure(String),
 }
 
-/// What joins two bodies.
+/// Link between two bodies.
 #[derive(Clone, Copy, PartialEq)]
 enum Link {
     /// The moving row of a chain of that index.

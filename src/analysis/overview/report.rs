@@ -1,4 +1,4 @@
-//! What is reported of a mechanism file.
+//! Report on a mechanism file.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,13 +8,13 @@ use crate::algebra::SiUnit;
 use crate::description::{AxesDescription, axes_text};
 use crate::mechanism::{ClosureKind, Convention, JointKind, Role};
 
-/// What a mechanism file means.
+/// Overview of a mechanism file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Overview {
-    /// What the mechanism is called.
+    /// Name of the mechanism.
     #[serde(rename = "mechanism")]
     pub name: String,
-    /// Where it comes from.
+    /// Its source in the literature.
     pub source: Option<String>,
     /// The joint coordinates from which the tables were made, if they were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -31,15 +31,15 @@ pub struct Overview {
     pub closures: Vec<ClosureOverview>,
     /// Independent loops.
     pub loops: Vec<Loop>,
-    /// How many freedoms counting leads to expect.
+    /// Freedoms expected by count.
     pub count: MobilityCount,
     /// The closed forms.
     pub closed_forms: Vec<ClosedFormOverview>,
-    /// What is odd about the file, one sentence each.
+    /// Warnings about the file, one sentence each.
     pub warnings: Vec<String>,
 }
 
-/// Joint coordinates, and what was chosen to make tables of them.
+/// Joint coordinates, with the choices made in writing tables of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoordinatesOverview {
     /// The file of joint coordinates, serialised as its text.
@@ -56,7 +56,7 @@ pub struct CoordinatesOverview {
 pub struct ParameterOverview {
     /// Its name.
     pub name: String,
-    /// What it is defined as.
+    /// Its definition.
     pub definition: String,
     /// Its value, in m or rad or without unit.
     pub value: f64,
@@ -67,9 +67,9 @@ pub struct ParameterOverview {
 pub struct JointOverview {
     /// Its name.
     pub name: String,
-    /// How it moves.
+    /// Its kind.
     pub kind: JointUse,
-    /// Whether it is driven.
+    /// Actuated or passive.
     pub role: Role,
     /// Unit of its values, rad or m; none if it is unused.
     pub unit: Option<SiUnit>,
@@ -79,7 +79,7 @@ pub struct JointOverview {
     pub limits: Option<(f64, f64)>,
 }
 
-/// How a joint moves.
+/// Kind of a joint variable by its use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointUse {
@@ -94,7 +94,7 @@ pub enum JointUse {
 }
 
 impl JointUse {
-    /// What it is called.
+    /// Its word.
     pub fn word(self) -> &'static str {
         match self {
             JointUse::Revolute => JointKind::Revolute.word(),
@@ -112,7 +112,7 @@ pub struct ChainOverview {
     pub name: String,
     /// The frame it stands on.
     pub on: String,
-    /// How its rows are read.
+    /// Convention of its rows.
     pub convention: Convention,
     /// From that frame to the chain's frame 0, as written.
     pub base: Vec<String>,
@@ -142,7 +142,7 @@ pub struct EntryOverview {
     pub written: String,
     /// Its value (rad or m), if no joint variable stands in it.
     pub value: Option<f64>,
-    /// Whether parameters stand in it, so that the value says more than what is written.
+    /// True if parameters stand in it, so that the value says more than the entry as written.
     pub uses_parameters: bool,
 }
 
@@ -151,7 +151,7 @@ pub struct EntryOverview {
 pub struct PlatformOverview {
     /// Its name.
     pub name: String,
-    /// Where its origin is at home (m).
+    /// Position of its origin at home (m).
     pub position: [f64; 3],
     /// Its orientation at home, scalar part first.
     pub quaternion: [f64; 4],
@@ -166,7 +166,7 @@ pub struct PlatformOverview {
 pub struct PlatformFrameOverview {
     /// Its name.
     pub name: String,
-    /// Where it is in the platform, as written.
+    /// Its displacement in the platform, as written.
     pub placed: Vec<String>,
 }
 
@@ -181,7 +181,7 @@ pub struct ClosureOverview {
     pub frames: [String; 2],
     /// Its length, if it is a `Distance`.
     pub length: Option<String>,
-    /// How many equations it adds.
+    /// Number of its equations.
     pub equations: usize,
 }
 
@@ -190,10 +190,10 @@ pub struct ClosureOverview {
 pub struct ClosedFormOverview {
     /// Its name.
     pub name: String,
-    /// How many entries of a pose or identities it gives.
+    /// Number of its entries of a pose, or of its identities.
     pub formulas: usize,
     /// The frame whose pose it gives and the frame this is seen from; none for identities.
     pub pose_of: Option<[String; 2]>,
-    /// Where it is printed.
+    /// Publication in which it is printed.
     pub source: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! What follows rows of held values, singly or side by side.
+//! Rows of held values followed, singly or side by side.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -30,19 +30,19 @@ fn steps_of(distance: f64, finite: bool) -> usize {
     }
 }
 
-/// What follows rows.
+/// Rows to be followed, with the question and its equations.
 pub(super) struct Rows<'a> {
     pub question: &'a system::Question<'a>,
     pub coordinates: &'a [Coordinate],
     pub columns: Vec<Coordinate>,
     pub system: System<f64>,
-    /// Whether the system takes the values of all coordinates.
+    /// True if the system takes the values of all coordinates.
     pub by_value: bool,
     pub start: Configuration<f64>,
     pub values: &'a [f64],
     /// The rows in the order in which they are followed; empty for the order in which they are given.
     pub order: Vec<u32>,
-    /// What makes each coordinate dimensionless.
+    /// Unit of each coordinate: 1 rad, or the characteristic length in m.
     pub scales: Vec<f64>,
     pub watch: &'a Watch<'a>,
     /// The number of rows that are done.
@@ -103,7 +103,7 @@ impl Rows<'_> {
         order
     }
 
-    /// How far it is from one row of values to another, in rad or characteristic lengths.
+    /// Distance of one row of values from another, in rad or characteristic lengths.
     fn distance(&self, from: &[f64], to: &[f64]) -> f64 {
         let ways = from.iter().zip(to).zip(&self.scales);
         ways.fold(0.0, |most, ((a, b), scale)| {
@@ -117,7 +117,7 @@ impl Rows<'_> {
         steps_of(self.distance(from, to), finite)
     }
 
-    /// The same for motions side by side, coordinate by coordinate.
+    /// Steps for motions side by side, coordinate by coordinate.
     fn steps_of_each(&self, from: &[[f64; BATCH]], to: &[[f64; BATCH]]) -> [usize; BATCH] {
         let (mut farthest, mut finite) = ([0.0; BATCH], [true; BATCH]);
         for ((from, to), scale) in from.iter().zip(to).zip(&self.scales) {

@@ -15,7 +15,7 @@ use crate::number::{Number, Taylor};
 pub(in super::super) struct Course<'m> {
     passage: Passage<'m>,
     stretches: Vec<Stretch>,
-    /// Where the last of them ends, with the part of the time, and whether the inputs turn back there.
+    /// End of the last of them, with the part of the time, and true if the inputs turn back there.
     last: Option<(Configuration<f64>, f64, bool)>,
     names: Vec<Name>,
     pub pieces: Vec<Piece>,
@@ -212,7 +212,7 @@ impl<'m> Course<'m> {
     pub fn samples(&self, of: &Sought, tolerance: f64) -> (Vec<Sample>, bool) {
         /// The number of parts looked at, beside the pieces themselves.
         const PATIENCE: usize = 1_000_000;
-        /// How far off, beside the tolerance.
+        /// Distance from a straight line, relative to the tolerance.
         const OFF: f64 = 1e-3;
         let mut samples: Vec<Sample> = Vec::new();
         let patience = PATIENCE + 8 * self.pieces.len();
@@ -314,7 +314,7 @@ impl<'m> Course<'m> {
         self.passage.at(&self.stretches[stretch], part, from)
     }
 
-    /// The same at a place that is one number.
+    /// As [`Course::at`], at a place given by one number: stretch plus part.
     pub fn at_place(&mut self, place: f64) -> Option<(&Configuration<f64>, f64)> {
         let stretch = (place.floor() as usize).min(self.stretches.len() - 1);
         self.at(stretch, place - stretch as f64)

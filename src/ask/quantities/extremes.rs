@@ -172,7 +172,7 @@ struct Found {
     value: f64,
     stretch: usize,
     part: f64,
-    /// How far from there the place may be.
+    /// Largest distance of the extreme from there.
     beside: f64,
 }
 

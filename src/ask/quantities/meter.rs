@@ -26,7 +26,7 @@ pub(super) use programs::{evaluated, has_atan2, turns};
 use recorded::Recording;
 use wants::Wants;
 
-/// What a meter is for.
+/// Quantities to be evaluated on a motion, with the motion's inputs, law, load and outputs.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Metered<'q> {
     pub quantities: Vec<Quantity>,
@@ -61,11 +61,11 @@ pub(in super::super) struct Meter<'q> {
     probe: Probe<'q, f64>,
     /// Rows that wait for others.
     block: Block,
-    /// How many were read.
+    /// Number of rows read.
     rows: usize,
-    /// What reads many at once.
+    /// Program that reads many rows at once.
     recording: Option<Recording>,
-    /// How often it was tried in vain to write that down.
+    /// Number of failed attempts to record that program.
     failed: usize,
     spinning: Spinning<'q>,
     /// With the distances that are asked for.
@@ -75,17 +75,17 @@ pub(in super::super) struct Meter<'q> {
     driven: [Vec<f64>; 2],
     before: Vec<Option<f64>>,
     values: Vec<Option<f64>>,
-    /// What the names in the quantities stand for, each once, with the number of the point, if it is of one.
+    /// The names in the quantities, each once, with the number of the point if it is of one.
     names: Vec<(Name, usize)>,
     /// The quantities over the numbers of these names.
     programs: Vec<Expression<usize>>,
     /// The values of the names, and how far each may be off.
     known: Vec<[f64; 2]>,
-    /// How far each quantity may be off.
+    /// Uncertainty of each quantity.
     noise: Vec<f64>,
 }
 
-/// What takes rows with the quantities at them.
+/// Receiver of rows with the quantities at them.
 pub(in super::super) type Take<'t> = dyn FnMut(&Block) + 't;
 
 /// The lines about which links spin: none, or those of each configuration.
@@ -375,7 +375,7 @@ impl<'q> Meter<'q> {
         [0.0, 1.0]
     }
 
-    /// How far each value last read may be off.
+    /// Uncertainty of each value last read.
     pub fn noise(&self) -> &[f64] {
         &self.noise
     }

@@ -11,7 +11,7 @@ use crate::solve::Watch;
 use crate::system::{self, Driven};
 
 impl Question {
-    /// The same question about another mechanism with the same names.
+    /// The question about another mechanism with the same names.
     pub(super) fn about(&self, mechanism: Arc<Mechanism>) -> Question {
         let mut asked = Question {
             mechanism,
@@ -53,7 +53,8 @@ impl Question {
         }
     }
 
-    /// Whether the mechanism assembles, how many ways if that is asked for, and the quantities there.
+    /// The row of results: 1 if the mechanism assembles, else 0, the number of assemblies if it is asked for, and the
+    /// quantities.
     pub(super) fn measured_here(
         &self,
         counted: bool,
@@ -89,7 +90,7 @@ impl Question {
     }
 }
 
-/// Whether it depends on how the inputs move.
+/// True if it depends on the motion of the inputs.
 fn moves(measured: &Measured) -> bool {
     match measured {
         Measured::Joint(_, order) | Measured::Place(_, _, order) | Measured::Size(_, order) => {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-/// Where quantities are asked for.
+/// Points at which quantities are evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Points {
     /// Every combination of so many equally spaced values along each range, ends included; the last varies fastest. A
@@ -17,7 +17,7 @@ pub enum Points {
     Given(Vec<Vec<f64>>),
 }
 
-/// How what is varied is spread.
+/// Distribution of a varied value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spread {
     /// Evenly from one value to another.
@@ -59,7 +59,7 @@ impl Points {
     /// Coordinates that Sobol's points have at most.
     pub const MOST_SOBOL: usize = JOE_KUO.len() + 1;
 
-    /// How many there are; none if that cannot be counted.
+    /// Number of points; none if that cannot be counted.
     pub fn count(&self) -> Option<usize> {
         match self {
             Points::Grid(nodes) => nodes
@@ -144,8 +144,8 @@ fn mixed(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// Where a number below `count` goes in a permutation: rounds of Feistel over as many bits as are needed, repeated until the
-/// result is below `count` (Black and Rogaway 2002).
+/// Image of a number below `count` in a permutation: rounds of Feistel over as many bits as are needed, repeated until
+/// the result is below `count` (Black and Rogaway 2002).
 fn permuted(index: u64, count: u64, key: u64) -> u64 {
     let half = (64 - count.saturating_sub(1).leading_zeros())
         .div_ceil(2)

@@ -7,7 +7,7 @@ use linkwork::mechanism::{Mechanism, QuantityError};
 use linkwork::output::complaint::{Complaint, Part};
 use linkwork::system::{Demand, DriveError, ForceError, PointError, QuestionError, ValueError};
 
-/// What is wrong with a question, and with which part of the option that asked it, if one did.
+/// The error in a question, and the part of its option that it is in, if it is in one.
 pub fn complaint(error: &QuestionError) -> Complaint {
     complaint_of(error, &at_home)
 }
@@ -35,7 +35,7 @@ fn short(value: f64) -> String {
     rounded.to_string()
 }
 
-/// What was freed by name but has to be held.
+/// Complaint about coordinates freed by name that have to be held.
 pub fn freed_in_vain(error: &QuestionError, freed: &[&str]) -> Option<Complaint> {
     let QuestionError::TooFew { hold, .. } = error else {
         return None;
@@ -45,7 +45,7 @@ pub fn freed_in_vain(error: &QuestionError, freed: &[&str]) -> Option<Complaint>
     (!hold.is_empty() && in_vain).then(|| Complaint::new(error.title()).help(help))
 }
 
-/// The same; `holding` writes the options that hold coordinates.
+/// As [`complaint`]; `holding` writes the options that hold coordinates.
 pub fn complaint_of(error: &QuestionError, holding: &dyn Fn(&[String]) -> String) -> Complaint {
     let said = Complaint::new(error.title());
     match error {
@@ -85,7 +85,7 @@ pub fn complaint_of(error: &QuestionError, holding: &dyn Fn(&[String]) -> String
     }
 }
 
-/// What is wrong with a rate, an acceleration or a force that an option gives.
+/// The error in a rate, an acceleration or a force that an option gives.
 pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
     let said = |label| Complaint::new(error.to_string()).label(label);
     let held_at = |held: &[String]| options(option, held, "=0.1");
@@ -168,7 +168,7 @@ pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -
     }
 }
 
-/// What was meant by a name, or else something more general.
+/// The name that was probably meant, or else a more general remedy.
 pub fn meant(name: &str, known: &[String], other: impl FnOnce() -> String) -> String {
     match nearest(name, known.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean `{meant}`?"),
@@ -235,7 +235,7 @@ fn instead(platform: &str) -> String {
     format!("--free actuated --hold {home}")
 }
 
-/// How to stop holding coordinates: joints are freed, platform coordinates are held only by an option,
+/// Options that release coordinates: joints are freed, platform coordinates are held only by an option,
 /// of their own or of the whole platform.
 fn release(held: &[String]) -> String {
     let (coordinates, joints): (Vec<String>, Vec<String>) =

@@ -17,7 +17,7 @@ pub(super) fn is_irrelevant(node: Node) -> bool {
     irrelevant.any(|element| element == node.tag_name().name())
 }
 
-/// How an axis is written.
+/// Example of an axis as the format writes it.
 pub(super) const AXIS: &str = "axis=\"0 0 1\"";
 
 /// Elements that create bodies in unsupported ways.

@@ -76,7 +76,7 @@ pub(super) fn read(
     tree.couplings = couplings;
 }
 
-/// What a constraint on a tendon is: between two sites a rod, along joints a relation of their values.
+/// Constraint on a tendon: between two sites a rod, along joints a relation of their values.
 enum Tendon {
     Rod(Box<Loop>),
     Coupling(Coupling),

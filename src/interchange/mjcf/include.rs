@@ -14,7 +14,7 @@ const MOST_BYTES: usize = 1 << 23;
 /// Reads another file by its name.
 pub(crate) type Files<'a> = &'a dyn Fn(&str) -> Result<String, NotRead>;
 
-/// Why an included file is not read.
+/// Reasons for which an included file is not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRead {
     /// It lies outside the folders that files may be read from.

@@ -254,7 +254,7 @@ fn write_joint(xml: &mut Xml, joint: &Joint) {
     );
 }
 
-/// How joints and shapes are displayed in a mechanism of that size.
+/// Display settings of joints and shapes in a mechanism of that size.
 fn defaults(size: f64) -> Xml {
     let mut xml = Xml::default();
     xml.leaf("joint armature damping", &[&0.01, &0.1]);

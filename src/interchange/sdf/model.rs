@@ -31,7 +31,7 @@ pub(super) struct Reader<'f> {
     within: Vec<String>,
 }
 
-/// Where an element of a model stands: what precedes its names, and whether all of it stands still.
+/// Scope of an element of a model: the prefix of its names, and true if all of it stands still.
 #[derive(Clone)]
 pub(super) struct Scope {
     prefix: String,

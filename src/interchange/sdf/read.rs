@@ -82,7 +82,7 @@ pub(super) struct Builder<'f> {
 }
 
 impl Builder<'_> {
-    /// What is asked of the frames, or a problem at a joint.
+    /// The result of a question about frames, or a problem at a joint.
     pub(super) fn found<T>(&mut self, found: Result<T, Lost>, joint: Option<usize>) -> Option<T> {
         let kind = match found {
             Ok(found) => return Some(found),

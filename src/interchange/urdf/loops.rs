@@ -33,7 +33,7 @@ const TYPES: [(&str, ClosureKind); 10] = [
     ("planar", ClosureKind::Planar),
 ];
 
-/// Whether an element of a robot is one of them.
+/// True if an element of a robot is a loop.
 pub(super) fn is_loop(node: Node) -> bool {
     match node.tag_name().name() {
         "loop_joint" | "loop" | "ball_constraint" => true,

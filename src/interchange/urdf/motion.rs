@@ -83,7 +83,8 @@ pub(super) fn moving(
     }
 }
 
-/// Which joints are driven: those of transmissions; where there are none, those that are said to be independent, or those
+/// Joints that are driven: those of transmissions; where there are none, those that are said to be independent, or
+/// those
 /// with an effort, or all of a tree and none of a linkage with loops.
 pub(super) fn driven(
     robot: Node,
@@ -136,5 +137,5 @@ pub(super) fn driven(
     driven.collect()
 }
 
-/// How an axis is written.
+/// Example of an axis as the format writes it.
 pub(super) const AXIS: &str = "xyz=\"0 0 1\"";

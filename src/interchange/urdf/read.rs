@@ -175,7 +175,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         pose
     }
 
-    /// What a joint joins, where, and how it moves.
+    /// The two links of a joint, its pose and its motion.
     fn hanging(&mut self, node: Node, name: &str) -> Option<Hanging> {
         let kind = self.problems.word(node, "type", &TYPES);
         let mut origin = None;

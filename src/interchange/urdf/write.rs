@@ -80,7 +80,7 @@ impl UrdfWriter<'_> {
         })
     }
 
-    /// Whether another body carries a body, through joints or rigid closures.
+    /// True if another body carries a body, through joints or rigid closures.
     fn hangs_on(&self, body: usize, on: usize) -> bool {
         let mut at = Some(body);
         while let Some(body) = at.filter(|body| *body != on) {

@@ -86,7 +86,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Whether a name in the row may be that of a joint after all.
+    /// True if a name in the row may be that of a joint after all.
     fn may_move(&self, row: &Row) -> bool {
         let [_, _, d, theta] = &row.written;
         [d, theta].into_iter().any(|written| {
@@ -96,7 +96,7 @@ impl Builder<'_> {
     }
 }
 
-/// What is wrong with a distance that no joint changes.
+/// Problem of the length of a distance that no joint changes, if it has one.
 pub(in super::super) fn fault_of_length(closure: &str, length: f64) -> Option<ProblemKind> {
     let closure = closure.to_owned();
     match length {

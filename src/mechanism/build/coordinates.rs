@@ -56,7 +56,7 @@ impl Builder<'_> {
     }
 }
 
-/// What is wrong with the values of an axis, given the values of vectors.
+/// Problem of the values of an axis, given the values of vectors.
 fn fault(
     joint: &str,
     kind: AxisKind,

@@ -60,7 +60,7 @@ impl Builder<'_> {
         self.refuse(ProblemKind::Unit(kind), at);
     }
 
-    /// Whether the definition of a name contains a unit or `pi`.
+    /// True if the definition of a name contains a unit or `pi`.
     pub(super) fn says_unit(&self, symbol: &Symbol) -> bool {
         match *symbol {
             Symbol::Parameter(i) => !self.bare[i],

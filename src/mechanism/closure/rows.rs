@@ -6,7 +6,7 @@ use crate::number::Number;
 /// The most rows a closure has.
 pub(crate) const MOST_ROWS: usize = 6;
 
-/// Which of the rows of a closure are evaluated.
+/// For each row of a closure, true if it is evaluated.
 pub(crate) type Kept = [bool; MOST_ROWS];
 
 /// All of them.
@@ -35,7 +35,7 @@ pub(crate) struct Rows<T> {
     /// Residuals, in the order point, moments, forces.
     pub residual: [T; MOST_ROWS],
     kept: Kept,
-    /// How many of the closure's rows were considered.
+    /// Number of the closure's rows considered so far.
     considered: usize,
     /// The directions in which the distance of the points counts.
     point: [bool; 3],
@@ -44,7 +44,7 @@ pub(crate) struct Rows<T> {
     moment_count: usize,
     forces: [Vector3<T>; 2],
     force_count: usize,
-    /// Where the velocity of side A and side B is taken.
+    /// Points at which the velocities of side A and side B are taken.
     points: [Vector3<T>; 2],
     inverse_length: f64,
 }
@@ -97,14 +97,14 @@ impl<T: Number> Rows<T> {
         self.point_count + self.moment_count + self.force_count
     }
 
-    /// Whether the next of the closure's rows is evaluated.
+    /// True if the next of the closure's rows is evaluated.
     #[inline(always)]
     fn keeps_next(&mut self) -> bool {
         self.considered += 1;
         self.kept[self.considered - 1]
     }
 
-    /// Whether one of the next rows is evaluated; otherwise they are passed over.
+    /// True if one of the next rows is evaluated; otherwise they are skipped.
     #[inline(always)]
     fn keeps_some_of(&mut self, count: usize) -> bool {
         let some = self.kept[self.considered..self.considered + count].contains(&true);
@@ -252,7 +252,7 @@ impl<T: Number> Rows<T> {
         }
     }
 
-    /// Where the velocity of a side is to be taken.
+    /// Point at which the velocity of a side is taken.
     #[inline(always)]
     pub(crate) fn velocity_point(&self, side: Side) -> &Vector3<T> {
         &self.points[side as usize]

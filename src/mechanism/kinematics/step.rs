@@ -20,7 +20,7 @@ pub(super) struct Step<T> {
     pub slide: LinearForm<T>,
 }
 
-/// What a fixed displacement consists of, so that products with ones and zeros are left out.
+/// Structure of a fixed displacement, by which products with ones and zeros are left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Shape {
     /// The parent is ground, and the displacement is the pose.
@@ -145,7 +145,7 @@ impl Column {
     }
 }
 
-/// Whether a rotation is one about z.
+/// True for a rotation about z.
 pub(super) fn is_level<T: Number>(rotation: &Rotation<T>) -> bool {
     let [x, y, z] = rotation.0;
     let [c, s, _] = x.0;

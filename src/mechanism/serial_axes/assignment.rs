@@ -14,21 +14,21 @@ pub struct Assignment {
     pub axes: Vec<Line>,
     /// N₀ … N_n: from the base to axis 1, between consecutive axes, from axis n to the tool.
     pub normals: Vec<Normal>,
-    /// Whether the table starts in the base frame given.
+    /// True if the table starts in the base frame given.
     pub starts_at_base: bool,
-    /// Whether the table ends in the tool frame given, without a tip.
+    /// True if the table ends in the tool frame given, without a tip.
     pub ends_at_tool: bool,
     /// Largest angle in rad by which an axis or the tool of the table differs from the one given:
     /// rounding, or what was taken as parallel or meeting within the tolerance.
     pub turned: f64,
-    /// The same in m.
+    /// Largest distance in m by which an axis or the tool of the table differs from the one given.
     pub moved: f64,
 }
 
 /// The common normal between two consecutive axes, with the choices made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Normal {
-    /// How the axes lie to one another; at the ends, where only one axis is, `None` if nothing given fixes the normal.
+    /// Relation of the axes; at the ends, where only one axis is, `None` if nothing given fixes the normal.
     pub relation: Option<Relation>,
     /// The angle in rad between the directions as given, in [0, π].
     pub angle: f64,
@@ -38,7 +38,7 @@ pub struct Normal {
     pub x: Vector3<f64>,
     /// z at its start and at its end.
     pub z: [Vector3<f64>; 2],
-    /// Where it starts, on axis k, and where it ends, on axis k + 1.
+    /// Its feet, on axis k and on axis k + 1.
     pub feet: [Vector3<f64>; 2],
 }
 
@@ -84,7 +84,7 @@ fn angle_about(axis: &Vector3<f64>, u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
     }
 }
 
-/// What sums of a few products leave of a zero, beside 1.
+/// Rounding of zeros that are sums of a few products near 1.
 const ROUNDING: f64 = 3e-14;
 
 fn without_rounding(x: f64, size: f64) -> f64 {
@@ -167,8 +167,8 @@ impl SerialAxes {
         Normal::nothing(x, axis.direction, axis.foot(&start))
     }
 
-    /// Where the last normal left axis k and how x stood, moved on by the joint's own variable:
-    /// what θ_k = 0 and d_k = 0 ask for.
+    /// Direction x and foot on axis k that make θ_k = 0 and d_k = 0: those of the last normal, moved on by the joint's
+    /// own variable.
     fn unmoved(&self, k: usize, last: &Normal, axis: &Line) -> (Vector3<f64>, Vector3<f64>) {
         let (turn, slide) = self.joints[k].home_motion();
         let x = turned(&last.x, &axis.direction, turn);

@@ -1,4 +1,4 @@
-//! Where the axes of prismatic joints are put.
+//! Position of the axes of prismatic joints.
 //!
 //! A prismatic axis has no place, so it is put where it makes the table simplest (after Paul 1981,
 //! "the origin for a prismatic joint is coincident with the next defined link origin"):

@@ -7,7 +7,7 @@ use crate::geometry::{Axis, Line, Pose, Vector3};
 /// A Denavit–Hartenberg table as numbers: base · row₁ · … · row_n · tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// How the rows are multiplied.
+    /// Convention of the rows.
     pub convention: Convention,
     /// To frame 0, in the coordinates of the axes.
     pub base: Pose<f64>,

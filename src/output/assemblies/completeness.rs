@@ -1,4 +1,4 @@
-//! How complete a list of assemblies is, and how it was found.
+//! Completeness of a list of assemblies, and the course of the search.
 
 use super::proof;
 use crate::analysis::assemblies::{AssembliesReport, Fit, Traced};
@@ -6,7 +6,7 @@ use crate::description::count;
 use crate::linear::RANK_TOLERANCE;
 use crate::output::quantity::{form, metres};
 
-/// How complete the list is and why, in a sentence.
+/// Completeness of the list and its reasons, in a sentence.
 pub fn completeness(report: &AssembliesReport) -> String {
     let proved = (report.proof.as_ref()).filter(|proof| proof.is_complete());
     match (proved.map(proof::completeness), &report.fit) {

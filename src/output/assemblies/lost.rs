@@ -1,4 +1,4 @@
-//! Why a mode was not followed, as a document.
+//! Report on a mode that was not followed, as a document.
 
 use super::tables::times;
 use crate::algebra::SiUnit;

@@ -1,4 +1,4 @@
-//! What branch and prune over boxes says.
+//! Words for the result of branch and prune over boxes.
 
 use super::super::document::Section;
 use super::super::quantity::{form, if_any, range};
@@ -11,7 +11,7 @@ fn within(proof: &Proof) -> String {
     if_any(&ranges, |ranges| format!(" with {ranges}"))
 }
 
-/// How complete the list is where that is proved.
+/// Completeness of a list that is proved complete.
 pub(super) fn completeness(proof: &Proof) -> String {
     let within = within(proof);
     format!("it is proved that no real assembly{within} is missing")
@@ -38,7 +38,7 @@ fn said(of: &Range) -> String {
     range(&of.name, of.low, of.high, of.unit)
 }
 
-/// Why interval arithmetic says nothing.
+/// Reason for which interval arithmetic proves nothing.
 pub(crate) fn reason(unfit: &Unfit) -> String {
     match unfit {
         Unfit::NoEnclosure => "a dimension has no value over intervals".into(),
@@ -60,7 +60,7 @@ fn modes(modes: &[usize]) -> String {
     format!("{} {numbers}", form(modes.len(), "mode", "modes"))
 }
 
-/// What the sentence does not say.
+/// Notes beside the sentence.
 pub(super) fn notes(proof: &Proof) -> Vec<String> {
     let mut notes = Vec::new();
     let unfit = proof.unfit.as_ref();

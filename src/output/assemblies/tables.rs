@@ -16,8 +16,8 @@ pub(super) fn times(multiplicity: usize) -> String {
     }
 }
 
-/// How many solutions meet in an assembly. Where freedoms are left it lies on a set of complex solutions and has no such
-/// number; where no paths are counted, its equations give the least one.
+/// Number of solutions that meet in an assembly. Where freedoms are left it lies on a set of complex solutions and has
+/// no such number; where no paths are counted, its equations give the least one.
 pub(super) fn met(report: &AssembliesReport, multiplicity: usize) -> String {
     match report.fit {
         Fit::FreedomLeft(_) => "singular".into(),
@@ -32,7 +32,7 @@ pub(super) struct Pose<'r> {
     modes: Vec<&'r Assembly>,
 }
 
-/// What assemblies in one pose have in common.
+/// Name of the things that stand alike in assemblies of one pose.
 pub(super) fn are_posed(report: &AssembliesReport) -> &'static str {
     let found = |(name, _): &(String, _)| !report.held_platforms.contains(name);
     let mut assemblies = report.assemblies.iter();
@@ -200,7 +200,7 @@ pub(super) fn platforms(report: &AssembliesReport) -> Vec<Section> {
     parts.collect()
 }
 
-/// Why assemblies are not certified, each reason once.
+/// Reasons for which assemblies are not certified, each once.
 pub(super) fn reasons(report: &AssembliesReport) -> Section {
     let mut reasons: Vec<(&str, Vec<usize>)> = Vec::new();
     for a in &report.assemblies {
@@ -248,8 +248,8 @@ pub(super) fn complex(report: &AssembliesReport) -> Section {
     solutions.fold(Section::new(title), Section::section)
 }
 
-/// What is left of a zero after rounding is a zero: solutions are good to some 1e-12 rad or
-/// characteristic lengths, and what rounding leaves differs from one way to them to another.
+/// A value with rounding of zero removed: solutions are good to some 1e-12 rad or
+/// characteristic lengths, and rounding differs from one way to them to another.
 fn settled(value: f64, report: &AssembliesReport, unit: SiUnit) -> f64 {
     const ROUNDING: f64 = 1e-10;
     let scale = match unit {

@@ -1,11 +1,11 @@
-//! What stands in a cell of a table.
+//! Cells of tables.
 
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::output::quantity::{quantity, size};
 
-/// What stands in a cell of a table.
+/// Contents of a cell.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cell {
@@ -49,7 +49,7 @@ impl Cell {
         }
     }
 
-    /// What is shown.
+    /// The text shown.
     pub fn shown(&self) -> String {
         match self {
             Cell::Empty => String::new(),
@@ -62,7 +62,7 @@ impl Cell {
     }
 }
 
-/// What each type becomes as a cell.
+/// Conversions of types into cells.
 macro_rules! cell_from {
     ($($type:ty: $cell:expr;)*) => {$(
         impl From<$type> for Cell {

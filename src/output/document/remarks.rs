@@ -1,24 +1,24 @@
-//! What is said beside the answer of a document.
+//! Remarks beside the answer of a document.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// What is said beside the answer; each is absent where the question is another one.
+/// Remarks beside the answer; each is absent where the question is another one.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remarks {
-    /// Why the mobility is not that of Kutzbach's count.
+    /// Reason for which the mobility differs from Kutzbach's count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explanation: Option<String>,
-    /// How sure it is that no assembly is missing.
+    /// Certainty that no assembly is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub complete: Option<String>,
-    /// How sure it is that no singularity or mode is missing.
+    /// Certainty that no singularity or mode is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub completeness: Option<String>,
-    /// What outputs that are full poses may hide; `null` if nothing.
+    /// Losses that outputs which are full poses may hide; `null` if none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[serde(deserialize_with = "present")]
     pub note: Option<Option<String>>,
-    /// What repeats what other closures hold already.
+    /// Constraints that repeat those of other closures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub redundant_constraints: Option<Vec<String>>,
 }

@@ -1,4 +1,4 @@
-//! What is drawn beside the mechanism: limits, gears, frames, axes of freedoms gained, instant centres, forces.
+//! Marks beside the mechanism: limits, gears, frames, axes of freedoms gained, instant centres, forces.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ const AXES: [Colour; 3] = [Colour(0xD55E00), Colour(0x009E73), Colour(0x0072B2)]
 /// Length of the largest force in pixels.
 const LONGEST: f64 = 50.0;
 
-/// What the mechanism covers.
+/// Marks that the mechanism covers.
 pub(super) fn under(stage: &Stage) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for wheel in &stage.scene.wheels {
@@ -71,7 +71,7 @@ fn travelled(stage: &Stage, travel: &Travel) -> [Vec<Triple>; 3] {
     }
 }
 
-/// What covers the mechanism, and the names that stand beside it.
+/// Marks that cover the mechanism, and the names beside it.
 pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
     let (mut shapes, mut named) = (Vec::new(), Vec::new());
     let scene = stage.scene;
@@ -113,7 +113,7 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
     (shapes, named)
 }
 
-/// How a body moves about and along a screw.
+/// Motion of a body about and along a screw, in words.
 pub fn movement(screw: &Axis) -> String {
     match screw.pitch {
         None => format!("{} slides", screw.name),

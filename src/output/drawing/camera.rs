@@ -85,7 +85,7 @@ impl Camera {
         })
     }
 
-    /// How much a direction points to the viewer.
+    /// Component of a direction towards the viewer.
     pub fn facing(&self, direction: &Vector3<f64>) -> f64 {
         direction.dot(&self.towards)
     }

@@ -16,18 +16,18 @@ pub(in crate::output) enum Script {
     Latex,
 }
 
-/// How the letters of a mechanism are printed: c₁₂ for cos(θ₁ + θ₂) where all angles have one stem.
+/// Print form of the letters of a mechanism: c₁₂ for cos(θ₁ + θ₂) where all angles have one stem.
 pub(in crate::output) struct Notation {
     script: Script,
     /// The stem of all joint angles, as `theta` of theta1, theta2.
     stem: Option<String>,
     /// The only platform: its letters need no name.
     platform: Option<String>,
-    /// Whether names that differ in underscores before their digits differ in more.
+    /// True if names that differ in underscores before their digits differ in more.
     underscores: bool,
 }
 
-/// How tightly something printed binds.
+/// Precedence of a printed expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Tightness {
     Sum,

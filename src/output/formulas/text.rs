@@ -50,7 +50,7 @@ impl Report for FormulasReport {
     }
 }
 
-/// What is solved, and what is not.
+/// The unknowns that are solved, and those that are not.
 fn answer(solution: &SolutionFormula) -> String {
     let given = match &solution.held[..] {
         [] => String::new(),
@@ -226,7 +226,7 @@ fn expressions(report: &FormulasReport) -> impl Iterator<Item = &Expression> {
     transforms.chain(closures).chain(columns).chain(steps)
 }
 
-/// What the shorthands stand for.
+/// Meanings of the shorthands.
 fn legend(notation: &Notation, report: &FormulasReport) -> Vec<String> {
     let mut short: BTreeMap<String, String> = BTreeMap::new();
     for expression in expressions(report) {

@@ -7,7 +7,7 @@ use crate::geometry::{Quaternion, Rotation, Vector3};
 use crate::number::real;
 use crate::output::canvas::Colour;
 
-/// Where a solid is: stretched, then turned, then put there.
+/// Placement of a solid: stretched, then turned, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Placed {
     pub at: Vector3<f64>,
@@ -49,7 +49,7 @@ pub(super) fn without_flips(places: &mut [Placed]) {
     }
 }
 
-/// What the numbers of an accessor are: their type and how many of them are one.
+/// Types of accessors, each with its number of components.
 const SCALAR: (&str, usize) = ("SCALAR", 1);
 const VEC3: (&str, usize) = ("VEC3", 3);
 const VEC4: (&str, usize) = ("VEC4", 4);

@@ -1,4 +1,4 @@
-//! How curves, marks and values look.
+//! Styles of curves, marks and values.
 
 use crate::output::canvas::{Colour, Style};
 

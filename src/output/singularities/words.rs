@@ -14,7 +14,7 @@ pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
     format!("{input} {}; {output} {}.", names(inputs), names(outputs))
 }
 
-/// Whether a configuration is singular, and how, in a sentence or two.
+/// Singularity of a configuration, in a sentence or two.
 pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[String]) -> String {
     let still = |of: &[String]| {
         let stand = form(of.len(), "stands", "stand");
@@ -123,7 +123,7 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
     text
 }
 
-/// How a motion ended, in a sentence.
+/// End of a motion, in a sentence.
 pub(super) fn ending(report: &AlongReport) -> String {
     let way = report.moved.iter();
     let way = listed(way.map(|m| range(&m.name, m.from, m.to, m.unit)));
@@ -207,14 +207,14 @@ pub(super) fn loci(report: &LocusReport) -> String {
     )
 }
 
-/// What is held still because links spin.
+/// Coordinates held still because links spin.
 pub(super) fn pinned(report: &LocusReport) -> Option<String> {
     let names = listed(&report.pinned);
     let spin = "Links can spin about their own lines without moving anything else";
     (!report.pinned.is_empty()).then(|| format!("{spin}; held still: {names}."))
 }
 
-/// How sure it is that none is missing.
+/// Certainty that no locus is missing.
 pub(super) fn completeness(report: &LocusReport) -> String {
     let [direct, inverse] = report.arrived;
     let last = report.last_new.iter().flatten().max();
@@ -246,7 +246,8 @@ pub(super) fn completeness(report: &LocusReport) -> String {
     )
 }
 
-/// What may be missing: what n starts do not lead to has a probability below 3/n, at 95 % confidence (rule of three).
+/// Bound on missing loci: those to which n starts do not lead have a probability below 3/n, at 95 % confidence (rule of
+/// three).
 fn missing(report: &LocusReport) -> String {
     let starts = report.starts.iter().zip(report.sought);
     let fewest = starts.filter(|(_, sought)| *sought).map(|(n, _)| n / 3);

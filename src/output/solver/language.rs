@@ -1,4 +1,4 @@
-//! What differs between the languages.
+//! Differences between the languages.
 
 use super::Code;
 use crate::algebra::{Operation, Place};
@@ -180,7 +180,7 @@ impl Code {
         }
     }
 
-    /// The same as an operand.
+    /// A number as an operand: in parentheses if it is negative.
     pub(super) fn operand(&self, x: f64) -> String {
         let literal = self.literal(x);
         match x < 0.0 {

@@ -75,7 +75,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// What is needed for places, in order.
+    /// Operations needed for places, in order.
     fn needed(&self, places: impl IntoIterator<Item = Place>) -> BTreeSet<Place> {
         let mut needed = BTreeSet::new();
         let mut open: Vec<Place> = places.into_iter().collect();

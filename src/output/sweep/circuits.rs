@@ -109,7 +109,7 @@ fn class(class: FourBarClass) -> &'static str {
     }
 }
 
-/// Where the circuits are not those of the class that the lengths have, by how little they have it.
+/// Remark where the circuits are not of the class that the lengths give: the small difference of the lengths.
 fn other_class(report: &CircuitsReport) -> Option<String> {
     let of = report.grashof.filter(|of| report.class != Some(of.class))?;
     let lengths = match of.class {

@@ -21,12 +21,12 @@ impl<T> Thinned<T> {
         }
     }
 
-    /// Whether nothing has come yet.
+    /// True before the first one.
     pub fn begins(&self) -> bool {
         self.seen == 0
     }
 
-    /// Whether the next one is to be kept.
+    /// True if the next one is to be kept.
     pub fn wants_next(&self) -> bool {
         self.seen.is_multiple_of(self.every)
     }

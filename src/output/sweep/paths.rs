@@ -4,7 +4,7 @@ use crate::analysis::sweep::{PathPoint, PathReport};
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Section, Table};
 
-/// What is special on the path of each point over circuits, or along one motion if there is anything.
+/// Special points on the path of each point over circuits, or along one motion if there are any.
 pub(super) fn sections(paths: &[PathReport], circuits: bool) -> impl Iterator<Item = Section> {
     let worth = move |path: &&PathReport| {
         circuits || !path.cusps.is_empty() || !path.double_points.is_empty()

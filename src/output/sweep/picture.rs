@@ -23,9 +23,9 @@ pub struct Picture {
     /// Quantities, drawn over the first input in a panel for each unit.
     quantities: Vec<Variable>,
     motions: Vec<Drawn>,
-    /// Whether inputs were given.
+    /// True if inputs were given.
     driven: bool,
-    /// What tells motions apart.
+    /// Name of the things that distinguish motions.
     what: &'static str,
     double_points: Vec<Triple>,
     /// Quantities without bound, by name, with what the abscissa is where they have none.
@@ -221,7 +221,7 @@ impl Picture {
     }
 }
 
-/// Whether a joint is at a limit.
+/// True if a joint is at a limit.
 fn at_limit(mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
     let scales = &mechanism.dimensions().joint_scales;
     let joints = mechanism.joints().iter().zip(&at.joints).zip(scales);

@@ -1,4 +1,4 @@
-//! What is said about a motion.
+//! Words about a motion.
 
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
@@ -16,7 +16,7 @@ fn inputs_at(report: &SweepReport, met: &Met) -> String {
     listed(inputs)
 }
 
-/// How a motion ended, in a sentence or two.
+/// End of a motion, in a sentence or two.
 pub fn sentence(report: &SweepReport) -> String {
     let last = report.met.last();
     let inputs = report.inputs.iter();
@@ -122,7 +122,7 @@ pub fn sentence(report: &SweepReport) -> String {
     }
 }
 
-/// What interval arithmetic says of the branch.
+/// Certificate of the branch by interval arithmetic, in words.
 pub fn certified(report: &SweepReport) -> Vec<String> {
     let Some(certificate) = &report.certificate else {
         return Vec::new();
@@ -163,7 +163,7 @@ fn some(places: impl ExactSizeIterator<Item = String>) -> String {
     listed(places.take(SHOWN)) + beyond
 }
 
-/// How the inputs went through their ranges in time, where quantities depend on it.
+/// Motion law of the inputs, where quantities depend on it.
 pub(super) fn paced(motion: &MotionReport) -> Option<String> {
     let pace = motion.pace.filter(|_| !motion.extremes.is_empty())?;
     let law = match pace.law {
@@ -190,7 +190,7 @@ pub(super) fn paced(motion: &MotionReport) -> Option<String> {
     Some(format!("{} {go} {range}in {time} {law}", listed(&inputs)))
 }
 
-/// What says where a motion is: its inputs; without any, the first joint.
+/// Coordinates that tell the place on a motion: its inputs; without any, the first joint.
 pub(super) fn driven(motion: &MotionReport) -> Vec<(&str, SiUnit)> {
     match &motion.sweep.inputs[..] {
         [] => (motion.columns.get(1).iter().take(1))
@@ -203,7 +203,7 @@ pub(super) fn driven(motion: &MotionReport) -> Vec<(&str, SiUnit)> {
     }
 }
 
-/// Where quantities have no bound, and why some have no value.
+/// Poles of quantities, and reasons for which some have no value.
 pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
     let driven = driven(motion);
     let place = |pole: &Pole| {
@@ -238,7 +238,7 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
     said.chain(missing).chain(open).collect()
 }
 
-/// How straight paths are, and where quantities dwell.
+/// Straightness of paths, and dwells of quantities.
 pub(super) fn shapes(motion: &MotionReport) -> Vec<String> {
     let straight = motion.straightness.iter().map(|path| {
         format!(
@@ -268,7 +268,7 @@ pub(super) fn shapes(motion: &MotionReport) -> Vec<String> {
     straight.chain(dwells).collect()
 }
 
-/// What the motion took.
+/// Work done for the motion.
 pub(super) fn work(report: &SweepReport) -> String {
     format!(
         "{} along the curve in {}; its length is {}, in rad and units of {}",
@@ -279,7 +279,7 @@ pub(super) fn work(report: &SweepReport) -> String {
     )
 }
 
-/// What was met on the way.
+/// Special points met on the way.
 pub(super) fn met(motion: &MotionReport) -> Option<Section> {
     const SHOWN: usize = 24;
     let report = &motion.sweep;

@@ -10,7 +10,7 @@ const MOST: usize = 120;
 /// Pictures side by side, where there are slices.
 const COLUMNS: usize = 4;
 
-/// What is drawn of a map: modes, and slices of each.
+/// Numbers of modes, and of slices of each, that are drawn.
 struct Drawn {
     modes: usize,
     /// Nodes of the third coordinate, evenly spread.
@@ -27,7 +27,7 @@ fn drawn(report: &WorkspaceReport) -> Drawn {
     Drawn { modes, slices }
 }
 
-/// What of a map is drawn, if there is too much of it to draw all: `120 of 576 slices drawn`.
+/// Part of a map that is drawn, if there is too much of it to draw all: `120 of 576 slices drawn`.
 pub fn left_out(report: &WorkspaceReport) -> Option<String> {
     let drawn = drawn(report);
     let mut parts = Vec::new();

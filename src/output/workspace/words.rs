@@ -1,4 +1,4 @@
-//! What is said about a map of the workspace.
+//! Words about a map of the workspace.
 
 use super::percent;
 use crate::analysis::workspace::{AspectReport, AxisReport, BoundaryKind, WorkspaceReport};
@@ -76,7 +76,7 @@ pub(super) fn sentence(report: &WorkspaceReport) -> String {
     )
 }
 
-/// What the columns of aspects tell, line by line.
+/// Meaning of the columns of aspects, line by line.
 pub(super) fn explanation(report: &WorkspaceReport) -> Vec<String> {
     let names = |names: &[String]| match names {
         [one] => one.clone(),

@@ -17,7 +17,7 @@ pub(super) struct Linear {
     pub targets: Vec<Vec<f64>>,
 }
 
-/// What an eliminated configuration leaves for the shared numbers: rows of coefficients with what is left at their end.
+/// Rows that an eliminated configuration leaves for the shared numbers: coefficients, and the residual at the end.
 pub(super) struct Left {
     pub conditions: Vec<Vec<f64>>,
     pub targets: Vec<Vec<f64>>,

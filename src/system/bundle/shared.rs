@@ -41,7 +41,7 @@ impl Triangle {
     }
 }
 
-/// What eliminated configurations leave for the shared numbers: conditions C p = −c, and squares |T p + t|² to be made
+/// Rows of all eliminated configurations for the shared numbers: conditions C p = −c, and squares |T p + t|² to be made
 /// small.
 #[derive(Clone, Debug)]
 pub(super) struct Reduced {

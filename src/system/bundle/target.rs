@@ -19,11 +19,11 @@ pub struct Target {
     pub quantity: Quantity,
     /// The value that it should have, in SI units and rad.
     pub value: f64,
-    /// What a unit of difference counts, 1 over the uncertainty of the value.
+    /// Weight of a unit of difference: 1 over the uncertainty of the value.
     pub weight: f64,
 }
 
-/// Why a quantity cannot be a target.
+/// Reasons for which a quantity cannot be a target.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum TargetError {

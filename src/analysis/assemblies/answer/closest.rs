@@ -42,7 +42,7 @@ impl Question<'_> {
         best.map(|(_, solved, point)| (point, solved))
     }
 
-    /// How near the mechanism comes to being assembled about a configuration.
+    /// The closest approach to assembly near a configuration.
     pub(crate) fn closest(&self, near: &Configuration<f64>) -> Option<ClosestApproach> {
         let (point, local_minimum) = approach(&self.system, near);
         let point = tidied(point, self.coordinates, true);

@@ -1,4 +1,4 @@
-//! What the report gives for each assembly: its number, condition, sign of det J and certificate.
+//! Data of each assembly in the report: number, condition, sign of det J and certificate.
 
 use nalgebra::{ComplexField, DMatrix};
 

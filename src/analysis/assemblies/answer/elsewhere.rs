@@ -21,12 +21,12 @@ const MANY_STARTS: usize = 400;
 /// Samples of a set of one dimension, and how far they are apart at least.
 const SAMPLES: usize = 6;
 const APART: f64 = 1e-3;
-/// What rounding leaves of the closures at a multiple solution, beside its size.
+/// Rounding of the closures at a multiple solution, relative to its size.
 const ROUNDING: f64 = 1e-14;
 
 impl Question<'_> {
-    /// Whether Newton's method may have ended at a point on its way to a known assembly: the closures
-    /// see no more between them than it leaves.
+    /// True if Newton's method may have ended at a point on its way to a known assembly: the closures
+    /// hardly differ between the two.
     fn is_at(&self, x: &[C], found: &Found, homotopy: &mut ParameterHomotopy<'_>) -> bool {
         const NEAR: f64 = 0.3;
         let y = self.coordinates.flat(&found.point);

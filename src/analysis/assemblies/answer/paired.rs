@@ -42,5 +42,5 @@ impl Question<'_> {
     }
 }
 
-/// How far two paths may end from one solution, beside its size.
+/// Largest distance between ends of two paths at one solution, relative to its size.
 const NEAR: f64 = 1e-5;

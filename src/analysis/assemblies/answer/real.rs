@@ -63,7 +63,7 @@ fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 
-/// How near to −π an angle is reported as π. Where solutions meet, only half the digits are sure.
+/// Distance from −π within which an angle is reported as π. Where solutions meet, only half the digits are sure.
 fn rounding(sure: bool) -> f64 {
     if sure { 1e-9 } else { 1e-6 }
 }
@@ -110,13 +110,13 @@ pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
     x
 }
 
-/// What complex solutions are ordered by: real and imaginary part of one unknown after the other,
+/// Key by which complex solutions are ordered: real and imaginary part of one unknown after the other,
 /// in the order of [`key`].
 pub(crate) fn complex_key(x: &[C]) -> Vec<f64> {
     x.iter().flat_map(|z| [z.re, z.im]).collect()
 }
 
-/// What solutions are numbered by: unknown joints in the order of the file, then position and
+/// Key by which solutions are numbered: unknown joints in the order of the file, then position and
 /// quaternion of each platform.
 pub(crate) fn key(point: &Configuration<f64>, coordinates: &Coordinates) -> Vec<f64> {
     let joints = coordinates

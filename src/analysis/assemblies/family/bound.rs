@@ -1,4 +1,4 @@
-//! Structures whose number of solutions is known.
+//! Structures with a known number of solutions.
 //!
 //! The structure is read off a generic member: axes that are parallel or meet there do so for all
 //! inputs, and so do points that coincide. A bound that is reached ends the search; one that is not
@@ -120,7 +120,7 @@ impl<'a> Structure<'a> {
         (joints.iter()).all(|joint| kind(joint) == JointKind::Revolute)
     }
 
-    /// Whether two joints of a closure slide along one direction, so that it does not determine where they meet.
+    /// True if two joints of a closure slide in one direction, so that it does not determine their meeting point.
     fn slide_alike(&self, link: &Link, joints: [usize; 2]) -> bool {
         let along = joints.map(|joint| {
             let own = link.axes.joints.iter().find(|(j, ..)| *j == joint);
@@ -172,7 +172,7 @@ impl<'a> Structure<'a> {
         )
     }
 
-    /// Whether all joints of closures turn about one direction, which their axes have too.
+    /// True if all joints of closures turn about parallel axes, and the axes of the closures are parallel to them.
     fn planar(&self) -> bool {
         let about = |link: &Link| {
             let [a, b] = link.axes.frames;
@@ -329,7 +329,7 @@ impl<'a> Structure<'a> {
         }
     }
 
-    /// Whether a leg's two joints turn about axes that meet: ω₁·v₂ + ω₂·v₁ = 0.
+    /// True if a leg's two joints turn about axes that meet: ω₁·v₂ + ω₂·v₁ = 0.
     fn universal(&self, link: &Link) -> bool {
         let [(_, a, va), (_, b, vb)] = link.axes.joints.as_slice() else {
             return false;
@@ -341,7 +341,7 @@ impl<'a> Structure<'a> {
             && complex::norm(a.dot(vb) + b.dot(va)) <= SMALL * size
     }
 
-    /// Whether six legs end at three points of the platform, two at each.
+    /// True if six legs end at three points of the platform, two at each.
     fn meets_by_pairs(&self) -> bool {
         let point = |link: &Link| {
             link.frames.iter().find_map(|frame| match frame {
@@ -364,7 +364,7 @@ impl<'a> Structure<'a> {
     }
 }
 
-/// Whether a joint stands in one row of one chain, or in the length of one closure, as itself.
+/// True if a joint stands in one row of one chain, or in the length of one closure, with a factor of absolute value 1.
 fn is_plain(dimensions: &Dimensions<C>, joint: usize) -> bool {
     let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
     let in_rows = rows.flat_map(|row| [row.turn.coefficient(joint), row.slide.coefficient(joint)]);

@@ -1,4 +1,4 @@
-//! Configurations as flat complex coordinates, and when two of them are the same.
+//! Configurations as flat complex coordinates, and tests for equal ones.
 
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ pub(crate) enum Input {
 }
 
 impl Input {
-    /// How many flat inputs it is.
+    /// Number of its flat inputs.
     pub fn width(self) -> usize {
         match self {
             Input::Joint(_) | Input::Target(..) => 1,
@@ -35,7 +35,7 @@ impl Input {
     }
 }
 
-/// Which coordinates are unknown and which are given, and how they stand in flat vectors.
+/// Unknown and given coordinates, and their order in flat vectors.
 ///
 /// Flat unknowns are dimensionless: free joints over their scale, then for each platform to be found
 /// a quaternion and a position over the characteristic length. Flat inputs keep their units.
@@ -97,7 +97,7 @@ impl Coordinates {
         }
     }
 
-    /// Whether a joint is free, turns something and never comes back to the same place.
+    /// True if a joint is free, turns something and never comes back to the same place.
     pub fn winds(&self, joint: usize) -> bool {
         self.screws.contains(&joint) || self.incommensurate.contains(&joint)
     }
@@ -233,7 +233,7 @@ impl Coordinates {
         self.gaps(x, y).fold(0.0, f64::max).sqrt()
     }
 
-    /// The same solution as `y`, with the turns of its angles and the signs of its quaternions that
+    /// The solution `y` with the turns of its angles and the signs of its quaternions that
     /// bring it nearest to `x`.
     pub fn beside(&self, x: &[C], y: &[C]) -> Vec<C> {
         let mut y = y.to_vec();
@@ -254,12 +254,12 @@ impl Coordinates {
         y
     }
 
-    /// Whether two solutions differ by no more than `limit` in any coordinate.
+    /// True if two solutions differ by no more than `limit` in any coordinate.
     pub fn within(&self, limit: f64, x: &[C], y: &[C]) -> bool {
         self.gaps(x, y).all(|gap| gap <= limit * limit)
     }
 
-    /// Whether two solutions of a generic member are the same: their difference is small beside their
+    /// True if two solutions of a generic member are the same: their difference is small relative to their
     /// size. [`Coordinates::same_pose`] and [`Coordinates::same_way`] look at a part. At the inputs
     /// asked solutions may be nearer to each other: there the closures tell
     /// ([`are_one`](super::simple::are_one)).
@@ -267,12 +267,12 @@ impl Coordinates {
         all_small(self.gaps(x, y), x)
     }
 
-    /// Whether the platforms of two solutions stand alike.
+    /// True if the platforms of two solutions have the same poses.
     pub fn same_pose(&self, x: &[C], y: &[C]) -> bool {
         all_small(pose_gaps(x, y), x)
     }
 
-    /// Whether joints at these places of the unknowns have the same values.
+    /// True if joints at these places of the unknowns have the same values.
     pub fn same_way(&self, places: &[usize], x: &[C], y: &[C]) -> bool {
         all_small(self.joint_gaps(places.iter().copied(), x, y), x)
     }
@@ -323,7 +323,7 @@ pub(crate) fn size(x: &[C]) -> f64 {
     x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
 }
 
-/// Whether a joint makes something slide.
+/// True if a joint makes something slide.
 fn slides(dimensions: &Dimensions<f64>, joint: usize) -> bool {
     let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
     let lengths = dimensions.closures.iter().map(|c| &c.extension);

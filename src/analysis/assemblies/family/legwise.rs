@@ -19,17 +19,17 @@ pub(crate) struct LegwiseSolutions {
 }
 
 impl LegwiseSolutions {
-    /// How many solutions it stands for.
+    /// Number of solutions that it stands for.
     pub fn count(&self) -> usize {
         self.legs.iter().map(Vec::len).product()
     }
 
-    /// How few of them show every way of every leg.
+    /// Least number of them that show every way of every leg.
     pub fn spanning(&self) -> usize {
         self.legs.iter().map(Vec::len).max().unwrap_or(1)
     }
 
-    /// Whether it belongs to these coordinates.
+    /// True if it belongs to these coordinates.
     pub fn fits(&self, coordinates: &Coordinates) -> bool {
         let legs = &coordinates.legs;
         self.pose.len() == 7 * coordinates.free_platforms.len()
@@ -88,7 +88,7 @@ fn at(joints: &[usize], x: &[C]) -> Vec<C> {
     joints.iter().map(|&joint| x[joint]).collect()
 }
 
-/// What a set of legwise solutions learns from a solution; whether anything was new.
+/// Adds a solution to legwise solutions; true if anything in it was new.
 pub(crate) fn learn(
     legwise: &mut Vec<LegwiseSolutions>,
     coordinates: &Coordinates,
@@ -111,7 +111,7 @@ pub(crate) fn learn(
     }
 }
 
-/// How many solutions legwise solutions stand for.
+/// Number of solutions that legwise solutions stand for.
 pub(crate) fn count(legwise: &[LegwiseSolutions]) -> usize {
     legwise.iter().map(LegwiseSolutions::count).sum()
 }

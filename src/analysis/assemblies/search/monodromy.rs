@@ -177,9 +177,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether there is no end of solutions: with joints that never come back, or if seeds end at none that is known
-    /// already. Were there N in all and known a part m/N of them, n seeds that end at a solution would miss all known
-    /// ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.
+    /// True if the solutions are not finite in number: with joints that never come back, or if seeds end at none that
+    /// is known already. Were there N in all and known a part m/N of them, n seeds that end at a solution would miss
+    /// all known ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.
     fn is_endless(&mut self, still: &ParameterHomotopy<'_>) -> bool {
         const BATCHES: usize = 4;
         const ENDS: usize = 64;
@@ -269,8 +269,9 @@ impl Search<'_> {
         }
     }
 
-    /// Where the known bound is reached, one loop confirms it; below it the end is doubted, unless the trace test holds:
-    /// then only loops through other dimensions, every sixth one where there are any, may bring more.
+    /// Number of loops without a discovery that end the search: one where the known bound is reached, half as many
+    /// again below it. If the trace test holds, only loops through other dimensions may bring more, every sixth one if
+    /// there are any.
     fn enough_loops(&self) -> usize {
         let quiet = self.settings.quiet_loops.max(1);
         if self.is_traced() {

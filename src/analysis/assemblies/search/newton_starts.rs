@@ -11,7 +11,7 @@ use crate::solve::{Newton, Report, Stop};
 /// Ends of seeds farther out than this do not count: rounding decides where they are.
 const FAR: f64 = 1e5;
 
-/// What one seed met.
+/// End of one seed.
 pub(crate) enum Seed {
     Nothing,
     /// A simple isolated solution.

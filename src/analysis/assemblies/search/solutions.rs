@@ -31,23 +31,23 @@ pub struct GenericSolutions {
     pub quiet_seeds: usize,
     /// Loops since the last discovery in which no path was lost, or of 200 and more at most a quarter.
     pub quiet_loops: usize,
-    /// Whether the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
+    /// True if the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub traced: bool,
     /// The most paths lost in one of them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub lost_in_loops: usize,
-    /// Whether every seed led to another solution: they are not finite in number, and none is kept.
+    /// True if every seed led to another solution: they are not finite in number, and none is kept.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub endless: bool,
-    /// Whether the search ended at its limits and not because nothing more was found.
+    /// True if the search ended at its limits and not because nothing more was found.
     pub exhausted: bool,
     /// The random seed.
     pub seed: u64,
 }
 
 impl GenericSolutions {
-    /// How many isolated complex solutions a generic member has.
+    /// Number of isolated complex solutions of a generic member.
     pub fn count(&self) -> usize {
         count(&self.legwise)
     }

@@ -13,7 +13,7 @@ const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
 const VERSION: u32 = 3;
 
-/// What is wrong with stored solutions.
+/// Errors of stored solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StoredError {
     /// The text is something else.
@@ -52,7 +52,7 @@ impl GenericSolutions {
         format!("{}\n{body}", title(self, &body))
     }
 
-    /// Whether the generic member is assembled at every solution.
+    /// True if the generic member is assembled at every solution.
     pub(crate) fn solves(&self, family: &Family) -> bool {
         let member = self.member();
         let Some(mut homotopy) = family.homotopy(&member, &member) else {
@@ -64,7 +64,7 @@ impl GenericSolutions {
     }
 }
 
-/// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
+/// Key of the question that stored solutions belong to: the mechanism's name, and a hash of dimensions and inputs.
 pub(crate) fn question(mechanism: &Mechanism, family: &Family) -> String {
     let all = format!(
         "{:?} {:?} {:?} {:?}",

@@ -1,4 +1,4 @@
-//! Whether loops of the inputs lead from the solutions known to others: a trace test.
+//! Trace test: no loop of the inputs leads from the known solutions to others.
 //!
 //! While an input t moves, the solutions (x, t) run over an algebraic curve. For a function f that is regular on it, a
 //! level c and two places a and b of t the residues of dt/((t − a)(t − b)(f − c)) add up to zero, those at infinity being zero:
@@ -30,7 +30,7 @@ const STARTS: usize = 8;
 const PATHS: usize = 30;
 const MORE: usize = 20;
 
-/// Whether the identity holds for every direction of the family. `false` where it does not, or where that is not found
+/// True if the identity holds for every direction of the family; false where it does not, or where that is not found
 /// out at a reasonable cost.
 pub(crate) fn holds(
     family: &Family,

@@ -9,7 +9,7 @@ use crate::number::Number;
 pub(crate) struct Meeting {
     pub s: f64,
     pub x: Vec<C>,
-    /// Whether it is a turning point, beyond which the solutions are complex. Otherwise they cross.
+    /// True at a turning point, beyond which the solutions are complex; false where they cross.
     pub turns_back: bool,
 }
 

@@ -26,7 +26,7 @@ impl Family {
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterHomotopy<'f> {
     pub family: &'f Family,
-    /// Where the equations were last evaluated.
+    /// The equations at the parameter value last evaluated.
     pub here: MemberEquations,
     residual: Vec<C>,
     /// By what the equations last factorised were multiplied.
@@ -71,7 +71,7 @@ impl ParameterHomotopy<'_> {
         smallest / largest.max(1.0)
     }
 
-    /// How far it is: the largest change of an input, in rad or characteristic lengths.
+    /// Length of the way: the largest change of an input, in rad or characteristic lengths.
     pub fn length(&self) -> f64 {
         self.measured(&self.course.change.inputs)
             .fold(0.0, f64::max)
@@ -183,13 +183,13 @@ impl ParameterHomotopy<'_> {
         longest.is_finite().then(|| self.moved(s, x, &step))
     }
 
-    /// Whether a solution is one of infinitely many, because a joint never comes back to the same place.
+    /// True if a solution is one of infinitely many, because a joint never comes back to the same place.
     pub fn is_endless(&mut self, s: C, x: &[C]) -> bool {
         self.load(s, x);
         self.here.is_endless(self.family, &self.course)
     }
 
-    /// How many directions are free at a point.
+    /// Number of free directions at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);
         self.here.linearise();
@@ -245,7 +245,7 @@ impl Homotopy for ParameterHomotopy<'_> {
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
         /// A gap is that much larger than a step that leaves it open; slopes are 1 at most.
         const UNSEEN: f64 = 1e3;
-        /// What rounding leaves of a gap.
+        /// Rounding of a gap.
         const ROUNDING: f64 = 1e-10;
         let gap = self.linearise(s, x);
         let reach = 1.0 + size(x);

@@ -16,7 +16,7 @@ use crate::solve::deflating_step;
 const SUSPECT: f64 = 1e-5;
 /// Distance of neighbours of a point, and of their neighbours.
 const BESIDE: [f64; 2] = [0.03, 2e-3];
-/// What comes back to within this part of the distance it was moved has returned.
+/// A point that comes back to within this part of the distance it was moved has returned.
 const BACK: f64 = 0.1;
 const NEIGHBOURS: u64 = 4;
 /// The end of the homotopy, where the target inputs are.
@@ -39,7 +39,7 @@ struct Linear {
 }
 
 impl Linear {
-    /// How many singular values count beside the largest; none if that is rounding itself.
+    /// Number of singular values that count; none if the largest is itself rounding.
     fn rank(&self, tolerance: f64) -> usize {
         let largest = self.values.first().copied().unwrap_or(0.0);
         let threshold = (tolerance * largest).max(CANCELLED);
@@ -202,7 +202,7 @@ impl<'a, 'f> Local<'a, 'f> {
     pub fn settled(&mut self, mut at: Vec<C>) -> Option<Vec<C>> {
         const STEPS: usize = 80;
         const LONGEST: f64 = 0.1;
-        /// What is left of equations that only touch zero when their singular values are lost.
+        /// Residual of equations that only touch zero where their singular values are lost.
         const TOLERANCE: f64 = RANK_TOLERANCE * RANK_TOLERANCE;
         let mut best: Option<(f64, Vec<C>)> = None;
         let mut stale = 0;

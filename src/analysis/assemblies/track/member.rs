@@ -14,7 +14,7 @@ use crate::system::{Course, System, Work};
 pub(crate) struct Segment {
     pub from: Member,
     pub change: Member,
-    /// Whether dimensions change; otherwise only inputs do.
+    /// True if dimensions change, false if only inputs do.
     pub resized: bool,
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct MemberEquations {
     pub work: Work<C>,
     /// The configuration last evaluated.
     pub at: Configuration<C>,
-    /// Whether all expressions have values here.
+    /// True if all expressions have values here.
     pub sound: bool,
     inputs: Vec<C>,
     s: Option<C>,
@@ -177,7 +177,7 @@ impl MemberEquations {
         true
     }
 
-    /// Whether the place last evaluated is one of infinitely many solutions, because a joint never comes back to the
+    /// True if the place last evaluated is one of infinitely many solutions, because a joint never comes back to the
     /// same place.
     ///
     /// A screw's angle φ enters by cos φ and sin φ, its travel t = hφ linearly. Where both may vary apart from each other a

@@ -39,7 +39,7 @@ impl End {
 const ROUNDING: f64 = 1e-15;
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
-/// How far to the side of the real way what is far out on it is passed.
+/// Distance to the side at which points far out on the real way are passed, through complex s.
 const ASIDE: f64 = 0.4;
 /// Segments longer than this, in rad or characteristic lengths, are tracked in parts.
 const LONG: f64 = 10.0;
@@ -145,7 +145,7 @@ pub(crate) fn arrived(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<E
     (size(&x) <= FAR * homotopy.reach() && settles(homotopy, &mut x)).then_some(End::Regular(x))
 }
 
-/// Whether Newton's method converges quadratically to a simple solution.
+/// True if Newton's method converges quadratically to a simple solution.
 fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
     let end = C::from_f64(1.0);
     polish(homotopy, end, x) && stands_alone(homotopy, end, x)

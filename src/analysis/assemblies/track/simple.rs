@@ -13,7 +13,7 @@ const ALIKE: f64 = 4.0 * NOISE;
 /// Two approximations of one solution are not farther apart than this, relative to their size.
 const NEAR: f64 = 1e-4;
 
-/// Whether a solution is simple: one Newton step returns to it from where an error of rounding in the
+/// True if a solution is simple: one Newton step returns to it from a point to which an error of rounding in the
 /// closures moves it. Towards a multiple solution it goes at most half the distance; in a positive-dimensional
 /// set it stays.
 pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) -> bool {
@@ -34,12 +34,12 @@ pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) 
     })
 }
 
-/// How far another approximation of a solution may be.
+/// Largest distance of another approximation of a solution.
 pub(crate) fn near(x: &[C]) -> f64 {
     NEAR * (1.0 + size(x))
 }
 
-/// Whether two points, the first of which is a simple solution, are the same solution.
+/// True if two points, the first of which is a simple solution, are one solution.
 pub(crate) fn are_one(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C], y: &[C]) -> bool {
     homotopy.family.coordinates.within(near(x), x, y) && homotopy.seen_apart(s, x, y) <= ALIKE
 }

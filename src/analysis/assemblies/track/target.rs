@@ -70,11 +70,11 @@ pub(crate) fn track_to_target(
 /// Paths tracked together in the same manner.
 struct Batch<'a, 'f> {
     homotopy: &'a ParameterHomotopy<'f>,
-    /// How far the way is bent to the side, through complex s.
+    /// Bend of the way to the side, through complex s.
     bend: f64,
     /// The corrections aimed at, beside the usual ones.
     care: f64,
-    /// How many paths were tracked, each as often as it was.
+    /// Number of paths tracked, each as often as it was.
     followed: &'a AtomicUsize,
     watch: &'a Watch<'a>,
     /// For comparing endpoints that are near each other; most are not.
@@ -193,7 +193,7 @@ impl Batch<'_, '_> {
         all
     }
 
-    /// Whether any of the ends is the same regular solution as the first one.
+    /// True if one of the ends is the same regular solution as the first one.
     fn any_is(&mut self, end: &End, others: &[End]) -> bool {
         match end {
             End::Regular(x) => {
@@ -204,7 +204,7 @@ impl Batch<'_, '_> {
         }
     }
 
-    /// `near` is how far apart they may be, from the first one's size.
+    /// True if an end is the solution `x`; `near` is the largest distance, from the size of `x`.
     fn is(&mut self, near: f64, x: &[C], end: &End) -> bool {
         let End::Regular(y) = end else { return false };
         self.homotopy.family.coordinates.within(near, x, y) && {

@@ -8,7 +8,7 @@ use crate::description::{
 use crate::mechanism::Frame;
 
 impl Drawing<'_> {
-    /// Whether a closed form or a quantity names a frame.
+    /// True if a closed form or a quantity names a frame.
     fn is_asked(&self, frame: &str) -> bool {
         let forms = self.description.closed_forms.iter();
         let mut frames = forms.flat_map(|form| form.value.of.iter().chain(&form.value.relative_to));
@@ -18,7 +18,7 @@ impl Drawing<'_> {
             || names.any(|(name, _)| name[frame_in(name)] == *frame)
     }
 
-    /// Whether a frame has the name that the end of a closure gets in tables.
+    /// True if a frame has the name that the end of a closure gets in tables.
     fn ends_closure(&self, frame: &str) -> bool {
         self.description.closures.iter().any(|closure| {
             let mut ends = closure.value.frames.iter().enumerate();
@@ -33,7 +33,7 @@ impl Drawing<'_> {
         })
     }
 
-    /// Whether the frame of a body stands where it does if nothing is said: at the joint that carries it.
+    /// True if the frame of a body is where it is by default: at the joint that carries it.
     fn is_at_joint(&self, body: &str, place: &AxisPlace) -> bool {
         let carries = |joint: &&Named<AxisDescription>| {
             let between = joint.value.between.as_ref();

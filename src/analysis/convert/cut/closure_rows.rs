@@ -33,7 +33,7 @@ fn right_angle(sign: f64) -> Entry {
 }
 
 impl ClosureRows {
-    /// How many variables a closure becomes; `None` if it cannot become rows.
+    /// Number of variables that a closure becomes; `None` if it cannot become rows.
     pub fn variables(kind: ClosureKind) -> Option<usize> {
         match kind {
             ClosureKind::Rigid => Some(0),

@@ -1,8 +1,8 @@
-//! Why a mechanism cannot be cut at a joint.
+//! Errors of cutting a mechanism at a joint.
 
 use crate::description::quoted;
 
-/// Why a mechanism is not broken at a joint.
+/// Reasons for which a mechanism cannot be cut at a joint.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CutError {
     /// There is no such joint.

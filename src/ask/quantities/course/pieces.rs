@@ -156,7 +156,7 @@ impl Course<'_> {
         samples: &Samples,
         lagrange: &[[f64; TERMS]; TERMS],
     ) -> (Piece, Vec<f64>) {
-        /// How far beside a polynomial a name may be, beside its largest value on the piece.
+        /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
         const OFF: f64 = 1e-11;
         /// Beside that value what rounding leaves near a singularity: halving the piece does not make it less.
         const ROUNDING: f64 = 1e-6;

@@ -15,7 +15,7 @@ pub(super) struct Bounds {
     pub allowed: [f64; 2],
     /// The usual size of the values, and how far one may be off.
     usual: [f64; 2],
-    /// The same of values that rounding may have made, near 0/0 or without bound.
+    /// Best values among those that rounding may have made, near 0/0 or without bound.
     murky: [Option<f64>; 2],
     /// Places where no bound was found.
     pub suspects: Vec<(usize, f64)>,
@@ -24,7 +24,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// How much values may be beyond the best without being told from it.
+    /// Distance beyond the best value within which values cannot be distinguished from it.
     pub fn slack(&self, best: f64) -> f64 {
         SAME * (best.abs() + self.usual[0]) + 2.0 * self.usual[1]
     }

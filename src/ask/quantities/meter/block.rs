@@ -17,7 +17,7 @@ pub(in crate::ask) struct Block {
 pub(in crate::ask) struct Column {
     /// Not a number where there is none.
     pub values: [f64; BATCH],
-    /// How far they may be off.
+    /// Uncertainty of the values.
     pub noise: [f64; BATCH],
 }
 

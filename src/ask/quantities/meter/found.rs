@@ -1,4 +1,4 @@
-//! What names in quantities stand for at one configuration.
+//! Values of names in quantities at one configuration.
 
 use super::Meter;
 use super::probe::Found;
@@ -55,7 +55,7 @@ impl<'a, T: Number> Here<'a, T> {
         self.found.moves || order == Order::Value
     }
 
-    /// Where the point of that number is, or how it moves.
+    /// Position, velocity or acceleration of the point of that number.
     fn moved(&self, i: usize, order: Order) -> Option<Vector3<T>> {
         let found = |order: Order| self.found.points[order as usize].get(i).copied();
         Some(match order {
@@ -83,7 +83,7 @@ impl Meter<'_> {
         [value, self.off(here, of, i, value)]
     }
 
-    /// How far the value of a name may be off: configurations are closed to 1e-12.
+    /// Uncertainty of the value of a name: configurations are closed to 1e-12.
     fn off<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize, value: T) -> T {
         const ROUNDING: f64 = 1e-12;
         let [rate, change] = here.largest;

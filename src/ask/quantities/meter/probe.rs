@@ -1,4 +1,4 @@
-//! What quantities are made of, at a configuration or over recorded numbers.
+//! Ingredients of quantities, at a configuration or over recorded numbers: rates, forces, Jacobian.
 
 use super::Metered;
 use crate::analysis::velocity::{Normalised, Outputs, Spins, TransmissionAngles};
@@ -8,7 +8,7 @@ use crate::mechanism::{Configuration, Frame, Kinematics, Order, Placement, Point
 use crate::number::Dual;
 use crate::system::{FrameTwists, Loaded, Lock, Motion, Unknown};
 
-/// What is wanted, and only what some quantity needs.
+/// Ingredients that some quantity needs, and no others.
 pub(super) struct Plan {
     pub order: Order,
     pub points: Vec<Point>,
@@ -31,7 +31,7 @@ pub(super) struct Probe<'q, T: Factorable> {
     kinematics: Kinematics<T>,
     placement: Placement<T>,
     twists: FrameTwists<T>,
-    /// How the points move to second order, if that is wanted.
+    /// Motion of the points to second order, if that is wanted.
     changing: Option<FrameTwists<Dual<T>>>,
     loaded: Option<Loaded<T>>,
     outputs: Option<Outputs<'q, T>>,
@@ -39,23 +39,23 @@ pub(super) struct Probe<'q, T: Factorable> {
     pub found: Found<T>,
 }
 
-/// What was found.
+/// Ingredients at one configuration.
 pub(super) struct Found<T> {
-    /// Whether rates are determined.
+    /// True if rates are determined.
     pub moves: bool,
     /// Rates and accelerations of all unknowns.
     pub rates: [Vec<T>; 2],
     /// Places, velocities and accelerations of the points.
     pub points: [Vec<Vector3<T>>; 3],
     pub angles: Vec<T>,
-    /// What holds each held coordinate against the load.
+    /// Force or moment that holds each held coordinate against the load.
     pub forces: Vec<T>,
     pub jacobian: Normalised<T>,
     pub transmission: Vec<T>,
 }
 
 impl Plan {
-    /// Whether rates are wanted.
+    /// True if rates are wanted.
     pub fn moves(&self) -> bool {
         self.order > Order::Value || self.forces || self.outputs.is_some()
     }
@@ -98,7 +98,7 @@ impl<'q, T: Factorable> Probe<'q, T> {
         &self.kinematics
     }
 
-    /// How many unknowns the closures have with nothing held, if rates are wanted.
+    /// Number of unknowns of the closures with nothing held, if rates are wanted.
     pub fn unknowns(&self) -> usize {
         self.motion.as_ref().map_or(0, |of| of.unknowns().len())
     }

@@ -6,8 +6,8 @@ use crate::analysis::sweep::Law;
 use crate::mechanism::{Measured, Order, Quantity};
 use crate::number::{Dual, Number};
 
-/// What a name in a quantity stands for, and whether at a constant pace: what does not depend on the law has a value
-/// where that rests, too.
+/// A name in a quantity, and true if it is read at a constant pace: a quantity that does not depend on the law has a
+/// value where the law rests, too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::ask) struct Name {
     pub of: Measured,
@@ -15,7 +15,7 @@ pub(in crate::ask) struct Name {
 }
 
 impl Metered<'_> {
-    /// What the names in the quantities stand for, each once, and the quantities over the numbers of these.
+    /// The names in the quantities, each once, and the quantities over the numbers of these.
     pub(in crate::ask) fn programs(&self) -> (Vec<Name>, Vec<Expression<usize>>) {
         let mut names: Vec<Name> = Vec::new();
         let mut number = |name: Name| {
@@ -41,7 +41,7 @@ impl Metered<'_> {
 /// True if the law of a motion does not matter to a quantity: velocity ratios, curvatures and what else depends on the
 /// curve alone.
 ///
-/// Where the pace is r times that of a constant law, and grows by c, velocities are r v and accelerations r² a + c v. That
+/// At a pace r times that of a constant law, which grows by c, velocities are r v and accelerations r² a + c v. That
 /// the quantity changes with neither r nor c is seen from its derivatives by them at random values of its names: those of
 /// an analytic function that vanish there vanish everywhere.
 fn is_geometric(expression: &Expression<Measured>) -> bool {
@@ -146,7 +146,7 @@ pub(super) fn estimated<T: Number>(
 /// So that differences of names are off too.
 const UNEVEN: [f64; 4] = [1.0, -0.73, 0.87, -0.61];
 
-/// Whether a value is large beside how far it may be off.
+/// True if a value is large relative to its uncertainty.
 #[inline(always)]
 pub(super) fn is_clear([value, noise]: [f64; 2]) -> bool {
     4.0 * noise.abs() <= value.abs()
@@ -179,12 +179,12 @@ pub(in super::super) fn evaluated(
     ((!beside.iter().all(shrinks)).then_some(value), noise)
 }
 
-/// Whether a quantity is what one name stands for.
+/// True if a quantity is a single name.
 pub(super) fn is_name(program: &Expression<usize>) -> bool {
     matches!(program.node, Node::Name(_))
 }
 
-/// Whether a quantity is an angle that is known but for whole turns.
+/// True if a quantity is an angle known only up to whole turns.
 pub(in super::super) fn turns(quantity: &Quantity) -> bool {
     quantity.unit == SiUnit::RADIAN
         && (quantity.measured().any(is_turned) || has_atan2(&quantity.expression))

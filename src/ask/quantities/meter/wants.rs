@@ -1,8 +1,8 @@
-//! What must be worked out for quantities.
+//! Ingredients that quantities need.
 
 use crate::mechanism::{Figure, Measured, Order};
 
-/// What the quantities need beside positions.
+/// Ingredients of quantities besides positions.
 #[derive(Clone, Copy)]
 pub(super) struct Wants {
     pub order: Order,

@@ -12,7 +12,7 @@ pub(super) struct Text<'w, 'a> {
     pub(super) text: String,
     pub(super) indent: usize,
     pub(super) known: BTreeSet<Place>,
-    /// Whether sines and cosines of the state have names of their own.
+    /// True if sines and cosines of the state have names of their own.
     pub(super) carries: bool,
 }
 

@@ -11,8 +11,8 @@ impl Search<'_> {
     /// Newton iterations from random complex points at the member where a way starts; the isolated
     /// solutions they ended at. `reach` is that of the member's inputs.
     ///
-    /// What seems multiple counts if the simple solutions there are all `known` and it is none of them: far out
-    /// rounding makes simple ones look so, for complex rotations grow with every joint.
+    /// A solution that seems multiple counts if the simple solutions there are all `known` and it is none of them: far
+    /// out rounding makes simple ones look so, for complex rotations grow with every joint.
     pub(super) fn seeds(
         &mut self,
         still: &ParameterHomotopy<'_>,
