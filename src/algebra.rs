@@ -57,7 +57,7 @@ pub struct ExpressionError<K> {
     pub kind: K,
 }
 
-/// One node of the tree.
+/// A node of the tree.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Node<N> {
     /// A plain number.
@@ -219,7 +219,7 @@ impl<N> Node<N> {
         Node::Negate(Box::new(x))
     }
 
-    /// This node standing at `span`.
+    /// Gives the node the place `span`.
     pub fn at(self, span: Range<usize>) -> Expression<N> {
         Expression { node: self, span }
     }

@@ -54,7 +54,8 @@ pub const RANK_TOLERANCE: f64 = 1e-7;
 /// place by less than [`RANK_TOLERANCE`].
 pub const SINGULAR_PLACE: f64 = 1e-9;
 
-/// Nearer to a crossing than this, rounding no longer lets the tangent of a curve distinguish branches.
+/// Relative singular value below which, near a crossing, rounding no longer lets the tangent of a curve distinguish
+/// branches.
 pub const BESIDE_A_CROSSING: f64 = 1e-5;
 
 /// The part of a row that Gram–Schmidt must leave for it to be chosen as independent: stricter than the rank tolerance.

@@ -95,7 +95,7 @@ pub trait Number:
     fn less(self, other: Self) -> bool {
         self.real() < other.real()
     }
-    /// One number where the real part is less than that of another, else a second one.
+    /// `then` where the real part is less than that of `other`, else `otherwise`.
     #[inline]
     fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
         if self.less(other) { then } else { otherwise }

@@ -53,7 +53,7 @@ struct Shown {
     points: Vec<[f64; 3]>,
 }
 
-/// Of an answer that lists no configurations.
+/// Configurations of an answer that lists none.
 const NONE: &[Value] = &[];
 
 /// What there is instead of an answer.

@@ -64,7 +64,7 @@ pub struct Travel {
     pub at: Triple,
     /// Its axis: a unit vector.
     pub axis: Triple,
-    /// Of a revolute joint the unit vector along the link it moves, perpendicular to the axis; none of a slide.
+    /// For a revolute joint the unit vector along the link it moves, perpendicular to the axis; none for a slide.
     pub arm: Option<Triple>,
     /// Travel to the lower and to the upper limit, about or along the axis, in rad or m; negative to go back.
     pub ends: [f64; 2],

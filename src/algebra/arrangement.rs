@@ -24,7 +24,7 @@ const MOST_PRODUCTS: usize = 20_000;
 /// Sums of formulas as expressions, and whether none of them was too long to be simplified.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arranged {
-    /// One for each formula.
+    /// An expression for each formula.
     pub expressions: Vec<Expression>,
     /// True if product forms were tried for all formulas, false if one was too long.
     pub complete: bool,

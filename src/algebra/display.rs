@@ -121,7 +121,7 @@ impl<N: Display> Serialize for Expression<N> {
     }
 }
 
-/// From a number or a text, as it is serialised.
+/// Reads a number or a text, as it is serialised.
 impl<'de> Deserialize<'de> for Expression {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]

@@ -33,7 +33,7 @@ pub enum EvaluationErrorKind {
 /// rounding, and its fourth power, a squared closure row, is still far from overflow.
 pub const LARGEST: f64 = 1e30;
 
-/// Beyond this a whole exponent gains nothing from repeated multiplication.
+/// Largest whole exponent raised by repeated multiplication.
 const MAX_WHOLE_EXPONENT: u32 = 1024;
 
 impl<N> Expression<N> {

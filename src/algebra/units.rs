@@ -9,9 +9,9 @@ use super::{
 enum Known {
     /// A number as it is written: it may have any unit in a sum, and has none in a product.
     Number,
-    /// This unit.
+    /// A known unit.
     Unit(SiUnit),
-    /// Nothing: a parameter without unit is in it, or a power that is no whole number.
+    /// Unknown: it contains a parameter without unit, or a power that is no whole number.
     Open,
 }
 

@@ -165,7 +165,7 @@ impl AssemblySolver {
         })
     }
 
-    /// From stored generic solutions, without a search.
+    /// A solver from stored generic solutions, without a search.
     ///
     /// # Errors
     /// If they were stored for other dimensions or for another choice of inputs.

@@ -129,7 +129,7 @@ fn nearest(question: &Question, search: &Search, found: Configuration<f64>) -> C
     }
 }
 
-/// Says what an attempt means.
+/// Writes the report on an attempt.
 struct Reporter<'a> {
     question: &'a Question<'a>,
     mechanism: &'a Mechanism,

@@ -20,7 +20,7 @@ const MOST_TERMS: usize = 400;
 /// Choice of the formulas, and limit of the work for each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulasSettings {
-    /// One transform, of the first frame seen from the second; `None` for everything the mechanism has.
+    /// A single transform, of the first frame seen from the second; `None` for everything the mechanism has.
     pub transform: Option<(Frame, Frame)>,
     /// Names of parameters that stand as their definitions instead of as letters.
     pub numbers: Vec<String>,

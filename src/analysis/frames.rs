@@ -149,7 +149,7 @@ pub struct CutReport {
     pub more: bool,
 }
 
-/// One way to cut the loops.
+/// A way to cut the loops.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct CutChoice {
     /// Rows of the longest chain.

@@ -93,7 +93,7 @@ pub fn mobility(
             .collect()
     };
     let moving_joints = moving(&found.moved);
-    /// Below this a component of a unit motion is that of another one, mixed in.
+    /// Components of a unit motion below this come from another one, mixed in.
     const MIXED: f64 = 1e-2;
     let turns = |i: usize| locked.iter().any(|motion| motion[i].abs() > MIXED);
     let gimbal_locked_joints = moving(&(0..unknowns).map(turns).collect::<Vec<bool>>());

@@ -93,7 +93,7 @@ impl Default for SweepSettings {
     }
 }
 
-/// One assembled configuration of a motion.
+/// An assembled configuration of a motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'a> {
     /// Its number, from 0.
@@ -205,7 +205,7 @@ pub struct SweepReport {
 }
 
 impl SweepReport {
-    /// Of a motion that ended with nothing met and without rows.
+    /// Report of a motion that ended with nothing met and without rows.
     pub(crate) fn of(mechanism: &Mechanism, inputs: &[Driven], ending: SweepEnd) -> Self {
         SweepReport {
             inputs: inputs

@@ -225,7 +225,7 @@ pub enum AskError {
     /// A map has one to three coordinates.
     #[error("{}", wrong_axes(*.0))]
     Axes(usize),
-    /// Some link spins without a joint that could stand still; so many such freedoms.
+    /// Links that spin without a joint that could be held still; so many such freedoms.
     #[error(
         "{} of links that spin about their own axes remain whatever the inputs do",
         count(*.0, "freedom")

@@ -28,7 +28,7 @@ pub struct Gained {
     pub at: Configuration<f64>,
     /// Report on its singularity.
     pub report: SingularitiesReport,
-    /// Of each freedom configurations from one side to the other, which close to first order.
+    /// For each freedom configurations from one side to the other, which close to first order.
     pub swings: Vec<Vec<Configuration<f64>>>,
 }
 

@@ -69,7 +69,7 @@ impl Frames {
         self.format.answer_by(report, document)
     }
 
-    /// From tables to axes, and from these to other tables if they are asked for.
+    /// Writes the axes of tables, and other tables of these if they are asked for.
     fn axes_of_mechanism(&self) -> Result<Answer, Refusal> {
         let mechanism = Arc::new(Mechanism::load(&self.file)?);
         let question = Question::new(mechanism.clone());

@@ -1,4 +1,4 @@
-//! From where pictures are seen, and how they are kept.
+//! View of pictures, and their files.
 
 use std::path::Path;
 

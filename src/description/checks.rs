@@ -129,7 +129,7 @@ fn given_twice(noun: Noun, name: &Spanned<String>, first: (Noun, &Range<usize>))
     problem.with(first.1.clone(), Note::FirstHere(first.0))
 }
 
-/// One problem for all chains: one line in the file corrects them all.
+/// Checks conventions with one problem for all chains: one line in the file corrects them all.
 fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
     // A convention that could not be read is not missing.
     let unreadable = |problem: &Problem| match problem.kind {

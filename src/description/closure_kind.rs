@@ -29,7 +29,7 @@ words! {
 /// Condition of a closure on the z axes of its two frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AxisCondition {
-    /// Nothing.
+    /// No condition.
     Free,
     /// They are perpendicular.
     Perpendicular,

@@ -107,15 +107,15 @@ pub struct ChainDescription {
     pub on: Option<Spanned<String>>,
     /// The convention of its rows, if it is not that of the file.
     pub convention: Option<Spanned<Convention>>,
-    /// From that frame to the frame before the first row.
+    /// Displacement from that frame to the frame before the first row.
     pub base: Vec<Displacement>,
     /// The Denavit–Hartenberg table.
     pub rows: Vec<Row>,
-    /// From the frame after the last row to the tip.
+    /// Displacement from the frame after the last row to the tip.
     pub tip: Vec<Displacement>,
 }
 
-/// One row of a Denavit–Hartenberg table. Absent entries are 0.
+/// A row of a Denavit–Hartenberg table. Absent entries are 0.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// Twist of the link (rad).
@@ -130,7 +130,7 @@ pub struct Row {
     pub span: Range<usize>,
 }
 
-/// One step of a transform; a list of them is read left to right. Its entries are as in a file, resolved formulas or
+/// A step of a transform; a list of them is read left to right. Its entries are as in a file, resolved formulas or
 /// numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Displacement<E = Entry> {

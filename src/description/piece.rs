@@ -29,9 +29,9 @@ pub(super) enum Shape<'a> {
     Bytes,
     List,
     Map,
-    /// In parentheses, without names.
+    /// Values in parentheses, without names.
     Tuple,
-    /// In parentheses, with names.
+    /// Values in parentheses, with names.
     Fields,
     /// A word followed by parentheses, with their contents.
     Word {

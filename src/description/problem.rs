@@ -45,7 +45,7 @@ pub enum Note {
     StillOpen,
     /// The joint is declared here.
     DeclaredHere(Noun),
-    /// One more step of a cycle.
+    /// A further step of a cycle.
     ThenHere,
 }
 

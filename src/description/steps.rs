@@ -38,7 +38,7 @@ pub(crate) fn undone(steps: &[Displacement]) -> Vec<Displacement> {
     undone
 }
 
-/// From the end of some displacements to that of others.
+/// Displacements from the end of some to that of others.
 pub(crate) fn between(from: &[Displacement], to: &[Displacement]) -> Vec<Displacement> {
     joined(undone(from).into_iter().chain(to.iter().cloned()))
 }

@@ -144,7 +144,7 @@ impl<T: Number> RollPitchYaw<T> {
         RollPitchYaw { roll, pitch, yaw }
     }
 
-    /// One of the [angles](Self::from_rotation) alone, about a fixed axis.
+    /// A single one of the [angles](Self::from_rotation), about a fixed axis.
     #[inline]
     pub fn angle(rotation: &Rotation<T>, axis: Axis) -> T {
         let [n, s, a] = &rotation.0;

@@ -40,13 +40,13 @@ impl<T: Number> Pose<T> {
         }
     }
 
-    /// Goes on along an axis of the frame it leads to, by a length in metres.
+    /// Translates along an axis of the frame, by a length in metres.
     #[inline]
     pub(crate) fn shift(&mut self, axis: Axis, length: T) {
         self.position += self.rotation.column(axis).times(length);
     }
 
-    /// Goes on by a rotation about an axis of the frame it leads to, by an angle in radians.
+    /// Rotates about an axis of the frame, by an angle in radians.
     #[inline]
     pub(crate) fn turn(&mut self, axis: Axis, angle: T) {
         let (_, j, k) = axis.cyclic();

@@ -69,7 +69,7 @@ fn check_depth(text: &str) -> Result<(), ImportProblem> {
     }
 }
 
-/// Behind the `>` of a tag; one within quotes does not count.
+/// Position behind the `>` of a tag; one within quotes does not count.
 fn tag_end(bytes: &[u8], start: usize) -> usize {
     let mut quote = None;
     for (i, &byte) in bytes.iter().enumerate().skip(start) {
@@ -161,12 +161,12 @@ impl Problems {
         self.values(node, name, N)?.try_into().ok()
     }
 
-    /// So many numbers of an attribute, if it is there.
+    /// The numbers of an attribute, `count` of them, if it is there.
     pub fn values(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
         self.parsed(node.attribute(name)?, count, value_span(node, name))
     }
 
-    /// So many finite numbers of a text.
+    /// The finite numbers of a text, `count` of them.
     pub fn parsed(&mut self, text: &str, count: usize, span: Range<usize>) -> Option<Vec<f64>> {
         let found = parse(text).filter(|numbers| numbers.len() == count);
         if found.is_none() {
@@ -181,7 +181,7 @@ impl Problems {
         self.0.push(kind.at(span));
     }
 
-    /// One number of an attribute; it may be infinite.
+    /// A number of an attribute; it may be infinite.
     pub fn number(&mut self, node: Node, name: &str) -> Option<f64> {
         let text = node.attribute(name)?;
         let found = text.trim().parse().ok().filter(|x: &f64| !x.is_nan());

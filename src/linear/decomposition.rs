@@ -25,7 +25,7 @@ enum Found {
 #[derive(Debug)]
 struct Large {
     elimination: Elimination,
-    /// Once it is asked for: the largest value and, estimated, the smallest that counts with its vectors.
+    /// Computed when asked for: the largest singular value and, estimated, the smallest that counts with its vectors.
     spectrum: OnceLock<Svd>,
 }
 

@@ -11,7 +11,7 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Of so many coordinates, joined where a vector is not zero.
+    /// Components of so many coordinates, connected where a vector is not zero.
     pub fn new<'a>(size: usize, vectors: impl IntoIterator<Item = &'a [f64]>) -> Self {
         let mut roots: Vec<usize> = (0..size).collect();
         for vector in vectors {

@@ -17,7 +17,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// One row with these entries, given with their unknowns; of those given twice the sum.
+    /// A single row with these entries, given with their unknowns; entries of one unknown are added.
     pub fn single(row: impl IntoIterator<Item = (usize, f64)>) -> Self {
         let mut sums = BTreeMap::new();
         for (unknown, entry) in row {

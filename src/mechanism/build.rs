@@ -1,4 +1,4 @@
-//! From a well-formed description to a valid mechanism, or to all problems in it.
+//! A valid mechanism from a well-formed description, or all problems in it.
 
 mod closed_form;
 mod closures;

@@ -67,7 +67,7 @@ impl Mechanism {
         PlatformPose::from_pose(&from_centre)
     }
 
-    /// From the centre to ground.
+    /// A pose with its position from the centre as one in ground.
     pub(crate) fn shifted<T: Number>(&self, mut pose: Pose<T>) -> Pose<T> {
         pose.position = self.to_ground(pose.position);
         pose

@@ -21,7 +21,7 @@ impl<T: Number> PlatformPose<T> {
         }
     }
 
-    /// From a rotation matrix and a position.
+    /// A pose from a rotation matrix and a position.
     pub fn from_pose(pose: &Pose<T>) -> Self {
         PlatformPose {
             orientation: Quaternion::from_rotation(&pose.rotation),

@@ -57,11 +57,12 @@ impl<T> RowDimensions<T> {
 pub struct ChainDimensions<T> {
     /// The frame to which the chain is attached.
     pub on: Frame,
-    /// From that frame, or for a chain on ground from the [centre](Dimensions::centre), to the chain's frame 0.
+    /// Pose of the chain's frame 0 in that frame; for a chain on ground with its position from the
+    /// [centre](Dimensions::centre).
     pub base: Pose<T>,
     /// The rows of the table.
     pub rows: Vec<RowDimensions<T>>,
-    /// From the last link frame to the chain's tip frame.
+    /// Pose of the chain's tip frame in the last link frame.
     pub tip: Pose<T>,
 }
 

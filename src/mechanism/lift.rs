@@ -1,4 +1,4 @@
-//! From formulas to dimensions over a number type: the only place where this happens.
+//! Evaluates formulas to dimensions over a number type: the only place where this happens.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

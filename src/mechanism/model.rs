@@ -92,10 +92,10 @@ impl Joint {
     }
 }
 
-/// One step of a fixed transform, in m or rad.
+/// A step of a fixed transform, in m or rad.
 pub type FixedStep = Displacement<Formula>;
 
-/// One row of a Denavit–Hartenberg table.
+/// A row of a Denavit–Hartenberg table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Twist of the link (rad).
@@ -119,11 +119,11 @@ pub struct Chain {
     pub on: super::Frame,
     /// The convention of its rows.
     pub convention: Convention,
-    /// From that frame to its frame 0.
+    /// Displacement from that frame to its frame 0.
     pub base: Vec<FixedStep>,
     /// Its table.
     pub rows: Vec<Row>,
-    /// From its last link frame to its tip frame.
+    /// Displacement from its last link frame to its tip frame.
     pub tip: Vec<FixedStep>,
 }
 

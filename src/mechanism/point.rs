@@ -107,7 +107,7 @@ impl Point {
         self.placed(&mechanism.poses([self.frame], at)[0])
     }
 
-    /// From the origin of its frame to it, in directions of ground, in m.
+    /// Vector from the origin of its frame to it, in directions of ground, in m.
     pub fn arm(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> Vector3<f64> {
         match self.is_origin() {
             true => Vector3::zero(),

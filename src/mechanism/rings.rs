@@ -26,7 +26,8 @@ impl Mechanism {
         sets
     }
 
-    /// On which side of the plane of z₁ and z₃ the second axis of each ball is, which tells its two sets of angles apart.
+    /// For each ball the side of the plane of z₁ and z₃ on which its second axis lies, which distinguishes its two sets
+    /// of angles.
     pub fn sides_of_rings(&self, at: &Configuration<f64>) -> Vec<bool> {
         let axis = |(chain, first): Ball, row: usize| {
             self.hinge((chain, first + row), at)
@@ -137,7 +138,7 @@ fn rings((chain, first): Ball) -> [Body; 2] {
     })
 }
 
-/// From one vector to another about an axis that both are normal to.
+/// Angle from one vector to another about an axis that both are normal to.
 fn angle(about: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     real::atan2(about.dot(&from.cross(to)), from.dot(to))
 }

@@ -37,7 +37,8 @@ impl Mechanism {
         self.cycles[joint] == Some(1.0)
     }
 
-    /// After how many turns of the joint every frame is where it was: more than one where a gear turns something by a
+    /// Number of turns of the joint after which every frame is where it was: more than one where a gear turns something
+    /// by a
     /// fraction. `None` if it also slides, or if a ratio is no fraction.
     pub fn turns_to_repeat(&self, joint: usize) -> Option<f64> {
         self.cycles[joint]
@@ -51,7 +52,7 @@ impl Mechanism {
         self.cycles = cycles.collect();
     }
 
-    /// This mechanism with joints that go as far as the links let them.
+    /// The mechanism with joints that go as far as the links let them.
     pub(crate) fn without_limits(&self) -> Mechanism {
         let mut free = self.clone();
         free.joints.iter_mut().for_each(|joint| joint.limits = None);
@@ -137,7 +138,7 @@ impl Mechanism {
     }
 }
 
-/// After how many turns of a joint everything that it turns stands as it did, if it turns it by fractions.
+/// Number of turns of a joint after which everything that it turns is where it was, if it turns it by fractions.
 pub(crate) fn turns_to_repeat(dimensions: &Dimensions<f64>, joint: usize) -> Option<f64> {
     /// Gears have some dozen teeth.
     const MOST: u32 = 120;

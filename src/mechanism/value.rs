@@ -13,7 +13,7 @@ use crate::geometry::Pose;
 /// A value that is given to a coordinate or a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// In m or rad, for a rate in these and seconds, for a load in N or N·m.
+    /// A number in m or rad, for a rate in these and seconds, for a load in N or N·m.
     Number(f64),
     /// An expression over the file's parameters such as `60 deg`; for a pose a list such as
     /// `[Tz(0.5), Rx(10 deg)]`. `home` is the value in the file.

@@ -34,7 +34,7 @@ impl Taylor {
         self.terms[1..].iter().map(|term| term.abs()).sum::<f64>() + self.rest
     }
 
-    /// Two numbers between which it lies; a parabola is followed exactly.
+    /// Bounds of the function; those of a parabola are exact.
     pub fn range(&self) -> [f64; 2] {
         let [a, b, c, d, e, f] = self.terms;
         let beyond = d.abs() + f.abs() + self.rest;
@@ -254,7 +254,7 @@ impl Number for Taylor {
             }
         },
     );
-    /// On the branch that is continuous about its constant term.
+    /// Angle on the branch that is continuous about its constant term.
     fn atan2(self, x: Self) -> Self {
         let (at_y, at_x) = (self.terms[0], x.terms[0]);
         let angle = Number::atan2(at_y, at_x);

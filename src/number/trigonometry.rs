@@ -1,7 +1,7 @@
 //! Sine and cosine of a real angle and the angle of a point in the plane without branches, and
 //! hyperbolic functions, bit for bit the same on every machine.
 
-/// Beyond this the three-part reduction loses digits, and the correctly rounding library serves.
+/// Largest angle for the three-part reduction, which loses digits beyond; there the correctly rounding library serves.
 const REDUCIBLE: f64 = 1e5;
 
 // π/2 = P1 + P2 + P3, the first two with zeros in their last bits, so that k·P1 and k·P2 are exact
@@ -41,7 +41,7 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 /// (sinh x, cosh x) by one exponential, to within 3 units in the last place.
 #[inline]
 pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
-    /// Below this the difference of exponentials loses digits, and seven terms of the series leave
+    /// Argument below which the difference of exponentials loses digits, and seven terms of the series leave
     /// less than rounding: 2⁻¹⁴/15!.
     const SMALL: f64 = 0.5;
     if x == 0.0 {

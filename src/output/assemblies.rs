@@ -46,7 +46,7 @@ impl Report for AssembliesReport {
     }
 }
 
-/// One row for each assembly, or for each pose where assemblies share poses.
+/// Table with a row for each assembly, or for each pose where assemblies share poses.
 fn listing(report: &AssembliesReport) -> Section {
     match poses(report) {
         Some(poses) => Section::new(format!("Assemblies by the {}", posed(report, &poses)))

@@ -31,7 +31,7 @@ impl<W: Write> Csv<W> {
 
     /// Adds a row.
     ///
-    /// # Errors
+    /// If it cannot be written.
     /// If it cannot be written.
     pub fn row(&mut self, values: impl IntoIterator<Item = Cell>) -> io::Result<()> {
         for value in values {

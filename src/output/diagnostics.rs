@@ -14,7 +14,7 @@ use crate::description::{
 use crate::interchange::{ImportProblem, WrongFile};
 use crate::mechanism::Mechanism;
 
-/// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
+/// Longest line shown in whole; of longer ones nobody could read all, and laying them out takes long.
 const MAX_WIDTH: usize = 2000;
 
 /// Characters of a cut line shown before the offending text, and from its beginning on.
@@ -82,7 +82,7 @@ fn ended(mut problems: Vec<String>, kinds: &[(usize, &str)], path: &str, hidden:
 
 /// Errors of a file of another program.
 pub fn import(wrong: &WrongFile, style: Style) -> String {
-    /// More problems are not shown.
+    /// Problems shown at most.
     const MAX_SHOWN: usize = 50;
     let renderer = renderer(style);
     let one = |(file, problem): &(usize, ImportProblem)| {

@@ -21,7 +21,7 @@ use labels::Labels;
 /// Settings of a drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingSettings {
-    /// From where.
+    /// View of the scene.
     pub view: View,
     /// True if joints, rods and platforms are named.
     pub labels: bool,

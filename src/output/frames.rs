@@ -21,7 +21,7 @@ use crate::mechanism::Mechanism;
 /// Axes this near to parallel get a remark though their normal is used.
 const NEARLY_PARALLEL: f64 = 1e-3;
 
-/// Below this a difference is rounding.
+/// Differences below this are rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Report for FramesReport {

@@ -91,7 +91,7 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
     file.packed(&first.mechanism, upright(first), &times)
 }
 
-/// From the axes of ground to those of a viewer: right, up, towards him.
+/// Rotation from the axes of ground to those of a viewer: right, up, towards the viewer.
 fn upright(scene: &Scene) -> Rotation<f64> {
     match scene.normal {
         Some(normal) => {

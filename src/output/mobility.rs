@@ -10,7 +10,7 @@ use super::screws::twist_table;
 use crate::analysis::mobility::{BranchReport, LoopCount, MobilityReport};
 use crate::description::{count, listed};
 
-/// So many branches are shown with their motions.
+/// Branches shown with their motions at most.
 const SHOWN: usize = 8;
 
 impl Report for MobilityReport {

@@ -50,7 +50,7 @@ pub struct Heat {
 /// A mechanism in several places, the last of them in full, seen as the axes say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strobe {
-    /// From where.
+    /// View of the mechanism.
     pub view: View,
     /// The places.
     pub scenes: Vec<Scene>,
@@ -69,7 +69,7 @@ pub struct Chart {
     pub y: String,
     /// True if a unit is as long along both axes.
     pub equal: bool,
-    /// From where to where the vertical axis goes at most: curves without bound are cut there.
+    /// Largest range of the vertical axis: curves without bound are cut there.
     pub within: Option<(f64, f64)>,
     /// Colours under the curves.
     pub heat: Option<Heat>,
@@ -128,7 +128,7 @@ const LEFT: f64 = 80.0;
 const ABOVE: f64 = 50.0;
 const BELOW: f64 = 65.0;
 const RIGHT: f64 = 210.0;
-/// From one line of the legend to the next.
+/// Distance of lines in the legend.
 const LINE: f64 = 18.0;
 /// Height of small letters.
 const SMALL: f64 = 12.0;

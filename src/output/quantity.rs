@@ -31,7 +31,7 @@ pub(super) fn short(value: f64) -> String {
     number((value * 1e4).round() / 1e4)
 }
 
-/// Below this a number in SI units is what rounding left of a zero.
+/// Numbers in SI units below this are the rounding of a zero.
 const ROUNDING: f64 = 1e-12;
 
 /// A number as it is shown: that of an angle in degrees.

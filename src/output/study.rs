@@ -134,7 +134,7 @@ pub enum MergeError {
     /// Two rows of one number that differ.
     #[error("row {0} is not the same in {files}: one of them was changed", files = .1.join(" and "))]
     Differ(usize, [String; 2]),
-    /// So many rows are no grid of these nodes along each coordinate.
+    /// Numbers of rows that make no grid of these nodes along each coordinate.
     #[error("{0} rows are not a grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
     Grid(usize, Vec<usize>),
     /// Shards that are not there, of so many.

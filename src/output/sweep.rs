@@ -130,7 +130,7 @@ fn extremes(motion: &MotionReport) -> Section {
     Section::new("Extremes").table(table)
 }
 
-/// Some of the rows of a motion.
+/// Table of some rows of a motion.
 fn rows(motion: &MotionReport) -> Section {
     /// Rows shown, but for the last.
     const SHOWN: usize = 37;
@@ -162,7 +162,7 @@ fn rows(motion: &MotionReport) -> Section {
 
 /// The columns of z, roll and pitch of what is in the plane of x and y in all rows: there is nothing to read in them.
 fn flat(columns: &[Variable], values: &[Vec<Option<f64>>]) -> Vec<usize> {
-    /// Below this a coordinate is what rounding left of a zero, in m or rad.
+    /// Coordinates below this are the rounding of a zero, in m or rad.
     const ROUNDING: f64 = 1e-12;
     let across = |i: &usize| {
         let (owner, part) = columns[*i].name.rsplit_once('.')?;

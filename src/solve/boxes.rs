@@ -349,7 +349,7 @@ fn contracted<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) 
 }
 
 impl Step {
-    /// By 0 ∈ f + Σ sⱼ dⱼ, where |sⱼ dⱼ| ≤ partⱼ; `None` if that is impossible.
+    /// Narrows a side by 0 ∈ f + Σ sⱼ dⱼ, where |sⱼ dⱼ| ≤ partⱼ; `None` if that is impossible.
     fn narrow(
         &mut self,
         f: Interval,

@@ -60,7 +60,7 @@ impl Split {
     }
 }
 
-/// One step to a solution where the singular values vanish that are below `lost` beside the largest, by
+/// A step to a solution at which the singular values below `lost` relative to the largest vanish, by
 /// deflation: r = 0 in the range of the Jacobian J, and P J v = 0 for its null vectors v and the projection
 /// P off that range (Leykin, Verschelde and Zhao 2006). To a set of such solutions it leads straight across.
 /// `None` if something is not finite.

@@ -49,10 +49,10 @@ const IN_A_ROW: usize = 3;
 /// Circles gone round at most.
 const CIRCLES: usize = 12;
 
-/// From one circle to the next.
+/// Ratio of the radii of one circle and the next.
 const SHRINK: f64 = 6.0;
 
-/// Goes round s = 1 on ever smaller circles from a point `x` at s = 1 − `radius`.
+/// Follows the solution round s = 1 on ever smaller circles, from a point `x` at s = 1 − `radius`.
 pub fn path_end<H: Turning>(
     h: &mut H,
     tracker: &Tracker,

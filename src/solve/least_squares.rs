@@ -80,10 +80,10 @@ pub struct Fitted<P> {
     pub converged: bool,
 }
 
-/// So damped a step leads nowhere.
+/// Damping at which a step leads nowhere.
 const MOST_DAMPED: f64 = 1e12;
 
-/// Below this damping changes no digit.
+/// Damping below which no digit changes.
 const UNDAMPED: f64 = 1e-12;
 
 impl LevenbergMarquardt {

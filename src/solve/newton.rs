@@ -86,7 +86,7 @@ impl Newton {
         report(stop, self.max_steps, size)
     }
 
-    /// One accepted step, damped as much as needed. `None` if no damping lowers the residual.
+    /// Makes one step, damped as much as needed. `None` if no damping lowers the residual.
     fn lower<E: Equations>(
         &self,
         equations: &E,

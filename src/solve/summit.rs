@@ -40,7 +40,7 @@ struct Section {
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 impl Section {
-    /// Goes on until no more than a width is left.
+    /// Narrows the section to a width.
     fn narrow(&mut self, width: f64, height: &mut impl FnMut(f64) -> Option<f64>) -> Option<()> {
         while self.high - self.low > width.max(4.0 * f64::EPSILON * self.high.abs()) {
             let [at_a, at_b] = self.heights;

@@ -7,7 +7,7 @@ use crate::solve::Equations;
 /// solutions for the same held values differ by 2 at least.
 pub const BRANCH_CHANGE: f64 = 0.5;
 
-/// Farther than that apart, in rad and characteristic lengths, the ends of a step do not tell what is between them.
+/// Longest step, in rad and characteristic lengths, whose ends tell what is between them.
 pub const BRANCH_STEP: f64 = 0.5;
 
 impl System<f64> {

@@ -36,7 +36,7 @@ pub struct Bundle<'m> {
     sizes: Vec<f64>,
     /// Values near which they stay, within about their sizes.
     near: Option<Vec<f64>>,
-    /// By configuration.
+    /// Targets by configuration.
     targets: BTreeMap<usize, Vec<Target>>,
     frames: Vec<Frame>,
     rank: Option<usize>,

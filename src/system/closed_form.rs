@@ -106,7 +106,7 @@ impl<E> Rule<E> {
     }
 }
 
-/// One formula.
+/// A step of the solution: one unknown by one rule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// Name of the joint variable, or of an angle that is a sum of some.
@@ -131,7 +131,7 @@ impl Step {
 /// The solution of a question in closed form, as far as there is one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClosedSolution {
-    /// In the order in which they are evaluated.
+    /// Steps in the order of evaluation.
     pub steps: Vec<Step>,
     /// Closures that still contain unknowns.
     pub closures_left: Vec<usize>,

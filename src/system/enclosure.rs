@@ -79,7 +79,8 @@ pub(crate) struct Space {
 }
 
 impl Enclosure {
-    /// Of a mechanism without platforms, with what is held of its frames and the values of known joints.
+    /// Conditions of a mechanism without platforms, with the held coordinates of its frames and the values of known
+    /// joints.
     pub fn new(
         dimensions: &Dimensions<Interval>,
         holds: &[(Frame, HoldRow<Interval>)],

@@ -18,7 +18,7 @@ use instructions::{Assignment, Code, Instruction, last_uses, needed, written};
 /// first cache.
 pub const BATCH: usize = 32;
 
-/// One number for each row.
+/// A number for each row.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Register([f64; BATCH]);

@@ -110,7 +110,7 @@ fn pi_angle() -> Powers {
     vec![(Atom::Pi, 1)]
 }
 
-/// Two sorted lists as one, entries of the same key added; those whose sum is zero are left out.
+/// Merges two sorted lists: values of one key are added, and sums of zero are left out.
 fn merged<K: Clone + Ord, V: Clone + Zero>(
     a: &[(K, V)],
     b: &[(K, V)],
@@ -139,7 +139,7 @@ fn merged<K: Clone + Ord, V: Clone + Zero>(
     }
 }
 
-/// Far enough from overflow for all that is done with the factor of an angle.
+/// True if the factor of an angle is far from overflow in all later arithmetic.
 pub(super) fn is_small(k: &Ratio<i64>) -> bool {
     k.numer().unsigned_abs() < 1 << 40 && *k.denom() < 1 << 40
 }
@@ -208,7 +208,7 @@ impl Key {
         (key, BigRational::from(BigInt::from(self.root)).recip())
     }
 
-    /// Itself times i: i·i = −1.
+    /// The term times i: i·i = −1.
     pub(super) fn times_i(&self) -> (Key, BigRational) {
         let sign = if self.imaginary { -1 } else { 1 };
         let key = Key {

@@ -1,4 +1,4 @@
-//! From the ends of the paths to the report.
+//! The report from the ends of all paths.
 
 mod certificate;
 mod closest;
@@ -241,8 +241,8 @@ impl Question<'_> {
         })
     }
 
-    /// Of real solutions that are one, as two conjugate complex ones are whose real part is
-    /// assembled, one is kept, with the multiplicity of all; how many others there were.
+    /// Merges real solutions that are one, as two conjugate complex ones whose real part is
+    /// assembled; one is kept, with the multiplicity of all. Returns the number of the others.
     fn merge(&self, found: &mut Vec<Found>, homotopy: &mut ParameterHomotopy<'_>) -> usize {
         let mut kept: Vec<Found> = Vec::new();
         let mut points: Vec<Vec<C>> = Vec::new();

@@ -52,7 +52,7 @@ pub(crate) struct Family {
 /// A length that has a factor among the parameters.
 #[derive(Clone, Copy, Debug)]
 enum Length {
-    /// Of the links before and after a joint.
+    /// The lengths of the links before and after a joint.
     Row {
         chain: usize,
         row: usize,
@@ -231,7 +231,7 @@ impl Family {
         lengths.flatten().collect()
     }
 
-    /// After how many turns an angle repeats, if it does; `None` for a joint that is no angle.
+    /// Number of turns after which an angle repeats, if it does; `None` for a joint that is no angle.
     pub fn turns(&self, joint: usize) -> Option<Option<f64>> {
         let is_angle = self.mechanism.joints()[joint].kind.is_angle();
         is_angle.then(|| self.coordinates.turns[joint])

@@ -30,8 +30,8 @@ pub struct Assembly {
     pub joints: Named<f64>,
     /// Platform poses.
     pub platforms: Named<PoseReport>,
-    /// From where its [configuration](Assembly::configuration) measures positions, in m: the origin unless the mechanism is
-    /// far from it.
+    /// Position in ground, in m, from which its [configuration](Assembly::configuration) measures positions: the origin
+    /// unless the mechanism is far from it.
     #[serde(default, skip_serializing_if = "is_origin")]
     pub centre: [f64; 3],
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
@@ -101,29 +101,30 @@ pub enum Fit {
     /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
     #[default]
     Finite,
-    /// So many freedoms are left; the assemblies listed are samples.
+    /// Freedoms left, so many; the assemblies listed are samples.
     FreedomLeft(usize),
     /// No generic solution was found, perhaps because more inputs are held than can be chosen
     /// freely; what is listed was found by starting from many guesses and need not be complete.
     TooManyHeld,
-    /// There is no end of generic solutions, as where a screw, or a gear whose ratio is no fraction, never comes
-    /// back to the same place. What is listed was found by starting from guesses.
+    /// Infinitely many generic solutions, as where a screw, or a gear whose ratio is no fraction, never comes
+    /// back to the same place. The assemblies listed were found by starting from guesses.
     Endless,
     /// All generic solutions that were met are multiple, as in a shaky structure. No path follows
     /// them; what is listed was found by starting from many guesses and need not be complete.
     AlwaysMultiple,
 }
 
-/// Through which complex values no loop leads from the generic solutions to others, by the trace test of Leykin, Rodriguez
+/// Complex values through which no loop leads from the generic solutions to others, by the trace test of Leykin,
+/// Rodriguez
 /// and Sottile 2018 in double precision. Solutions that no such loop reaches may exist beside them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Traced {
-    /// Those of the inputs.
+    /// Values of the inputs.
     Inputs,
-    /// Those of the parameters, where there are no inputs.
+    /// Values of the parameters, where there are no inputs.
     Parameters,
-    /// Those of the lengths of the rods, where there are no inputs.
+    /// Lengths of the rods, where there are no inputs.
     Rods,
 }
 
@@ -196,7 +197,7 @@ pub struct AssembliesReport {
     pub half_a_turn_away: usize,
     /// Paths that end on a set of infinitely many solutions.
     pub not_isolated: usize,
-    /// Those sets by dimension, the largest first; empty if all assemblies are isolated.
+    /// Sets of infinitely many solutions by dimension, the largest first; empty if all assemblies are isolated.
     pub continua: Vec<Continuum>,
     /// Isolated real assemblies that were found from other starts and to which no path led.
     /// Anything but 0 means that the list may be incomplete.
@@ -298,7 +299,7 @@ pub struct Proof {
     pub crowded: bool,
     /// Ranges covered of joints that may go beyond them: the limits of those that do not come back to the same place.
     pub ranges: Vec<Range>,
-    /// Those of them without limits, for which no bound follows from the lengths: within 1000 characteristic lengths.
+    /// Joints without limits, for which no bound follows from the lengths: searched within 1000 characteristic lengths.
     pub unbounded: Vec<String>,
     /// Numbers of the listed assemblies outside of these ranges, of which nothing is proved.
     pub outside: Vec<usize>,

@@ -27,7 +27,7 @@ pub enum Outcome {
     Converged,
     /// Assembled, but some joints are outside their limits.
     ConvergedOutsideLimits {
-        /// Those joints.
+        /// Joints outside their limits.
         #[serde(rename = "outside_limits")]
         joints: Vec<String>,
     },
@@ -125,8 +125,8 @@ pub struct AssemblyReport {
     pub platforms: Named<PlatformRecord>,
     /// Tip frames of the chains there; of a file of joint coordinates, of the bodies and points that it names.
     pub frames: Named<FrameRecord>,
-    /// From where a [configuration](AssemblyReport::configuration) measures positions, in m: the origin unless the mechanism
-    /// is far from it.
+    /// Position in ground, in m, from which a [configuration](AssemblyReport::configuration) measures positions: the
+    /// origin unless the mechanism is far from it.
     #[serde(default, skip_serializing_if = "is_origin")]
     pub centre: [f64; 3],
     /// Gap of each closure.

@@ -20,7 +20,7 @@ const MOST_FACTORS: usize = 48;
 /// Linear combinations of formulas, brought to echelon form term by term.
 pub(super) struct Span {
     columns: FxHashMap<Key, usize>,
-    /// By the column of the first entry, which is 1.
+    /// Rows by the column of the first entry, which is 1.
     rows: BTreeMap<usize, BTreeMap<usize, BigRational>>,
 }
 

@@ -14,7 +14,7 @@ pub(super) struct Values<T> {
 }
 
 impl<T: Number> Values<T> {
-    /// At joint values, with the parameters of the mechanism.
+    /// Values at joint values, with the parameters of the mechanism.
     pub fn at(mechanism: &Mechanism, form: &ClosedForm, joints: &[T]) -> Self {
         let parameters = mechanism.parameters().iter();
         let parameters = parameters.map(|p| T::from_f64(p.value)).collect();
@@ -58,7 +58,7 @@ impl<T: Number> Values<T> {
     }
 }
 
-/// Below this part of the terms of a sum its value is that of rounding.
+/// Rounding of a sum, relative to its terms.
 const ROUNDING: f64 = 1e-13;
 
 /// The value of a formula with what it is to be compared with.

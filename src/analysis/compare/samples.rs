@@ -128,7 +128,7 @@ impl<'a> Samples<'a> {
         (report.stop == Stop::Solved).then_some(at)
     }
 
-    /// At once, or if that fails in steps.
+    /// Solves for target values at once, or if that fails in steps.
     fn approach(
         &mut self,
         from: &Configuration<f64>,

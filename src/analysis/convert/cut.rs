@@ -31,7 +31,7 @@ pub use error::CutError;
 struct Place {
     joint: usize,
     chain: usize,
-    /// From 0.
+    /// Index of its row, from 0.
     row: usize,
     slides: bool,
 }
@@ -295,7 +295,7 @@ fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
     first_free(wanted, "_", free)
 }
 
-/// From the old tip, a frame of that name, back to the axis of row r.
+/// Rows from the old tip, a frame of that name, back to the axis of row r.
 fn back(
     name: &str,
     chain: &ChainDescription,

@@ -15,7 +15,7 @@ pub struct FormulasReport {
     pub names: FormulaNames,
     /// Every letter that stands in a formula.
     pub letters: Vec<Letter>,
-    /// From link to link, chain by chain.
+    /// Transforms from link to link, chain by chain.
     pub links: Vec<TransformFormula>,
     /// The tip of every chain in ground, or the one transform chosen.
     pub transforms: Vec<TransformFormula>,
@@ -86,9 +86,10 @@ pub struct ClosureFormula {
     pub equations: Vec<Expression>,
     /// Number of further equations that vanish for all joint values, as those out of the plane of a planar loop.
     pub identically_zero: usize,
-    /// Of a `Distance` whose equation is long: the vector g between its ends and its length s, g·g = s².
+    /// For a `Distance` with a long equation, the vector g between its ends and its length s, g·g = s².
     pub distance: Option<([Expression; 3], Expression)>,
-    /// Of a `Rigid` closure with a platform: the axes of both frames are equal too, which takes three more equations.
+    /// True for a `Rigid` closure with a platform: the axes of both frames are equal too, which takes three more
+    /// equations.
     pub same_axes: bool,
     /// True if the equations also admit the joint assembled the wrong way round.
     pub admits_flipped: bool,
@@ -102,7 +103,7 @@ pub struct JacobianFormula {
     /// The frame it is seen from.
     #[serde(rename = "in")]
     pub relative_to: String,
-    /// One for each joint that moves the frame.
+    /// Columns, one for each joint that moves the frame.
     pub columns: Vec<TwistFormula>,
 }
 
@@ -122,7 +123,7 @@ pub struct TwistFormula {
 pub struct SolutionFormula {
     /// Names of the held coordinates.
     pub held: Vec<String>,
-    /// One formula after another; each uses what those before it give.
+    /// Formulas in order; each uses the results of those before it.
     pub steps: Vec<StepFormula>,
     /// Names of the signs, each +1 or −1: every combination that is real is an assembly.
     pub signs: Vec<String>,
@@ -141,7 +142,7 @@ pub struct SolutionFormula {
     pub overdetermined: bool,
 }
 
-/// One formula of a solution.
+/// A formula of a solution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepFormula {
     /// The joint variable, or a name for an angle that is a sum of some.
@@ -156,7 +157,7 @@ pub struct StepFormula {
     pub value: Expression,
     /// The name of its sign, if it has two values.
     pub sign: Option<String>,
-    /// It is real where this is not negative.
+    /// Expression that must not be negative for the value to be real.
     pub real_where: Option<Expression>,
 }
 

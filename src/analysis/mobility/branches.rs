@@ -27,7 +27,7 @@ const BRANCH_TRIALS: usize = 8;
 /// Branches whose tangents at the meeting point differ by less than this are one.
 const SAME_THERE: f64 = 0.02;
 
-/// So many branches are listed at most; more are counted.
+/// Branches listed at most; more are counted.
 const LISTED: usize = 256;
 
 /// The finite motions through a configuration.

@@ -29,7 +29,7 @@ pub struct MobilityReport {
     pub redundant: usize,
     /// Joints that stand still in every finite motion, or move in local freedoms only.
     pub idle_joints: Vec<String>,
-    /// Those of the idle joints that spin a link about its own axis.
+    /// Idle joints that spin a link about its own axis.
     pub spinning_joints: Vec<String>,
     /// Joints in gimbal lock: they turn in place at the configuration and move links beside it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -52,7 +52,7 @@ pub struct MobilityReport {
     pub branch_count: usize,
     /// True if there are certainly no more branches.
     pub branches_complete: bool,
-    /// Another mobility that the mechanism has in another assembly.
+    /// Other assemblies with another mobility.
     pub elsewhere: Vec<Elsewhere>,
     /// Random starts from which one was sought.
     pub elsewhere_starts: usize,

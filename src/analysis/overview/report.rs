@@ -83,13 +83,13 @@ pub struct JointOverview {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointUse {
-    /// It turns.
+    /// The joint turns.
     Revolute,
-    /// It slides.
+    /// The joint slides.
     Prismatic,
-    /// It turns and slides at once.
+    /// The joint turns and slides at once.
     Helical,
-    /// It stands nowhere.
+    /// The variable occurs nowhere.
     Unused,
 }
 
@@ -114,11 +114,11 @@ pub struct ChainOverview {
     pub on: String,
     /// Convention of its rows.
     pub convention: Convention,
-    /// From that frame to the chain's frame 0, as written.
+    /// Displacement from that frame to the chain's frame 0, as written.
     pub base: Vec<String>,
     /// The rows of its table.
     pub rows: Vec<RowOverview>,
-    /// From its last link frame to its tip, as written.
+    /// Displacement from its last link frame to its tip, as written.
     pub tip: Vec<String>,
 }
 

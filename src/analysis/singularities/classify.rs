@@ -92,11 +92,11 @@ pub struct Resisted {
 /// singularities; `None` where nothing can vanish. Lengths are over the normalising length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distances {
-    /// Of the closure Jacobian J: zero at constraint singularities.
+    /// Smallest singular value of the closure Jacobian J: zero at constraint singularities.
     pub constraint: Option<f64>,
-    /// Of [J; H] with the rates of the inputs: zero where freedoms are gained.
+    /// Smallest singular value of [J; H] with the rates of the inputs: zero where freedoms are gained.
     pub direct: Option<f64>,
-    /// Of [J; O] with the rates of the outputs: zero where inputs move without them.
+    /// Smallest singular value of [J; O] with the rates of the outputs: zero where inputs move without them.
     pub inverse: Option<f64>,
 }
 
@@ -254,7 +254,7 @@ impl<'m> Classifier<'m> {
         }
     }
 
-    /// Of the singular values of a matrix the smallest that does not vanish everywhere.
+    /// The smallest singular value of a matrix that does not vanish everywhere.
     fn least(&self, matrix: usize, values: &[f64]) -> Option<f64> {
         let last = (self.unknowns().len() - self.generic[matrix]).checked_sub(1)?;
         Some(values.get(last).copied().unwrap_or(0.0))

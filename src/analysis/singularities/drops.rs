@@ -34,7 +34,7 @@ impl Sample {
     }
 }
 
-/// One stretch of a curve, with the matrix that may lose rank on it.
+/// A stretch of a curve, with the matrix that may lose rank on it.
 pub(super) struct Drops<'a> {
     pub curve: &'a mut Curve,
     pub locked: &'a mut Locked,
@@ -68,7 +68,7 @@ impl Drops<'_> {
         }
     }
 
-    /// At a distance along the tangent of a place.
+    /// Sample at a distance along the tangent of a place.
     fn ahead(&mut self, of: &Sample, along: f64) -> Option<Sample> {
         let place = self.method.across(self.curve, &of.place, along)?;
         Some(self.sample(place))

@@ -40,7 +40,7 @@ pub(super) struct Found {
 
 /// True if more starts are likely to lead to new curves, by the share of curves met once (Good 1953).
 fn more_is_likely(found: &Found) -> bool {
-    /// Fewer arrivals say nothing.
+    /// Number of arrivals below which their share says nothing.
     const ARRIVALS: usize = 20;
     let once = |(traced, met): &(Traced<Singular>, usize)| *met == 1 && traced.places.len() > 1;
     found.arrived > 0 && (found.arrived < ARRIVALS || found.known.iter().any(once))

@@ -18,7 +18,8 @@ pub(super) struct Curvature {
 }
 
 impl Plan<'_> {
-    /// Of a Jacobian in these places, from the values of `variables`, the inputs of the operations, at the start. It is
+    /// Curvature of a Jacobian in these places, from the values of `variables`, the inputs of the operations, at the
+    /// start. It is
     /// looked at there and at random configurations: all angles and orientations, lengths within half the size of the
     /// mechanism.
     pub(super) fn curvature(

@@ -25,7 +25,7 @@ pub(super) struct Iteration {
 }
 
 impl Iteration {
-    /// On all rows, with the step that follows from them by these pivots.
+    /// Iteration on all rows, with the step that follows from them by these pivots.
     pub fn of(rows: &Rows, step: Vec<Recorded>, pivots: Vec<Pivot>) -> Self {
         Iteration {
             rows: rows.residual.iter().map(|&row| (row, 1.0)).collect(),
@@ -62,7 +62,7 @@ impl Rows {
         }
     }
 
-    /// Those of all numbers that belong to open rows.
+    /// The numbers that belong to open rows.
     pub fn among(&self, all: &[Recorded]) -> Vec<Recorded> {
         self.open.iter().map(|&row| all[row]).collect()
     }

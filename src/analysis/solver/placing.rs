@@ -108,7 +108,7 @@ impl Placing {
         held.platforms[self.platform] = HeldPlatform::Pose;
     }
 
-    /// By what a gap of a closure may be larger than the rows r = (g·g − s²)/2L² of the distances, to first order: the
+    /// Largest ratio of a gap of a closure to the rows r = (g·g − s²)/2L² of the distances, to first order: the
     /// strain of the triangle is less than 5 L² r/h² with its height h over the longest side, and a turn from `at` of up
     /// to 90° adds as much across.
     pub fn stretch(&self, length: f64) -> f64 {

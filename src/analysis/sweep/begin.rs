@@ -24,8 +24,8 @@ pub(super) fn beginning(
     first_end(&mut walk, curve, watch).map_or(place, At::reversed)
 }
 
-/// In the sense in which the first joint that is driven, or else the first that moves, grows; where
-/// none moves, the first coordinate of a platform.
+/// The place with its tangent in the sense in which the first joint that is driven, or else the first that moves,
+/// grows; where none moves, the first coordinate of a platform.
 pub(super) fn forwards(mechanism: &Mechanism, curve: &Curve, place: At) -> At {
     let rate = |joint: usize| {
         curve

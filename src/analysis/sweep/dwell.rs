@@ -115,7 +115,7 @@ fn stay(
 /// The windows of samples within a band of some width that may be the longest: from the first to the last of each. A
 /// stay may reach from a window to the samples beside it.
 fn windows(samples: &[Sample], width: f64) -> Vec<[usize; 2]> {
-    /// So many are compared: those of a periodic motion are equal.
+    /// Windows compared at most: those of a periodic motion are equal.
     const MOST: usize = 8;
     let [time, value] =
         [0, 1].map(|k| move |i: usize| samples[i].1.map_or(f64::NAN, |found| found[k]));

@@ -52,7 +52,7 @@ pub(super) struct Tracer {
     twists: FrameTwists<f64>,
     placement: Placement<f64>,
     length: f64,
-    /// From where the kinematics measures positions.
+    /// Position in ground, in m, from which the kinematics measures positions.
     centre: Vector3<f64>,
 }
 
@@ -106,7 +106,7 @@ impl Tracer {
     /// True if the path comes back the way it went from a point at rest, as at the end of an arc.
     fn retraces(&mut self, curve: &mut Curve, method: &Continuation, still: &At) -> bool {
         const STEPS: usize = 12;
-        /// At a cusp the way back is off by about the third power of the step.
+        /// Largest gap of a path that retraces itself: at a cusp it is about the third power of the step.
         const SAME_WAY: f64 = 1e-11;
         let step = 0.5 * method.longest;
         let Some(ahead) = method.across(curve, still, step) else {
@@ -178,7 +178,7 @@ impl Trail {
         events
     }
 
-    /// Goes on to a place, past what was met there.
+    /// Continues to a place, past an event there.
     pub fn reach(&mut self, place: &At, event: Option<&Event>) {
         match event {
             Some(Event::Root(number)) => {

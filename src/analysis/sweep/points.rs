@@ -8,7 +8,7 @@ pub struct Paths {
     kinematics: Kinematics<f64>,
     placement: Placement<f64>,
     points: Vec<Point>,
-    /// From where the kinematics measures positions.
+    /// Position in ground, in m, from which the kinematics measures positions.
     centre: Vector3<f64>,
     pub at: Vec<[f64; 3]>,
 }

@@ -15,14 +15,15 @@ use crate::system::{Driven, Held};
 /// Source: de Boor, A Practical Guide to Splines, chapter IV.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
-    /// In s, rising.
+    /// Times in s, ascending.
     times: Vec<f64>,
     /// For each input its values at the times, in m or rad, and its accelerations there.
     inputs: Vec<[Vec<f64>; 2]>,
 }
 
 impl Schedule {
-    /// Through values at times that rise, of which there are at least two; for each input as many values as times.
+    /// Splines through values at ascending times, of which there are at least two; for each input as many values as
+    /// times.
     pub fn new(times: Vec<f64>, inputs: Vec<Vec<f64>>) -> Self {
         let inputs = inputs.into_iter().map(|values| {
             let accelerations = accelerations(&times, &values);
@@ -239,7 +240,7 @@ fn halved([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
 /// Adds what was met on paths in one step; what was passed before is the same point. Paths that cross in different
 /// steps are not looked for.
 fn met_on_paths(all: &mut Vec<PathReport>, more: Vec<PathReport>) {
-    /// In m and rad.
+    /// Differences of values that count as none, in m and rad.
     const SAME: f64 = 1e-6;
     if all.is_empty() {
         *all = more;

@@ -28,11 +28,12 @@ pub struct Straightness {
 type At<'f> = dyn FnMut(f64) -> Option<[f64; 3]> + 'f;
 
 impl Straightness {
-    /// Of a path through places near to one another. Those where it is farthest from its line, sought between those known,
+    /// Straightness of a path through places near to one another. Those where it is farthest from its line, sought
+    /// between those known,
     /// join these until none is farther than they are: an exchange after Remez, for a line with both offset and direction free.
     pub(crate) fn along(point: &str, mut known: Vec<(f64, [f64; 3])>, at: &mut At) -> Option<Self> {
         const ROUNDS: usize = 24;
-        /// In parts of the length.
+        /// Differences that count as none, in parts of the length.
         const SAME: f64 = 1e-13;
         for _ in 0..ROUNDS {
             let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();
@@ -84,7 +85,8 @@ impl Straightness {
         [along, off.map(|x| x * x).sum::<f64>().sqrt()]
     }
 
-    /// Of places of a path; none if there is no more than one. In its plane the line is the middle of the narrowest
+    /// Straightness of places of a path; none if there is no more than one. In its plane the line is the middle of the
+    /// narrowest
     /// strip with all places, which has one edge of their convex hull on its border; the plane is that of least squares.
     ///
     /// Source: Houle and Toussaint, Computing the width of a set, 1988.

@@ -18,7 +18,7 @@ pub struct InstantCentre {
     pub at_infinity: Option<[f64; 3]>,
 }
 
-/// Beyond so many bodies only centres relative to the ground are listed.
+/// Number of bodies beyond which only centres relative to the ground are listed.
 const MANY_BODIES: usize = 12;
 
 /// Instant centres for the rates given; without any for the one input there is.

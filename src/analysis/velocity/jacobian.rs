@@ -129,7 +129,7 @@ pub(crate) fn row_count(mechanism: &Mechanism, outputs: &[Lock]) -> usize {
 /// The determinant of a square matrix, by elimination with the largest pivot of each column; none where such a pivot is
 /// small, if many matrices are eliminated in the order of one.
 fn determinant<T: Number>(size: usize, entries: &[T]) -> Option<T> {
-    /// Beside what it is where the order is chosen.
+    /// Pivots below this part of their size where the order was chosen are small.
     const SMALL: f64 = 1e-3;
     let mut matrix = entries.to_vec();
     let mut product = T::one();
@@ -165,7 +165,7 @@ pub(crate) struct Outputs<'m, T = f64> {
     mechanism: &'m Mechanism,
     outputs: Vec<Lock>,
     twists: FrameTwists<T>,
-    /// Of the rows of all outputs those that the Jacobian has.
+    /// For each row of all outputs, true if the Jacobian has it.
     kept: Vec<bool>,
     /// Scales of the rows, then of the columns.
     scales: [Vec<f64>; 2],

@@ -17,7 +17,7 @@ const SHORTEST: f64 = 1.0 / 16384.0;
 /// Steps beyond which a row is too far away.
 const FARTHEST: f64 = 10_000.0;
 
-/// In how many steps a distance is gone to values; none if they are too far away or no numbers.
+/// Number of steps for a distance; 0 if the values are too far away or not finite.
 fn steps_of(distance: f64, finite: bool) -> usize {
     let steps = match distance <= LONGEST {
         // as most are
@@ -111,7 +111,7 @@ impl Rows<'_> {
         })
     }
 
-    /// In how many steps values are reached from others.
+    /// Number of steps from one row of values to another; 0 if they are too far away or not finite.
     fn steps(&self, from: &[f64], to: &[f64]) -> usize {
         let finite = to.iter().all(|x| x.is_finite());
         steps_of(self.distance(from, to), finite)
@@ -247,7 +247,7 @@ impl Rows<'_> {
         }
     }
 
-    /// Goes to held values from a place, or else from the beginning; stays there if neither leads to them.
+    /// Moves to held values from a place, or else from the beginning; stays there if neither leads to them.
     fn goes_or_begins(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
         let mut begin = self.begin();
         self.goes(tracker, place, to)

@@ -60,7 +60,7 @@ impl<'m> Course<'m> {
         }
     }
 
-    /// Goes on to the next place of the curve. `fold` says whether the inputs turn back there.
+    /// Continues to the next place of the curve. `fold` says whether the inputs turn back there.
     pub fn reach(&mut self, row: &Row, time: f64, fold: bool) {
         /// Stretches of which the polynomials fit into memory.
         const MOST: usize = 100_000;
@@ -162,8 +162,8 @@ impl<'m> Course<'m> {
         of.program.evaluate(&|name: &usize| names[*name]).ok()
     }
 
-    /// Goes along the curve and halves pieces as long as the visitor wants it, who is given a model of an expression, if
-    /// it has a value there. Whether all was seen before the patience ended.
+    /// Walks along the curve and halves pieces as long as the visitor wants it, who is given a model of an expression,
+    /// if it has a value there. True if all was seen before the patience ended.
     pub fn walk(
         &self,
         of: &Sought,
@@ -251,7 +251,7 @@ impl<'m> Course<'m> {
 
     /// The places of a point, of which the coordinates have these numbers, along the curve.
     pub fn path(&self, axes: [usize; 3]) -> Vec<(f64, [f64; 3])> {
-        /// On each piece.
+        /// Parts looked at on each piece.
         const COUNT: u32 = 32;
         let pieces = 0..self.pieces.len();
         let all = pieces.flat_map(|piece| {

@@ -163,7 +163,7 @@ const BESIDE: f64 = 0.02;
 /// The part of a stretch on either side of a kink or a pole where it may be.
 const KINK: f64 = 1e-7;
 
-/// Nearer than this to an end of a stretch a place is the end.
+/// Distance from an end of a stretch within which a place is the end.
 const END: f64 = 1e-10;
 
 /// The best value so far, at a part of a stretch.
@@ -280,7 +280,7 @@ fn missing(quantity: &Quantity) -> Missing {
 
 /// Adds a pole to others; each is seen from either side.
 fn merge(poles: &mut Vec<Pole>, pole: Pole) {
-    /// In m and rad.
+    /// Differences that count as none, in m and rad.
     const SAME: f64 = 1e-6;
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME);
     let same =

@@ -39,7 +39,8 @@ pub(in super::super) struct Metered<'q> {
     pub outputs: Vec<Lock>,
 }
 
-/// After so many rows the quantities are written down as a program: that takes as long as reading some hundred rows one
+/// Number of rows after which the quantities are recorded as a program: that takes as long as reading some hundred rows
+/// one
 /// by one. Not in the page, which would grow by a tenth.
 const RECORDED_AFTER: usize = match cfg!(target_family = "wasm") {
     true => usize::MAX,

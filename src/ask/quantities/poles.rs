@@ -11,9 +11,9 @@ pub(super) fn unbounded(
 ) -> [Option<bool>; 2] {
     /// Distances from the place are powers of √10 from this one to this one.
     const POWERS: [i32; 2] = [3, 16];
-    /// Over so many of them it must grow: three decades.
+    /// Steps over which it must grow: three decades.
     const WATCHED: usize = 6;
-    /// By this each time.
+    /// Least growth in a step.
     const FACTOR: f64 = 1.33;
     [-1.0, 1.0].map(|side| {
         let mut at = |power: i32| {

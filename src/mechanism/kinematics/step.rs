@@ -1,4 +1,4 @@
-//! One displacement of a chain.
+//! A single displacement of a chain.
 
 use super::{Need, Slot};
 use crate::geometry::{Pose, Rotation, Vector3};

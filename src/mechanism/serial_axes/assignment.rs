@@ -137,8 +137,8 @@ impl SerialAxes {
         self.read_off(convention, axes, normals, starts_at_base, length)
     }
 
-    /// From the base to the first axis; of no relation where frame 0 is free. Then `x` and the
-    /// place are what choices refer to.
+    /// Normal from the base to the first axis; without a relation where frame 0 is free. Then `x` and the
+    /// place are the reference of the choices.
     fn first(
         &self,
         convention: Convention,
@@ -212,7 +212,7 @@ impl SerialAxes {
         }
     }
 
-    /// From the last axis to the tool where a row of the standard convention can lead there.
+    /// Normal from the last axis to the tool where a row of the standard convention can lead there.
     fn last(&self, convention: Convention, last: &Normal, axis: &Line, length: f64) -> Normal {
         if let (Convention::Standard, Some(tool)) = (convention, self.tool) {
             let [x, _, z] = tool.rotation.0;

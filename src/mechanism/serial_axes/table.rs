@@ -13,11 +13,11 @@ pub struct Table {
     pub base: Pose<f64>,
     /// The rows.
     pub rows: Vec<TableRow>,
-    /// From frame n to the tool.
+    /// Pose of the tool in frame n.
     pub tip: Pose<f64>,
 }
 
-/// One row: the constant parts of its entries, and how the variable enters.
+/// A row: the constant parts of its entries, and the way in which the variable enters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TableRow {
     /// Twist of the link, in rad.

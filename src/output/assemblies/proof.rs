@@ -5,7 +5,7 @@ use super::super::quantity::{form, if_any, range};
 use crate::analysis::assemblies::{Part, Proof, Range, Unfit};
 use crate::description::{count, listed};
 
-/// Of which values of what does not come back to the same place the proof speaks.
+/// Ranges covered by the proof, of joints that do not come back to the same place.
 fn within(proof: &Proof) -> String {
     let ranges: Vec<String> = proof.ranges.iter().map(said).collect();
     if_any(&ranges, |ranges| format!(" with {ranges}"))

@@ -9,7 +9,7 @@ use crate::output::quantity::{quantity, size};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cell {
-    /// Nothing.
+    /// Nothing in the cell.
     #[default]
     Empty,
     /// Words.

@@ -4,7 +4,7 @@ use crate::geometry::Vector3;
 use crate::number::{real, sorting::sort_by};
 use crate::scene::{Triple, least_and_greatest};
 
-/// From where a scene is seen.
+/// View of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum View {
     /// Along the normal of the plane of motion; a spatial mechanism as with `Isometric`.
@@ -77,7 +77,7 @@ impl Camera {
         )
     }
 
-    /// From where to where points are seen, to the right and up, in m.
+    /// Bounds of points in the view, to the right and up, in m.
     pub fn bounds(&self, points: &[Triple]) -> [(f64, f64); 2] {
         [&self.right, &self.up].map(|axis| {
             let seen = points.iter().map(|point| Vector3(*point).dot(axis));

@@ -17,7 +17,7 @@ pub(super) struct Labels {
 }
 
 impl Labels {
-    /// Of what has a name beside it anyhow and, if all are wanted, of everything that has one in a scene.
+    /// Labels of everything that has a name beside it anyhow and, if all are wanted, of everything named in a scene.
     pub fn of(
         stage: &Stage,
         all: bool,

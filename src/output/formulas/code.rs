@@ -10,7 +10,7 @@ use crate::analysis::formulas::{
 };
 use crate::number::sorting::{sort_by, sort_by_key};
 
-/// One function for each transform, closure and Jacobian; they need nothing but `f64`.
+/// A function for each transform, closure and Jacobian; they need nothing but `f64`.
 pub fn rust(report: &FormulasReport) -> String {
     let mut writer = Writer {
         arguments: arguments(&report.letters),
@@ -192,7 +192,7 @@ impl Writer<'_> {
         )
     }
 
-    /// One function that gives every joint variable, for signs of +1 or −1.
+    /// A function that gives every joint variable, for signs of +1 or −1.
     fn solution(&mut self, solution: &SolutionFormula) -> String {
         let steps = &solution.steps;
         let parts = |step: &'_ StepFormula| {

@@ -38,7 +38,7 @@ fn circle(k: u32) -> (f64, f64) {
     (cos, sin)
 }
 
-/// Of radius 1 from z = 0 to 1.
+/// Cylinder of radius 1 from z = 0 to 1.
 pub(super) fn cylinder() -> Solid {
     let mut solid = Solid::default();
     let ring = |z: f64| (0..ROUND).map(move |k| [circle(k).0, circle(k).1, z]);
@@ -57,7 +57,7 @@ pub(super) fn cylinder() -> Solid {
     solid
 }
 
-/// From −1 to 1 across, from z = 0 to 1.
+/// Block from −1 to 1 across, from z = 0 to 1.
 pub(super) fn block() -> Solid {
     let mut solid = Solid::default();
     for axis in 0..3 {
@@ -79,7 +79,7 @@ pub(super) fn block() -> Solid {
     solid
 }
 
-/// Of radius 1 about the origin.
+/// Ball of radius 1 about the origin.
 pub(super) fn ball() -> Solid {
     const RINGS: u32 = 10;
     let mut solid = Solid::default();
@@ -107,7 +107,7 @@ pub(super) fn ball() -> Solid {
     solid
 }
 
-/// Of radius 1 across, from z = 0 to 1.
+/// Ball of radius 1 across, from z = 0 to 1.
 pub(super) fn standing_ball() -> Solid {
     let mut solid = ball();
     for (point, normal) in solid.points.iter_mut().zip(&mut solid.normals) {
@@ -120,7 +120,7 @@ pub(super) fn standing_ball() -> Solid {
     solid
 }
 
-/// Both sides of the outline of points near a plane, in order round their middle; z is across the plane.
+/// Plate with the outline of points near a plane on both sides, in order round their middle; z is across the plane.
 pub(super) fn plate(points: &[Vector3<f64>]) -> Solid {
     let sum = points
         .iter()

@@ -1,4 +1,4 @@
-//! What a mechanism can do, in sentences.
+//! Mobility of a mechanism, in sentences.
 
 use crate::analysis::mobility::{
     Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, Wrench,
@@ -51,7 +51,7 @@ pub(super) fn judged(report: &MobilityReport) -> Option<String> {
     ))
 }
 
-/// What is special about the configuration though its freedoms are all there.
+/// Special configuration with all freedoms, as in gimbal lock, in a sentence.
 pub(super) fn locked(report: &MobilityReport) -> Option<String> {
     let (locked, all) = (report.gimbal_locked, report.infinitesimal);
     (locked > 0).then(|| {
@@ -208,7 +208,7 @@ pub(super) fn counted(report: &MobilityReport) -> String {
     )
 }
 
-/// How the rank of a large mechanism was found; nothing of others, whose singular values are all computed.
+/// Method by which the rank of a large mechanism was found; empty for others, whose singular values are all computed.
 pub(super) fn elimination(report: &MobilityReport) -> String {
     match report.unknowns > SPECTRUM_LIMIT {
         true => format!(

@@ -90,7 +90,7 @@ impl<'a> Writer<'a> {
         needed
     }
 
-    /// Of x/√y the places of x and y: it is written with 1/√y.
+    /// For x/√y the places of x and y: it is written with 1/√y.
     fn root_under(&self, place: Place) -> Option<(Place, Place)> {
         let operations = &self.solver.operations;
         match operations[place as usize] {
@@ -213,7 +213,7 @@ impl<'a> Writer<'a> {
         text.text
     }
 
-    /// By how much a step changes a number of the state.
+    /// Change of a number of the state by a step, in code.
     fn change(&self, i: usize) -> String {
         let to = self.solver.moved[i];
         match self.solver.operations[to as usize] {

@@ -4,7 +4,7 @@ use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::scene::Scene;
 
-/// Of a long series no more than can be distinguished, evenly spread.
+/// A long series thinned to what can be distinguished, evenly spread.
 #[derive(Clone, Debug)]
 pub(super) struct Thinned<T> {
     pub kept: Vec<T>,

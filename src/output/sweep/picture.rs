@@ -55,7 +55,7 @@ impl Drawn {
 const MOST: usize = 4000;
 
 impl Picture {
-    /// Of a motion of these inputs; without points, joints are drawn over the first input.
+    /// Picture of a motion of these inputs; without points, joints are drawn over the first input.
     pub fn new(
         mechanism: &Mechanism,
         inputs: &[Driven],
@@ -100,7 +100,7 @@ impl Picture {
         }
     }
 
-    /// Of the circuits of a mechanism, joints over the input.
+    /// Picture of the circuits of a mechanism, joints over the input.
     pub fn of_circuits(mechanism: &Mechanism, report: &CircuitsReport) -> Self {
         let mut picture = Picture::new(mechanism, &[], &[], &[]);
         picture.what = "circuit";

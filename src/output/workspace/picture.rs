@@ -152,7 +152,7 @@ const KINDS: &[(&str, Wanted)] = &[
     ("fold", |kind| *kind == BoundaryKind::Fold),
 ];
 
-/// One coordinate: the conditioning over it.
+/// Chart of the conditioning over a single coordinate.
 fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
     let series = report.modes.iter().map(|mode| {
         let mut points = Vec::new();

@@ -1,4 +1,4 @@
-//! One configuration of a bundle, linearised and eliminated.
+//! A configuration of a bundle, linearised and eliminated.
 
 use crate::linear::{Svd, add, complement, dot, rank};
 

@@ -157,7 +157,7 @@ impl ClosedSolution {
     }
 }
 
-/// Below this part of its size a radicand is negative, and what is divided by is zero.
+/// Radicands below this part of their size are negative, and divisors zero.
 const ROUNDING: f64 = 1e-12;
 
 struct Signed {

@@ -10,7 +10,7 @@ use super::single::{Circular, Unknown, beside, cross, dot, polynomial};
 use crate::algebra::{ByUnknowns, Trigonometric, Wave};
 use crate::number::real;
 
-/// Beyond so many unknowns in the equations of one closure none of them is eliminated.
+/// Unknowns in the equations of one closure beyond which none is eliminated.
 const MOST_UNKNOWNS: usize = 4;
 
 impl Derivation<'_> {

@@ -82,7 +82,7 @@ impl MotionTracker {
         })
     }
 
-    /// Goes on from another configuration, which ought to be assembled.
+    /// Continues from another configuration, which ought to be assembled.
     pub fn restart(&mut self, at: &Configuration<f64>) {
         self.trail.forget();
         self.configuration.clone_from(at);

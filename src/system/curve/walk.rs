@@ -73,7 +73,7 @@ pub struct Walk<'m> {
 }
 
 impl<'m> Walk<'m> {
-    /// From a regular place along its tangent, with joints [within their limits](Mechanism::turn_to_limits).
+    /// A walk from a regular place along its tangent, with joints [within their limits](Mechanism::turn_to_limits).
     pub fn new(mechanism: &Mechanism, curve: &Curve, start: At, method: Continuation) -> Self {
         let limits = mechanism.joints().iter().enumerate();
         let limits = limits.filter(|(joint, _)| curve.column(*joint).is_some());
@@ -114,7 +114,7 @@ impl<'m> Walk<'m> {
         self.gone
     }
 
-    /// Goes on leg by leg until the visitor breaks; its value.
+    /// Walks leg by leg until the visitor breaks; returns its value.
     ///
     /// # Errors
     /// As [`Walk::advance`].

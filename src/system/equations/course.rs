@@ -10,7 +10,7 @@ use crate::number::Dual;
 #[derive(Clone, Debug)]
 pub(crate) struct Course<T> {
     kinematics: KinematicsCourse<T>,
-    /// Of rods whose length changes, its square and the change of that, for nothing else of it is in the equations; the
+    /// For rods whose length changes, its square and the change of that, as nothing else of it is in the equations; the
     /// length itself where joints are in it too.
     lengths: Vec<(usize, bool, T, T)>,
 }

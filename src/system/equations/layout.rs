@@ -7,11 +7,11 @@ use crate::number::Number;
 /// Held coordinates of a platform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HeldPlatform<T> {
-    /// Nothing: its pose is to be found.
+    /// No coordinate: the pose is to be found.
     Free,
     /// Its whole pose, at the value it has in the configuration the solver starts from.
     Pose,
-    /// Some of it.
+    /// Some coordinates.
     Partly(HeldParts<T>),
 }
 
@@ -137,7 +137,7 @@ impl Held<f64> {
 pub enum Unknown {
     /// The variable of a joint.
     Joint(usize),
-    /// Of a platform the component 0 to 5 of its twist: rotation about x, y, z, then displacement along them.
+    /// Component 0 to 5 of a platform's twist: rotation about x, y, z, then displacement along them.
     Twist(usize, usize),
 }
 
@@ -160,12 +160,12 @@ impl Unknown {
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     joints: Vec<Option<usize>>,
-    /// Of the first twist components of the platforms.
+    /// Places of the first twist components of the platforms.
     twists: Vec<Option<usize>>,
 }
 
 impl Places {
-    /// In this list, where the components of a twist follow one another.
+    /// Places in this list, where the components of a twist follow one another.
     pub fn new(unknowns: &[Unknown]) -> Self {
         let mut places = Places::default();
         for (place, unknown) in unknowns.iter().enumerate() {

@@ -25,7 +25,7 @@ pub(super) struct ClosurePlan<T> {
 }
 
 impl<T: Factorable> ClosurePlan<T> {
-    /// Of a closure whose rows begin at a row of a block; `starts` are the first rows of all blocks.
+    /// Plan of a closure whose rows begin at a row of a block; `starts` are the first rows of all blocks.
     pub fn new(
         closure: &Closure<T>,
         layout: &Layout,

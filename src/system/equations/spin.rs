@@ -17,7 +17,7 @@ pub struct Spin {
 }
 
 impl Spin {
-    /// Of a platform about a line of unit direction in its own frame; at home it has not spun.
+    /// Spin of a platform about a line of unit direction in its own frame; at home it has not spun.
     pub fn about(line: &Vector3<f64>, platform: usize, home: &Quaternion<f64>) -> Self {
         // c = q_home (k u + l v + m w): c·q_home = 0 whatever k, l, m, which are chosen so that the
         // exceptional direction is not just the reversed line

@@ -66,7 +66,7 @@ pub enum DriveError {
     Whole {
         /// The platform.
         platform: String,
-        /// Those of its coordinates that are held.
+        /// Names of its held coordinates.
         held: Vec<String>,
     },
     /// The platform of that name turns as given only where its whole orientation is held.
@@ -75,7 +75,7 @@ pub enum DriveError {
     /// The angular velocity of the platform of that name was given both by its angles and about the axes of ground.
     #[error("the rotation of `{0}` is given twice, by its angles and about the axes of ground")]
     Mixed(String),
-    /// Nothing is held, for the mechanism is a structure: nothing can be driven.
+    /// No coordinate is held, for the mechanism is a structure: nothing can be driven.
     #[error("nothing can be driven: the mechanism is a structure")]
     Structure,
 }

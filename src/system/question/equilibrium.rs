@@ -28,7 +28,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// At a configuration, with nothing held in `near`.
+    /// Equilibrium at a configuration, with nothing held in `near`.
     pub fn of(
         near: &Neighbourhood,
         at: &Configuration<f64>,

@@ -35,7 +35,7 @@ pub enum ForceError {
         /// Platforms, or the tips of chains if there are none.
         instead: Vec<String>,
     },
-    /// Neither three nor six components, but so many.
+    /// Number of components, neither three nor six.
     #[error("a wrench has three components (N) or six (N and N·m), but {0} were given")]
     Components(usize),
     /// There is no joint of that name.

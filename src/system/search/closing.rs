@@ -369,7 +369,7 @@ fn is_exact(mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
     system.residual(at, &mut system.work()).largest <= EXACT
 }
 
-/// Below this a dimensionless closure row is rounding.
+/// Dimensionless closure rows below this are rounding.
 const EXACT: f64 = 1e-15;
 
 fn widest(mechanism: &Mechanism, at: &Configuration<f64>) -> Option<WidestGap> {

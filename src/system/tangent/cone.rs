@@ -29,9 +29,9 @@ pub struct FlatSet {
 impl Cone {
     /// The cone at a configuration.
     pub fn of(near: &mut Neighbourhood, tangent: &Tangent) -> Self {
-        /// Beyond so many freedoms the forms cost more than they are worth.
+        /// Freedoms beyond which the forms cost more than they are worth.
         const LIMIT: usize = 24;
-        /// Below this a form is truncation of the differences: zero.
+        /// Forms below this are truncation of the differences: zero.
         const ZERO: f64 = 1e-4;
         let motions = &tangent.motions;
         let n = motions.len();

@@ -30,7 +30,7 @@ struct Entry {
 /// Row or unknown at which a rate enters; the first of three for an angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Entrance {
-    /// It is the rate of one of all unknowns.
+    /// Unknown whose rate it is.
     Unknown(usize),
     /// A row of the equations holds it, as a platform of which not the whole pose is held.
     Row(usize),

@@ -132,7 +132,8 @@ pub struct Mobility {
 }
 
 impl Mobility {
-    /// At the assembled configuration near one given with the fewest freedoms, and of these the fewest local ones, so
+    /// Mobility at the assembled configuration near one given with the fewest freedoms, and of these the fewest local
+    /// ones, so
     /// that those of a special configuration, as in gimbal lock, do not count. `None` if none is found.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 0..4)

@@ -206,7 +206,7 @@ impl<T: Factorable> Motion<T> {
         self.solve_rates()
     }
 
-    /// Goes on with a sum of [responses](Self::responses); those of coordinates at rest need not be known.
+    /// Sets the rates to a sum of [responses](Self::responses); those of coordinates at rest need not be known.
     pub fn set_rates(&mut self, responses: &[Vec<T>], given: &[T]) {
         self.give(0, given);
         self.changing.placed = false;
@@ -239,7 +239,7 @@ impl<T: Factorable> Motion<T> {
         self.system.undetermined(&self.work) == 0
     }
 
-    /// Goes along the path x ⊕ t ẋ.
+    /// Places the frames along the path x ⊕ t ẋ.
     fn follow(&mut self) {
         let Changing {
             system,

@@ -1,4 +1,4 @@
-//! From operations to instructions, which compute one or more of them, and from places to registers.
+//! Instructions, each of one or more operations, and registers for places.
 
 use rustc_hash::FxHashMap;
 
@@ -287,7 +287,7 @@ fn merged(sections: &mut [Vec<Instruction>], kept: &[Place], places: usize) {
 /// Registers are given to places, and again to others when they are no longer used.
 pub(super) struct Assignment {
     pub register: Vec<u32>,
-    /// Those before it are never given again: inputs and constants.
+    /// Number of registers that are never given again: inputs and constants.
     fixed: u32,
     free: Vec<u32>,
     pub registers: u32,

@@ -149,7 +149,7 @@ where
     (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
 }
 
-/// Of the equations chosen for all assemblies; 0 where they depend on one another.
+/// Sign of det J on the equations chosen for all assemblies; 0 where they depend on one another.
 fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
     let square = DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
     if rank_of(columns, columns, square.as_slice()) < columns {

@@ -43,7 +43,7 @@ fn bound(count: usize, structure: &'static str, source: &'static str) -> Option<
     })
 }
 
-/// One closure as far as its structure goes.
+/// Structure of a closure.
 struct Link {
     kind: ClosureKind,
     frames: [Frame; 2],

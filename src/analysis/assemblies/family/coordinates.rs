@@ -47,7 +47,7 @@ pub(crate) struct Coordinates {
     pub inputs: Vec<Input>,
     pub joint_scales: Vec<f64>,
     pub length: f64,
-    /// From where positions are measured, in m.
+    /// Position in ground, in m, from which positions are measured.
     centre: [f64; 3],
     /// For each joint after how many turns everything is where it was: more than one where a gear turns something by a
     /// fraction, `None` for slides and screws and for a ratio that is no fraction.

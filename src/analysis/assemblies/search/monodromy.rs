@@ -40,7 +40,7 @@ struct Search<'a> {
     found: GenericSolutions,
     /// The trace test holds for so many solutions.
     traced: Option<usize>,
-    /// So many solutions are doubted to be all of a finite number.
+    /// Number of solutions from which on it is doubted that they are finite in number.
     doubtful: usize,
 }
 
@@ -124,18 +124,20 @@ const BATCH: usize = 32;
 /// Seeds after which a search that found nothing gives up.
 const HOPELESS: usize = 600;
 
-/// From so many known solutions on it is asked whether their number is finite: more than the platforms and single
+/// Number of known solutions from which on it is asked whether they are finite in number: more than the platforms and
+/// single
 /// loops that are studied have.
 const DOUBTFUL: usize = 200;
 
-/// One of so many loops goes through other dimensions.
+/// Loops for each one that goes through other dimensions.
 const RESIZED: usize = 6;
 
-/// Of hundreds of paths one in so many may be lost in a loop that counts.
+/// Paths for each one that may be lost in a loop of hundreds that counts.
 const LOST_ONE_IN: usize = 4;
 
 impl Search<'_> {
-    /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
+    /// Searches until nothing more is found; true if it ended at its limits, or was stopped, before. `None` if a
+    /// dimension has no value.
     fn run(&mut self) -> Option<bool> {
         let still = self.family.homotopy(&self.base, &self.base)?;
         while self.found.legwise.is_empty() {

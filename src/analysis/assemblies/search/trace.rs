@@ -22,9 +22,9 @@ use crate::solve::{Progress, Watch};
 
 /// Sums that are zero but for rounding, relative to the sum of absolute values.
 const ROUNDING: f64 = 1e-9;
-/// And relative to the least that a known solution has in it, so that one like it would be missed.
+/// Largest sum relative to the least that a known solution contributes, so that one like it would be missed.
 const SEEN: f64 = 1e-3;
-/// So many points are started from for each level, or one for each solution.
+/// Starting points for each level, unless there are more solutions.
 const STARTS: usize = 8;
 /// Paths for each solution, and some more, after which loops are faster: those that are saved take about as many.
 const PATHS: usize = 30;

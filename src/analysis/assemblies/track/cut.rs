@@ -15,7 +15,7 @@ use crate::solve::{Arrival, Homotopy, Progress, Stages, Tracker, Watch};
 pub(crate) struct Form {
     /// With each joint i/n for an angle that repeats after n turns.
     joints: Vec<(C, Option<C>)>,
-    /// Two for the quaternion, one for the position, of each platform.
+    /// Coefficients for each platform: two for the quaternion, one for the position.
     platforms: Vec<([C; 4], [C; 4], [C; 3])>,
 }
 

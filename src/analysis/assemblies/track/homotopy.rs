@@ -29,7 +29,7 @@ pub(crate) struct ParameterHomotopy<'f> {
     /// The equations at the parameter value last evaluated.
     pub here: MemberEquations,
     residual: Vec<C>,
-    /// By what the equations last factorised were multiplied.
+    /// Factors by which the equations last factorised were multiplied.
     factors: Vec<f64>,
     course: Segment,
 }

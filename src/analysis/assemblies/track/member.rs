@@ -58,7 +58,7 @@ pub(crate) struct MemberEquations {
 }
 
 impl MemberEquations {
-    /// At s = 0. `None` if an expression has no value there.
+    /// The equations at s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &Segment) -> Option<Self> {
         let mut system = family.system(&course.from.parameters)?;
         let mut numbers = None;
@@ -83,7 +83,7 @@ impl MemberEquations {
         Some(place)
     }
 
-    /// At another s.
+    /// Changes the equations to those at another s.
     pub fn go(&mut self, family: &Family, course: &Segment, s: C) {
         if self.s == Some(s) {
             return;
@@ -125,7 +125,7 @@ impl MemberEquations {
 
     /// ∂h/∂s where frames were last placed, in place of the residual; whether there is one.
     pub fn drift(&mut self, family: &Family, course: &Segment) -> bool {
-        /// Over which dimensions are compared where their relations are kept.
+        /// Step of s over which dimensions are compared where their relations are kept.
         const APART: f64 = 1e-7;
         let s = self.s.unwrap_or(C::new(0.0, 0.0));
         let still = (Vector3::zero(), Vector3::zero());

@@ -31,7 +31,7 @@ impl Directions {
         }
     }
 
-    /// Those on the quadratic cone alone; none where second order excludes nothing.
+    /// Directions on the quadratic cone alone; none where second order excludes nothing.
     pub fn on_cone(cone: &Cone, at: &Tangent) -> Self {
         let n = at.motions.len();
         let curved = n >= 2 && !cone.is_all();
@@ -136,7 +136,7 @@ impl Walk<'_, '_, '_> {
         self.look(beside);
     }
 
-    /// From the singular configuration.
+    /// Step from the singular configuration to another.
     fn way(&self, to: &Configuration<f64>) -> Vec<f64> {
         self.search.near.system().difference(&self.from.at, to)
     }

@@ -47,7 +47,7 @@ impl Jacobians<'_> {
 }
 
 impl Certain {
-    /// Nothing, of the numbers in registers with these weights.
+    /// No solution yet, for the numbers in registers with these weights.
     pub fn none<'w>(
         numbers: impl Iterator<Item = (usize, &'w f64)>,
         jacobian: &[Vec<usize>],
@@ -73,7 +73,7 @@ impl Certain {
         apart
     }
 
-    /// Those of the motions solved that have come too far or too fast.
+    /// Solved motions that have come too far or too fast.
     pub fn beyond(&self, solved: &Mask, past: &Past, registers: &Registers) -> Mask {
         let (apart, moved) = (self.apart(registers), past.moved(registers));
         let mut beyond = [0; BATCH];
@@ -84,7 +84,7 @@ impl Certain {
         beyond
     }
 
-    /// Those of the motions `of` that are on their branches by the change of the Jacobian.
+    /// Motions among `of` that are on their branches by the change of the Jacobian.
     pub fn sure(&self, of: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) -> Mask {
         let (size, apart) = (now.sizes(curvature), self.apart(registers));
         let width = now.jacobian.first().map_or(0, Vec::len);

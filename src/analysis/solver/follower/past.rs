@@ -42,7 +42,7 @@ struct Known {
 }
 
 impl Past {
-    /// None, of the numbers in these registers.
+    /// A past without moves, for the numbers in these registers.
     pub fn none(of: &[usize], registers: &Registers) -> Self {
         let known = of.iter().map(|&register| Known {
             register,

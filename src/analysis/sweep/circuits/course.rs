@@ -44,8 +44,8 @@ impl<'m> Course<'m> {
         }
     }
 
-    /// Of a coordinate of a platform that moves. None for an angle where another one is ±90° on the way, or nearly, and
-    /// does not tell it.
+    /// Course of a coordinate of a platform that moves. None for an angle that the pose does not determine, where
+    /// another angle is ±90° on the way, or nearly.
     pub fn of_platform(
         mechanism: &'m Mechanism,
         (curve, method): (&mut Curve, &Continuation),

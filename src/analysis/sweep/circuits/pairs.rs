@@ -30,7 +30,7 @@ pub(super) struct Paths<'a> {
     pub method: Continuation,
     pub value: f64,
     pub reach: f64,
-    /// Those that a path came to, with the sense in which it went.
+    /// Crossings that a path came to, each with the sense in which it went.
     pub crossings: Vec<(Configuration<C>, bool)>,
     pub steps: usize,
     pub watch: &'a Watch<'a>,

@@ -69,15 +69,15 @@ pub struct Circuit {
 pub enum FourBarClass {
     /// One of the links on ground turns fully.
     CrankRocker,
-    /// Both do.
+    /// Both links on ground turn fully.
     DoubleCrank,
-    /// Neither does, but the coupler: two circuits.
+    /// Neither link on ground turns fully, but the coupler does: two circuits.
     DoubleRocker,
     /// No link turns fully beside another: one circuit.
     TripleRocker,
     /// Branches cross: all links can lie in one line.
     ChangePoint,
-    /// It is a 5-bar of which gears couple two links.
+    /// A 5-bar with gears that couple two links.
     GearedFiveBar,
 }
 
@@ -86,7 +86,7 @@ pub enum FourBarClass {
 pub struct Grashof {
     /// The class.
     pub class: FourBarClass,
-    /// By how much the shortest and the longest link together are longer than the other two, in m.
+    /// Length by which the shortest and the longest link together are longer than the other two, in m.
     pub excess: f64,
 }
 
@@ -111,7 +111,7 @@ pub struct CircuitsReport {
     /// The search for circuits on which no seed lies, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub swept: Option<Swept>,
-    /// There were more curves than steps to follow them.
+    /// True if there were more curves than steps to follow them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exhausted: bool,
     /// The characteristic length in m.

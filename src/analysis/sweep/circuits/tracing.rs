@@ -13,7 +13,7 @@ use crate::system::{Curve, Event, Held, NoStart, Still, Walk, sets_of_angles};
 /// Configurations nearer than this, in rad and characteristic lengths, are one.
 pub(super) const SAME: f64 = 1e-6;
 
-/// One curve as it was followed.
+/// A curve as it was followed.
 pub(super) struct Found {
     /// Without their Jacobians.
     pub places: Vec<At>,

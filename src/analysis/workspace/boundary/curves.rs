@@ -178,7 +178,7 @@ fn beside<P>(
     /// Parts of the chord.
     const ON_IT: f64 = 0.1;
     const NEAR: f64 = 1.0;
-    /// Beyond so many chords in a mapped coordinate a piece is not near.
+    /// Pieces farther than so many chords in a mapped coordinate are not near.
     const REACH: f64 = 3.0;
     /// Pieces that are near one another because they follow one another.
     const NEXT: usize = 4;

@@ -227,7 +227,7 @@ impl Metric {
 }
 
 impl SeenJoint {
-    /// From one configuration to another, dimensionless, without turns that change nothing.
+    /// Change of the joint from one configuration to another, dimensionless, without turns that change nothing.
     fn change(&self, from: ConfigurationRef<f64>, to: ConfigurationRef<f64>) -> f64 {
         let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
         match self.repeats && change.abs() > PI {

@@ -28,7 +28,7 @@ pub(crate) struct Step<'a> {
     pub axis: usize,
     /// The mapped coordinates at its end, and zeros.
     pub to: [f64; MOST_AXES],
-    /// By how much the mapped coordinate of its axis changes.
+    /// Change of the mapped coordinate along its axis.
     pub change: f64,
 }
 

@@ -32,7 +32,7 @@ pub(crate) struct Steps {
     work: Work<f64>,
     point: Configuration<f64>,
     spare: Configuration<f64>,
-    /// Of a step the tangent to its predicted end.
+    /// Tangent of a step to its predicted end.
     ahead: Vec<f64>,
     rates: Rates,
     found: Motions<f64>,
@@ -105,7 +105,7 @@ impl Steps {
 
     /// The solutions the starts certainly lead to; at most as many starts as are taken side by side.
     pub fn settle(&mut self, starts: &[Start], arrivals: &mut Arrivals) {
-        /// Fewer starts are quicker one by one.
+        /// Number of starts below which they are quicker one by one.
         const FEW: usize = 4;
         arrivals.begin(starts.len());
         let mut together = match starts.len() < FEW {

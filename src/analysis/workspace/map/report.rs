@@ -116,7 +116,7 @@ pub struct ModeReport {
     pub mode: usize,
     /// Nodes reached.
     pub nodes: usize,
-    /// Of these within limits.
+    /// Nodes within limits among them.
     pub within: usize,
     /// The size of what is reached within limits.
     pub size: f64,

@@ -85,7 +85,7 @@ impl Map<'_> {
         }
     }
 
-    /// Those of some solutions that are in modes, in the order of their nodes and then of modes.
+    /// Nodes and modes of those solutions that are in modes, in the order of their nodes and then of modes.
     fn rows(&self, all: Range<usize>) -> Vec<(usize, usize)> {
         let mut rows: Vec<(usize, usize)> = all.filter_map(|s| Some((s, self.mode[s]?))).collect();
         let node = |s: usize| self.reached_set.solution(s).node;

@@ -17,7 +17,7 @@ struct Axis {
     from: f64,
     to: f64,
     nodes: usize,
-    /// From a node to the next along it.
+    /// Difference of the numbers of neighbours along it.
     stride: usize,
 }
 

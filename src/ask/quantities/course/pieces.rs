@@ -158,7 +158,7 @@ impl Course<'_> {
     ) -> (Piece, Vec<f64>) {
         /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
         const OFF: f64 = 1e-11;
-        /// Beside that value what rounding leaves near a singularity: halving the piece does not make it less.
+        /// Rounding near a singularity, relative to that value: halving the piece does not make it less.
         const ROUNDING: f64 = 1e-6;
         let mut all_off = Vec::new();
         let mut piece = Piece {

@@ -19,7 +19,7 @@ pub(super) struct Here<'a, T> {
 }
 
 impl<'a, T: Number> Here<'a, T> {
-    /// By the law of the motion, and at the pace of what was found.
+    /// The configuration with its motion by the law, and with that at the pace of what was found.
     pub fn both(
         at: &'a Configuration<T>,
         found: &'a Found<T>,

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::Meter;
 
 impl Meter<'_> {
-    /// By how many whole turns an angle is to be smaller so that it does not jump.
+    /// Whole turns by which an angle is to be smaller so that it does not jump.
     fn turned(&self, i: usize, value: f64) -> f64 {
         match self.before[i] {
             Some(before) if self.turns[i] && (value - before).abs() > PI => {

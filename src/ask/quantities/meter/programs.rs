@@ -45,7 +45,7 @@ impl Metered<'_> {
 /// the quantity changes with neither r nor c is seen from its derivatives by them at random values of its names: those of
 /// an analytic function that vanish there vanish everywhere.
 fn is_geometric(expression: &Expression<Measured>) -> bool {
-    /// More than one, since kinks divide what names can be.
+    /// Random draws: more than one, since kinks divide the ranges of names.
     const DRAWS: u64 = 24;
     let mut all: Vec<Measured> = Vec::new();
     for (name, _) in expression.names() {
@@ -143,7 +143,7 @@ pub(super) fn estimated<T: Number>(
     Some([value, slope])
 }
 
-/// So that differences of names are off too.
+/// Uneven errors of names, so that their differences are off too.
 const UNEVEN: [f64; 4] = [1.0, -0.73, 0.87, -0.61];
 
 /// True if a value is large relative to its uncertainty.
@@ -202,7 +202,7 @@ fn is_turned(of: &Measured) -> bool {
 }
 
 impl Name {
-    /// By the law of the motion.
+    /// A name at the pace of the motion's law.
     pub fn of(of: Measured) -> Self {
         Name {
             of,

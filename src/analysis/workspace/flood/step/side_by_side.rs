@@ -23,9 +23,9 @@ pub(super) struct SideBySide {
     rows: Vec<usize>,
     /// Numbers on whose sign the program rests, and whether they are negative.
     decided: Vec<(usize, bool)>,
-    /// Of the square of a step's length.
+    /// Register of the square of a step's length.
     square: usize,
-    /// Of the numbers of a configuration that steps move, and of where to.
+    /// Registers of the numbers of a configuration that steps move, each with that of its new value.
     moved: Vec<(usize, usize)>,
     motions: Motions<usize>,
 }
@@ -213,7 +213,7 @@ struct Written {
     rows: Vec<Place>,
     decisions: Vec<Decision>,
     square: Place,
-    /// Of the numbers of a configuration after a step.
+    /// Places of the numbers of a configuration after a step.
     moved: Vec<Place>,
     motions: Motions<Place>,
 }
