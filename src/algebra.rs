@@ -128,7 +128,7 @@ impl<N> Expression<N> {
         }
     }
 
-    /// True for the number 0 alone; an expression that comes to 0 is not evaluated.
+    /// True for the number 0 alone; an expression with the value 0 is not evaluated.
     pub fn is_zero(&self) -> bool {
         self.as_number() == Some(0.0)
     }

@@ -164,7 +164,7 @@ impl Question {
         self
     }
 
-    /// Starts the search at a whole configuration, such as that of a mode; what is held stays where it is held.
+    /// Starts the search at a whole configuration, such as that of a mode; held coordinates keep their values.
     pub fn near(mut self, at: Configuration<f64>) -> Self {
         self.near = Some(at);
         self

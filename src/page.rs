@@ -34,11 +34,11 @@ use crate::system::Coordinate;
 use request::{Analysis, Load, Measured, Press, Request, Sweep};
 use state::State;
 
-/// What a page keeps between requests.
+/// State of a page between requests.
 #[derive(Debug, Default)]
 pub struct Page {
     mechanism: Option<Arc<Mechanism>>,
-    /// Where it is; nowhere if it does not assemble.
+    /// The mechanism in its configuration; none if it does not assemble.
     steering: Option<Steering>,
     load: Option<Press>,
     /// The quantities that are read.
@@ -56,7 +56,7 @@ struct Shown {
 /// Configurations of an answer that lists none.
 const NONE: &[Value] = &[];
 
-/// What there is instead of an answer.
+/// Reply in place of an answer.
 struct Refusal(Value);
 
 impl From<AskError> for Refusal {
@@ -162,7 +162,7 @@ impl Page {
         }
     }
 
-    /// Reads a file; what is wrong with it comes back with lines and columns.
+    /// Reads a file; its errors come back with lines and columns.
     fn load(&mut self, load: &Load, watch: &Watch) -> Result<Value, Refusal> {
         let text = &load.text;
         let wrong =
@@ -203,7 +203,7 @@ impl Page {
         Ok(reply)
     }
 
-    /// Moves what is held; the mechanism follows as far as its branch goes.
+    /// Moves the held coordinates; the mechanism follows as far as its branch goes.
     fn move_to(&mut self, to: &[(String, f64)], watch: &Watch) -> Result<Value, Refusal> {
         let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
         let mechanism = steering.mechanism().clone();
@@ -220,7 +220,7 @@ impl Page {
         Ok(self.frame(words::stopped(&report).as_deref()))
     }
 
-    /// What the command line answers too.
+    /// The answer of a command.
     fn ask(&self, what: Analysis, as_filed: bool, watch: &Watch) -> Result<String, Refusal> {
         let mechanism = &self.mechanism()?;
         let asked = match as_filed {
@@ -287,7 +287,7 @@ impl Page {
         self.steering.as_ref().ok_or_else(not_assembled)
     }
 
-    /// The question that holds what is held where it is.
+    /// The question that holds the held coordinates at their present values.
     fn asked(&self, mechanism: &Arc<Mechanism>) -> Question {
         match &self.steering {
             Some(steering) => steering.question(),
@@ -302,7 +302,7 @@ impl Page {
         };
     }
 
-    /// Where the mechanism is, how it looks with the load, and what balances that.
+    /// Configuration of the mechanism, its scene with the load, and the forces that balance this.
     fn here(&self, mechanism: &Mechanism) -> (Configuration<f64>, Scene, Value) {
         let Some(steering) = &self.steering else {
             let home = mechanism.home();

@@ -1,9 +1,9 @@
 //! A question about a mechanism: which coordinates are held and which are to be found.
 //!
-//! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
+//! Direct, inverse and mixed kinematics are only different choices of held coordinates ([`Held`]).
 //!
 //! [`equations`](System) assembles the closures, [`tangent`](Neighbourhood) linearises them,
-//! [`question`](Question) says what is held, [`search`](Search) assembles, and [`curve`](Curve)
+//! [`question`](Question) holds coordinates, [`search`](Search) assembles, and [`curve`](Curve)
 //! follows one-parameter curves of configurations; [`bundle`](Bundle) solves for many configurations that share dimensions.
 
 mod branch;

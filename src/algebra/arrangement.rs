@@ -21,7 +21,7 @@ use product::written;
 /// Products that are multiplied out at most; beyond, the sum over waves is printed as it is.
 const MOST_PRODUCTS: usize = 20_000;
 
-/// Sums of formulas as expressions, and whether none of them was too long to be simplified.
+/// Sums of formulas as expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arranged {
     /// An expression for each formula.

@@ -49,7 +49,7 @@ thread_local! {
     static OPEN: RefCell<List> = RefCell::default();
 }
 
-/// Runs `work` with an empty list and returns what it makes, with all operations written. `sample` holds values of the
+/// Runs `work` with an empty list and returns its result, with all operations written. `sample` holds values of the
 /// inputs, from which [`Number::real`] follows.
 pub fn record<R>(sample: Vec<f64>, work: impl FnOnce() -> R) -> (R, Vec<Operation>) {
     let list = List {

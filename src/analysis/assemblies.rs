@@ -278,8 +278,8 @@ impl AssemblySolver {
         report
     }
 
-    /// Writes into a report which of its assemblies differ in sets of angles only. What stands `still` so that links do not
-    /// spin is held too.
+    /// Writes into a report which of its assemblies differ in sets of angles only. Coordinates in `still`, which stop
+    /// local spins, are held too.
     pub fn group_sets_of_angles(
         &self,
         report: &mut AssembliesReport,

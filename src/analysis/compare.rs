@@ -123,7 +123,7 @@ pub struct ComponentReport {
     pub proof: Proof,
     /// The largest difference: m, or without unit.
     pub max_difference: f64,
-    /// The largest difference beside the size of what is compared, which decides.
+    /// The largest difference relative to the size of the values compared, which decides.
     pub relative: f64,
     /// Samples at which it has a value.
     pub samples: usize,

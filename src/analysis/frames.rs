@@ -1,7 +1,7 @@
 //! Joint axes → Denavit–Hartenberg tables, as a mechanism file.
 //!
 //! A serial chain is one table. Where the joints say which bodies they connect, closed loops are cut
-//! (`loops.rs`), and what is left becomes chains (`chains.rs`).
+//! (`loops.rs`), and the rest becomes chains (`chains.rs`).
 
 mod build;
 mod chains;

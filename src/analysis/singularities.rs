@@ -38,7 +38,7 @@ pub struct SingularitiesSettings {
     /// Seed of all random starts.
     pub seed: u64,
     /// The outputs; where there are none, the coordinates of platforms that are held or move, or
-    /// else the platforms, or what stands for them ([`default_outputs`]).
+    /// else the platforms, or their substitutes ([`default_outputs`]).
     pub outputs: Vec<Lock>,
     /// If true, a motion along inputs goes on round folds and straight through crossings.
     pub follow: bool,

@@ -30,7 +30,7 @@ use variable::Variable;
 /// Reasons for which there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSolver {
-    /// Nothing is unknown: what is held determines every frame.
+    /// Nothing is unknown: the held coordinates determine every frame.
     NothingUnknown,
     /// Nothing is held, so that there is one configuration only.
     NothingHeld,

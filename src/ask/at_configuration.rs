@@ -25,7 +25,7 @@ impl Question {
         Ok(close(&question, &closing.newton, starts, watch))
     }
 
-    /// The freedoms of the assembled mechanism, with what the question locks standing still.
+    /// The freedoms of the assembled mechanism, with the locked coordinates of the question at rest.
     ///
     /// # Errors
     /// If a name or a value is wrong, or an angle is locked of a platform whose pitch is ±90°.

@@ -93,7 +93,7 @@ pub enum AskError {
         /// Coordinates of platforms that are to be mapped or held too, if the actuated joints are free.
         missing: Vec<String>,
     },
-    /// A whole platform is mapped, or a coordinate of what is no platform.
+    /// A whole platform is mapped, or a coordinate of something that is no platform.
     #[error("{1}")]
     NotMapped(Item, Box<QuestionError>),
     /// A rate or an acceleration is wrong.
@@ -284,7 +284,7 @@ pub enum AskError {
 /// Reasons for which a quantity cannot be known on a motion.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unmeasured {
-    /// It depends on what is driven, and nothing is.
+    /// It depends on the inputs, and none moves.
     #[error("it depends on how the inputs move, and none moves")]
     NoInput,
     /// The coordinate is not held, so that no force holds it.

@@ -10,7 +10,7 @@ use crate::mechanism::{Configuration, Measured, Order, Point};
 use crate::solve::Watch;
 use crate::system::{Analysed, Freedoms, System};
 
-/// A quantity and what it is now.
+/// A quantity and its present value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// Its name.

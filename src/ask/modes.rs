@@ -36,7 +36,7 @@ pub trait Store: Send + Sync {
     /// If they could not be kept.
     fn prepare(&self, has_others: bool) -> Result<(), String>;
 
-    /// Keeps what was found.
+    /// Keeps the solutions found.
     fn keep(&self, generic: &GenericSolutions);
 }
 
@@ -45,7 +45,7 @@ pub trait Store: Send + Sync {
 pub enum Solved {
     /// The search ended, with or without an assembly.
     Ended(Box<AssemblyReport>),
-    /// The mode could not be followed from home to what is held.
+    /// The mode could not be followed from home to the held values.
     Lost(Box<LostMode>),
 }
 
@@ -198,7 +198,7 @@ impl Question {
         Ok(report)
     }
 
-    /// The solver for what is held, from the store if that has it.
+    /// The solver for the held coordinates, from the store if that has it.
     pub(super) fn solver(
         &self,
         question: &system::Question,

@@ -1,4 +1,4 @@
-//! Quantities over a motion: what is asked for, and what of it can be known.
+//! Quantities over a motion: those asked for, and those that can be evaluated on it.
 
 mod course;
 mod extremes;

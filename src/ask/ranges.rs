@@ -10,7 +10,7 @@ use crate::system::{self, Coordinate, Driven, Held, QuestionError};
 const MOST_TURNS: f64 = 10_000.0;
 
 impl Question {
-    /// The inputs with their ranges; `refuse` tells whether a range is no use.
+    /// The inputs with their ranges; `refuse` is true for a range that is no use.
     pub(super) fn driven(&self, refuse: fn(f64, f64) -> bool) -> Result<Vec<Driven>, AskError> {
         let question = system::Question::new(&self.mechanism);
         for (index, input) in self.inputs.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Values at which what is missing from a question can be held.
+//! Values at which further coordinates of a question can be held.
 
 use super::{Question, RESTARTS};
 use crate::solve::Watch;
@@ -15,7 +15,7 @@ pub struct Holdable {
 }
 
 impl Question {
-    /// Values at which coordinates can be held beside what is held: those of the file if the mechanism assembles with
+    /// Values at which further coordinates can be held: those of the file if the mechanism assembles with
     /// them, otherwise those that they have where it assembles. `None` if no assembly was found.
     pub fn holdable(&self, names: &[String]) -> Option<Vec<Holdable>> {
         let found = |question: &Question| {

@@ -1,4 +1,4 @@
-//! Moving a mechanism by hand: from where it is to new values of what is held, on its branch.
+//! Moving a mechanism by hand: from its configuration to new values of the held coordinates, on its branch.
 
 mod pull;
 mod ways;
@@ -11,11 +11,11 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Watch;
 use crate::system::{self, Coordinate, Driven, Held, QuestionError, Still, check_count};
 
-/// A mechanism in a configuration, with what is held of it.
+/// A mechanism in a configuration, with its held coordinates.
 #[derive(Clone, Debug)]
 pub struct Steering {
     mechanism: Arc<Mechanism>,
-    /// What stands still so that links do not spin.
+    /// Coordinates that stay where they are so that links do not spin about their own lines.
     still: Vec<Still>,
     driven: Vec<Coordinate>,
     at: Configuration<f64>,
@@ -35,7 +35,8 @@ const BEFORE: f64 = 1e-6;
 const ROUNDING: f64 = 1e-13;
 
 impl Question {
-    /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by what is held. Where too
+    /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by its held coordinates.
+    /// Where too
     /// little is held, or something that depends on the rest, this is put right.
     ///
     /// # Errors
@@ -46,7 +47,7 @@ impl Question {
         asked.steering_from(at)
     }
 
-    /// The same near a configuration, in which alone the search begins.
+    /// As [`Question::steering`], from the assembly that Newton's method finds near a configuration.
     ///
     /// # Errors
     /// If the question is wrong, or Newton's method leads nowhere from there.
@@ -63,7 +64,7 @@ impl Question {
         }
     }
 
-    /// The same from an assembled configuration, at which the held coordinates may have other values.
+    /// As [`Question::steering`], from an assembled configuration, at which the held coordinates may have other values.
     pub fn steering_from(&self, at: Configuration<f64>) -> Result<Steering, AskError> {
         let resolved = self.resolved()?;
         Ok(Steering {
@@ -118,12 +119,12 @@ impl Steering {
         &self.mechanism
     }
 
-    /// Where it is: assembled.
+    /// The present configuration, which is assembled.
     pub fn at(&self) -> &Configuration<f64> {
         &self.at
     }
 
-    /// Whether a singular configuration stopped the last motion.
+    /// True if a singular configuration stopped the last motion.
     pub fn is_stopped(&self) -> bool {
         self.stopped.is_some()
     }
@@ -133,14 +134,14 @@ impl Steering {
         self.crossed
     }
 
-    /// The same at the singular configuration that stopped the last motion, if one did.
+    /// The mechanism at the singular configuration that stopped the last motion, if one did.
     pub(super) fn where_stopped(&self) -> Self {
         let mut there = self.clone();
         there.at = there.stopped.take().unwrap_or(there.at);
         there
     }
 
-    /// What is held, where it is.
+    /// The held coordinates, at their present values.
     pub fn held(&self) -> Held<f64> {
         self.held_but(&[])
     }
@@ -152,12 +153,12 @@ impl Steering {
         Still::beside(&self.still, question.held())
     }
 
-    /// What can be moved: the coordinates that are held.
+    /// The coordinates that can be moved: those that are held.
     pub fn driven(&self) -> &[Coordinate] {
         &self.driven
     }
 
-    /// The question that holds what is held where it is now.
+    /// The question that holds the held coordinates at their present values.
     pub fn question(&self) -> Question {
         let name = |coordinate: &Coordinate| coordinate.name(&self.mechanism);
         let joints = (0..self.mechanism.joints().len()).map(Coordinate::Joint);

@@ -54,7 +54,7 @@ struct Varied {
 /// Some rows of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyRows {
-    /// The columns: the number of the row, what is varied, whether the mechanism assembles there (0 or 1), the quantities.
+    /// The columns: the number of the row, the varied values, 1 or 0 as the mechanism assembles or not, the quantities.
     pub columns: Vec<Variable>,
     /// The rows in their order; empty where something is not determined.
     pub rows: Vec<Vec<Option<f64>>>,

@@ -17,7 +17,7 @@ pub enum StudyError {
         /// The name that was probably meant.
         suggestion: Option<String>,
     },
-    /// No value of what is varied.
+    /// No value of a varied name.
     #[error("`{name}` cannot be `{text}`: {why}")]
     Value {
         /// The varied name.

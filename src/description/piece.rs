@@ -194,7 +194,7 @@ impl Literal<'_> {
     }
 }
 
-/// The word at the start of a text, and what follows it.
+/// The word at the start of a text, and the rest.
 fn word(text: &str) -> Option<(&str, &str)> {
     let mut deserializer = ron::Deserializer::from_str(text).ok()?;
     let word = deserializer.deserialize_identifier(WordVisitor).ok()?;

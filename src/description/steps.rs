@@ -19,7 +19,7 @@ pub(crate) fn negated(e: &Entry) -> Entry {
     })
 }
 
-/// Tx(a)·Rx(α), without what is zero.
+/// Tx(a)·Rx(α), without zeros.
 pub(crate) fn link(alpha: &Entry, a: &Entry) -> Vec<Displacement> {
     let along = Displacement::Translate(Axis::X, a.clone());
     let about = Displacement::Rotate(Axis::X, alpha.clone());

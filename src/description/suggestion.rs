@@ -4,7 +4,7 @@
 const MAX_LENGTH: usize = 64;
 
 /// The candidate nearest to `name`, if it is near enough to have been meant: letters may be exchanged, missing, added
-/// or wrong in about a third of the places; case is not looked at.
+/// or wrong in about a third of the places; case is ignored.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = name.chars().count();
     if length > MAX_LENGTH {

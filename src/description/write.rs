@@ -78,7 +78,7 @@ macro_rules! started {
     };
 }
 
-/// Writes what is given of the fields of each part, behind a word if it has one.
+/// Writes the given fields of each part, behind a word if it has one.
 macro_rules! written {
     ($($part:ident |$of:ident| $(as $word:expr,)? { $($name:literal: $value:expr),+ $(,)? })+) => {$(
         impl Serialize for $part {

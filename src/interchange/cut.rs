@@ -21,7 +21,7 @@ struct Place {
     joint: usize,
 }
 
-/// The tree of a mechanism at a configuration, with remarks on what it expresses differently.
+/// The tree of a mechanism at a configuration, with remarks on differences.
 pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Remark>) {
     let mut cutter = Cutter {
         mechanism,

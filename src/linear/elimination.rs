@@ -108,7 +108,7 @@ impl Elimination {
         motions.map(|motion| Rows::single(moving(motion))).collect()
     }
 
-    /// Takes away what a vector has in the null space.
+    /// Subtracts the components of a vector in the null space.
     fn remove_motions(&self, x: &mut [f64]) {
         let along = product(&self.null_space, x);
         add(

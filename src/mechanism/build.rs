@@ -58,7 +58,7 @@ pub(super) struct Builder<'a> {
     pub values: Vec<f64>,
     /// The dimensions of the parameters: length, angle or none.
     pub measures: Vec<Measure>,
-    /// For each parameter whether its definition contains no unit.
+    /// For each parameter, true if its definition contains no unit.
     pub bare: Vec<bool>,
     /// Names whose meaning is uncertain after an error; expressions that use them are not checked further.
     doubtful: &'a HashSet<String>,

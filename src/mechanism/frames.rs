@@ -12,7 +12,7 @@ use crate::algebra::Affine;
 use crate::description::{Coordinates, GROUND, Problem};
 use crate::geometry::Pose;
 
-/// A rigid body: what is fixed to one another whatever the joints do.
+/// A rigid body: frames fixed to one another whatever the joints do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)]
 pub enum Body {

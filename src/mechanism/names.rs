@@ -145,7 +145,7 @@ impl<'a> Names<'a> {
 /// Definitions in the order in which they can be evaluated, and those that never can.
 #[derive(Debug, PartialEq)]
 pub(super) struct Order {
-    /// Each after those it uses; what is in a cycle is left out.
+    /// Each after those it uses; those in a cycle are left out.
     pub order: Vec<usize>,
     /// The cycles found, no two of which share a definition.
     pub cycles: Vec<Vec<usize>>,

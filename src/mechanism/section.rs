@@ -74,7 +74,7 @@ impl Mechanism {
     }
 
     /// The mechanism with a point closed by a ball to the end of a chain of slides, each with its home value and α and
-    /// θ of its row; what is added is called after the point.
+    /// θ of its row; the parts added are called after the point.
     fn with_slides(
         &self,
         called: &str,

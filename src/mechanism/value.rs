@@ -65,7 +65,7 @@ impl Value {
         }
     }
 
-    /// The number, and what is wrong with it if it is an angle without unit.
+    /// The number, with the problem of an angle without unit.
     fn read(
         &self,
         mechanism: &Mechanism,

@@ -18,7 +18,7 @@ pub struct Given<'a> {
 }
 
 impl<'a> Given<'a> {
-    /// An option with what it names and the value, if it gives one.
+    /// An option with its name and its value, if it gives one.
     pub fn new(option: &'a str, name: &'a str, value: Option<&'a str>) -> Self {
         Given {
             option,

@@ -7,7 +7,7 @@ use crate::description::quoted;
 
 use super::complaint::Complaint;
 
-/// The converted file, with what it says differently.
+/// The converted file, with its differences.
 impl Report for Conversion {
     fn document(&self) -> Document {
         let file = self.description.to_ron().unwrap_or_default();

@@ -15,7 +15,7 @@ pub struct Csv<W: Write> {
 impl<W: Write> Csv<W> {
     /// Begins with the names of the columns.
     ///
-    /// # Errors
+    /// If it cannot be written.
     /// If they cannot be written.
     pub fn new<S: AsRef<str>>(to: W, columns: impl IntoIterator<Item = S>) -> io::Result<Self> {
         let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(to);

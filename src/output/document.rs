@@ -153,7 +153,7 @@ impl Document {
         self
     }
 
-    /// With what a reader must not overlook.
+    /// Adds warnings for the reader.
     #[must_use]
     pub fn warnings(mut self, warnings: impl IntoIterator<Item = String>) -> Self {
         self.warnings.extend(warnings);

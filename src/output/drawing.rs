@@ -27,7 +27,7 @@ pub struct DrawingSettings {
     pub labels: bool,
 }
 
-/// A scene with what is drawn faintly behind it.
+/// A scene with further scenes drawn faintly behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// Title above it.
@@ -38,7 +38,7 @@ pub struct Panel {
     pub ghosts: Vec<Scene>,
 }
 
-/// Size of a picture in pixels, and the room around what is drawn.
+/// Size of a picture in pixels, and its margin.
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 520.0;
 const MARGIN: f64 = 60.0;
@@ -127,7 +127,7 @@ pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<C
     scenes.into_iter().map(frame).collect()
 }
 
-/// The middle of what is seen, in m across and up, and how many pixels a metre may take.
+/// The middle of the view, in m across and up, and the number of pixels for a metre.
 #[derive(Clone, Copy)]
 pub(crate) struct Fit {
     pub middle: (f64, f64),

@@ -27,7 +27,7 @@ impl Report for Overview {
     }
 }
 
-/// The coordinates as given, and what was chosen on the way to the tables.
+/// The coordinates as given, with the choices made on the way to the tables.
 fn coordinates(given: &CoordinatesOverview) -> Section {
     let cut = match (given.cut.is_empty(), given.axes.cut.is_empty()) {
         (true, _) => String::new(),

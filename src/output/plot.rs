@@ -39,7 +39,7 @@ pub struct Heat {
     pub x: (f64, f64),
     /// Range of the grid upwards, cells included.
     pub y: (f64, f64),
-    /// Rows from below; what is not finite is left open.
+    /// Rows from below; values that are not finite are left open.
     pub rows: Vec<Vec<f64>>,
     /// The upper end of the scale of colours, positive: the same for charts that are compared.
     pub highest: f64,

@@ -29,7 +29,8 @@ pub trait Report {
     }
 }
 
-/// The values of a row. Only their values are written: numbers with all their digits, nothing for what is not finite.
+/// The values of a row. Only their values are written: numbers with all their digits, nothing for one that is not
+/// finite.
 pub type Record = Vec<Cell>;
 
 /// Rows with the names of their columns.

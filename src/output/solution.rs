@@ -102,7 +102,7 @@ fn is_fixed(report: &AssemblyReport) -> bool {
         && platforms.all(|(name, _)| report.held.contains(name))
 }
 
-/// Freedoms that nothing held decides, and what would.
+/// Freedoms that no held coordinate decides, and coordinates that would.
 fn left(report: &AssemblyReport) -> Vec<String> {
     let Some(left) = &report.left else {
         return vec![];

@@ -12,7 +12,7 @@ use crate::number::mark;
 /// Name of the first column, with the number of all rows, so that a missing shard is noticed.
 const ROW: &str = "row of ";
 
-/// The column that says whether the mechanism assembles.
+/// The column with 1 where the mechanism assembles, else 0.
 const ASSEMBLED: &str = "assembled";
 
 /// Rows as comma-separated values.
@@ -82,7 +82,7 @@ impl Label {
         Label { part, of, mark }
     }
 
-    /// The label of a file, if it has one, and what follows the comment.
+    /// The label of a file, if it has one, and the rest of the comment.
     pub fn of(text: &str) -> (Option<Label>, &str) {
         match text.split_once('\n').filter(|_| text.starts_with('#')) {
             Some((line, rest)) => (Label::read(line), rest),

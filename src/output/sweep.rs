@@ -160,7 +160,7 @@ fn rows(motion: &MotionReport) -> Section {
     Section::new(title).table(table)
 }
 
-/// The columns of z, roll and pitch of what is in the plane of x and y in all rows: there is nothing to read in them.
+/// The columns of z, roll and pitch of frames that stay in the plane of x and y: there is nothing to read in them.
 fn flat(columns: &[Variable], values: &[Vec<Option<f64>>]) -> Vec<usize> {
     /// Coordinates below this are the rounding of a zero, in m or rad.
     const ROUNDING: f64 = 1e-12;
@@ -180,7 +180,7 @@ fn flat(columns: &[Variable], values: &[Vec<Option<f64>>]) -> Vec<usize> {
     all.clone().filter(lies).collect()
 }
 
-/// The columns of rows as they are found: those of a motion between its mode and what was met.
+/// The columns of rows as they are found: those of a motion between its mode and the special points.
 pub fn row_columns(columns: &Columns) -> Vec<String> {
     let variables = columns.variables().iter().map(Variable::to_string);
     let columns = std::iter::once("mode".to_owned()).chain(variables);

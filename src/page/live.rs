@@ -48,7 +48,7 @@ pub fn readings(steering: &Steering, list: &str) -> Value {
     }
 }
 
-/// The forces that a load calls for, in the scene and as numbers of what is held.
+/// The forces that balance a load, in the scene and as numbers of the held coordinates.
 pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value) {
     let mechanism = steering.mechanism();
     let point = match Point::read(mechanism, &load.point) {

@@ -101,7 +101,7 @@ pub fn values(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Value> {
     values.collect()
 }
 
-/// The names of what is held.
+/// The names of the held coordinates.
 pub fn held(steering: &Steering) -> Vec<String> {
     let driven = steering.driven().iter();
     driven.map(|of| of.name(steering.mechanism())).collect()

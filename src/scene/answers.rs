@@ -128,7 +128,7 @@ impl Scene {
         self
     }
 
-    /// The middle of what is drawn and its size, in m.
+    /// The middle of the scene and its size, in m.
     fn extent(&self) -> (Triple, f64) {
         let points = self.points();
         let ends = [0, 1, 2].map(|axis| {

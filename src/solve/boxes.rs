@@ -51,7 +51,7 @@ pub type Sides = Vec<Interval>;
 /// Result of branch and prune.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pruned {
-    /// Boxes looked at.
+    /// Boxes examined.
     pub boxes: usize,
     /// For each region given, how many boxes ended in it.
     pub met: Vec<usize>,
@@ -59,7 +59,7 @@ pub struct Pruned {
     pub found: Vec<Sides>,
     /// Boxes too small to be halved in which zeros are not excluded.
     pub left: Vec<Sides>,
-    /// Boxes that were not looked at.
+    /// Boxes not examined.
     pub waiting: Vec<Sides>,
 }
 
@@ -170,7 +170,7 @@ pub fn prune<C: Conditions>(
     all
 }
 
-/// A box and what it is halved into, until there are so many.
+/// A box and its halves, halves of halves and so on, until there are so many.
 fn piece<C: Conditions>(
     conditions: &C,
     start: &Sides,

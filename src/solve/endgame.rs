@@ -13,7 +13,7 @@ type C = Complex<f64>;
 
 /// A homotopy whose coordinates may be angles.
 pub trait Turning: Homotopy {
-    /// The largest difference of two points, angles modulo a turn, and whether turns were dropped.
+    /// The largest difference of two points, angles modulo a turn, and true if turns were dropped.
     fn apart(&self, x: &[C], y: &[C]) -> (f64, bool);
     /// True if a point is so far out that it counts as infinite.
     fn is_far(&self, x: &[C]) -> bool;
@@ -127,7 +127,7 @@ fn grows_as_logarithm(gap: &[C], winding: usize) -> bool {
     times > 0.5 && (times - times.round()).abs() < 1e-3
 }
 
-/// Samples on the circle until the solution returns, and whether angles gained turns.
+/// Samples on the circle until the solution returns, and true if angles gained turns.
 fn circle<H: Turning>(
     h: &mut H,
     tracker: &Tracker,

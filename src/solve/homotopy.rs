@@ -92,7 +92,7 @@ pub struct Track {
     pub evaluations: usize,
 }
 
-/// Storage for [`Tracker::track`], which asks a watch before every step whether to go on.
+/// Storage for [`Tracker::track`], which asks a watch before every step if it is to stop.
 #[derive(Clone, Debug)]
 pub struct Stages<'w> {
     k: [Vec<C>; 4],

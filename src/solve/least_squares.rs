@@ -50,7 +50,7 @@ pub struct LevenbergMarquardt {
     pub steps: u64,
 }
 
-/// A search under way, with its present λ and whether it has ended, converged or not.
+/// A search under way, with its present λ; once it has ended, true if it converged.
 struct Search {
     settings: LevenbergMarquardt,
     damping: f64,

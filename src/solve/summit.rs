@@ -28,7 +28,7 @@ pub fn summit(
     Some(section.best())
 }
 
-/// A golden section: what is sought lies between the ends, and two heights between them are known.
+/// A golden section: the maximum lies between the ends, and two heights between them are known.
 struct Section {
     low: f64,
     high: f64,

@@ -43,7 +43,7 @@ const MAX_STEPS: usize = 20;
 const CONTRACTION: f64 = 1e-3;
 /// The longest step in any unknown, in rad or characteristic lengths: longer ones may lead to another branch.
 const LONGEST_STEP: f64 = 0.5;
-/// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell what is left.
+/// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell the remaining error.
 const STALE: f64 = 1e-2;
 
 /// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, …, ∇⁵m of the latest
@@ -88,7 +88,7 @@ impl<P> Trail<P> {
         self.factorised = false;
     }
 
-    /// Takes in the latest move, and what is left of it.
+    /// Takes in the latest move, and the step that remains.
     fn learn(&mut self, left: &[f64]) {
         let mut errors = [0.0; ORDERS];
         let known = self.moved.iter().zip(&mut self.rest).zip(left);

@@ -190,7 +190,7 @@ impl Curve {
         }
     }
 
-    /// A place followed towards the end of the segment, and whether the inputs turn back there.
+    /// A place followed towards the end of the segment, and true if the inputs turn back there.
     pub fn towards_end(
         &self,
         place: Place<Configuration<f64>>,

@@ -63,7 +63,7 @@ pub struct Work<T: Factorable> {
 }
 
 impl<T: Factorable> System<T> {
-    /// The equations for a choice of what is held.
+    /// The equations for a choice of held coordinates.
     pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
         System::whole(dimensions, held, &[])
     }
@@ -346,7 +346,7 @@ impl<T: Factorable> System<T> {
     }
 }
 
-/// The rows of what is held in part, with positions from the centre.
+/// The rows of platforms held in part, with positions from the centre.
 pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<HoldRow<T>> {
     let mut rows = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {

@@ -124,8 +124,8 @@ impl<'a> Question<'a> {
 
     /// Starts the search at another value of a joint, a platform coordinate or a whole pose.
     ///
-    /// A joint that the file holds at home is held at the guess instead; what is held by
-    /// [`hold`](Self::hold) keeps its value.
+    /// A joint that the file holds at home is held at the guess instead; coordinates held by
+    /// [`hold`](Self::hold) keep their values.
     ///
     /// # Errors
     /// If there is no such joint or coordinate, the value has none, or something else was guessed of it before.
@@ -154,7 +154,7 @@ impl<'a> Question<'a> {
         Ok(self)
     }
 
-    /// Starts the search at a whole configuration; what is held stays where it is held.
+    /// Starts the search at a whole configuration; held coordinates keep their values.
     pub fn near(mut self, at: &Configuration<f64>) -> Self {
         for (joint, value) in at.joints.iter().enumerate() {
             if !self.joints[joint] {

@@ -82,7 +82,7 @@ impl<'a> Search<'a> {
         &self.system
     }
 
-    /// Moves the mechanism from home to what is held, unless there is a guess. If that fails or ends
+    /// Moves the mechanism from home to the held values, unless there is a guess. If that fails or ends
     /// outside limits, starts from the guess, then from seeded random starts within the limits.
     pub fn run(&mut self, restarts: usize, seed: u64, watch: &Watch) -> Searched {
         let first = self.first();

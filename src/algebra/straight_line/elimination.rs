@@ -167,7 +167,7 @@ fn cofactors(matrix: &[Vec<Recorded>], rows: &[usize], columns: &[usize]) -> Vec
     all.collect()
 }
 
-/// The pivot that makes the fewest new entries, and whether it makes any; constants first, then the largest.
+/// The pivot that makes the fewest new entries, and true if it makes any; constants first, then the largest.
 fn chosen(
     matrix: &[Vec<Recorded>],
     rows: &[usize],

@@ -2,7 +2,7 @@
 //! distinguish them.
 //!
 //! Around each listed assembly a box is made that contains at most one; everything outside of these boxes is excluded
-//! piece by piece, and what is left is reported. Angles cover the full turn, whatever their limits; slides their range or,
+//! piece by piece, and the rest is reported. Angles cover the full turn, whatever their limits; slides their range or,
 //! without limits, as far as the lengths of the mechanism allow.
 
 use std::f64::consts::FRAC_PI_2;

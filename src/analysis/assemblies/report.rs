@@ -191,7 +191,7 @@ pub struct AssembliesReport {
     pub at_infinity: usize,
     /// Isolated points where solutions meet, real or complex, each once.
     pub singular: usize,
-    /// Paths that end where roll or yaw of a platform is not what is held but half a turn from it,
+    /// Paths that end where roll or yaw of a platform is half a turn from the held value,
     /// or is not determined because its pitch is ±90°: the equations of a single angle cannot leave
     /// these out. They are not among the complex solutions.
     pub half_a_turn_away: usize,
@@ -273,7 +273,7 @@ pub struct Range {
     pub high: f64,
 }
 
-/// A part of what a proof covers.
+/// A part of the region that a proof covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// The joints that tell assemblies apart, with their values in it.
@@ -289,7 +289,7 @@ pub struct Proof {
     pub unfit: Option<Unfit>,
     /// Number of joint variables that distinguish assemblies.
     pub unknowns: usize,
-    /// Boxes that were looked at.
+    /// Boxes examined.
     pub boxes: usize,
     /// Boxes that were not, when the number allowed was reached or the search was stopped.
     pub waiting: usize,

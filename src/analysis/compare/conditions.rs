@@ -28,7 +28,7 @@ pub struct Divisor {
     pub zeros: usize,
 }
 
-/// The formulas that decide at samples what a proof says of one component.
+/// The formulas that decide at samples if a proof of one component counts.
 pub(super) struct Conditions {
     /// The divisors, with the number of samples at which they are zero.
     divisors: Vec<(Formula, usize)>,

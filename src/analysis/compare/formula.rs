@@ -61,7 +61,7 @@ impl<T: Number> Values<T> {
 /// Rounding of a sum, relative to its terms.
 const ROUNDING: f64 = 1e-13;
 
-/// The value of a formula with what it is to be compared with.
+/// The value of a formula with the sizes that it is compared with.
 pub(super) struct Measured {
     pub value: f64,
     /// The absolute terms of its sum.

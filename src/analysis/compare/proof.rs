@@ -23,15 +23,15 @@ pub(super) const MOST_TERMS: usize = 400;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Proof {
-    /// It is what the chains give, for all values of joints and parameters at which it has a value.
+    /// It equals the chains, for all values of joints and parameters at which it has a value.
     Identical,
-    /// It is what the chains give, but only with the numbers that the file gives its parameters.
+    /// It equals the chains, but only with the numbers that the file gives its parameters.
     IdenticalForTheseDimensions,
     /// It is an equation of the closures, or a sum of multiples of some.
     FollowsFromClosures,
     /// It follows from the closure equations, but only with the numbers that the file gives its parameters.
     FollowsForTheseDimensions,
-    /// It is not what the chains give.
+    /// It differs from the chains.
     Different(Box<Difference>),
     /// It is neither proved nor refuted: the numbers stand alone.
     NotDecided {
@@ -61,9 +61,9 @@ pub enum Reason {
     NeedsElimination,
     /// It depends on the pose of a platform, which follows from the closures only.
     NeedsPlatform,
-    /// It is 0/0 on every configuration: what it divides by vanishes there.
+    /// It is 0/0 on every configuration: its divisor vanishes there.
     Undefined,
-    /// It has a value at no configuration that was looked at.
+    /// It has a value at no configuration of the samples.
     NoValue,
     /// It is too long.
     TooLong,

@@ -2,7 +2,7 @@
 //!
 //! Both are the product base · J₁ L₁ J₂ … L_{n−1} J_n · tip with J = Rz(θ)·Tz(d), L = Tx(a)·Rx(α).
 //! A modified row is L_{k−1} J_k, a standard row J_k L_k: twist and length move to the neighbouring
-//! row, what is left over at an end into base or tip. Frame k moves by L_k.
+//! row, a remainder at an end into base or tip. Frame k moves by L_k.
 
 use super::references::{Substitute, exchange, link_of};
 use super::{Conversion, ConversionNote};

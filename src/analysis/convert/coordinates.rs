@@ -27,7 +27,7 @@ use crate::number::real;
 
 type Steps = Vec<Displacement>;
 
-/// The joint coordinates of a mechanism, with what they say by other names.
+/// The joint coordinates of a mechanism, with notes on renamed frames.
 ///
 /// # Errors
 /// If a variable moves no joint by itself.

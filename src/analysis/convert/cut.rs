@@ -97,7 +97,7 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
     }
 }
 
-/// The closure that shall hold what is behind the joint, and which of its frames is there.
+/// The closure that shall hold the links behind the joint, and which of its frames is there.
 fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, usize), CutError> {
     let rows = mechanism.chains()[place.chain].rows.len();
     let behind = |frame: Frame| mechanism.joints_below(frame).contains(&place.joint);

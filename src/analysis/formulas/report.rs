@@ -151,7 +151,7 @@ pub struct StepFormula {
     pub angle: Option<Expression>,
     /// The closure from which it follows.
     pub closure: String,
-    /// Names of coefficients, with what they stand for.
+    /// Names of coefficients, with their formulas.
     pub with: Vec<(String, Expression)>,
     /// Its value, in rad or m.
     pub value: Expression,

@@ -1,4 +1,4 @@
-//! Cuts of closed mechanisms. `build.rs` makes chains and closures of what is left.
+//! Cuts of closed mechanisms. `build.rs` makes chains and closures of the rest.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use crate::number::sorting::sort_by_key;
 /// The most ways to cut that are compared.
 const MOST_WAYS: usize = 200;
 
-/// The most choices of joints that are looked at to find them.
+/// The most choices of joints that are tried to find them.
 const MOST_CHOICES: usize = 20_000;
 
 pub(super) fn closed(
@@ -117,7 +117,7 @@ fn given(
     }
 }
 
-/// Ways to cut every loop once without cutting a driven joint, and whether there are more.
+/// Ways to cut every loop once without cutting a driven joint, and true if there are more.
 fn proposed(
     axes: &AxesDescription,
     graph: &Graph,

@@ -14,14 +14,15 @@ pub struct MobilityReport {
     pub mechanism: String,
     /// The joint variables with their units, in the order of the file.
     pub variables: Vec<Variable>,
-    /// Names of what is locked: everything else in the report is about the mechanism in which these stand still.
+    /// Names of the locked coordinates: everything else in the report is about the mechanism in which these stand
+    /// still.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub locked: Vec<String>,
     /// Finite freedoms at the configuration without local ones: the largest dimension of a branch.
     pub mobility: usize,
     /// Kutzbach's count: variables that are not locked and 6 for each platform less closure equations.
     pub kutzbach: i64,
-    /// Rank of the closure Jacobian with nothing held but what is locked.
+    /// Rank of the closure Jacobian with nothing held but the locked coordinates.
     pub rank: usize,
     /// Infinitesimal freedoms without local ones.
     pub infinitesimal: usize,

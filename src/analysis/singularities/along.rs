@@ -75,7 +75,7 @@ pub enum AlongEnd {
     Returned,
     /// The curve closed.
     Closed,
-    /// The branch ends: what is moved would have to turn back.
+    /// The branch ends: the driven coordinates would have to turn back.
     Fold,
     /// Branches cross, and which to take is not clear.
     Branches,
@@ -93,7 +93,7 @@ pub enum AlongEnd {
 
 /// Moves the inputs along their segment from `start` and locates every singularity to rounding.
 ///
-/// `held` holds what stands still, none of what is moved; singularities refer to `inputs`.
+/// `held` holds the coordinates at rest, none of the driven ones; singularities refer to `inputs`.
 pub fn along(
     mechanism: &Mechanism,
     held: &Held<f64>,

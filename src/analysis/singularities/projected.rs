@@ -14,7 +14,7 @@ use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 pub enum Shape {
     /// A curve.
     Curve,
-    /// One point: only what is not in the box moves along it, or nothing does.
+    /// A single point: only coordinates outside the box move along it, or none does.
     Point,
 }
 

@@ -29,7 +29,7 @@ impl Plan<'_> {
         variables: &[Variable],
         start: &[f64],
     ) -> Curvature {
-        /// Configurations looked at.
+        /// Configurations at which the change is computed.
         const SAMPLES: usize = 24;
         /// A step of differences.
         const STEP: f64 = 1e-5;

@@ -80,11 +80,11 @@ struct Results<T = usize> {
     moved: Vec<T>,
     /// The numbers of the state that are not free, by their places.
     placed: Vec<(usize, T)>,
-    /// More than 1 if what they are divided by is small.
+    /// More than 1 if their divisor is small.
     placing: T,
     /// All coordinates.
     columns: Vec<T>,
-    /// Numbers on whose sign these rest, and whether they are negative.
+    /// Numbers on whose sign these rest, and true for negative ones.
     decided: Vec<(T, bool)>,
     /// The Jacobian row by row, and its left inverse row by row; none of many unknowns.
     jacobian: Vec<Vec<T>>,

@@ -111,7 +111,7 @@ pub struct Solver {
     pub moved: Vec<Place>,
     /// Components of the state that follow from the others, with their places.
     pub placed: Vec<(usize, Place)>,
-    /// The state in closed form, if it has one: for what the iteration does not solve, and without a start.
+    /// The state in closed form, if it has one: for where the iteration fails, and without a start.
     #[serde(default)]
     pub closed: Option<ClosedProgram>,
     /// For each input the places of the rates of the state for a unit rate of it.

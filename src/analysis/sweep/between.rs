@@ -97,7 +97,7 @@ impl<'m> Passage<'m> {
     /// The piece between two places with the parts of the time there; beside a fold, where the inputs stand still, they
     /// cannot be prescribed.
     pub fn stretch(&self, ends: [Configuration<f64>; 2], times: [f64; 2], fold: bool) -> Stretch {
-        /// Inputs that move less than this part of what moves most are nearly at a fold.
+        /// Inputs that move less than this part of the largest motion are nearly at a fold.
         const SLOW: f64 = 0.05;
         let both = [&ends[0], &ends[1]];
         let goes = |of: Coordinate, scale: f64| self.change(of, both).abs() / scale;

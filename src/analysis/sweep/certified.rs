@@ -188,7 +188,7 @@ impl<'m> Certifier<'m> {
         regular.then(|| Place::between(&mut self.space, self.inputs, from, to))?
     }
 
-    /// Notes a part that is not certified; what is certified between two such parts and not much longer is theirs.
+    /// Notes a part that is not certified; a certified stretch between two such parts and not much longer is theirs.
     fn note(&mut self, from: &Place, to: &Place) {
         const MUCH: f64 = 10.0;
         let apart = |a: &[f64], b: &[f64]| {

@@ -32,7 +32,7 @@ pub struct CircuitsSettings {
     pub continuation: Continuation,
     /// Steps after which a curve is given up; ten times as many are made for all curves together.
     pub most_steps: usize,
-    /// Points whose paths are looked at.
+    /// Points whose paths are searched for cusps and double points.
     pub points: Vec<NamedPoint>,
     /// All configurations at a value of a joint, from which every circuit on which it moves is met, and at more values of
     /// it where they go to infinity between these.

@@ -23,7 +23,7 @@ pub struct Dwell {
     pub times: [f64; 2],
     /// The inputs where it begins and where it ends, in m or rad.
     pub inputs: [Vec<f64>; 2],
-    /// True if there may be a longer one, since not all of the curve could be looked at.
+    /// True if there may be a longer one, since not all of the curve could be examined.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub at_least: bool,
 }

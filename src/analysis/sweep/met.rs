@@ -82,7 +82,7 @@ pub struct Passing {
     pub rates: Vec<f64>,
 }
 
-/// Keeps what was met, up to a number: a motion may be of any length.
+/// Keeps special points, up to a number: a motion may be of any length.
 pub(super) struct Record<'m> {
     mechanism: &'m Mechanism,
     inputs: Vec<Driven>,

@@ -48,7 +48,7 @@ pub struct MotionReport {
     /// Names and units of the columns: number of the step, joints, platforms, traced points, and if quantities were
     /// asked for, the time and these.
     pub columns: Vec<Variable>,
-    /// The rows in SI units and rad; what is not known is `None`.
+    /// The rows in SI units and rad; `None` for unknown values.
     pub values: Vec<Vec<Option<f64>>>,
 }
 

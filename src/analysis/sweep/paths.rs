@@ -45,7 +45,7 @@ pub struct PathPoint {
 /// Rates below this, in characteristic lengths for a step of 1 along the curve, are rounding.
 const STILL: f64 = 1e-9;
 
-/// A point whose path is looked at.
+/// A point whose path is searched for cusps and double points.
 pub(super) struct Tracer {
     point: NamedPoint,
     variables: Vec<Variable>,

@@ -19,7 +19,7 @@ pub struct Straightness {
     pub length: f64,
     /// Largest distance of the path from the line, in m.
     pub deviation: f64,
-    /// True if it may be farther, since not all of the curve could be looked at.
+    /// True if it may be farther, since not all of the curve could be examined.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub at_least: bool,
 }

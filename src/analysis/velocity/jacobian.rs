@@ -67,7 +67,7 @@ pub(super) fn followed(outputs: &[Lock], points: &[Point]) -> Vec<Lock> {
     followed
 }
 
-/// Names of the rows of an output, and whether they are rates of angles.
+/// Names of the rows of an output, each true if it is the rate of an angle.
 fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
     let components = |point: Point, kind: &str| {
         ["x", "y", "z"].map(|axis| {

@@ -73,7 +73,7 @@ impl TransmissionAngles {
         bodies.map(|body| mechanism.body_frame(body))
     }
 
-    /// For what is held; which loops move in a plane is decided at an assembled configuration.
+    /// Plans the angles for held coordinates; which loops move in a plane is decided at an assembled configuration.
     pub fn new(
         near: &mut Neighbourhood,
         at: &Configuration<f64>,

@@ -15,7 +15,7 @@ pub(super) struct Home<'f> {
     pub at: Vec<f64>,
     /// The signs of its determinants; none outside limits and on singularities.
     signs: Option<Signs>,
-    /// The nodes around it that regular motion leads to, nearest first, with what is reached there.
+    /// The nodes around it that regular motion leads to, nearest first, with the configurations there.
     nodes: Vec<(usize, Configuration<f64>)>,
 }
 

@@ -8,7 +8,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{self, Coordinate, MotionTracker, System};
 
-/// The longest step of what is held, in rad or characteristic lengths.
+/// The longest step of the held coordinates, in rad or characteristic lengths.
 const LONGEST: f64 = 0.2;
 
 /// The shortest step that is tried, over the longest.
@@ -138,7 +138,7 @@ impl Rows<'_> {
             .collect()
     }
 
-    /// True if the work goes on after so many rows more. Asked at every step: a row may be ten thousand steps away.
+    /// True if the work continues after so many rows more. Asked at every step: a row may be ten thousand steps away.
     fn goes_on(&self, rows: usize) -> bool {
         let done = self.done.fetch_add(rows, Ordering::Relaxed) + rows;
         let now = Progress {
@@ -149,7 +149,7 @@ impl Rows<'_> {
         self.watch.at(now).is_continue()
     }
 
-    /// The rows of a block in as many paths as there are motions side by side; whether all were followed.
+    /// The rows of a block in as many paths as there are motions side by side; true if all were followed.
     pub fn side_by_side(&self, follower: &Follower, block: &mut Block) -> bool {
         let (first, rows) = (block.first, block.reached.len());
         let length = rows.div_ceil(BATCH);
@@ -225,7 +225,7 @@ impl Rows<'_> {
         true
     }
 
-    /// The rows of a block in one path; whether all were followed.
+    /// The rows of a block in one path; true if all were followed.
     pub fn one_by_one(&self, block: &mut Block) -> bool {
         let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
         let mut place = self.begin();

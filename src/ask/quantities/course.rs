@@ -19,7 +19,7 @@ pub(in super::super) struct Course<'m> {
     last: Option<(Configuration<f64>, f64, bool)>,
     names: Vec<Name>,
     pub pieces: Vec<Piece>,
-    /// True if all of it was looked at.
+    /// True if all of it was examined.
     pub whole: bool,
 }
 
@@ -210,7 +210,7 @@ impl<'m> Course<'m> {
     /// Places between which an expression is off a straight line by far less than a tolerance, or changes by more than
     /// twice that; and whether that is so everywhere.
     pub fn samples(&self, of: &Sought, tolerance: f64) -> (Vec<Sample>, bool) {
-        /// The number of parts looked at, beside the pieces themselves.
+        /// The number of parts examined, beside the pieces themselves.
         const PATIENCE: usize = 1_000_000;
         /// Distance from a straight line, relative to the tolerance.
         const OFF: f64 = 1e-3;
@@ -251,7 +251,7 @@ impl<'m> Course<'m> {
 
     /// The places of a point, of which the coordinates have these numbers, along the curve.
     pub fn path(&self, axes: [usize; 3]) -> Vec<(f64, [f64; 3])> {
-        /// Parts looked at on each piece.
+        /// Parts examined on each piece.
         const COUNT: u32 = 32;
         let pieces = 0..self.pieces.len();
         let all = pieces.flat_map(|piece| {
@@ -324,7 +324,7 @@ impl<'m> Course<'m> {
 /// A quantity over the numbers of names.
 pub(in super::super) struct Sought<'e> {
     pub program: &'e Expression<usize>,
-    /// True if it is an angle that goes on without jumps.
+    /// True for an angle without jumps.
     pub turns: bool,
     /// True if its expression jumps all the same.
     pub jumps: bool,

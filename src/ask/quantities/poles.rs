@@ -1,10 +1,10 @@
 //! Places where a quantity has no bound.
 
 use crate::number::real;
-/// Towards which side a quantity grows without bound, just before a place and just after it: whether upwards.
+/// Sides towards which a quantity grows without bound, just before a place and just after it: true upwards.
 ///
 /// A power of the distance r⁻ᵖ with p ≥ 1/4 grows by the same factor, 10^(p/2) at least, each time the place is nearer by
-/// √10; what is bounded, however high and narrow, stops growing.
+/// √10; a bounded value, however high and narrow, stops growing.
 pub(super) fn unbounded(
     place: f64,
     value: &mut dyn FnMut(f64) -> Option<f64>,

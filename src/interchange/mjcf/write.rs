@@ -18,7 +18,7 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, place, vector};
 
-/// The text of an MJCF file, with remarks on what it expresses differently from the mechanism.
+/// The text of an MJCF file, with remarks on its differences from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     let (tree, mut remarks) = with_sliders(tree);
     let mut page = Page {

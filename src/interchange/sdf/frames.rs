@@ -28,7 +28,7 @@ pub(super) enum Lost {
 }
 
 impl Frames {
-    /// Adds a frame; whether there was none of that name.
+    /// Adds a frame; true if there was none of that name.
     pub fn add(
         &mut self,
         name: &str,

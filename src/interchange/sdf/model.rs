@@ -20,7 +20,7 @@ pub(super) struct Reader<'f> {
     files: Files<'f>,
     pub(super) version: (u32, u32),
     pub frames: Frames,
-    /// The links, and whether each stands still.
+    /// The links, each true if it stands still.
     pub links: Vec<(String, bool)>,
     pub joints: Vec<Joint>,
     /// Joints that a controller drives.

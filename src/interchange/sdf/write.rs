@@ -18,7 +18,7 @@ const CONTROLLER: [&dyn std::fmt::Display; 2] = [
     &"gz::sim::systems::JointPositionController",
 ];
 
-/// The text of an SDF file, with remarks on what it expresses differently from the mechanism.
+/// The text of an SDF file, with remarks on its differences from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     let (mut tree, mut remarks) = with_sliders(tree);
     rods(&mut tree);

@@ -12,7 +12,7 @@ use roxmltree::Node;
 /// The type of a joint.
 #[derive(Clone, Copy)]
 pub(super) enum JointType {
-    /// A motion, and whether limits bound it.
+    /// A motion, and true if limits bound it.
     Moving(Motion, bool),
     /// Two slides across the axis and a turn about it.
     Planar,

@@ -9,7 +9,7 @@ use crate::interchange::xml::{Xml, numbers, vector};
 /// The limit of a prismatic joint that has none, in units of the size of the mechanism.
 const FAR: f64 = 1000.0;
 
-/// The text of a URDF file, and what it does not say.
+/// The text of a URDF file, with remarks on its losses.
 pub fn write(tree: &Tree) -> (String, Vec<Remark>) {
     let mut writer = UrdfWriter {
         tree,

@@ -98,7 +98,7 @@ impl Fronts {
         (front, own)
     }
 
-    /// Puts back what is left of rows.
+    /// Puts back the remainder of rows.
     pub fn put(&mut self, rows: Rows) {
         let (place, unknowns) = (self.groups.len(), rows.unknowns.clone());
         if rows.count > 0 {

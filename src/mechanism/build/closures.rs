@@ -1,4 +1,4 @@
-//! The closures of a description, each judged as far as what it joins is known.
+//! The closures of a description, each checked as far as the frames that it joins are known.
 
 use super::super::model::{Closure, Row};
 use super::super::{Body, Frame};
@@ -54,7 +54,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The body that a frame is fixed to, or `None` if that depends on what is wrong with the file.
+    /// The body that a frame is fixed to, or `None` if that depends on errors in the file.
     fn body(&self, frame: Frame, chains: &[ResolvedChain]) -> Option<Body> {
         let mut frame = frame;
         loop {

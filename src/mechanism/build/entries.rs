@@ -47,7 +47,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Records a factor of a joint that cannot give what is wanted: a length makes no angle, an angle no length.
+    /// Records a factor of a joint that cannot give the wanted dimension: a length makes no angle, an angle no length.
     fn check_factor(&mut self, factor: &Formula, wanted: Measure, at: &Range<usize>) {
         let found = factor.measure(&|symbol| self.measure(symbol));
         let kind = match (wanted, found) {
@@ -95,7 +95,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A formula over parameters that measures what is wanted, with its value.
+    /// A formula over parameters of the wanted dimension, with its value.
     pub(super) fn measured(&mut self, entry: &Entry, wanted: Measure) -> Option<(Formula, f64)> {
         let (formula, value) = self.constant(entry)?;
         self.check_unit(&formula, wanted);

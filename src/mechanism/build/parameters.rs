@@ -59,7 +59,7 @@ impl Builder<'_> {
         self.problems.push(problem);
     }
 
-    /// The order in which definitions can be evaluated, and whether that is all of them; the cycles
+    /// The order in which definitions can be evaluated, and true if that is all of them; the cycles
     /// are recorded.
     pub(super) fn order(
         &mut self,

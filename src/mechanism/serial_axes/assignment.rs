@@ -19,7 +19,7 @@ pub struct Assignment {
     /// True if the table ends in the tool frame given, without a tip.
     pub ends_at_tool: bool,
     /// Largest angle in rad by which an axis or the tool of the table differs from the one given:
-    /// rounding, or what was taken as parallel or meeting within the tolerance.
+    /// rounding, or the offset of axes taken as parallel or meeting within the tolerance.
     pub turned: f64,
     /// Largest distance in m by which an axis or the tool of the table differs from the one given.
     pub moved: f64,

@@ -1,4 +1,4 @@
-//! Names beside what they name, where nothing is in the way.
+//! Labels beside the things they name, where there is room.
 
 use super::{HEIGHT, Pixel, Stage, WIDTH};
 use crate::geometry::Vector3;

@@ -42,7 +42,7 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
     pieces
 }
 
-/// The ball at the end of a rod, with what it stands on.
+/// The ball at the end of a rod, with its base.
 pub(super) fn rod_end(stage: &Stage, at: &Point, on_ground: bool) -> Vec<Piece> {
     let under = match stage.flat {
         _ if !on_ground => Vec::new(),
@@ -200,7 +200,7 @@ fn line(stage: &Stage, points: &[Point], colour: Colour, width: f64) -> Piece {
     }
 }
 
-/// A filled outline, a little nearer than what it stands on.
+/// A filled outline, a little nearer than its base.
 fn solid(stage: &Stage, points: &[Point], fill: Colour, nearer: f64) -> Piece {
     Piece {
         layer: Layer::Slide,

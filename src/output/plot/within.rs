@@ -55,7 +55,7 @@ pub fn broken(points: &[(f64, f64)], poles: &[f64]) -> Vec<(f64, f64)> {
     all
 }
 
-/// The range of four heights of five, and as much again above and below: what is beyond belongs to a pole.
+/// The range of four heights of five, and as much again above and below: heights beyond belong to a pole.
 pub fn most(mut heights: Vec<f64>) -> Option<(f64, f64)> {
     heights.retain(|y| y.is_finite());
     sort_by(&mut heights, f64::total_cmp);

@@ -16,7 +16,7 @@ use text::Text;
 pub(super) struct Writer<'a> {
     code: &'a Code,
     solver: &'a Solver,
-    /// For each operation whether it depends on nothing but what is held.
+    /// For each operation, true if it depends on held coordinates only.
     given: Vec<bool>,
 }
 

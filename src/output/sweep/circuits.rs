@@ -22,7 +22,7 @@ impl Report for CircuitsReport {
     }
 }
 
-/// The search in words, and whether there can be others.
+/// The search in words, and true if there can be others.
 fn found(report: &CircuitsReport) -> String {
     let Some(swept) = &report.swept else {
         let unusable = match report.unusable {

@@ -11,7 +11,7 @@ use crate::output::quantity;
 use crate::scene::{Scene, Triple};
 use crate::system::{Coordinate, Driven};
 
-/// Collects what is to be drawn; of a long motion only as many points as can be distinguished.
+/// Collects points to be drawn; of a long motion only as many as can be distinguished.
 #[derive(Clone, Debug)]
 pub struct Picture {
     title: String,
@@ -28,7 +28,7 @@ pub struct Picture {
     /// Name of the things that distinguish motions.
     what: &'static str,
     double_points: Vec<Triple>,
-    /// Quantities without bound, by name, with what the abscissa is where they have none.
+    /// Quantities without bound, by name, with the abscissa where they have none.
     unbounded: Vec<(String, Vec<f64>)>,
     course: Course,
 }

@@ -15,7 +15,7 @@ pub trait Branching<T> {
     /// one is chosen.
     fn sign(&mut self, slope: T) -> T;
 
-    /// √radicand, which is real if it is not negative; `size` is what it is small beside.
+    /// √radicand, which is real if it is not negative; `size` is the scale beside which it is small.
     fn root(&mut self, radicand: T, size: T) -> T;
 
     /// The angle near a value of given sine and cosine, both times `norm`; it is undetermined where `norm` is small beside `size`.
@@ -37,7 +37,7 @@ pub struct Tried {
 }
 
 impl ClosedSolution {
-    /// The joint variables for what is held in `at`; those to be found are near those in `at`.
+    /// The joint variables for the held values of `at`; those to be found are near those in `at`.
     ///
     /// # Errors
     /// If a formula has no value there.

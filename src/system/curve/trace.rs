@@ -82,7 +82,7 @@ pub struct Region<'m> {
     pub sides: &'m [Driven],
     /// Tolerances and step lengths of the continuation.
     pub method: &'m Continuation,
-    /// Asked at every step whether to go on; a curve that is not ends there as lost.
+    /// Asked at every step; a curve that it stops ends there as lost.
     pub watch: &'m Watch<'m>,
     /// The progress reported to it.
     pub now: Progress,

@@ -41,7 +41,7 @@ pub enum Event {
     Branches(Box<BranchPoint<Configuration<f64>>>),
 }
 
-/// A piece of a curve without branch points inside, and what was met on it, in order.
+/// A piece of a curve without branch points inside, with the events on it, in order.
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// Its beginning.
@@ -131,7 +131,7 @@ impl<'m> Walk<'m> {
         }
     }
 
-    /// The next leg. After one that ended where branches meet, the walk goes on straight.
+    /// The next leg. After one that ended where branches meet, the walk continues straight on.
     ///
     /// # Errors
     /// If no step is short enough to be sure, which happens where the curve ends in a point of higher order.
@@ -296,7 +296,7 @@ impl<'m> Walk<'m> {
 }
 
 /// The start, if it lies between a crossing and a place beside it, on the branch that joins them: there no step leads
-/// from one to the other. Branches are told apart by their directions, as where they are left.
+/// from one to the other. Branches are distinguished by their directions, as where they are left.
 fn passed_beside_a_crossing(curve: &Curve, start: &At, from: &At, to: &At) -> Option<At> {
     let crossing = [from, to].into_iter().find(|place| place.is_singular())?;
     let way = curve.difference_but_turns(&crossing.at, &start.at);

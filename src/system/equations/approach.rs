@@ -13,7 +13,7 @@ const KEPT: f64 = 1e-10;
 /// A gradient this small beside the gaps vanishes.
 const LEVEL: f64 = 1e-6;
 
-/// The closest approach to assembly near a configuration, with what is held kept, and whether it is a
+/// The closest approach to assembly near a configuration, with held coordinates kept, and true if it is a
 /// minimum: the gradient of the squared gaps vanishes and their curvature is nowhere negative.
 pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configuration<f64>, bool) {
     let unknowns = system.unknowns().len();

@@ -90,7 +90,7 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// Adds what a rate of the value does at which a platform coordinate is held.
+    /// Adds the rate of the rows for a rate of the value at which a platform coordinate is held.
     pub(crate) fn add_target_rate(
         &self,
         (platform, coordinate): (usize, PoseCoordinate),
@@ -104,7 +104,7 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// Adds what a rate of the orientation does at which a platform is held.
+    /// Adds the rate of the rows for a rate of the orientation at which a platform is held.
     pub(crate) fn add_orientation_rate(
         &self,
         platform: usize,

@@ -69,7 +69,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     })
 }
 
-/// Compares what is held with the freedoms at a configuration.
+/// Compares the held coordinates with the freedoms at a configuration.
 fn compared(
     question: &Question,
     start: &Configuration<f64>,

@@ -10,7 +10,7 @@ pub struct Demand {
     pub verb: Verb,
     /// Its name.
     pub name: String,
-    /// The value as given; none for what is freed.
+    /// The value as given; none if it is freed.
     pub value: Option<String>,
 }
 

@@ -9,7 +9,7 @@ use crate::solve::Equations;
 use crate::system::{Coordinate, FrameTwists, Neighbourhood, Unknown};
 
 /// Forces that balance a load: g + Jᵀλ + Sᵀτ = 0 with the generalised forces g of the load, the closure Jacobian J
-/// with nothing held, and S the derivatives of what is held.
+/// with nothing held, and S the derivatives of the held coordinates.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     /// The rank of [Jᵀ, Sᵀ].

@@ -35,7 +35,7 @@ pub enum QuestionError {
         /// The later demand.
         second: Demand,
     },
-    /// Only joints can be freed, not what has this name.
+    /// Only joints can be freed, not the thing of this name.
     NotAJoint(String),
     /// More is held than the mechanism has freedoms.
     TooMany {
@@ -57,7 +57,7 @@ pub enum QuestionError {
     },
     /// Roll and yaw of the platform of that name turn about one axis, for it is pitched by ±90°.
     AnglesLocked(String),
-    /// The right number is held, but what is held depends on itself and something else is free.
+    /// The right number is held, but the held coordinates depend on one another and something else is free.
     Dependent {
         /// Held coordinates to free.
         free: Vec<String>,

@@ -190,7 +190,7 @@ pub struct TooLarge {
     pub unknowns: usize,
 }
 
-/// Closes a mechanism as a question asks. What is held keeps its values.
+/// Closes a mechanism as a question asks. Held coordinates keep their values.
 ///
 /// Near a whole pose, which may be rounded or overdetermined, values held by the file alone may move if no assembly
 /// beside it has them, and in the end however far if the file's own pose leads to no other.
@@ -275,7 +275,7 @@ impl Closed {
     }
 }
 
-/// The assembly that a start leads to if only what is held by name keeps its values.
+/// The assembly that a start leads to if only coordinates held by name keep their values.
 fn with_file_loose(
     question: &Question,
     newton: &Newton,

@@ -192,7 +192,7 @@ impl Cone {
     /// A direction on the cone, by Gauss–Newton steps from a random one, if they converge.
     pub fn direction(&self, motions: &[Vec<f64>], rng: &mut impl Rng) -> Option<Vec<f64>> {
         const STEPS: usize = 40;
-        /// Double solutions are neared linearly only: what is left is left to the finite step.
+        /// Double solutions are neared linearly only: the rest is left to the finite step.
         const NEAR: f64 = 1e-5;
         let n = self.freedoms;
         let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();

@@ -139,7 +139,7 @@ impl Driving {
         rows
     }
 
-    /// Adds what the unknowns of the equations must do for the rows to stay closed.
+    /// Adds the rates of the unknowns of the equations for which the rows stay closed.
     pub(super) fn rest<T: Factorable>(
         &self,
         system: &System<T>,

@@ -86,7 +86,7 @@ impl<T: Factorable> Changing<T> {
 }
 
 impl<T: Factorable> Motion<T> {
-    /// For a choice of what is held.
+    /// The motion for a choice of held coordinates.
     pub fn new(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Self {
         Motion::placing(mechanism, coordinates, &[], |held| held)
     }
@@ -317,7 +317,8 @@ impl<T: Factorable> Motion<T> {
 }
 
 impl Motion {
-    /// The largest dimensionless rate at which a closure would open: rounding, unless what is held cannot move so.
+    /// The largest dimensionless rate at which a closure would open: rounding, unless the held coordinates cannot move
+    /// so.
     pub fn mismatch(&mut self) -> f64 {
         largest(self.row_rates())
     }

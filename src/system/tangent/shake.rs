@@ -1,4 +1,4 @@
-//! Configurations beside one, to distinguish what is special to it.
+//! Configurations beside one, to recognise features special to it.
 
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism};

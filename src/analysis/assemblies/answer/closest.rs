@@ -10,7 +10,7 @@ use crate::system::{Gap, Work, approach, solve};
 
 impl Question<'_> {
     /// The smallest gaps that Newton's method leaves from the target configuration and from the
-    /// real parts of complex solutions; whether nothing is left.
+    /// real parts of complex solutions; true if nothing is left.
     pub(crate) fn nearest(
         &self,
         starts: &[&Vec<C>],

@@ -266,7 +266,7 @@ impl<'a> Structure<'a> {
         }
     }
 
-    /// Legs between what is fixed and one platform.
+    /// Legs between fixed bodies and one platform.
     fn platform(&self) -> Option<KnownBound> {
         let on_platform =
             |frame: &Frame| matches!(frame, Frame::Platform { .. } | Frame::OnPlatform { .. });

@@ -139,14 +139,14 @@ impl Coordinates {
         self.flatten(&at.map(C::from_f64))
     }
 
-    /// The configuration with these unknowns; what is held is as in `like`.
+    /// The configuration with these unknowns; held coordinates are as in `like`.
     pub fn placed(&self, x: &[C], like: &Configuration<f64>) -> Configuration<C> {
         let mut at = like.map(C::from_f64);
         self.unflatten(x, &mut at);
         at
     }
 
-    /// Writes the unknowns into a configuration; what is held in it stays.
+    /// Writes the unknowns into a configuration; its held coordinates stay.
     #[inline]
     pub fn unflatten(&self, x: &[C], at: &mut Configuration<C>) {
         let (joints, poses) = x.split_at(self.free_joints.len());
@@ -177,7 +177,7 @@ impl Coordinates {
         }
     }
 
-    /// The inputs of a question: what a configuration holds, and what is asked of platforms.
+    /// The inputs of a question: held values of a configuration, and targets of platforms.
     pub fn inputs_of<T: Number>(&self, at: &Configuration<T>, held: &Held<T>) -> Vec<T> {
         let mut inputs = Vec::with_capacity(self.input_count());
         for &input in &self.inputs {

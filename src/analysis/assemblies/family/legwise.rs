@@ -69,7 +69,7 @@ impl LegwiseSolutions {
             .collect()
     }
 
-    /// Adds what a solution with the same pose shows; whether anything was new.
+    /// Adds the ways of a solution with the same pose; true if anything was new.
     fn learn(&mut self, coordinates: &Coordinates, x: &[C]) -> bool {
         let mut new = false;
         for (joints, ways) in coordinates.legs.iter().zip(&mut self.legs) {

@@ -216,7 +216,7 @@ impl Search<'_> {
     }
 
     /// Every known solution tracked to the member with conjugate inputs: its solutions are the conjugates of those here,
-    /// for the equations have real coefficients. Whether one of them has a conjugate that is new.
+    /// for the equations have real coefficients. True if one of them has a conjugate that is new.
     ///
     /// So a solution for real inputs and its conjugate are found both or not at all.
     fn mirror(&mut self, still: &ParameterHomotopy<'_>) -> bool {

@@ -8,7 +8,7 @@ use crate::analysis::assemblies::report::is_zero;
 /// All solutions of a generic member, kept to be tracked to any inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GenericSolutions {
-    /// Names of the mechanism and its joints, values of its parameters and what is held: the
+    /// Names of the mechanism and its joints, values of its parameters and the held coordinates: the
     /// solutions serve no other question.
     pub(crate) question: String,
     pub(crate) parameters: Vec<C>,

@@ -65,7 +65,7 @@ fn follow(
     (track.arrival == Arrival::There && polish(homotopy, end, &mut x)).then_some(x)
 }
 
-/// Newton steps until the last digits; whether the point is a solution then.
+/// Newton steps until the last digits; true if the point is a solution then.
 pub(crate) fn polish(homotopy: &mut impl Homotopy, s: C, x: &mut [C]) -> bool {
     for _ in 0..4 {
         let step = homotopy.correct(s, x);

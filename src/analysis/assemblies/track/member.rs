@@ -123,7 +123,7 @@ impl MemberEquations {
         }
     }
 
-    /// ∂h/∂s where frames were last placed, in place of the residual; whether there is one.
+    /// ∂h/∂s where frames were last placed, in place of the residual; true if there is one.
     pub fn drift(&mut self, family: &Family, course: &Segment) -> bool {
         /// Step of s over which dimensions are compared where their relations are kept.
         const APART: f64 = 1e-7;

@@ -28,7 +28,7 @@ pub enum CutError {
     /// Other variables stand in its row.
     #[error("the row of `{0}` has other variables too, which the cut would free")]
     SharedRow(String),
-    /// No closure holds what is behind the joint.
+    /// No closure holds the links behind the joint.
     #[error("`{0}` is not part of a loop: after the cut nothing would hold the links behind it")]
     NoLoop(String),
     /// The closures that do are not at the end of the joint's own chain, or cannot become rows.

@@ -4,7 +4,7 @@ use super::past::{Mask, Past, Row};
 use crate::algebra::{BATCH, Registers};
 use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
 
-/// For each motion the latest solution that was looked at, and how far from it others are certain to be on its branch.
+/// For each motion the last solution tested, and the distance from it within which others are certainly on its branch.
 ///
 /// With β the norm of the inverse of the Jacobian there and K that of its derivative there is one solution within a
 /// distance of 1/βK (Newton and Kantorovich).

@@ -9,7 +9,8 @@ use crate::number::Number;
 use crate::system::{Coordinate, System};
 
 impl Plan<'_> {
-    /// Records the iteration and what follows from it. The inputs are the held values that change, then the state.
+    /// Records the iteration and the numbers that follow from it. The inputs are the held values that change, then the
+    /// state.
     pub(super) fn recorded(
         &self,
         changing: &[usize],

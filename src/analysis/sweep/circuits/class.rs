@@ -87,7 +87,7 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
 ///
 /// Source: F. Grashof, Theoretische Maschinenlehre, 1883.
 pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Option<Grashof> {
-    /// Lengths that add up this closely, in parts of the longest, are equal: rounding of what is written.
+    /// Lengths that add up this closely, in parts of the longest, are equal: rounding of written numbers.
     const EQUAL: f64 = 1e-12;
     let Loop { grounded, others } = planar_loop(mechanism)?;
     let ([(chain, row, _)], 4) = (&others[..], mechanism.bodies().len()) else {

@@ -93,7 +93,7 @@ impl Flood<'_> {
     }
 
     /// Links steps to known solutions, then chooses one step to each node from each mode; the others
-    /// wait for what it finds.
+    /// wait for the solution found.
     fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
         let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {

@@ -20,7 +20,7 @@ pub(crate) struct Spread {
     /// For each node the last solution there, and for each solution the one before it.
     last: Vec<Option<Number>>,
     before: Vec<Option<Number>>,
-    /// For each solution the first, so far as is known, of those connected with it.
+    /// For each solution the first known of those connected with it.
     roots: Vec<usize>,
     /// Solutions that no steps were made from yet.
     front: Vec<usize>,
@@ -63,7 +63,7 @@ impl Spread {
         join(&mut self.roots, from, to);
     }
 
-    /// The root of all solutions connected with this one, so far as is known.
+    /// The first known of all solutions connected with this one.
     pub fn root(&mut self, number: usize) -> usize {
         root(&mut self.roots, number)
     }
@@ -117,7 +117,7 @@ impl Spread {
         }
     }
 
-    /// Adds what was not reached before.
+    /// Adds an arrival if it is new.
     pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> usize {
         let new = self.solutions.len();
         let solution = NodeSolution {

@@ -144,7 +144,7 @@ impl Steps {
         }
     }
 
-    /// Newton's method for one start; whether it certainly arrives.
+    /// Newton's method for one start; true if it certainly arrives.
     fn solve(&mut self, start: &Start) -> bool {
         self.begin(start);
         (self.targets).set(&mut self.system, self.targets.numbers(&start.values));

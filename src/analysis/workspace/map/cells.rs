@@ -57,11 +57,11 @@ pub struct Cell<'a> {
     pub aspect: Option<usize>,
     /// The condition number of the Jacobian from inputs to outputs, normalised; none if singular.
     pub condition: Option<f64>,
-    /// The determinant of the rates of the inputs for those of what is mapped and held: zero at
+    /// The determinant of the rates of the inputs for those of the mapped and held coordinates: zero at
     /// direct singularities. Dimensionless; none if it is not reported.
     pub direct: Option<f64>,
-    /// The determinant of the rates of the outputs for those of what is mapped and held: zero at inverse singularities.
-    /// Dimensionless; none if it is not reported.
+    /// The determinant of the rates of the outputs for those of the mapped and held coordinates: zero at inverse
+    /// singularities. Dimensionless; none if it is not reported.
     pub inverse: Option<f64>,
     /// The joints, rad or m, in the order of the file.
     pub joints: &'a [f64],
@@ -71,7 +71,7 @@ pub struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// The values in the columns of its table: what is mapped, then mode, aspect, condition, the
+    /// The values in the columns of its table: mapped coordinates, then mode, aspect, condition, the
     /// determinants of direct and inverse singularities, joints, coordinates that follow.
     pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
         self.row.iter().copied().map(known)
@@ -93,7 +93,7 @@ impl Serialize for Cells {
     }
 }
 
-/// The rows as they stand: what they are is not known before they are `arranged`.
+/// The rows as they stand: their columns are not known before they are `arranged`.
 impl<'de> Deserialize<'de> for Cells {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]

@@ -34,7 +34,7 @@ pub struct WorkspaceReport {
     pub unit: SiUnit,
     /// The size of the box.
     pub size: f64,
-    /// The size of what is reached within limits in some mode.
+    /// The size of the region reached within limits in some mode.
     pub reached_size: f64,
     /// The modes.
     pub modes: Vec<ModeReport>,
@@ -118,7 +118,7 @@ pub struct ModeReport {
     pub nodes: usize,
     /// Nodes within limits among them.
     pub within: usize,
-    /// The size of what is reached within limits.
+    /// The size of the region reached within limits.
     pub size: f64,
     /// Nodes reached in several configurations: going round in the box leads to another one.
     pub repeated: usize,

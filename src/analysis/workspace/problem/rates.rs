@@ -9,10 +9,10 @@ use crate::mechanism::{Configuration, Role};
 use crate::system::{Coordinate, Driving, Held, System, Unknown, Work};
 
 /// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
-/// J N = 0 for the closures linearised with nothing held, and H N = 1 for the rates of what is held.
+/// J N = 0 for the closures linearised with nothing held, and H N = 1 for the rates of the held coordinates.
 ///
 /// With the rates A N of the inputs, det(A N) is the determinant of the derivative of the inputs by
-/// what is mapped and held; it is defined for redundant rows as well, smooth on a solution, and changes
+/// mapped and held coordinates; it is defined for redundant rows as well, smooth on a solution, and changes
 /// sign at direct singularities only. With those of outputs it tells the inverse ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Rates {
@@ -24,9 +24,9 @@ pub(crate) struct Rates {
     outputs: Vec<Row>,
     /// True if outputs are other coordinates than those held.
     tells_inverse: bool,
-    /// Unknowns whose rates are what moves out where there are no outputs.
+    /// Unknowns whose rates stand for outputs where there are none.
     moved: Vec<usize>,
-    /// Rates of what is held, of the inputs, of the outputs and of what moves.
+    /// Rates of the held coordinates, of the inputs, of the outputs and of the moved unknowns.
     rates: [Vec<f64>; 4],
 }
 
@@ -52,7 +52,7 @@ pub(crate) struct Indicators {
     pub direct: f64,
     /// det(A N) of the outputs: zero at inverse singularities; 1 where it is not reported.
     pub inverse: f64,
-    /// Condition number of the map from the inputs to the outputs, or else to what moves.
+    /// Condition number of the map from the inputs to the outputs, or else to the moved unknowns.
     pub condition: f64,
 }
 

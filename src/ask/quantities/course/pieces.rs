@@ -10,7 +10,7 @@ use crate::number::Number;
 use crate::number::sorting::sort_by;
 use crate::solve::{Stage, Watch};
 
-/// A piece that is to be looked at.
+/// A piece that is to be examined.
 struct Ahead {
     stretch: usize,
     span: [f64; 2],

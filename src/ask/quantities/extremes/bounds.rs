@@ -4,14 +4,14 @@ use super::SENSES;
 use crate::ask::quantities::course::{Course, Sought};
 use crate::number::sorting::sort_by;
 
-/// Values nearer than this to the least or the greatest, beside what is usual, are not told from them.
+/// Values nearer than this to the least or the greatest, relative to usual ones, are not distinguished from them.
 const SAME: f64 = 1e-10;
 
 /// Bounds of a quantity over the whole curve.
 pub(super) struct Bounds {
     /// The least and the greatest value, and where they are: a piece and a place on it.
     pub best: [Option<(f64, usize, f64)>; 2],
-    /// The values that all places looked at allow.
+    /// The values that all places examined allow.
     pub allowed: [f64; 2],
     /// The usual size of the values, and how far one may be off.
     usual: [f64; 2],
@@ -63,7 +63,7 @@ impl Bounds {
 /// Branch and bound: pieces of the curve are halved until what the quantity may be on them is not beyond a value that it
 /// has.
 pub(super) fn bounds(course: &Course, of: &Sought) -> Bounds {
-    /// The number of parts looked at, beside the pieces themselves.
+    /// The number of parts examined, beside the pieces themselves.
     const PATIENCE: usize = 400_000;
     /// Values that may be off more than this, and more than is usual, are no better than others: they are near 0/0.
     const CLEAR: f64 = 1e-7;

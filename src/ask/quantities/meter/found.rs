@@ -7,19 +7,19 @@ use crate::mechanism::{Configuration, Figure, Measured, Order, Point, PoseCoordi
 use crate::number::Number;
 use crate::system::Coordinate;
 
-/// A configuration and what is known of its motion.
+/// A configuration with the known rates and figures.
 pub(super) struct Here<'a, T> {
     pub at: &'a Configuration<T>,
     pub found: &'a Found<T>,
     pub figures: &'a [(Figure, Option<T>)],
-    /// The pace over that of what was found, and its change per s.
+    /// The pace relative to that of `found`, and its change per s.
     pace: [T; 2],
     /// The largest rate and acceleration, in rad and characteristic lengths.
     largest: [T; 2],
 }
 
 impl<'a, T: Number> Here<'a, T> {
-    /// The configuration with its motion by the law, and with that at the pace of what was found.
+    /// The configuration with its motion by the law, and with the motion of `found`.
     pub fn both(
         at: &'a Configuration<T>,
         found: &'a Found<T>,

@@ -12,9 +12,9 @@ use crate::system::{FrameTwists, Loaded, Lock, Motion, Unknown};
 pub(super) struct Plan {
     pub order: Order,
     pub points: Vec<Point>,
-    /// Angles of frames with the numbers of their points, and whether they or their changes are wanted.
+    /// Angles of frames with the numbers of their points, and the order in which they are wanted.
     pub angles: Vec<(usize, PoseCoordinate, Order)>,
-    /// For each held coordinate whether what everything does for a unit rate of it is wanted.
+    /// For each held coordinate, true if the motion for a unit rate of it is wanted.
     pub responses: Vec<bool>,
     pub forces: bool,
     /// The outputs of the Jacobian, if it is wanted.
@@ -24,7 +24,7 @@ pub(super) struct Plan {
     pub frames: Vec<Frame>,
 }
 
-/// Works out what is planned, with one factorisation of the closures.
+/// Computes the planned ingredients, with one factorisation of the closures.
 pub(super) struct Probe<'q, T: Factorable> {
     motion: Option<Motion<T>>,
     /// Its frames, if no rates are wanted.
@@ -103,7 +103,7 @@ impl<'q, T: Factorable> Probe<'q, T> {
         self.motion.as_ref().map_or(0, |of| of.unknowns().len())
     }
 
-    /// Works out what is wanted at a configuration for rates and accelerations of the held coordinates.
+    /// Computes the ingredients at a configuration for rates and accelerations of the held coordinates.
     pub fn at(
         &mut self,
         plan: &Plan,

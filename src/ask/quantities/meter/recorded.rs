@@ -17,7 +17,7 @@ pub(super) struct Recording {
     /// For each quantity the registers of its value and of how far that may be off, and whether the value must be large
     /// beside that.
     quantities: Vec<([usize; 2], bool)>,
-    /// Registers of numbers, and whether they are negative.
+    /// Registers of numbers, and true for negative ones.
     decided: Vec<(usize, bool)>,
     /// Registers of the entries of a Jacobian, if its figures follow from them row by row.
     entries: Vec<usize>,
@@ -25,7 +25,7 @@ pub(super) struct Recording {
     figures: usize,
 }
 
-/// The places of what a program computes.
+/// The places of a program's results.
 struct Written {
     /// For each quantity those of its value and of how far that may be off, and whether the value must be large beside
     /// that.
@@ -35,7 +35,7 @@ struct Written {
 }
 
 impl Recording {
-    /// Runs the program for the rows of a block whose numbers are put into the registers; whether it holds for each.
+    /// Runs the program for the rows of a block whose numbers are put into the registers; for each, true if it holds.
     fn run(&mut self, block: &mut Block) -> [bool; BATCH] {
         self.batch.run(1, &mut self.registers);
         let mut holds = [true; BATCH];
@@ -193,7 +193,7 @@ impl Meter<'_> {
         })
     }
 
-    /// Reads the rows of a block side by side; whether each could be.
+    /// Reads the rows of a block side by side; for each, true if it could be.
     pub(super) fn read_together(&mut self, block: &mut Block) -> [bool; BATCH] {
         let Some(mut recording) = self.recording.take() else {
             return [false; BATCH];

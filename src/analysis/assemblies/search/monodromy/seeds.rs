@@ -92,7 +92,8 @@ impl Search<'_> {
         }
     }
 
-    /// Newton iterations from points about as far out as paths are followed; whether one of them ended at a solution that
+    /// Newton iterations from points about as far out as paths are followed; true if one of them ended at a solution
+    /// that
     /// is new. Where angles are nearly imaginary neither seeds nor loops nearer in may lead to it.
     pub(super) fn look_far_out(&mut self, still: &ParameterHomotopy<'_>) -> bool {
         const TRIES: usize = 512;
@@ -116,7 +117,7 @@ impl Search<'_> {
     }
 
     /// Newton iterations for the joints of one leg from random values, with all else as in a known
-    /// solution; whether they found another way to close it.
+    /// solution; true if they found another way to close it.
     pub(super) fn close_legs(&mut self, still: &ParameterHomotopy<'_>) -> bool {
         const TRIES: u64 = 16;
         let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {

@@ -21,7 +21,7 @@ pub(super) struct SideBySide {
     /// The register of each number of a configuration.
     configuration: Vec<usize>,
     rows: Vec<usize>,
-    /// Numbers on whose sign the program rests, and whether they are negative.
+    /// Numbers on whose sign the program rests, and true for negative ones.
     decided: Vec<(usize, bool)>,
     /// Register of the square of a step's length.
     square: usize,
@@ -43,7 +43,7 @@ pub(super) enum End {
 /// The sections of the program, after the one for what held values determine.
 #[derive(Clone, Copy, Debug)]
 enum Section {
-    /// The rows, and what is decided in elimination.
+    /// The rows, and the decisions of elimination.
     Rows = 1,
     Step = 2,
     Motions = 3,
@@ -208,7 +208,7 @@ impl SideBySide {
     }
 }
 
-/// The places of what the program computes.
+/// The places of the program's results.
 struct Written {
     rows: Vec<Place>,
     decisions: Vec<Decision>,
