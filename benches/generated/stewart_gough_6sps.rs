@@ -33,7 +33,7 @@
 
 #![allow(clippy::all, unused, non_snake_case)]
 
-/// What a search came to. With `NotAssembled`, `StepLimit` and `BadInput` the state is left as it was.
+/// Outcome of a search. With `NotAssembled`, `StepLimit` and `BadInput` the state is left as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Every closure equation holds to [`TOLERANCE`], or to [`ROUNDING`] where rounding allows no more, and the
@@ -60,17 +60,17 @@ pub const STATE: usize = 7;
 pub const ITERATED: usize = 7;
 pub const UNKNOWNS: usize = 6;
 pub const ROWS: usize = 6;
-/// The rows that are iterated.
+/// Number of rows of the iteration.
 pub const EQUATIONS: usize = 6;
-/// The unknowns that are.
+/// Number of unknowns of the iteration.
 pub const STEPS: usize = 6;
 pub const FRAMES: usize = 0;
-/// In how many places there are two solutions.
+/// Number of signs of the closed form, each for two solutions.
 pub const SIGNS: usize = 0;
 
 /// The largest closure row that is accepted, in characteristic lengths and rad.
 pub const TOLERANCE: f64 = 1e-14;
-/// The same where a step makes it no smaller.
+/// The largest row accepted where a step makes it no smaller, by rounding.
 pub const ROUNDING: f64 = 1e-12;
 
 /// Inputs of the assembled configuration at which the order of elimination was chosen.
@@ -583,7 +583,7 @@ fn displace(x: &[f64; STATE], d: &[f64; UNKNOWNS], y: &mut [f64; STATE]) {
     y[6] = t1008;
 }
 
-/// Of the iteration the rows r and their Jacobian.
+/// The rows r of the iteration and their Jacobian.
 fn slopes(
     u: &[f64; INPUTS],
     x: &[f64; STATE],
@@ -991,7 +991,7 @@ fn inverse(mut j: [[f64; STEPS]; EQUATIONS], inverse: &mut [[f64; EQUATIONS]; ST
     squares
 }
 
-/// Unit quaternions again after a small change.
+/// Normalises quaternions after a small change.
 #[inline(always)]
 fn normalise(x: &mut [f64; STATE]) {
     let f0: f64 = 1.5 - 0.5 * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]);
@@ -1646,8 +1646,8 @@ pub fn margin(u: &[f64; INPUTS], x: &[f64; STATE]) -> f64 {
     if squares > 0.0 { inverse_root(squares) } else { 0.0 }
 }
 
-/// Whether an assembly (u, x) is on the branch of another one (v, y): the square of the distance from it to
-/// which others are certain to be, or 0 if that is not certain.
+/// Tests if an assembly (u, x) is on the branch of another one (v, y). Returns the square of the distance from
+/// it within which others are certain to be too, or 0 if that is not certain.
 ///
 /// With b the norm of the inverse of the Jacobian J at (u, x) and K that of its derivative there is one
 /// solution within a distance of 1/bK (Newton and Kantorovich). Where that does not suffice the change of the
@@ -1895,13 +1895,13 @@ fn careful(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
     Verdict::StepLimit
 }
 
-/// Whether all numbers are finite and of a size that sines take.
+/// True if all numbers are finite and of a size that sines take.
 fn near(numbers: &[f64]) -> bool {
     // of all, without a branch for each
     numbers.iter().fold(true, |near, &x| near & (absolute(x) < 1e5))
 }
 
-/// Whether the joints are within their limits.
+/// True if the joints are within their limits.
 #[inline]
 pub fn within_limits(u: &[f64; INPUTS], x: &[f64; STATE]) -> bool {
     const ROUNDING: f64 = 1e-9;
@@ -1976,7 +1976,7 @@ pub fn solve(u: &[f64; INPUTS], x: &mut [f64; STATE]) -> Verdict {
 pub struct Follower {
     /// The state.
     pub state: [f64; STATE],
-    /// How far the numbers moved that the others follow from.
+    /// The last move of the numbers from which the others follow.
     pub moved: [f64; ITERATED],
     /// Inputs and state of an assembly of its branch.
     inputs: [f64; INPUTS],
@@ -1986,7 +1986,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// At a state, at rest. Begins as [`solve`] does.
+    /// A follower at rest at a state. It begins as [`solve`] does.
     pub fn new(state: [f64; STATE]) -> Self {
         Follower {
             state,
@@ -2015,7 +2015,7 @@ impl Follower {
         judged(u, &self.state, Verdict::Solved)
     }
 
-    /// Whether the state is certain to be on the branch of the one before.
+    /// True if the state is certain to be on the branch of the one before.
     #[inline(always)]
     fn is_certain(&mut self, u: &[f64; INPUTS], before: &[f64; STATE]) -> bool {
         (apart(u, &self.state, &self.inputs, &self.certain) <= self.reach
@@ -2036,7 +2036,7 @@ impl Follower {
         reached > 0.0
     }
 
-    /// The same from where the state is certain. Apart from the above, whose numbers then stay in registers.
+    /// [`Follower::solve`] from the certain state: a function apart, so that its numbers stay in registers.
     #[cold]
     #[inline(never)]
     fn recover(&mut self, u: &[f64; INPUTS]) -> Verdict {

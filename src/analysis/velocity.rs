@@ -169,7 +169,7 @@ impl Accuracy {
     }
 }
 
-/// Finds how everything moves when the held coordinates of a question move as given, at the
+/// Finds the velocities and accelerations of all bodies for given rates of the held coordinates, at the
 /// assembled configuration near the start of the question. `points` beside the origins of the
 /// platforms are followed too.
 ///

@@ -21,9 +21,9 @@ pub struct Steering {
     at: Configuration<f64>,
     /// The singular configuration that stopped the last motion.
     stopped: Option<Configuration<f64>>,
-    /// Where what is held last decided the configuration well.
+    /// The last configuration well determined by the held coordinates.
     regular: Option<Configuration<f64>>,
-    /// Whether it has been pulled through a dead point of what is held, and not back.
+    /// True if it has been pulled through a dead point of the held coordinates, and not back.
     crossed: bool,
 }
 
@@ -35,9 +35,8 @@ const BEFORE: f64 = 1e-6;
 const ROUNDING: f64 = 1e-13;
 
 impl Question {
-    /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by its held coordinates.
-    /// Where too
-    /// little is held, or something that depends on the rest, this is put right.
+    /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by its held coordinates. If
+    /// too little is held, or something that depends on the rest, this is corrected.
     ///
     /// # Errors
     /// If the question is wrong or nothing assembles.
@@ -129,7 +128,7 @@ impl Steering {
         self.stopped.is_some()
     }
 
-    /// Whether it has been pulled through a dead point of what is held, on to another branch.
+    /// True if it has been pulled through a dead point of the held coordinates, on to another branch.
     pub fn is_crossed(&self) -> bool {
         self.crossed
     }

@@ -1,4 +1,4 @@
-//! What a page says of motions that end and of questions that are refused: sliders and ticks in place of options.
+//! Words of a page for motions that end and questions that are refused: sliders and ticks in place of options.
 
 use crate::analysis::sweep::{MetKind, SweepEnd, SweepReport};
 use crate::ask::AskError;
@@ -8,7 +8,7 @@ use crate::output::quantity::quantity;
 use crate::output::sweep::sentence;
 use crate::system::{Coordinate, QuestionError};
 
-/// Why a motion did not reach its end.
+/// Reason for which a motion did not reach its end.
 pub fn stopped(report: &SweepReport) -> Option<String> {
     let met = report.met.last().map(|met| &met.kind);
     Some(match (report.ending, met) {
@@ -63,7 +63,7 @@ fn at_limit(joint: &str, upper: bool, limit: &str) -> String {
     format!("{joint} is at its {side} limit of {limit}.")
 }
 
-/// Why there is no answer, and what to do about it.
+/// Reason for which there is no answer, and the remedy.
 pub fn refused(error: &AskError) -> String {
     match error {
         AskError::Quantity { error, .. } => match &**error {

@@ -70,7 +70,7 @@ pub enum Rule<E = Expression> {
 }
 
 impl<E> Rule<E> {
-    /// With something else for each of its formulas.
+    /// The rule with each of its formulas mapped.
     pub fn map<F>(&self, mut f: impl FnMut(&E) -> F) -> Rule<F> {
         match self {
             Rule::Direction { sin, cos } => Rule::Direction {

@@ -226,7 +226,7 @@ impl<T: Factorable> System<T> {
         coordinate.about_centre(value, &self.centre)
     }
 
-    /// Asks for another value of a held platform coordinate.
+    /// Sets the value at which a platform coordinate is held.
     pub fn set_target(&mut self, platform: usize, coordinate: PoseCoordinate, value: T) {
         self.set_target_about_centre(platform, coordinate, self.about_centre(coordinate, value));
     }

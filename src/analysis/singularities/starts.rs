@@ -40,7 +40,7 @@ pub(super) struct Found {
 
 /// True if more starts are likely to lead to new curves, by the share of curves met once (Good 1953).
 fn more_is_likely(found: &Found) -> bool {
-    /// Number of arrivals below which their share says nothing.
+    /// Number of arrivals below which the share is no evidence.
     const ARRIVALS: usize = 20;
     let once = |(traced, met): &(Traced<Singular>, usize)| *met == 1 && traced.places.len() > 1;
     found.arrived > 0 && (found.arrived < ARRIVALS || found.known.iter().any(once))
@@ -54,7 +54,7 @@ impl Found {
 }
 
 impl Search<'_> {
-    /// All that random starts lead to.
+    /// Curves found from random starts.
     pub fn of(&mut self, kind: Kind, locks: &[Lock]) -> Found {
         let mut found = Found {
             kind,
@@ -111,7 +111,7 @@ impl Search<'_> {
         }
     }
 
-    /// The singular configuration in the box that Gauss–Newton steps lead to, and whether it is isolated; its tangent
+    /// The singular configuration in the box that Gauss–Newton steps lead to, and true if it is isolated; its tangent
     /// then has no meaning.
     ///
     /// If the determinant has an extremum of zero, as for a 5-bar whose cranks part as far as its couplers reach, the

@@ -9,7 +9,7 @@ use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role};
 use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
-/// Something special that was met, with where it is.
+/// A special point met by a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Met {
     /// Its kind.

@@ -91,11 +91,12 @@ impl Steering {
         report
     }
 
-    /// How much of each motion brings the place where it is wanted, and the joints that stay at their limits.
+    /// Multiples of the motions that bring the place where it is wanted, and the joints that stay at their limits.
     fn parts(&self, pulled: &Pulled, ways: &Ways) -> (Vec<f64>, Vec<Coordinate>) {
-        /// What counts as much as a motion of one, in characteristic lengths: a weak motion is not forced.
+        /// Damping: a displacement that counts as much as a motion of 1, in characteristic lengths. A weak motion is
+        /// not forced.
         const DAMPING: f64 = 0.03;
-        /// How much more a limit counts than the place.
+        /// Weight of a limit relative to the place.
         const FIRM: f64 = 1e4;
         /// The longest step, in rad and characteristic lengths.
         const LONGEST: f64 = 0.5;
@@ -153,7 +154,7 @@ impl Steering {
         }
     }
 
-    /// Where branches meet: a short step the way it is pulled, closed again; none if no branch leads nearer.
+    /// A short step where branches meet, in the direction of the pull, closed again; none if no branch leads nearer.
     fn slipped(
         &self,
         pulled: &Pulled,

@@ -1,4 +1,4 @@
-//! The ways a mechanism can go from a configuration, whatever is held.
+//! Motions of a mechanism from a configuration, whatever is held.
 
 use super::Steering;
 use crate::linear::{add, dot, norm, remove};
@@ -30,7 +30,7 @@ impl Ways {
         }
     }
 
-    /// How fast a coordinate changes in a combination of the motions, dimensionless.
+    /// Rate of a coordinate in a combination of the motions, dimensionless.
     pub fn rate(&self, of: Coordinate, parts: &[f64]) -> f64 {
         let known = self.rates.iter().find(|(known, _)| *known == of);
         known.map_or(0.0, |(_, rates)| dot(rates, parts))
@@ -106,8 +106,8 @@ impl Ways {
         chosen
     }
 
-    /// Whether coordinates decide where the mechanism is, and on which side of a configuration where they do not: the sign
-    /// changes there. The motions of `other` say which sign is meant.
+    /// Determinant of the rates of coordinates: zero where they do not determine the configuration, with opposite signs
+    /// on its two sides. The motions of `other` give the sense of the sign.
     pub fn side(&self, of: &[Coordinate], other: &Ways) -> f64 {
         let count = self.freedoms.motions.len();
         if count != of.len() || other.freedoms.motions.len() != count {

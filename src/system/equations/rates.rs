@@ -165,7 +165,7 @@ impl<T: Factorable> System<T> {
         work.jacobian.nullity()
     }
 
-    /// Asks for another held orientation of a platform.
+    /// Sets the orientation at which a platform is held.
     pub fn set_orientation(&mut self, platform: usize, wanted: Rotation<T>) {
         for hold in &mut self.holds {
             if let HoldRow::Orientation(p, target) = hold

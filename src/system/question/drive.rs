@@ -81,7 +81,7 @@ pub enum DriveError {
 }
 
 impl Drive {
-    /// Everything held is at rest.
+    /// A drive with all held coordinates at rest.
     pub fn still(question: &Question) -> Self {
         let coordinates = question.driven_coordinates();
         Drive {

@@ -151,7 +151,7 @@ impl Load {
     }
 }
 
-/// The point of that name, if something moves it.
+/// The point of that name, unless it is fixed to the ground.
 fn moving_point(question: &Question, name: &str) -> Result<Point, ForceError> {
     let mechanism = question.mechanism();
     let point = Point::read(mechanism, name).map_err(ForceError::Point)?;

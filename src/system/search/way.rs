@@ -9,7 +9,7 @@ use crate::number::real;
 use crate::solve::{Report, Stop};
 use crate::system::HeldPlatform;
 
-/// Longest step of anything held, in rad or characteristic lengths.
+/// Longest step of a held coordinate, in rad or characteristic lengths.
 const STEP: f64 = 0.2;
 
 /// Longest continuation, in steps: a longer way is not tried.

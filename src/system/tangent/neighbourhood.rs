@@ -41,12 +41,12 @@ pub struct Tangent {
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// Prepares a mechanism of which nothing is held.
+    /// Prepares a mechanism with nothing held.
     pub fn new(mechanism: &'a Mechanism) -> Self {
         Neighbourhood::holding(mechanism, &Held::nothing(mechanism))
     }
 
-    /// Prepares a mechanism of which something is held.
+    /// Prepares a mechanism with held coordinates.
     pub fn holding(mechanism: &'a Mechanism, held: &Held<f64>) -> Self {
         let system = System::new(mechanism.dimensions(), held);
         let frames = mechanism.frames();

@@ -152,7 +152,7 @@ fn gaps(covered: &[[f64; 2]], reach: f64, cycle: bool) -> impl Iterator<Item = [
     gaps.into_iter()
 }
 
-/// Follows the curves that one slice leads to; how far below and above its value all paths went.
+/// Follows the curves that one slice leads to. Returns the distances below and above its value that all paths covered.
 fn from_one(
     slice: &Slice,
     held: &Held<f64>,
