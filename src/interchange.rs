@@ -22,5 +22,5 @@ pub use mjcf::{NotRead, write as write_mjcf};
 pub use problem::{ImportProblem, ImportProblemKind, WrongFile};
 pub use remark::Remark;
 pub use sdf::write as write_sdf;
-pub use tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+pub use tree::{Attachment, Bend, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 pub use urdf::write as write_urdf;

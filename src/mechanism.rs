@@ -19,6 +19,7 @@ mod plane;
 mod point;
 mod quantity;
 mod recut;
+mod relation;
 mod rings;
 mod section;
 mod serial_axes;
@@ -35,6 +36,8 @@ pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
 pub use point::{NamedPoint, Point, PointError};
+pub use relation::Relation;
+
 pub use quantity::{Figure, Measured, Order, Quantity, QuantityError};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;

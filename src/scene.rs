@@ -240,6 +240,9 @@ impl Scene {
         for (closure, dimensions) in
             (mechanism.closures().iter()).zip(&mechanism.dimensions().closures)
         {
+            if closure.kind == ClosureKind::Coupling {
+                continue;
+            }
             let poses = closure.frames.map(&pose);
             let bodies = closure.frames.map(number);
             for (body, pose) in bodies.into_iter().zip(&poses) {
@@ -335,7 +338,7 @@ fn of_closure(
     let z = [a.rotation.0[2].0, b.rotation.0[2].0];
     let middle = (a.position + b.position).times(0.5).0;
     let (symbol, at, axes) = match kind {
-        ClosureKind::Spherical | ClosureKind::Distance => (Symbol::Spherical, middle, vec![]),
+        ClosureKind::Spherical | ClosureKind::Distance | ClosureKind::Coupling => (Symbol::Spherical, middle, vec![]),
         ClosureKind::Revolute => (Symbol::Revolute, middle, vec![z[0]]),
         ClosureKind::Universal => (Symbol::Universal, middle, z.to_vec()),
         ClosureKind::Rigid => (Symbol::Rigid, middle, vec![]),

@@ -33,6 +33,25 @@ impl<N: Clone + PartialEq> Expression<N> {
         Ok(affine)
     }
 
+    /// True if it is a polynomial in the variables.
+    pub fn is_polynomial(&self, is_variable: &impl Fn(&N) -> bool) -> bool {
+        if !self.names().any(|(name, _)| is_variable(name)) {
+            return true;
+        }
+        let varies = |of: &Self| of.names().any(|(name, _)| is_variable(name));
+        match &self.node {
+            Node::Negate(x) => x.is_polynomial(is_variable),
+            Node::Binary(Operator::Divide, x, y) => !varies(y) && x.is_polynomial(is_variable),
+            Node::Binary(Operator::Power, x, y) => {
+                let whole = |n: f64| n.fract() == 0.0 && n >= 0.0;
+                y.as_number().is_some_and(whole) && x.is_polynomial(is_variable)
+            }
+            Node::Binary(_, x, y) => x.is_polynomial(is_variable) && y.is_polynomial(is_variable),
+            Node::Call(..) => false,
+            _ => true,
+        }
+    }
+
     fn split(&self, is_variable: &impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
         if !self.names().any(|(name, _)| is_variable(name)) {
             return Ok(self.clone().into());

@@ -80,8 +80,11 @@ fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
     let closures = mechanism.closures().iter();
     let lengths = closures.filter_map(|closure| closure.length.as_ref());
     let entries = rows.flat_map(|row| [&row.d, &row.theta]).chain(lengths);
+    let related = mechanism.closures().iter().flat_map(|of| &of.relation);
+    let related = related.flat_map(|formula| formula.names().map(|(symbol, _)| *symbol));
     let used: HashSet<Symbol> = entries
         .flat_map(|entry| entry.terms.iter().map(|(symbol, _)| *symbol))
+        .chain(related)
         .collect();
     let joints = mechanism.joints().iter().enumerate().map(|(i, joint)| {
         let used = used.contains(&Symbol::Joint(i));

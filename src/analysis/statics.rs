@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::{RANK_TOLERANCE, add, norm, rank_of};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{ClosureKind, Mechanism};
 use crate::solve::Watch;
 use crate::system::{
     Analysed, Closing, Coordinate, Equilibrium, GivenPose, Load, Neighbourhood, Question,
@@ -158,6 +158,10 @@ pub fn statics(
     let actuators = actuators.collect();
     // what makes coordinates of points joints carries only what holds these
     closures.truncate(mechanism.own_parts()[1]);
+    // a coupling acts on the joints in it alone
+    let kinds = mechanism.closures().iter().map(|closure| closure.kind);
+    let mut kinds = kinds.map(|kind| kind != ClosureKind::Coupling);
+    closures.retain(|_| kinds.next().unwrap_or(true));
     let of_points = mechanism.joints().iter().enumerate();
     let of_points: HashSet<&String> = of_points
         .filter(|(i, _)| mechanism.is_of_point(*i))

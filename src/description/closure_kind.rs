@@ -23,6 +23,8 @@ words! {
         Rigid = "Rigid",
         /// The origins have a given distance.
         Distance = "Distance",
+        /// An expression of joint variables is zero; no frames take part.
+        Coupling = "Coupling",
     }
 }
 
@@ -39,7 +41,8 @@ pub enum AxisCondition {
     Oriented,
 }
 
-/// The conditions that a closure consists of. [`ClosureKind::Distance`] has one of its own and none of these.
+/// The conditions that a closure consists of. [`ClosureKind::Distance`] and [`ClosureKind::Coupling`] have one of their
+/// own and none of these.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ClosureConditions {
     /// True if the origins coincide.
@@ -62,7 +65,7 @@ impl ClosureKind {
             Self::Cylindrical => (false, Aligned, 0..2),
             Self::Planar => (false, Aligned, 2..3),
             Self::Rigid => (true, Oriented, 0..0),
-            Self::Distance => (false, Free, 0..0),
+            Self::Distance | Self::Coupling => (false, Free, 0..0),
         };
         ClosureConditions {
             origins,
@@ -107,6 +110,7 @@ impl ClosureKind {
             AxisCondition::Oriented => 3,
         };
         let points = if conditions.origins { 3 } else { 0 };
-        points + turns + conditions.offsets.len() + usize::from(self.has_length())
+        let own = self.has_length() || self == Self::Coupling;
+        points + turns + conditions.offsets.len() + usize::from(own)
     }
 }

@@ -156,9 +156,9 @@ pub struct PlatformDescription {
 pub struct ClosureDescription {
     /// The kind of joint.
     pub kind: ClosureKind,
-    /// The frames it joins.
+    /// The frames it joins; ground twice for a [`ClosureKind::Coupling`].
     pub frames: [Spanned<String>; 2],
-    /// The distance (m), for [`ClosureKind::Distance`] only.
+    /// The distance (m) of a [`ClosureKind::Distance`], or the expression that a [`ClosureKind::Coupling`] makes zero.
     pub length: Option<Entry>,
     /// The place of the closure.
     pub span: Range<usize>,

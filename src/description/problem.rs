@@ -221,6 +221,8 @@ pub enum ProblemKind {
         turned: Option<Turned>,
     },
     /// A distance of zero, whose equation is singular where it holds.
+    #[error("the coupling `{closure}` contains no joint")]
+    CouplesNothing { closure: String },
     #[error("the distance of closure `{closure}` is zero")]
     ZeroDistance { closure: String },
     /// A problem of a file of joint axes.

@@ -210,6 +210,16 @@ impl Reader {
         let (known, word) = (&ClosureKind::ALL, ClosureKind::word);
         let (kind, content) = self.word(piece, Expected::Closure, known, word)?;
         let expected = Expected::ClosureFrames(kind);
+        if kind == ClosureKind::Coupling {
+            let [expression] = self.content(piece, content, expected)?;
+            let ground = || Spanned::new(GROUND.to_owned(), piece.span());
+            return Some(ClosureDescription {
+                kind,
+                frames: [ground(), ground()],
+                length: Some(self.entry(expression)?),
+                span: piece.span(),
+            });
+        }
         let (frames, length) = if kind.has_length() {
             let [from, to, length] = self.content(piece, content, expected)?;
             ([from, to], Some(length))

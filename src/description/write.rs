@@ -249,10 +249,14 @@ impl Serialize for Displacement {
 
 impl Serialize for ClosureDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let length = 2 + usize::from(self.length.is_some());
+        let frames = match self.kind {
+            ClosureKind::Coupling => &[],
+            _ => &self.frames[..],
+        };
+        let length = frames.len() + usize::from(self.length.is_some());
         let mut tuple =
             serializer.serialize_tuple_variant("Closure", 0, self.kind.word(), length)?;
-        for frame in &self.frames {
+        for frame in frames {
             tuple.serialize_field(frame)?;
         }
         if let Some(length) = &self.length {

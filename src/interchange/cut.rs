@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::remark::Remark;
-use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
-use crate::description::{GROUND, Role};
+use super::tree::{Attachment, Bend, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+use crate::description::{ClosureKind, GROUND, Role};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Configuration, Frame, JointKind, Mechanism, RowDimensions};
 
@@ -35,6 +35,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
     let mut remarks = cutter.lead();
     cutter.platforms(at);
     cutter.chains();
+    let lost = cutter.relations();
     let loops = cutter.loops();
     let mut tree = Tree {
         name: match mechanism.name() {
@@ -46,6 +47,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
         loops,
         size: mechanism.characteristic_length(),
     };
+    remarks.extend(lost);
     remarks.extend(followers(mechanism, &tree.couplings));
     tree.bodies.iter_mut().for_each(|body| {
         body.joints.iter_mut().for_each(|joint| joint.home += 0.0);
@@ -240,10 +242,39 @@ impl Cutter<'_> {
         }
     }
 
+    /// Adds what follows another joint by a polynomial; any other relation is a loss.
+    fn relations(&mut self) -> Vec<Remark> {
+        let closures = self.mechanism.closures().iter();
+        let closures = closures.zip(&self.mechanism.dimensions().closures);
+        let mut lost = Vec::new();
+        for (closure, dimensions) in closures {
+            let Some(relation) = &dimensions.relation else {
+                continue;
+            };
+            let Some((y, x, [c0, c1, powers @ ..])) = relation.polynomial() else {
+                let closure = closure.name.clone();
+                lost.push(Remark::CouplingLost { closure });
+                continue;
+            };
+            let [y, x] = [y, x].map(|joint| self.mechanism.joints()[joint].name.clone());
+            let bend = Bend {
+                terms: vec![(x.clone(), 1.0)],
+                constant: 0.0,
+                powers: powers.to_vec(),
+            };
+            self.couplings.push(Coupling {
+                bend: powers.iter().any(|p| *p != 0.0).then_some(bend),
+                ..Coupling::of(y, x, c1, c0)
+            });
+        }
+        lost
+    }
+
     fn loops(&self) -> Vec<Loop> {
         let mechanism = self.mechanism;
         let closures = mechanism.closures().iter();
         let closures = closures.zip(&mechanism.dimensions().closures);
+        let closures = closures.filter(|(closure, _)| closure.kind != ClosureKind::Coupling);
         let loops = closures.map(|(closure, dimensions)| {
             let terms = dimensions.extension.0.iter();
             let terms = terms.map(|&(joint, c)| (mechanism.joints()[joint].name.clone(), c));

@@ -18,6 +18,8 @@ pub enum Remark {
         kind: ClosureKind,
         frames: [String; 2],
     },
+    #[error("coupling `{closure}` is left out: this format has no such relation between joints")]
+    CouplingLost { closure: String },
     /// A joint variable that only changes the length of lost closures.
     #[error(
         "joint `{joint}` is left out: it is the length of {}",
@@ -152,6 +154,7 @@ impl Remark {
         matches!(
             self,
             Self::ClosureLost { .. }
+                | Self::CouplingLost { .. }
                 | Self::LengthLost { .. }
                 | Self::Floating { .. }
                 | Self::Unused { .. }

@@ -1,5 +1,6 @@
 //! Bodies in a tree with the loops that close it: the common ground of URDF, MJCF and a mechanism.
 
+use super::remark::Remark;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::number::real;
@@ -55,13 +56,26 @@ pub struct Body {
     pub frames: Vec<(String, Pose<f64>)>,
 }
 
-/// A linear relation between the values of joints: Σ factor · value = constant.
+/// A relation between the values of joints: Σ factor · value = constant, or that plus powers of another such sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
     /// The joints with their factors; first the one that follows the others, where the file says which.
     pub terms: Vec<(String, f64)>,
     /// The value of the sum, in rad or m.
     pub constant: f64,
+    /// What is added to the constant.
+    pub bend: Option<Bend>,
+}
+
+/// The part of a polynomial beyond its line: p₀ x² + p₁ x³ + …, with x = constant + Σ factor · value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bend {
+    /// The joints of x with their factors.
+    pub terms: Vec<(String, f64)>,
+    /// The value of x where they are at 0.
+    pub constant: f64,
+    /// The coefficients p from that of x² on.
+    pub powers: Vec<f64>,
 }
 
 /// A frame on a body.
@@ -164,12 +178,33 @@ impl Coupling {
         Coupling {
             terms: vec![(joint, 1.0), (leader, -factor)],
             constant: offset,
+            bend: None,
         }
+    }
+
+    /// Of a polynomial: the joint that follows, the one that it follows, and the coefficients from that of x⁰ on.
+    pub(super) fn polynomial(&self) -> Option<(&str, &str, [f64; 5])> {
+        if let Some((joint, leader, factor, offset)) = self.pair() {
+            return Some((joint, leader, [offset, factor, 0.0, 0.0, 0.0]));
+        }
+        let bend = self.bend.as_ref().filter(|bend| bend.constant == 0.0)?;
+        let ([(joint, own), rest @ ..], [(leader, one)]) = (&self.terms[..], &bend.terms[..]) else {
+            return None;
+        };
+        let factor = match rest {
+            [] => 0.0,
+            [(other, factor)] if other == leader => -factor / own,
+            _ => return None,
+        };
+        let mut all = [self.constant / own, factor, 0.0, 0.0, 0.0];
+        let powers = all[2..].iter_mut().zip(&bend.powers);
+        powers.for_each(|(c, power)| *c = power / own);
+        (*one == 1.0).then_some((joint, leader, all))
     }
 
     /// The joint that follows, the one that it follows, the factor and the offset, where there are two.
     pub(super) fn pair(&self) -> Option<(&str, &str, f64, f64)> {
-        let [(joint, own), (leader, other)] = &self.terms[..] else {
+        let ([(joint, own), (leader, other)], None) = (&self.terms[..], &self.bend) else {
             return None;
         };
         Some((joint, leader, -other / own, self.constant / own))
@@ -226,6 +261,14 @@ impl Tree {
     /// Ground from every body, with each joint at the value `of` gives it; floating bodies stay as placed.
     pub fn poses(&self, of: impl Fn(&Joint) -> f64) -> Vec<Pose<f64>> {
         self.placed(|_| None, of)
+    }
+
+    /// The polynomials that a format of linear couplings does not say.
+    pub(super) fn bent(&self) -> impl Iterator<Item = Remark> {
+        let bent = self.couplings.iter().filter(|of| of.bend.is_some());
+        bent.map(|of| Remark::CouplingLost {
+            closure: of.terms[0].0.clone(),
+        })
     }
 
     /// Ground from every body at home.

@@ -1,4 +1,4 @@
-//! Residuals of the eight closures and their derivatives along twists: the only copy of either.
+//! Residuals of the closures and their derivatives along twists: the only copy of either.
 //!
 //! With A and B the two frames, a, b their axes in ground, g = p_B − p_A, and L the characteristic
 //! length, a closure consists of these rows, all dimensionless and zero when the joint is closed:
@@ -11,6 +11,7 @@
 //! | orientation (3) | w = 2 s/t, s = vee(Rᵀ_A R_B − ·ᵀ), t = 1 + tr(Rᵀ_A R_B) | ω·(2 δs − w δt)/t |
 //! | offset (1, 2) | a_x·g/L, … | a_x·v/L at p_B |
 //! | distance (1) | (g·g − s²)/2L² | g·v/L² at the own point of each side |
+//! | coupling (1) | f/1 rad, or f/L if its first joint slides | — |
 //!
 //! Alignment is twice the tangent of half the angle between the axes (a stereographic projection), orientation the
 //! Rodrigues vector 2 tan(θ/2)·n: the flipped axis, which a_x·b_z = a_y·b_z = 0 alone would admit, lies at infinity. A
@@ -19,6 +20,7 @@
 mod rows;
 
 use super::ClosureKind;
+use super::Relation;
 use super::configuration::Configuration;
 use super::dimensions::{ClosureDimensions, Dimensions, LinearForm};
 use super::kinematics::{Kinematics, Mover, Need, Placement, Slot};
@@ -42,9 +44,12 @@ pub struct Closure<T> {
     pub(crate) platforms: [Option<usize>; 2],
     pub(crate) length: T,
     pub(crate) extension: LinearForm<T>,
-    /// The natural sizes of the joint variables of the extension.
+    relation: Option<Relation<T>>,
+    /// The natural sizes of the joint variables of the extension or the relation.
     extension_scales: Vec<f64>,
     inverse_length: f64,
+    /// One over the natural size of the relation's value.
+    inverse_size: f64,
 }
 
 /// Parts of the poses of its two frames that the rows of a closure use.
@@ -61,6 +66,13 @@ pub(crate) fn needs(kind: ClosureKind, kept: &Kept) -> [Need; 2] {
 /// True if all rows of a closure that are evaluated are components of its gap.
 fn only_points(kind: ClosureKind, kept: &Kept) -> bool {
     kind.conditions().origins && !kept[3..kind.equations()].contains(&true)
+}
+
+/// The joints in the length of a closure, or in its relation, with a scale each.
+fn extending<T>(closure: &ClosureDimensions<T>) -> Vec<usize> {
+    let lengths = closure.extension.0.iter().map(|(joint, _)| *joint);
+    let related = closure.relation.iter().flat_map(|of| of.joints.iter());
+    lengths.chain(related.copied()).collect()
 }
 
 impl<T: Number> Closure<T> {
@@ -85,9 +97,12 @@ impl<T: Number> Closure<T> {
             platforms,
             length: closure.length,
             extension: closure.extension.clone(),
-            extension_scales: (closure.extension.0.iter())
-                .map(|&(joint, _)| dimensions.joint_scales[joint])
+            extension_scales: (extending(closure).into_iter())
+                .map(|joint| dimensions.joint_scales[joint])
                 .collect(),
+            inverse_size: (closure.relation.as_ref())
+                .map_or(1.0, |of| 1.0 / dimensions.joint_scales[of.joints[0]]),
+            relation: closure.relation.clone(),
             inverse_length: 1.0 / dimensions.characteristic_length,
         }
     }
@@ -98,9 +113,15 @@ impl<T: Number> Closure<T> {
         all.iter().filter(|kept| **kept).count()
     }
 
-    /// The joint variables that occur in the length of a `Distance`, with the derivative of its residual for
-    /// a unit of the scaled variable: −s cⱼ/L².
+    /// The derivative of the residual for a unit of a scaled joint variable in the length of a `Distance`, −s cⱼ/L², or
+    /// in a relation.
     pub(crate) fn length_column(&self, joint: usize, at: &Configuration<T>) -> T {
+        if let Some(relation) = &self.relation {
+            let mut scales = relation.joints.iter().zip(&self.extension_scales);
+            let scale = scales.find(|(j, _)| **j == joint).map_or(0.0, |(_, s)| *s);
+            let slope = relation.slope(&at.joints, joint);
+            return slope.scale(scale * self.inverse_size);
+        }
         let length = self.length(&at.joints);
         let terms = self.extension.0.iter().zip(&self.extension_scales);
         let mut terms = terms.filter(|((j, _), _)| *j == joint);
@@ -111,17 +132,43 @@ impl<T: Number> Closure<T> {
             })
     }
 
+    /// The rate of the residual for rates of the joints in a length or a relation.
+    pub(crate) fn length_rate(&self, joints: &[T], rates: &[T]) -> T {
+        match &self.relation {
+            Some(relation) => relation
+                .rate(joints, |joint| rates[joint])
+                .scale(self.inverse_size),
+            None => (self.length(joints) * self.extension.at(rates))
+                .scale(-self.inverse_length * self.inverse_length),
+        }
+    }
+
+    /// True if joints are in the length or the relation in another way than in those of another closure.
+    pub(crate) fn bends_unlike(&self, other: &Self) -> bool {
+        self.extension != other.extension || self.relation != other.relation
+    }
+
+    /// The relation's value, dimensionless.
+    fn related(&self, joints: &[T]) -> Option<T> {
+        let relation = self.relation.as_ref()?;
+        Some(relation.at(joints).scale(self.inverse_size))
+    }
+
     /// The joints whose variables affect the closure, without repetition.
     pub(crate) fn joints(&self) -> Vec<usize> {
         let moved = self.movers.iter().flatten().map(|mover| mover.joint);
-        let extending = self.extension.0.iter().map(|(joint, _)| *joint);
+        let related = self.relation.iter().flat_map(|of| of.joints.iter());
+        let extending = self.extension.0.iter().map(|(joint, _)| joint);
+        let extending = extending.chain(related).copied();
         let joints: std::collections::BTreeSet<usize> = moved.chain(extending).collect();
         joints.into_iter().collect()
     }
 
-    /// True if a joint variable occurs in the length of the closure.
+    /// True if a joint variable occurs in the length or the relation of the closure.
     pub(crate) fn extends_with(&self, joint: usize) -> bool {
+        let related = self.relation.as_ref();
         self.extension.0.iter().any(|(j, _)| *j == joint)
+            || related.is_some_and(|of| of.joints.contains(&joint))
     }
 
     /// The poses of the two frames: ground from A, ground from B.
@@ -189,6 +236,7 @@ impl<T: Number> Closure<T> {
             let length = self.length(joints);
             all.push(gap.dot(&gap) - length * length);
         }
+        all.extend(self.relation.as_ref().map(|relation| relation.at(joints)));
         all
     }
 
@@ -241,6 +289,9 @@ impl<T: Number> Closure<T> {
                 rows.offsets(&gap, &a.rotation.0[2..]);
             }
             ClosureKind::Distance => rows.distance(&gap, self.length(&at.joints)),
+            ClosureKind::Coupling => {
+                rows.relation(self.related(&at.joints).unwrap_or_else(T::zero));
+            }
         }
         rows
     }

@@ -1,7 +1,7 @@
 //! Every dimension of a mechanism as numbers: the one place where the real-valued mechanism is
 //! lifted to complex, dual and other number types.
 
-use super::{ClosureKind, Frame};
+use super::{ClosureKind, Frame, Relation};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 
@@ -77,6 +77,8 @@ pub struct ClosureDimensions<T> {
     pub length: T,
     /// Variable part of the length of a `Distance`, in m.
     pub extension: LinearForm<T>,
+    /// The expression that a `Coupling` makes zero.
+    pub relation: Option<Relation<T>>,
 }
 
 /// All dimensions of a mechanism over one number type.
@@ -144,6 +146,7 @@ impl<T> Dimensions<T> {
                     frames: closure.frames,
                     length: lift(closure.length),
                     extension: form(&closure.extension, lift),
+                    relation: (closure.relation.as_ref()).map(|of| of.map(&mut *lift)),
                 })
                 .collect(),
         }

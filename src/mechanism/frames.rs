@@ -7,7 +7,7 @@ use super::kinematics::Kinematics;
 use super::model::{
     Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Row, Symbol,
 };
-use super::{Dimensions, Frame, Mechanism, Quantity};
+use super::{Dimensions, Frame, Mechanism, Quantity, relation};
 use crate::algebra::Affine;
 use crate::description::{Coordinates, GROUND, Problem};
 use crate::geometry::Pose;
@@ -321,7 +321,9 @@ impl Mechanism {
     pub(crate) fn joints_moving(&self, closure: &Closure) -> Vec<usize> {
         let length = closure.length.iter().flat_map(joints_of);
         let frames = closure.frames.into_iter();
+        let related = closure.relation.iter().flat_map(relation::joints_of);
         length
+            .chain(related)
             .chain(frames.flat_map(|frame| self.joints_below(frame)))
             .collect()
     }

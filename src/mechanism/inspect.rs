@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::frames::joints_of;
 use super::model::{FixedStep, Formula, Given, Symbol};
-use super::{Frame, Mechanism};
+use super::{Frame, Mechanism, relation};
 use crate::algebra::Measure;
 use crate::description::{
     AxisCondition, Beside, ClosureKind, Convention, Description, Displacement, Problem,
@@ -53,7 +53,9 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
         used.extend(formula.names().map(|(symbol, _)| *symbol));
     });
     let entries = mechanism.affine_entries();
-    let in_rows_and_lengths: HashSet<usize> = entries.flat_map(joints_of).collect();
+    let related = mechanism.closures.iter().flat_map(|of| &of.relation);
+    let related = related.flat_map(relation::joints_of);
+    let in_rows_and_lengths: HashSet<usize> = entries.flat_map(joints_of).chain(related).collect();
     let outputs = description.outputs.iter().map(|output| &output.value);
     let coordinates = description.coordinates.iter();
     let places = coordinates.flat_map(|c| c.axes.places().flat_map(|place| place.entries()));
@@ -196,6 +198,8 @@ impl Mechanism {
             visit(&length.constant, Measure::Length);
         }
         let mut open = |formula: &Formula| visit(formula, Measure::Open);
+        let related = self.closures.iter().flat_map(|of| &of.relation);
+        related.for_each(&mut open);
         let terms = self.affine_entries().flat_map(|affine| &affine.terms);
         terms.for_each(|(_, factor)| open(factor));
         for form in self.closed_forms.iter() {

@@ -7,7 +7,7 @@ use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
 use super::model::{FixedStep, Formula, Joint, JointKind, Row, Symbol};
-use super::{Frame, Mechanism};
+use super::{Frame, Mechanism, Relation};
 use crate::algebra::{Affine, EvaluationError};
 use crate::description::{Convention, Role};
 use crate::geometry::{Axis, Pose, Vector3};
@@ -149,6 +149,8 @@ impl Mechanism {
                 frames: closure.frames,
                 length,
                 extension,
+                relation: (closure.relation.as_ref())
+                    .map(|formula| Relation::new(formula, parameters)),
             })
         })?;
         let length = self.largest_length(&dimensions, &self.driven_lengths());

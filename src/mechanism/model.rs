@@ -160,6 +160,8 @@ pub struct Closure {
     pub frames: [super::Frame; 2],
     /// The length of a `Distance` (m), affine in the joint variables.
     pub length: Option<Affine<Symbol>>,
+    /// The expression of joint variables that a `Coupling` makes zero.
+    pub relation: Option<Formula>,
 }
 
 /// A printed formula, to be checked against the chains.

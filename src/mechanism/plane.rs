@@ -36,7 +36,9 @@ impl Mechanism {
             }
         }
         let mut closures = self.closures().iter();
-        let may_tilt = closures.any(|closure| closure.kind.leaves_orientation());
+        let may_tilt = closures.any(|closure| {
+            closure.kind.leaves_orientation() && closure.kind != ClosureKind::Coupling
+        });
         if may_tilt && !self.platforms().is_empty() {
             return None;
         }
@@ -45,7 +47,10 @@ impl Mechanism {
             match closure.kind {
                 ClosureKind::Revolute | ClosureKind::Planar => turning.extend(axes),
                 ClosureKind::Prismatic => sliding.extend(axes),
-                ClosureKind::Spherical | ClosureKind::Rigid | ClosureKind::Distance => {}
+                ClosureKind::Spherical
+                | ClosureKind::Rigid
+                | ClosureKind::Distance
+                | ClosureKind::Coupling => {}
                 ClosureKind::Universal | ClosureKind::Cylindrical => return None,
             }
         }

@@ -50,7 +50,7 @@ impl Carried {
             Some(ClosureKind::Universal) => &[Yaw, Pitch],
             Some(ClosureKind::Planar) => &[X, Y, Yaw],
             Some(ClosureKind::Spherical) => &[Yaw, Pitch, Roll],
-            Some(ClosureKind::Distance) | None => &[X, Y, Z, Yaw, Pitch, Roll],
+            Some(ClosureKind::Distance | ClosureKind::Coupling) | None => &[X, Y, Z, Yaw, Pitch, Roll],
         }
     }
 
@@ -230,6 +230,7 @@ impl<T: Number> Recut<T> {
                 frames: [*a, *b],
                 length: (*q - *p).norm(),
                 extension: LinearForm(vec![]),
+                relation: None,
             });
             self.dimensions.closures.extend(pairs);
         }
@@ -347,9 +348,12 @@ impl<T: Number> Recut<T> {
         let rows = dims.chains.iter().flat_map(|chain| &chain.rows);
         let forms = rows.flat_map(|row| [&row.turn, &row.slide]);
         let forms: Vec<_> = (forms.chain(dims.closures.iter().map(|c| &c.extension))).collect();
+        let related: Vec<usize> = (dims.closures.iter())
+            .flat_map(|c| c.relation.iter().flat_map(|of| of.joints.iter().copied()))
+            .collect();
         let alone = |joint: usize| {
             let terms = forms.iter().flat_map(|form| &form.0);
-            terms.filter(|(j, _)| *j == joint).count() == 1
+            !related.contains(&joint) && terms.filter(|(j, _)| *j == joint).count() == 1
         };
         let rows = &dims.chains[chain].rows;
         // an angle that turns the link twice as far would have two values for one pose

@@ -133,6 +133,7 @@ impl Mechanism {
             kind: ClosureKind::Spherical,
             frames: tips,
             length: None,
+            relation: None,
         });
         let values: Vec<f64> = self.parameters.iter().map(|of| of.value).collect();
         let dimensions = cut.dimensions_over(&values);

@@ -143,6 +143,10 @@ pub(crate) fn turns_to_repeat(dimensions: &Dimensions<f64>, joint: usize) -> Opt
     /// Gears have some dozen teeth.
     const MOST: u32 = 120;
     const ROUNDING: f64 = 1e-12;
+    let mut relations = dimensions.closures.iter().flat_map(|c| &c.relation);
+    if relations.any(|relation| relation.joints.contains(&joint)) {
+        return None;
+    }
     let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
     let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
     let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();

@@ -105,6 +105,7 @@ mod tests {
                 frames: [Frame::Tip { chain: 0 }, Frame::Tip { chain: 1 }],
                 length: 0.0,
                 extension: LinearForm(vec![]),
+                relation: None,
             }],
         }
     }

@@ -253,6 +253,6 @@ pub fn no_axes(error: &AxesError) -> Complaint {
         ),
         AxesError::Closure { .. } => complaint
             .help("write the length as a constant plus a variable that occurs nowhere else"),
-        AxesError::TooFew => complaint,
+        AxesError::TooFew | AxesError::Coupling { .. } => complaint,
     }
 }

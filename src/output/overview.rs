@@ -154,6 +154,7 @@ fn equations(closure: &ClosureOverview) -> String {
     match (closure.kind, &closure.length) {
         (ClosureKind::Distance, Some(length)) => format!("origins at distance {length} (1)"),
         (ClosureKind::Distance, None) => "origins at a given distance (1)".into(),
+        (ClosureKind::Coupling, _) => "an expression of joints is zero (1)".into(),
         (ClosureKind::Spherical, _) => "origins coincide (3)".into(),
         (ClosureKind::Revolute, _) => "origins coincide (3), axes aligned (2)".into(),
         (ClosureKind::Prismatic, _) => "orientations equal (3), origins on one axis (2)".into(),

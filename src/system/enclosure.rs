@@ -16,6 +16,7 @@ use crate::description::AxisCondition;
 use crate::geometry::Rotation;
 use crate::mechanism::{
     ClosureKind, Dimensions, Frame, Kinematics, LinearForm, Mover, Placement, PoseCoordinate,
+    Relation,
 };
 use crate::number::{Interval, Number};
 use crate::solve::Conditions;
@@ -46,6 +47,8 @@ enum What {
     Closure(ClosureKind, Interval, LinearForm<Interval>),
     Coordinate(PoseCoordinate, Interval),
     Orientation(Rotation<Interval>),
+    /// An expression of joints, and one over its natural size.
+    Relation(Relation<Interval>, f64),
 }
 
 impl What {
@@ -62,7 +65,7 @@ impl What {
                 let points = if conditions.origins { 3 } else { 0 };
                 points + axes + conditions.offsets.len() + usize::from(kind.has_length())
             }
-            What::Coordinate(..) => 1,
+            What::Coordinate(..) | What::Relation(..) => 1,
             What::Orientation(_) => 6,
         }
     }
@@ -95,7 +98,13 @@ impl Enclosure {
         };
         let closures = closures.map(|closure| {
             let (length, extension) = (closure.length, closure.extension.clone());
-            let what = What::Closure(closure.kind, length, extension);
+            let what = match &closure.relation {
+                Some(relation) => {
+                    let size = dimensions.joint_scales[relation.joints[0]];
+                    What::Relation(relation.clone(), 1.0 / size)
+                }
+                None => What::Closure(closure.kind, length, extension),
+            };
             (what, closure.frames.map(slot))
         });
         let holds = holds.iter().filter_map(|(frame, hold)| {
@@ -114,6 +123,9 @@ impl Enclosure {
             unknowns.extend(moving(slots).iter().flatten().map(|mover| mover.joint));
             if let What::Closure(_, _, extension) = what {
                 unknowns.extend(extension.0.iter().map(|(joint, _)| *joint));
+            }
+            if let What::Relation(relation, _) = what {
+                unknowns.extend(relation.joints.iter());
             }
         }
         unknowns.retain(|&joint| held.get(joint).copied().flatten().is_none());
@@ -278,6 +290,20 @@ impl Enclosure {
             }
             What::Orientation(_) => same = &[0, 2],
             What::Coordinate(..) => {}
+            What::Relation(relation, inverse) => {
+                let inverse = Interval::point(*inverse);
+                put(relation.at(joints) * inverse);
+                if slopes {
+                    for joint in relation.joints.iter() {
+                        if let Ok(column) = self.unknowns.binary_search(joint) {
+                            let scale = Interval::point(self.scales[column]);
+                            entries[column * self.rows + first] +=
+                                relation.slope(joints, *joint) * scale * inverse;
+                        }
+                    }
+                }
+                return;
+            }
         }
         if points {
             gap.0.iter().for_each(|x| put(*x));

@@ -1,6 +1,7 @@
 //! Numbers, mechanism files and their exchange with other programs, and published numbers of the model itself.
 
 mod coordinates;
+mod couplings;
 mod description;
 mod exchange;
 mod golden;

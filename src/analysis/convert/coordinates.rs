@@ -19,7 +19,7 @@ use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{carried, doing_something, joined, zero};
 use crate::description::{
-    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, Convention, Description,
+    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention, Description,
     Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable, place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
@@ -37,6 +37,10 @@ pub fn to_axes(
 ) -> Result<(AxesDescription, Vec<ConversionNote>), ConvertError> {
     if let Some(coordinates) = &description.coordinates {
         return Ok((coordinates.axes.clone(), Vec::new()));
+    }
+    let mut closures = mechanism.closures().iter();
+    if let Some(coupling) = closures.find(|of| of.kind == ClosureKind::Coupling) {
+        return Err(ConvertError::Coupling(coupling.name.clone()));
     }
     let mut drawing = Drawing {
         mechanism,

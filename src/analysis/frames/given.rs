@@ -26,6 +26,12 @@ pub enum AxesError {
         /// Its kind.
         kind: ClosureKind,
     },
+    /// A relation between joints, which joint coordinates have no place for.
+    #[error("the coupling `{closure}` relates joints by an expression, which joint coordinates cannot say")]
+    Coupling {
+        /// The closure.
+        closure: String,
+    },
     /// A chain or platform holds no joint.
     #[error("the mechanism has no joints with axes")]
     TooFew,
@@ -234,6 +240,10 @@ fn closures(
                 joints.push(slide("_x", x, [from, slid.clone()]));
                 joints.push(slide("_y", y, [slid, between.clone()]));
                 joints.push(joint("_turn", Revolute, &poses[1], [between, to]));
+            }
+            ClosureKind::Coupling => {
+                let closure = closure.name.clone();
+                return Err(AxesError::Coupling { closure });
             }
             ClosureKind::Distance => {
                 let ball =

@@ -55,6 +55,9 @@ pub(super) fn count(mechanism: &Mechanism) -> MobilityCount {
         let joints = extension.0.iter();
         joints.for_each(|&(joint, _)| used[joint] = true);
     }
+    let related = mechanism.dimensions().closures.iter();
+    let related = related.flat_map(|c| c.relation.iter().flat_map(|of| of.joints.iter()));
+    related.for_each(|&joint| used[joint] = true);
     let variables = used.into_iter().filter(|&used| used).count();
     let closures = mechanism.closures().iter();
     let equations = closures.map(|closure| closure.kind.equations()).sum();
@@ -84,7 +87,7 @@ fn planar_equations(mechanism: &Mechanism) -> Option<usize> {
     let closures = mechanism.closures().iter();
     let equations = closures.map(|closure| match closure.kind {
         ClosureKind::Planar => 0,
-        ClosureKind::Distance => 1,
+        ClosureKind::Distance | ClosureKind::Coupling => 1,
         ClosureKind::Spherical | ClosureKind::Revolute | ClosureKind::Prismatic => 2,
         ClosureKind::Rigid => 3,
         ClosureKind::Universal | ClosureKind::Cylindrical => {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{join, root};
-use crate::mechanism::{Body, Frame, Mechanism};
+use crate::mechanism::{Body, ClosureKind, Frame, Mechanism};
 
 /// A loop, from a body round to the same body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,6 +54,7 @@ pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
         }
     }
     let closures = mechanism.closures().iter().enumerate();
+    let closures = closures.filter(|(_, closure)| closure.kind != ClosureKind::Coupling);
     links.extend(closures.map(|(i, closure)| (closure.frames.map(index), Link::Closure(i))));
     let mut trees: Vec<Vec<(usize, Link)>> = vec![Vec::new(); bodies.len()];
     let mut roots: Vec<usize> = (0..bodies.len()).collect();

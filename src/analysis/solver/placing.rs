@@ -103,6 +103,7 @@ impl Placing {
                 frames: [self.tips[i], self.tips[(i + 1) % 3]],
                 length: T::from_f64(self.side(i)),
                 extension: LinearForm(Vec::new()),
+                relation: None,
             };
         }
         held.platforms[self.platform] = HeldPlatform::Pose;

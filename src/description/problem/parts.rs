@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::description::{AxisKind, Expected, Found, Noun, Scope, Structure};
+use crate::description::{AxisKind, ClosureKind, Expected, Found, Noun, Scope, Structure};
 
 impl Display for Noun {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
@@ -44,6 +44,7 @@ impl Expected {
     /// Elements of a tuple.
     pub(in crate::description) fn unit(self) -> &'static str {
         match self {
+            Self::ClosureFrames(ClosureKind::Coupling) => "expression",
             Self::ClosureFrames(kind) if kind.has_length() => "value",
             Self::ClosureFrames(_) => "frame",
             Self::RotationRows | Self::TransformRows => "row",
@@ -71,6 +72,7 @@ impl Display for Expected {
             Self::ClosureFrames(kind) if kind.has_length() => {
                 return write!(f, "`{}(frame, frame, length)`", kind.word());
             }
+            Self::ClosureFrames(ClosureKind::Coupling) => "`Coupling(expression)`",
             Self::ClosureFrames(kind) => return write!(f, "`{}(frame, frame)`", kind.word()),
             Self::Version => "the number of the file format",
             Self::Text => "a string",

@@ -11,7 +11,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Coupling, Extent, Joint, Loop, Tree};
+use crate::interchange::tree::{Attachment, Bend, Coupling, Extent, Joint, Loop, Tree};
 
 /// Adds the constraints of a file to its tree.
 pub(super) fn read(
@@ -80,6 +80,16 @@ pub(super) fn read(
 enum Tendon {
     Rod(Box<Loop>),
     Coupling(Coupling),
+}
+
+/// The part of a polynomial beyond its line, if there is one.
+fn bend(terms: Vec<(String, f64)>, constant: f64, powers: [f64; 3]) -> Option<Bend> {
+    let bends = powers.iter().any(|power| *power != 0.0);
+    bends.then(|| Bend {
+        terms,
+        constant,
+        powers: powers.to_vec(),
+    })
 }
 
 struct Constraints<'a, 'r, 'i> {
@@ -176,20 +186,16 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         Some(Loop::new(name, ClosureKind::Rigid, sides))
     }
 
-    /// Coefficients c₀, c₁ of a polynomial without higher powers.
-    fn line(&mut self, node: Node) -> Option<[f64; 2]> {
+    /// The coefficients c₀ to c₄ of a polynomial.
+    fn polynomial(&mut self, node: Node) -> Option<[f64; 5]> {
         let text = node.attribute("polycoef").unwrap_or("0 1");
         let Some(numbers) = parse(text).filter(|numbers| numbers.len() <= 5) else {
             self.problems.not_numbers(text, 5, tag(node));
             return None;
         };
-        if numbers.iter().skip(2).any(|c| *c != 0.0) {
-            let help = "a joint can follow another by a factor and an offset only";
-            let what = "a polynomial of a higher degree than 1";
-            return self.problems.unsupported(what, help, node);
-        }
-        let coefficient = |i: usize, default: f64| numbers.get(i).copied().unwrap_or(default);
-        Some([coefficient(0, 0.0), coefficient(1, 1.0)])
+        let mut all = [0.0, 1.0, 0.0, 0.0, 0.0];
+        all[..numbers.len()].copy_from_slice(&numbers);
+        Some(all)
     }
 
     /// The reference of a joint that turns or slides.
@@ -204,21 +210,28 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         Some(found.reference)
     }
 
-    /// y − y₀ = c₀ + c₁ (x − x₀), with the references x₀ and y₀.
+    /// y − y₀ = c₀ + c₁ (x − x₀) + … + c₄ (x − x₀)⁴, with the references x₀ and y₀.
     fn joint(&mut self, node: Node) -> Option<Coupling> {
         let follower = self.problems.needed(node, "joint1")?.to_owned();
-        let (line, y0) = (self.line(node), self.reference(node, "joint1", &follower));
-        let ([c0, c1], y0) = (line?, y0?);
+        let (found, y0) = (
+            self.polynomial(node),
+            self.reference(node, "joint1", &follower),
+        );
+        let ([c0, c1, powers @ ..], y0) = (found?, y0?);
         let Some(leader) = node.attribute("joint2") else {
             // alone it stands still
             return Some(Coupling {
                 terms: vec![(follower, 1.0)],
                 constant: y0 + c0,
+                bend: None,
             });
         };
         let x0 = self.reference(node, "joint2", leader)?;
-        let leader = leader.to_owned();
-        Some(Coupling::of(follower, leader, c1, y0 + c0 - c1 * x0))
+        let terms = vec![(leader.to_owned(), 1.0)];
+        Some(Coupling {
+            bend: bend(terms, -x0, powers),
+            ..Coupling::of(follower, leader.to_owned(), c1, y0 + c0 - c1 * x0)
+        })
     }
 
     /// A tendon that has a constant length, or that of a fixed tendon: between two sites, or fixed itself.
@@ -226,12 +239,13 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// y − y₀ = c₀ + c₁ (x − x₀) for the lengths y and x, whose values where the joints have their references are y₀ and x₀.
     fn tendon(&mut self, node: Node, name: String) -> Option<Tendon> {
         let first = self.problems.needed(node, "tendon1")?;
-        let [c0, c1] = self.line(node)?;
+        let [c0, c1, powers @ ..] = self.polynomial(node)?;
         let tendon = self.tendon_named(node, "tendon1", first)?;
         let mut length = Extent {
             constant: c0,
             terms: Vec::new(),
         };
+        let mut bent = None;
         if let Some(second) = node.attribute("tendon2") {
             let fixed = self.tendon_named(node, "tendon2", second)?;
             if !fixed.has_tag_name("fixed") {
@@ -240,8 +254,12 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                 let help = "a length may depend on joints, through a fixed tendon";
                 return self.problems.unsupported(what, help, node);
             }
-            for (joint, factor, x0) in self.fixed(fixed)? {
-                length.constant -= c1 * factor * x0;
+            let second = self.fixed(fixed)?;
+            let sum = second.iter().map(|(joint, factor, _)| (joint.clone(), *factor));
+            let at_references: f64 = second.iter().map(|(_, factor, x0)| factor * x0).sum();
+            bent = bend(sum.collect(), -at_references, powers);
+            length.constant -= c1 * at_references;
+            for (joint, factor, _) in second {
                 length.terms.push((joint, c1 * factor));
             }
         }
@@ -257,7 +275,16 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                     .into_iter()
                     .map(|(joint, factor)| (joint, -factor)),
             );
-            return Some(Tendon::Coupling(Coupling { terms, constant }));
+            return Some(Tendon::Coupling(Coupling {
+                terms,
+                constant,
+                bend: bent,
+            }));
+        }
+        if bent.is_some() {
+            let what = format!("a tendon `{first}` whose length is a polynomial of joints");
+            let help = "the length of a spatial tendon may be a constant plus multiples of joints";
+            return self.problems.unsupported(what, help, node);
         }
         let sites: Vec<Node> = tendon.children().filter(Node::is_element).collect();
         let names: Vec<&str> = sites.iter().filter_map(|s| s.attribute("site")).collect();

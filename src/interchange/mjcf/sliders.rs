@@ -30,7 +30,8 @@ pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
             | ClosureKind::Spherical
             | ClosureKind::Universal
             | ClosureKind::Rigid
-            | ClosureKind::Distance => continue,
+            | ClosureKind::Distance
+            | ClosureKind::Coupling => continue,
         };
         let joints = freedoms
             .into_iter()

@@ -30,8 +30,8 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     };
     remarks.extend(tree.loops.iter().filter_map(|l| page.closure(l)));
     remarks.push(Remark::MassesInvented);
-    for (joint, leader, factor, offset) in tree.couplings.iter().filter_map(Coupling::pair) {
-        let polynomial = numbers([offset, factor, 0.0, 0.0, 0.0]);
+    for (joint, leader, polynomial) in tree.couplings.iter().filter_map(Coupling::polynomial) {
+        let polynomial = numbers(polynomial);
         page.equalities.leaf(
             "joint name joint1 joint2 polycoef",
             &[&joint, &joint, &leader, &polynomial],
@@ -117,7 +117,8 @@ impl Page<'_> {
             ClosureKind::Rigid
             | ClosureKind::Prismatic
             | ClosureKind::Cylindrical
-            | ClosureKind::Planar => self.join("weld", name, &sites),
+            | ClosureKind::Planar
+            | ClosureKind::Coupling => self.join("weld", name, &sites),
         }
         None
     }

@@ -22,6 +22,7 @@ const CONTROLLER: [&dyn std::fmt::Display; 2] = [
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     let (mut tree, mut remarks) = with_sliders(tree);
     rods(&mut tree);
+    remarks.extend(tree.bent());
     remarks.push(Remark::CountedFromHome);
     remarks.push(Remark::MassesInvented);
     let home = tree.home();

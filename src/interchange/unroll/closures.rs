@@ -10,7 +10,8 @@ use crate::description::{
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Extent, Joint, Loop, Motion};
+use crate::algebra::Expression;
+use crate::interchange::tree::{Attachment, Coupling, Extent, Joint, Loop, Motion};
 
 impl Unroller<'_> {
     /// The name of a frame; a new one is made where it has none.
@@ -98,8 +99,42 @@ impl Unroller<'_> {
             }
             closures.push(Named::new(label, closure));
         }
+        for coupling in &self.tree.couplings {
+            let Some((mut label, closure)) = self.coupling(coupling) else {
+                continue;
+            };
+            while !labels.insert(label.clone()) {
+                label += "_";
+            }
+            closures.push(Named::new(label, closure));
+        }
         let platforms = platforms.into_iter().map(|(_, platform)| platform);
         (platforms.collect(), closures)
+    }
+
+    /// A polynomial between joints as a closure: their difference is zero.
+    fn coupling(&self, coupling: &Coupling) -> Option<(String, ClosureDescription)> {
+        let bend = coupling.bend.as_ref()?;
+        let written = |constant: f64, terms: &[(String, f64)]| {
+            let terms = terms.iter().map(|(joint, factor)| (joint, *factor));
+            let (constant, terms) = self.affine(constant, terms);
+            (!terms.is_empty()).then(|| sum(&Entry::number(constant, 0..0), &terms).expression.to_string())
+        };
+        let x = written(bend.constant, &bend.terms)?;
+        let mut text = written(-coupling.constant, &coupling.terms)?;
+        for (i, power) in bend.powers.iter().enumerate().filter(|(_, p)| **p != 0.0) {
+            text += &format!(" - {power}*({x})^{}", i + 2);
+        }
+        let expression = Expression::parse(&text).ok()?;
+        let [follower, leader] = [&coupling.terms, &bend.terms].map(|terms| &terms[0].0);
+        let ground = || Spanned::nowhere(GROUND.to_owned());
+        let closure = ClosureDescription {
+            kind: ClosureKind::Coupling,
+            frames: [ground(), ground()],
+            length: Some(expression.into()),
+            span: 0..0,
+        };
+        Some((format!("{follower} follows {leader}"), closure))
     }
 
     /// Ball joints as loops: spherical closures between parents and platforms.

@@ -64,7 +64,7 @@ pub(super) fn followers(tree: &Tree) -> Result<HashMap<String, Following>, Impor
     let mut found: HashMap<String, Following> = HashMap::new();
     // the followers of each joint that leads
     let mut led: HashMap<String, Vec<String>> = HashMap::new();
-    for coupling in &tree.couplings {
+    for coupling in tree.couplings.iter().filter(|of| of.bend.is_none()) {
         // offset + Σ factor · value = 0, in terms of joints that lead
         let mut sum = Following {
             offset: -coupling.constant,
@@ -139,7 +139,12 @@ pub(super) fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
         }
     }
     for coupling in &tree.couplings {
+        let bends = coupling.bend.iter().flat_map(|bend| {
+            let factors = bend.terms.iter().map(|(_, factor)| *factor);
+            factors.chain(bend.powers.iter().copied()).chain([bend.constant])
+        });
         let factors = coupling.terms.iter().map(|(_, factor)| *factor);
+        let factors = factors.chain(bends);
         let joint = coupling.terms.first().map_or("", |(joint, _)| joint);
         check(joint, factors.chain([coupling.constant]))?;
     }

@@ -35,7 +35,11 @@ pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Cou
             terms.extend(joints.map(|joint| (joint.name.clone(), factor)));
         }
         let constant = 0.0;
-        Some(Coupling { terms, constant })
+        Some(Coupling {
+            terms,
+            constant,
+            bend: None,
+        })
     });
     couplings.flatten().collect()
 }

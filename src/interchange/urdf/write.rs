@@ -26,6 +26,7 @@ pub fn write(tree: &Tree) -> (String, Vec<Remark>) {
         }
     }
     let mut remarks = writer.losses();
+    remarks.extend(tree.bent());
     remarks.splice(0..0, writer.remarks);
     if !writer.away.is_empty() {
         let joints = writer.away;

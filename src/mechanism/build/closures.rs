@@ -1,10 +1,15 @@
 //! The closures of a description, each checked as far as the frames that it joins are known.
 
+use std::collections::HashMap;
+
 use super::super::model::{Closure, Row};
+use super::super::relation::joints_of;
 use super::super::{Body, Frame};
 use super::{Builder, ResolvedChain};
 use crate::algebra::Measure;
-use crate::description::{ClosureDescription, ClosureKind, Description, Named, ProblemKind};
+use crate::description::{
+    ClosureDescription, ClosureKind, Description, Named, ProblemKind, Scope, Spanned,
+};
 
 impl Builder<'_> {
     pub(super) fn closures(
@@ -14,6 +19,10 @@ impl Builder<'_> {
     ) -> Vec<Closure> {
         let mut closures = Vec::new();
         for Named { name, value } in &description.closures {
+            if value.kind == ClosureKind::Coupling {
+                closures.extend(self.coupling(name, value));
+                continue;
+            }
             let frames = [0, 1].map(|i| self.frame(&value.frames[i]));
             let length =
                 (value.length.as_ref()).map(|entry| (entry, self.affine(entry, Measure::Length)));
@@ -24,6 +33,7 @@ impl Builder<'_> {
                     kind: value.kind,
                     frames: [a, b],
                     length: length.as_ref().and_then(|(_, affine)| affine.clone()),
+                    relation: None,
                 });
             }
             if let (ClosureKind::Distance, Some((entry, Some(affine)))) = (value.kind, length)
@@ -35,6 +45,25 @@ impl Builder<'_> {
             }
         }
         closures
+    }
+
+    /// A coupling of joints, of which its expression names one at least.
+    fn coupling(&mut self, name: &Spanned<String>, value: &ClosureDescription) -> Option<Closure> {
+        let entry = value.length.as_ref()?;
+        let formula = self.formula(entry, Scope::ParametersAndJoints, &HashMap::new())?;
+        self.check_unit(&formula, Measure::Open);
+        if joints_of(&formula).is_empty() {
+            let closure = name.value.clone();
+            self.refuse(ProblemKind::CouplesNothing { closure }, &entry.span);
+            return None;
+        }
+        Some(Closure {
+            name: name.value.clone(),
+            kind: value.kind,
+            frames: [Frame::Ground; 2],
+            length: None,
+            relation: Some(formula),
+        })
     }
 
     fn check_bodies(

@@ -199,6 +199,13 @@ impl<T: Number> Rows<T> {
         self.force_count = 1;
     }
 
+    #[inline(always)]
+    pub(super) fn relation(&mut self, residual: T) {
+        if self.keeps_next() {
+            self.residual[0] = residual;
+        }
+    }
+
     /// The rate of every row along a motion of one side, given as rotation rate and the velocity
     /// at that side's [`Rows::velocity_point`].
     #[inline(always)]

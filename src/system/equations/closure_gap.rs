@@ -47,12 +47,18 @@ impl Gap {
                     let length = dimensions.length + dimensions.extension.at(&at.joints);
                     distance = (distance - length.abs()).abs();
                 }
-                let angle = match conditions.axes {
+                let mut angle = match conditions.axes {
                     AxisCondition::Free => 0.0,
                     AxisCondition::Perpendicular => (between_axes() - FRAC_PI_2).abs(),
                     AxisCondition::Aligned => between_axes(),
                     AxisCondition::Oriented => between_frames(),
                 };
+                if let Some(relation) = &mechanism.dimensions().closures[i].relation {
+                    let turns = mechanism.joints()[relation.joints[0]].kind.is_angle();
+                    let size = relation.at(&at.joints).abs();
+                    let own = if turns { &mut angle } else { &mut distance };
+                    *own = size;
+                }
                 Gap { distance, angle }
             })
             .collect()

@@ -30,7 +30,7 @@ impl<T: Factorable> System<T> {
     pub(crate) fn towards(&self, other: &Self) -> Option<(Self, Course<T>)> {
         let (kinematics, course) = self.kinematics.towards(&other.kinematics)?;
         let pairs = || self.closures.iter().zip(&other.closures);
-        if pairs().any(|(from, to)| from.extension != to.extension) {
+        if pairs().any(|(from, to)| from.bends_unlike(to)) {
             return None;
         }
         let lengths = pairs().enumerate();
@@ -75,8 +75,7 @@ impl<T: Factorable> System<T> {
                 rows.rates(side, omega, &(*v + omega.cross(&arm)), out);
             }
             if !plan.extending.is_empty() {
-                let rate = closure.extension.at(rates);
-                out[0] -= (closure.length(&at.joints) * rate).scale(over);
+                out[0] += closure.length_rate(&at.joints, rates);
             }
         }
         let lengths = way.map_or(&[][..], |(course, _)| &course.lengths);

@@ -6,7 +6,7 @@ use super::neighbourhood::Neighbourhood;
 use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::Decomposition;
-use crate::mechanism::{Body, Configuration, Frame, Symbol};
+use crate::mechanism::{Body, ClosureKind, Configuration, Frame, Symbol};
 use crate::system::Unknown;
 
 /// A loop: a closure and the two chains from it to the body where they part.
@@ -155,6 +155,7 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
     let length = mechanism.characteristic_length();
     let wrenches = near.closure_wrenches(at);
     let closures = mechanism.closures().iter().zip(wrenches);
+    let closures = closures.filter(|(closure, _)| closure.kind != ClosureKind::Coupling);
     closures
         .map(|(closure, wrenches)| {
             // rows as columns: what is orthogonal to all of them is free

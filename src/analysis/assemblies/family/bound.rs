@@ -75,6 +75,9 @@ impl<'a> Structure<'a> {
         let dimensions = family.dimensions(&member.parameters)?;
         let mut way = family.homotopy(&member, &member)?;
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
+        if dimensions.closures.iter().any(|of| of.relation.is_some()) {
+            return None;
+        }
         let system = System::new(&dimensions, &family.held);
         let axes = system.axes(&way.here.at, &mut system.work());
         let closures = dimensions.closures.iter();

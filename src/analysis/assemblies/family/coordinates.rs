@@ -80,6 +80,7 @@ impl Coordinates {
             .map(|j| turns_to_repeat(dimensions, j).filter(|_| !slides(dimensions, j)))
             .collect();
         let winding = free_joints.iter().copied();
+        let winding = winding.filter(|&j| !is_algebraic(mechanism, j));
         let (screws, incommensurate) = winding
             .filter(|&j| mechanism.joints()[j].kind.is_angle() && turns[j].is_none())
             .partition(|&j| turns_to_repeat(dimensions, j).is_some());
@@ -321,6 +322,17 @@ fn legs(free_joints: &[usize], system: &System<f64>) -> Vec<Vec<usize>> {
 /// The largest coordinate.
 pub(crate) fn size(x: &[C]) -> f64 {
     x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
+}
+
+/// True if a joint's own value is in polynomials, and its sine and cosine are in no equation.
+fn is_algebraic(mechanism: &Mechanism, joint: usize) -> bool {
+    let closures = mechanism.closures().iter();
+    let closures = closures.zip(&mechanism.dimensions().closures);
+    let mut own = closures
+        .filter(|(named, _)| mechanism.joints_moving(named).contains(&joint))
+        .peekable();
+    own.peek().is_some()
+        && own.all(|(_, of)| (of.relation.as_ref()).is_some_and(|of| of.is_polynomial()))
 }
 
 /// True if a joint makes something slide.

@@ -40,7 +40,7 @@ impl ClosureRows {
             ClosureKind::Revolute | ClosureKind::Prismatic => Some(1),
             ClosureKind::Universal | ClosureKind::Cylindrical => Some(2),
             ClosureKind::Spherical => Some(3),
-            ClosureKind::Planar | ClosureKind::Distance => None,
+            ClosureKind::Planar | ClosureKind::Distance | ClosureKind::Coupling => None,
         }
     }
 
@@ -116,7 +116,10 @@ impl ClosureRows {
                 motion.parts.push((right_angle(-1.0), zero(), two));
                 motion.parts.push((right_angle(1.0), zero(), three));
             }
-            ClosureKind::Rigid | ClosureKind::Planar | ClosureKind::Distance => {}
+            ClosureKind::Rigid
+            | ClosureKind::Planar
+            | ClosureKind::Distance
+            | ClosureKind::Coupling => {}
         }
         motion
     }
