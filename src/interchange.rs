@@ -10,6 +10,7 @@ mod names;
 mod page;
 mod problem;
 mod remark;
+mod rods;
 mod sdf;
 mod tree;
 mod unroll;

@@ -338,7 +338,9 @@ fn of_closure(
     let z = [a.rotation.0[2].0, b.rotation.0[2].0];
     let middle = (a.position + b.position).times(0.5).0;
     let (symbol, at, axes) = match kind {
-        ClosureKind::Spherical | ClosureKind::Distance | ClosureKind::Coupling => (Symbol::Spherical, middle, vec![]),
+        ClosureKind::Spherical | ClosureKind::Distance | ClosureKind::Coupling => {
+            (Symbol::Spherical, middle, vec![])
+        }
         ClosureKind::Revolute => (Symbol::Revolute, middle, vec![z[0]]),
         ClosureKind::Universal => (Symbol::Universal, middle, z.to_vec()),
         ClosureKind::Rigid => (Symbol::Rigid, middle, vec![]),

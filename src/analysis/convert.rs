@@ -93,7 +93,9 @@ pub enum ConvertError {
     )]
     NotAlone(String),
     /// A relation between joints, which joint coordinates have no place for.
-    #[error("the coupling `{0}` relates joints by an expression, which joint coordinates cannot say")]
+    #[error(
+        "the coupling `{0}` relates joints by an expression, which joint coordinates cannot say"
+    )]
     Coupling(String),
     /// The result is not a mechanism.
     #[error("the converted file is not a mechanism: {}", titles(.0))]

@@ -9,6 +9,7 @@ use super::mjcf::{self, Files, NotRead};
 use super::names::fit;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
+use super::rods::without_rods;
 use super::sdf;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
@@ -110,6 +111,8 @@ pub fn import(
         problems: problems.into_iter().map(|problem| (0, problem)).collect(),
     };
     let whole = |kind: ImportProblemKind| wrong(vec![kind.anywhere()]);
+    // blanks before the declaration, which other readers pass over, move to behind it
+    let text = &super::page::declared_first(text);
     let page = super::page::document(text).map_err(|problem| wrong(vec![problem]))?;
     let (tree, mut remarks) = match page.root_element().tag_name().name() {
         "robot" => urdf::read(text).map_err(wrong)?,
@@ -126,6 +129,8 @@ pub fn import(
         }
     };
     let kept = kept_frames(&tree, loops, settings).map_err(whole)?;
+    let (tree, rods) = without_rods(&tree, &kept);
+    remarks.extend(rods);
     let source = Path::new(name)
         .file_name()
         .map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());

@@ -61,8 +61,19 @@ impl Names {
 
     fn note(&mut self, noun: &'static str, wanted: &str, name: &str) {
         if wanted != name {
-            let (from, to) = (wanted.to_owned(), name.to_owned());
-            self.renamed.push(Remark::Renamed { noun, from, to });
+            let pair = [wanted, name].map(str::to_owned);
+            let mut known = self.renamed.iter_mut();
+            let known = known.find_map(|remark| match remark {
+                Remark::Renamed { noun: of, names } if *of == noun => Some(names),
+                _ => None,
+            });
+            match known {
+                Some(names) => names.push(pair),
+                None => {
+                    let names = vec![pair];
+                    self.renamed.push(Remark::Renamed { noun, names });
+                }
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! An XML text being read: its elements and their problems.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use quick_xml::Reader;
@@ -45,6 +46,18 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
         let start = Lines::new(text).offset(position.row as usize, position.col as usize);
         ImportProblemKind::Syntax { message }.at(start..next_char(text, start))
     })
+}
+
+/// The text without a declaration that is not at its beginning; everything else keeps its place.
+pub(super) fn declared_first(text: &str) -> Cow<'_, str> {
+    let start = text.len() - text.trim_start().len();
+    match text[start..].find("?>") {
+        Some(end) if start > 0 && text[start..].starts_with("<?xml ") => {
+            let blank = " ".repeat(end + 2);
+            Cow::Owned([&text[..start], &blank, &text[start + end + 2..]].concat())
+        }
+        _ => Cow::Borrowed(text),
+    }
 }
 
 /// Refuses elements that are nested too deeply.

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::description::{ClosureKind, count as count_of, quoted};
+use crate::description::{ClosureKind, count as count_of, joined, quoted};
 
 /// A remark on a file that was read or written, in one line.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -126,6 +126,14 @@ pub enum Remark {
         if joints.len() == 1 { "it is" } else { "they are" }
     )]
     Redundant { joints: Vec<String> },
+    /// Bodies that only keep two points apart.
+    #[error(
+        "{} between two balls: {} as the {} of the balls",
+        named_few(names, ["is a rod", "are rods"]),
+        if names.len() == 1 { "it is read" } else { "they are read" },
+        if names.len() == 1 { "distance" } else { "distances" }
+    )]
+    Rods { names: Vec<String> },
     /// Home values that were moved to the nearer limit.
     #[error(
         "the home {} of {} outside the limits: moved to the nearer one",
@@ -133,15 +141,14 @@ pub enum Remark {
         named_few(joints, ["is", "are"])
     )]
     Moved { joints: Vec<String> },
-    /// A name that a mechanism file cannot use.
+    /// Names that a mechanism file cannot use, with those in their place.
     #[error(
-        "{noun} `{from}` is renamed `{to}`: a name is given once, names of frames have no dots, names of joints only letters, \
-         digits and `_`"
+        "{}: a name is given once, names of frames have no dots, names of joints only letters, digits and `_`",
+        renamed(noun, names)
     )]
     Renamed {
         noun: &'static str,
-        from: String,
-        to: String,
+        names: Vec<[String; 2]>,
     },
     /// The origin of the home values.
     #[error("{0}")]
@@ -171,7 +178,25 @@ fn named_few(names: &[String], verbs: [&str; 2]) -> String {
     let verb = verbs[usize::from(names.len() > 1)];
     match more {
         0 => format!("{} {verb}", quoted(names)),
-        _ => format!("{} and {more} more {verb}", quoted(&names[..MOST])),
+        _ => {
+            let first: Vec<String> = names[..MOST]
+                .iter()
+                .map(|name| format!("`{name}`"))
+                .collect();
+            format!("{} and {more} more {verb}", first.join(", "))
+        }
+    }
+}
+
+fn renamed(noun: &str, names: &[[String; 2]]) -> String {
+    const MOST: usize = 3;
+    let each = names.iter().take(MOST);
+    let each: Vec<String> = each
+        .map(|[from, to]| format!("`{from}` is renamed `{to}`"))
+        .collect();
+    match names.len() {
+        0..=MOST => format!("{noun} {}", joined(&each, "and")),
+        many => format!("{noun} {}, and {} more alike", each.join(", "), many - MOST),
     }
 }
 

@@ -188,7 +188,8 @@ impl Coupling {
             return Some((joint, leader, [offset, factor, 0.0, 0.0, 0.0]));
         }
         let bend = self.bend.as_ref().filter(|bend| bend.constant == 0.0)?;
-        let ([(joint, own), rest @ ..], [(leader, one)]) = (&self.terms[..], &bend.terms[..]) else {
+        let ([(joint, own), rest @ ..], [(leader, one)]) = (&self.terms[..], &bend.terms[..])
+        else {
             return None;
         };
         let factor = match rest {

@@ -12,7 +12,8 @@ mod relations;
 
 use std::collections::{HashMap, HashSet};
 
-use relations::{Following, carriers, followers, within_reason};
+pub(super) use relations::carriers;
+use relations::{Following, followers, within_reason};
 
 use super::names::Names;
 use super::problem::ImportProblemKind;

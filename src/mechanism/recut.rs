@@ -50,7 +50,9 @@ impl Carried {
             Some(ClosureKind::Universal) => &[Yaw, Pitch],
             Some(ClosureKind::Planar) => &[X, Y, Yaw],
             Some(ClosureKind::Spherical) => &[Yaw, Pitch, Roll],
-            Some(ClosureKind::Distance | ClosureKind::Coupling) | None => &[X, Y, Z, Yaw, Pitch, Roll],
+            Some(ClosureKind::Distance | ClosureKind::Coupling) | None => {
+                &[X, Y, Z, Yaw, Pitch, Roll]
+            }
         }
     }
 

@@ -42,7 +42,13 @@ fn values<const N: usize>(question: &Question, names: [&str; N]) -> [f64; N] {
         other => panic!("{other:?}"),
     };
     assert!(report.is_assembled(), "{:?}", report.outcome);
-    names.map(|name| *report.joints.get(name).or(report.outputs.get(name)).unwrap())
+    names.map(|name| {
+        *report
+            .joints
+            .get(name)
+            .or(report.outputs.get(name))
+            .unwrap()
+    })
 }
 
 fn near(a: f64, b: f64) {
@@ -57,7 +63,10 @@ fn left(x: f64) -> f64 {
 fn joints_follow_by_polynomials() {
     let question = read(AXLE);
     for steer in [0.0, 0.4, -0.7] {
-        let found = values(&question.clone().hold("steer", steer), ["left", "right", "plough"]);
+        let found = values(
+            &question.clone().hold("steer", steer),
+            ["left", "right", "plough"],
+        );
         let right = 0.9 * steer - 0.3 * steer * steer;
         near(found[0], left(steer));
         near(found[1], right);
@@ -67,8 +76,14 @@ fn joints_follow_by_polynomials() {
     // backwards, through what follows; and beside it, where it does not follow
     let held = question.clone().hold("left", left(0.3)).free("steer");
     near(values(&held, ["steer"])[0], 0.3);
-    let both = question.clone().hold("steer", 0.3).hold("left", left(0.3) + 1e-3);
-    assert!(both.solve(&AssemblySettings::default(), &Watch::none()).is_err());
+    let both = question
+        .clone()
+        .hold("steer", 0.3)
+        .hold("left", left(0.3) + 1e-3);
+    assert!(
+        both.solve(&AssemblySettings::default(), &Watch::none())
+            .is_err()
+    );
 }
 
 #[test]
@@ -77,8 +92,14 @@ fn a_written_polynomial_reads_back_the_same() {
     let mechanism = question.mechanism();
     let (tree, _) = tree_of(mechanism, &mechanism.home());
     let (text, remarks) = write_mjcf(&tree, &[]);
-    assert!(text.contains(r#"joint1="right" joint2="steer" polycoef="0 0.9 -0.3 0 0""#), "{text}");
-    assert!(remarks.iter().all(|remark| !remark.is_loss()), "{remarks:?}");
+    assert!(
+        text.contains(r#"joint1="right" joint2="steer" polycoef="0 0.9 -0.3 0 0""#),
+        "{text}"
+    );
+    assert!(
+        remarks.iter().all(|remark| !remark.is_loss()),
+        "{remarks:?}"
+    );
     // the sum of two wheels is no polynomial of one joint
     let (_, lost) = tree_of(mechanism, &mechanism.home());
     let lost: Vec<String> = lost.iter().map(ToString::to_string).collect();
@@ -124,11 +145,22 @@ fn a_coupling_of_no_joint_is_refused() {
         chains: { "arm": Chain(rows: [(theta: "a")]) }, closures: { "c": Coupling("b - 1") })"#;
     let description = Description::read(text).unwrap();
     let problems = Mechanism::new(&description).unwrap_err();
-    let titles: Vec<String> = problems.iter().map(|problem| problem.kind.title()).collect();
+    let titles: Vec<String> = problems
+        .iter()
+        .map(|problem| problem.kind.title())
+        .collect();
     assert_eq!(titles, ["the coupling `c` contains no joint"]);
-    for wrong in ["Coupling()", "Coupling(\"a\", \"b\")", "Coupling(\"a +\")", "Coupling(\"a - z\")"] {
+    for wrong in [
+        "Coupling()",
+        "Coupling(\"a\", \"b\")",
+        "Coupling(\"a +\")",
+        "Coupling(\"a - z\")",
+    ] {
         let text = text.replace("Coupling(\"b - 1\")", wrong);
         let read = Description::read(&text);
-        assert!(read.is_err() || Mechanism::new(&read.unwrap()).is_err(), "{wrong}");
+        assert!(
+            read.is_err() || Mechanism::new(&read.unwrap()).is_err(),
+            "{wrong}"
+        );
     }
 }

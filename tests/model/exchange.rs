@@ -641,9 +641,9 @@ fn wrong_files_are_refused_with_their_places() {
         (
             mujoco(
                 "<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
-                 <equality><joint joint1=\"j\" joint2=\"k\" polycoef=\"0 1 2 0 0\"/></equality>",
+                 <equality><joint joint1=\"j\" joint2=\"k\" polycoef=\"0 1 2 0 0 3\"/></equality>",
             ),
-            "a polynomial of a higher degree",
+            "`0 1 2 0 0 3` is not 5 finite numbers",
         ),
         (
             mujoco(

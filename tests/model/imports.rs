@@ -618,3 +618,93 @@ fn what_is_written_as_sdf_and_read_again_is_as_free() {
         );
     }
 }
+
+/// A bell crank and a rocker, joined by a rod with a ball at each end; the rod is written in three ways.
+#[test]
+fn rods_between_balls_are_distances() {
+    let start = r#"<mujoco><compiler angle="radian"/><worldbody>
+        <body name="bell"><joint name="bell" axis="0 0 1"/><geom size="1"/>"#;
+    let middle = r#"</body><body name="rocker" pos="0.5 0 0.1"><joint name="rocker" axis="0 1 0"/><geom size="1"/></body>"#;
+    let point = r#"<connect body1="rod" body2="rocker" anchor="0.3 0.1 0.2"/>"#;
+    let end = r#"<actuator><position joint="bell"/></actuator></mujoco>"#;
+    // at home the rod leads from (0.2, 0, 0.1) to (0.5, 0.1, 0.3)
+    let rod = r#"<body name="rod" pos="0.2 0 0.1"><joint name="rod" type="ball"/><geom size="1"/></body>"#;
+    let ball = format!("{start}{rod}{middle}</worldbody><equality>{point}</equality>{end}");
+    let free = format!(
+        r#"{start}{middle}<body name="rod" pos="0.2 0 0.1"><freejoint/><geom size="1"/></body></worldbody>
+        <equality><connect body1="rod" body2="bell" anchor="0 0 0"/>{point}</equality>{end}"#
+    );
+    let squared: f64 = 0.3 * 0.3 + 0.1 * 0.1 + 0.2 * 0.2;
+    for text in [&ball, &free] {
+        let (imported, question) = read(text);
+        assert!(remarks(&imported).contains("`rod` is a rod between two balls"));
+        assert_eq!(question.mechanism().platforms().len(), 0);
+        assert_eq!(freedoms(&question), Some(1));
+        let bell: f64 = 0.25;
+        let report = solved(&question.hold("bell", bell));
+        let rocker = value(&report, "rocker");
+        // the rocker's end is (0, 0.1, 0.2) from its axis
+        let apart = [
+            0.5 + 0.2 * rocker.sin() - 0.2 * bell.cos(),
+            0.1 - 0.2 * bell.sin(),
+            0.1 + 0.2 * rocker.cos() - 0.1,
+        ];
+        near(apart.iter().map(|x| x * x).sum(), squared);
+    }
+    // the frame of a rod that is asked for is there, and so is a rod with something on it
+    let settings = ImportSettings {
+        frames: vec!["rod".into()],
+        ..ImportSettings::default()
+    };
+    let kept = import("file", &ball, &no_files, None, &settings).unwrap();
+    assert_eq!(kept.description.platforms.len(), 1);
+    let carried = r#"<joint name="rod" type="ball"/><body name="on" pos="0.1 0 0"><joint name="on" axis="0 0 1"/>
+        <geom size="1"/></body>"#;
+    let loaded = ball.replace(r#"<joint name="rod" type="ball"/>"#, carried);
+    assert_eq!(read(&loaded).0.description.platforms.len(), 1);
+}
+
+/// A gearbox of SDF: the output turns against the frame by −ratio of what the input turns, whichever way their joints are
+/// written. `twist` reverses the output's axis.
+#[test]
+fn gearboxes_of_sdf_couple_two_joints() {
+    let text = |ratio: f64, z: f64| {
+        format!(
+            r#"  <?xml version="1.0"?><sdf version="1.9"><model name="gears"><link name="frame"/><link name="input"/>
+            <link name="output"><pose>0.2 0 0 0 0 0</pose></link>
+            <joint name="fixed" type="fixed"><parent>world</parent><child>frame</child></joint>
+            <joint name="in" type="revolute"><parent>frame</parent><child>input</child><axis><xyz>0 0 1</xyz></axis></joint>
+            <joint name="out" type="revolute"><parent>frame</parent><child>output</child>
+              <axis><xyz>0 0 {z}</xyz></axis></joint>
+            <joint name="gears" type="gearbox"><parent>input</parent><child>output</child>
+              <gearbox_ratio>{ratio}</gearbox_ratio><gearbox_reference_body>frame</gearbox_reference_body>
+              <axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2></joint></model></sdf>"#
+        )
+    };
+    for (ratio, z) in [(2.5, 1.0), (2.5, -1.0), (-0.4, 1.0)] {
+        let (_, question) = read(&text(ratio, z));
+        assert_eq!(freedoms(&question), Some(1));
+        let report = solved(&question.hold("in", 0.3));
+        near(value(&report, "out"), -ratio * 0.3 * z);
+    }
+    let oblique = text(2.5, 1.0).replace("<axis2><xyz>0 0 1", "<axis2><xyz>0 1 0");
+    assert!(refused(&oblique).contains("gearbox `gears`"));
+}
+
+/// Many names that a mechanism file cannot have are told in one line.
+#[test]
+fn renamed_joints_are_told_in_one_line() {
+    let bodies: String = (0..6)
+        .map(|i| {
+            format!(r#"<body name="l{i}" pos="0 {i} 0"><joint name="left/leg {i}" axis="0 0 1"/><geom size="1"/></body>"#)
+        })
+        .collect();
+    let (imported, _) = read(&format!("<mujoco><worldbody>{bodies}</worldbody></mujoco>"));
+    let lines = remarks(&imported);
+    let renamed: Vec<&str> = lines
+        .lines()
+        .filter(|line| line.contains("renamed"))
+        .collect();
+    assert_eq!(renamed.len(), 1, "{lines}");
+    assert!(renamed[0].contains("and 3 more alike"), "{lines}");
+}

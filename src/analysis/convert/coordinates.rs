@@ -19,8 +19,9 @@ use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{carried, doing_something, joined, zero};
 use crate::description::{
-    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention, Description,
-    Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable, place_of,
+    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
+    Description, Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable,
+    place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
 use crate::number::real;

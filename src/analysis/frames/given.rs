@@ -27,7 +27,9 @@ pub enum AxesError {
         kind: ClosureKind,
     },
     /// A relation between joints, which joint coordinates have no place for.
-    #[error("the coupling `{closure}` relates joints by an expression, which joint coordinates cannot say")]
+    #[error(
+        "the coupling `{closure}` relates joints by an expression, which joint coordinates cannot say"
+    )]
     Coupling {
         /// The closure.
         closure: String,

@@ -255,7 +255,9 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                 return self.problems.unsupported(what, help, node);
             }
             let second = self.fixed(fixed)?;
-            let sum = second.iter().map(|(joint, factor, _)| (joint.clone(), *factor));
+            let sum = second
+                .iter()
+                .map(|(joint, factor, _)| (joint.clone(), *factor));
             let at_references: f64 = second.iter().map(|(_, factor, x0)| factor * x0).sum();
             bent = bend(sum.collect(), -at_references, powers);
             length.constant -= c1 * at_references;

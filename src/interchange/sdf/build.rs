@@ -73,7 +73,7 @@ impl Builder<'_> {
         };
         let one_sided = axes.iter().any(|axis| axis.one_sided);
         let mut joints = match kind {
-            Kind::Fixed => Vec::new(),
+            Kind::Fixed | Kind::Gear => Vec::new(),
             Kind::Ball => vec![joint(given.clone(), Motion::Ball, 0)],
             Kind::Turn => vec![joint(given.clone(), Motion::Turn, 0)],
             Kind::Slide => vec![joint(given.clone(), Motion::Slide, 0)],
@@ -122,6 +122,46 @@ impl Builder<'_> {
         Some(joints)
     }
 
+    /// The relation of a gearbox between the joints that its links have with the third: θ₂ = −ratio θ₁.
+    pub(super) fn gear(
+        &mut self,
+        index: usize,
+        ends: &[[usize; 2]],
+        third: usize,
+        used: &HashSet<usize>,
+    ) -> Option<Coupling> {
+        let (_, along) = self.at(index)?;
+        let turned = ends[index].iter().zip(along).map(|(&link, along)| {
+            let hinge = (0..ends.len()).find(|&joint| {
+                let turns = self.reader.joints[joint].kind == Kind::Turn && used.contains(&joint);
+                turns && (ends[joint] == [third, link] || ends[joint] == [link, third])
+            })?;
+            let (at, own) = self.at(hinge)?;
+            let (frame, _) = self.at(index)?;
+            let same = (at.rotation * own[0]).dot(&(frame.rotation * along));
+            let outwards = if ends[hinge][0] == third { 1.0 } else { -1.0 };
+            let name = self.names[&self.reader.joints[hinge].name].clone();
+            (same.abs() > 1.0 - 1e-6).then_some((name, outwards * same.signum()))
+        });
+        let turned: Option<Vec<(String, f64)>> = turned.collect();
+        let of = &self.reader.joints[index];
+        let ratio = of.gear.as_ref().map_or(1.0, |(_, ratio)| *ratio);
+        let Some([(first, s), (second, t)]) = turned.as_deref() else {
+            let kind = ImportProblemKind::Unsupported {
+                what: format!("the gearbox `{}`", self.names[&of.name]),
+                help: "each of its links needs a revolute joint with the reference body, along its axis and closing no loop",
+            };
+            let span = Some(of.span.clone());
+            self.problems.push(ImportProblem { kind, span });
+            return None;
+        };
+        Some(Coupling {
+            terms: vec![(second.clone(), *t), (first.clone(), ratio * s)],
+            constant: 0.0,
+            bend: None,
+        })
+    }
+
     /// A joint that closes a loop: its frame where all joints are at 0 is on both links.
     pub(super) fn closing(&mut self, index: usize, links: [(usize, usize); 2]) -> Option<Loop> {
         let (place, along) = self.at(index)?;
@@ -139,6 +179,7 @@ impl Builder<'_> {
             Kind::Ball => ClosureKind::Spherical,
             Kind::Universal => ClosureKind::Universal,
             Kind::Fixed => ClosureKind::Rigid,
+            Kind::Gear => return None,
             Kind::Screw => {
                 let kind = ImportProblemKind::Unsupported {
                     what: "a screw that closes a loop".into(),

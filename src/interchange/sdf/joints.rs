@@ -33,7 +33,7 @@ impl Reader<'_> {
         }
         let wanted: &[&str] = match kind {
             Kind::Ball | Kind::Fixed => &[],
-            Kind::Universal => &["axis", "axis2"],
+            Kind::Universal | Kind::Gear => &["axis", "axis2"],
             _ => &["axis"],
         };
         let axes = wanted.iter().map(|part| {
@@ -54,7 +54,16 @@ impl Reader<'_> {
             }
             _ => 0.0,
         };
+        let gear = match kind {
+            Kind::Gear => {
+                let part = self.problems.needed_child(node, "gearbox_reference_body")?;
+                let [ratio] = self.numbers(node, "gearbox_ratio").unwrap_or([1.0]);
+                Some((scope.name(part.text().unwrap_or_default()), ratio))
+            }
+            _ => None,
+        };
         Some(Joint {
+            gear,
             name,
             kind,
             ends: [parent, carrier],

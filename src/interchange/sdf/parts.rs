@@ -13,9 +13,11 @@ pub(super) enum Kind {
     Universal,
     Screw,
     Fixed,
+    /// Two turns against a third link at a ratio.
+    Gear,
 }
 
-pub(super) const KINDS: [(&str, Kind); 8] = [
+pub(super) const KINDS: [(&str, Kind); 9] = [
     ("revolute", Kind::Turn),
     ("continuous", Kind::Turn),
     ("revolute2", Kind::Universal),
@@ -24,6 +26,7 @@ pub(super) const KINDS: [(&str, Kind); 8] = [
     ("universal", Kind::Universal),
     ("screw", Kind::Screw),
     ("fixed", Kind::Fixed),
+    ("gearbox", Kind::Gear),
 ];
 
 /// An axis of a joint.
@@ -46,6 +49,8 @@ pub(super) struct Joint {
     pub axes: Vec<Axis>,
     /// Metres that a screw advances in a radian.
     pub pitch: f64,
+    /// Of a gearbox the link against which both turn, and the ratio: the child turns by −ratio of what the parent does.
+    pub gear: Option<(String, f64)>,
     pub span: Range<usize>,
 }
 

@@ -154,6 +154,14 @@ impl Builder<'_> {
             .flatten()
             .filter_map(|(_, joint)| *joint)
             .collect();
+        for joint in 0..ends.len() {
+            if let Some((third, _)) = &self.reader.joints[joint].gear {
+                let third = self.reader.frames.link(&third.clone());
+                let third = self.found(third, Some(joint))?;
+                let third = third.map_or(0, |link| numbers[&link]);
+                couplings.extend(self.gear(joint, &ends, third, &used));
+            }
+        }
         let mut loops = Vec::new();
         for joint in (0..ends.len()).filter(|joint| !used.contains(joint)) {
             loops.extend(self.closing(joint, ends[joint].map(|link| (link, place[link]))));
@@ -188,12 +196,14 @@ impl Builder<'_> {
                 _ if follows || followed.contains(&of.name) => 1,
                 _ if self.reader.driven.contains(&of.name) => 1,
                 Kind::Turn | Kind::Slide => 2,
-                Kind::Ball | Kind::Universal => 3,
+                Kind::Ball | Kind::Universal | Kind::Gear => 3,
             }
         };
         let count = self.poses.len();
         let mut at: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for (joint, [parent, child]) in ends.iter().enumerate() {
+        let joins = |joint: &usize| joints[*joint].kind != Kind::Gear;
+        for joint in (0..ends.len()).filter(joins) {
+            let [parent, child] = &ends[joint];
             at[*parent].push(joint);
             at[*child].push(joint);
         }
@@ -256,10 +266,11 @@ impl Builder<'_> {
                 .driven
                 .contains(&self.reader.joints[*joint].name)
         };
+        let joins = |joint: &usize| self.reader.joints[*joint].kind != Kind::Gear;
         let (rule, driven): (_, HashSet<usize>) = if !self.reader.driven.is_empty() {
             let rule = "the joints of controllers are actuated";
             (rule, joints.filter(of_controller).collect())
-        } else if used < joints.len() {
+        } else if used < joints.clone().filter(joins).count() {
             let rule = "no joint has a controller: all are passive, as loops are closed";
             (rule, HashSet::new())
         } else {

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
+use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
     first_free,
@@ -10,7 +11,6 @@ use crate::description::{
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
 use crate::interchange::remark::Remark;
-use crate::algebra::Expression;
 use crate::interchange::tree::{Attachment, Coupling, Extent, Joint, Loop, Motion};
 
 impl Unroller<'_> {
@@ -118,7 +118,11 @@ impl Unroller<'_> {
         let written = |constant: f64, terms: &[(String, f64)]| {
             let terms = terms.iter().map(|(joint, factor)| (joint, *factor));
             let (constant, terms) = self.affine(constant, terms);
-            (!terms.is_empty()).then(|| sum(&Entry::number(constant, 0..0), &terms).expression.to_string())
+            (!terms.is_empty()).then(|| {
+                sum(&Entry::number(constant, 0..0), &terms)
+                    .expression
+                    .to_string()
+            })
         };
         let x = written(bend.constant, &bend.terms)?;
         let mut text = written(-coupling.constant, &coupling.terms)?;

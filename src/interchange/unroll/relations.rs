@@ -7,7 +7,7 @@ use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::tree::Tree;
 
 /// The body that carries each body, and the pose of the body in it: the nearest one that moves.
-pub(super) fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
+pub(in crate::interchange) fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
     let mut carriers: Vec<(usize, Pose<f64>)> = Vec::with_capacity(tree.bodies.len());
     for (i, body) in tree.bodies.iter().enumerate() {
         carriers.push(match body.parent {
@@ -141,7 +141,9 @@ pub(super) fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
     for coupling in &tree.couplings {
         let bends = coupling.bend.iter().flat_map(|bend| {
             let factors = bend.terms.iter().map(|(_, factor)| *factor);
-            factors.chain(bend.powers.iter().copied()).chain([bend.constant])
+            factors
+                .chain(bend.powers.iter().copied())
+                .chain([bend.constant])
         });
         let factors = coupling.terms.iter().map(|(_, factor)| *factor);
         let factors = factors.chain(bends);

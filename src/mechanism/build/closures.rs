@@ -51,7 +51,9 @@ impl Builder<'_> {
     fn coupling(&mut self, name: &Spanned<String>, value: &ClosureDescription) -> Option<Closure> {
         let entry = value.length.as_ref()?;
         let formula = self.formula(entry, Scope::ParametersAndJoints, &HashMap::new())?;
-        self.check_unit(&formula, Measure::Open);
+        if let Err(error) = formula.measure(&|symbol| self.measure(symbol)) {
+            self.refuse(ProblemKind::Unit(error.kind), &error.span);
+        }
         if joints_of(&formula).is_empty() {
             let closure = name.value.clone();
             self.refuse(ProblemKind::CouplesNothing { closure }, &entry.span);

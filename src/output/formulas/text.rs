@@ -8,7 +8,7 @@ use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, Meaning, SolutionFormula, StepFormula,
     TransformFormula,
 };
-use crate::description::{count, listed};
+use crate::description::{ClosureKind, count, listed};
 use crate::output::document::{Document, Section};
 use crate::output::quantity::form;
 use crate::output::report::Report;
@@ -158,11 +158,11 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
 
 fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
     let [a, b] = &closure.between;
-    let mut text = format!(
-        "{}: {} between {a} and {b}\n",
-        closure.name,
-        closure.kind.word()
-    );
+    let (name, kind) = (&closure.name, closure.kind.word());
+    let mut text = match closure.kind {
+        ClosureKind::Coupling => format!("{name}: {kind}\n"),
+        _ => format!("{name}: {kind} between {a} and {b}\n"),
+    };
     for equation in &closure.equations {
         text += &format!("  {} = 0\n", notation.print(equation));
     }
