@@ -75,6 +75,7 @@ fn three_rps() -> Dimensions<f64> {
                 ],
                 length: 0.0,
                 extension: LinearForm(vec![]),
+                relation: None,
             })
             .collect(),
     }
