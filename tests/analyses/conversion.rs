@@ -210,7 +210,7 @@ fn gap(mechanism: &Mechanism, closure: usize, at: &Configuration<f64>) -> f64 {
         ClosureKind::Cylindrical => apart.cross(&z).norm() + along(Axis::Z),
         ClosureKind::Planar => apart.dot(&z).abs() + along(Axis::Z),
         ClosureKind::Rigid => apart.norm() + along(Axis::X) + along(Axis::Z),
-        ClosureKind::Distance => 0.0,
+        ClosureKind::Distance | ClosureKind::Coupling => 0.0,
     }
 }
 

@@ -297,7 +297,8 @@ impl Sketch {
         ];
         match self.dice.chance(0.5) {
             true => self.dice.pick(&simple),
-            false => self.dice.pick(&ClosureKind::ALL),
+            // all but couplings, which join no frames
+            false => self.dice.pick(&ClosureKind::ALL[..ClosureKind::ALL.len() - 1]),
         }
     }
 
@@ -319,6 +320,7 @@ impl Sketch {
             ClosureKind::Cylindrical => about_z * along(length),
             ClosureKind::Planar => shift(Vector3::new(length, self.length(), 0.0)) * about_z,
             ClosureKind::Rigid => Isometry3::identity(),
+            ClosureKind::Coupling => unreachable!("it joins no frames"),
             ClosureKind::Distance => any * shift(Vector3::x() * 0.3 * self.scale),
         }
     }

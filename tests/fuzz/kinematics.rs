@@ -99,6 +99,7 @@ impl Placed<'_> {
                 ClosureKind::Cylindrical => (apart.xy().norm(), leaning),
                 ClosureKind::Planar => (apart.z.abs(), leaning),
                 ClosureKind::Rigid => (apart.norm(), turned),
+                ClosureKind::Coupling => (0.0, 0.0),
                 ClosureKind::Distance => {
                     let rod = closure.length.as_ref().expect("a rod has a length");
                     ((apart.norm() - self.affine(rod).abs()).abs(), 0.0)
