@@ -452,7 +452,9 @@ mod files {
             let axes = match joint_axes(&mechanism, &closed(&mechanism)) {
                 Ok(axes) => axes,
                 Err(AxesError::Row { .. } | AxesError::Closure { .. }) => continue,
-                Err(AxesError::TooFew | AxesError::Coupling { .. }) => panic!("{path:?} has joints"),
+                Err(AxesError::TooFew | AxesError::Coupling { .. }) => {
+                    panic!("{path:?} has joints")
+                }
             };
             let text = axes.to_ron().unwrap();
             let read = AxesDescription::read(&text).unwrap();

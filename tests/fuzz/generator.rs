@@ -298,7 +298,9 @@ impl Sketch {
         match self.dice.chance(0.5) {
             true => self.dice.pick(&simple),
             // all but couplings, which join no frames
-            false => self.dice.pick(&ClosureKind::ALL[..ClosureKind::ALL.len() - 1]),
+            false => self
+                .dice
+                .pick(&ClosureKind::ALL[..ClosureKind::ALL.len() - 1]),
         }
     }
 
