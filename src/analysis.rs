@@ -1,5 +1,7 @@
-//! Analyses: each one function, one settings struct and one report. They print nothing and do not
-//! use one another.
+//! Analyses: each one function, one settings struct and one report. They print nothing.
+//!
+//! All are independent of one another but `quantities`, which reads what `velocity` and `singularities` make of a
+//! configuration over the motions of `sweep`.
 
 pub mod assemblies;
 pub mod assembly;
@@ -9,6 +11,7 @@ pub mod formulas;
 pub mod frames;
 pub mod mobility;
 pub mod overview;
+pub mod quantities;
 pub mod singularities;
 pub mod solver;
 pub mod statics;

@@ -1,8 +1,8 @@
 //! Quantities, forces and freedoms gained while a mechanism is moved by hand.
 
-use super::quantities::{Meter, Metered};
 use super::{AskError, Steering};
 use crate::algebra::SiUnit;
+use crate::analysis::quantities::{Meter, Metered};
 use crate::analysis::singularities::SingularitiesReport;
 use crate::analysis::statics::StaticsReport;
 use crate::analysis::sweep::Pace;

@@ -1,13 +1,4 @@
-//! Quantities over a motion: those asked for, and those that can be evaluated on it.
-
-mod course;
-mod extremes;
-mod meter;
-mod poles;
-
-pub(super) use course::{Course, Sought};
-pub(super) use extremes::located;
-pub(super) use meter::{Block, Meter, Metered, Name};
+//! Quantities that a question asks for, and those of them that can be known.
 
 use super::{AskError, Item, Question, Role, Unmeasured};
 use crate::algebra::{Measure, SiUnit};

@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::motions::Motions;
-use super::quantities::Metered;
 use super::ranges::still;
 use super::{AskError, Mode, Question, Role};
+use crate::analysis::quantities::{Metered, Motions};
 use crate::analysis::sweep::{CircuitsReport, Sink, SweepReport, SweepSettings, sweep};
 use crate::description;
 use crate::mechanism::Configuration;

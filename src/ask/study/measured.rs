@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::analysis::quantities::{Meter, Metered};
 use crate::analysis::sweep::Pace;
 use crate::ask::modes::NUMBERED;
-use crate::ask::quantities::{Meter, Metered};
 use crate::ask::{AskError, Question, Role, Unmeasured};
 use crate::mechanism::{Measured, Mechanism, Order, Quantity};
 use crate::solve::Watch;

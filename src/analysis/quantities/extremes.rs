@@ -17,7 +17,7 @@ use bounds::{Bounds, bounds};
 const SENSES: [f64; 2] = [-1.0, 1.0];
 
 /// The extremes of quantities over a curve, with a meter that reads them.
-pub(in super::super) fn located(
+pub(crate) fn located(
     course: &mut Course,
     quantities: &[Quantity],
     sought: &[Sought],

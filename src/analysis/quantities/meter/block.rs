@@ -6,7 +6,7 @@ use crate::mechanism::Configuration;
 
 /// Rows one after another with the quantities at them, in storage that is used again.
 #[derive(Default)]
-pub(in crate::ask) struct Block {
+pub(crate) struct Block {
     rows: Vec<Waiting>,
     count: usize,
     pub(super) columns: Vec<Column>,
@@ -14,7 +14,7 @@ pub(in crate::ask) struct Block {
 
 /// A quantity at the rows of a block.
 #[derive(Clone)]
-pub(in crate::ask) struct Column {
+pub(crate) struct Column {
     /// Not a number where there is none.
     pub values: [f64; BATCH],
     /// Uncertainty of the values.

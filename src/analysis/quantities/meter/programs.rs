@@ -9,14 +9,14 @@ use crate::number::{Dual, Number};
 /// A name in a quantity, and true if it is read at a constant pace: a quantity that does not depend on the law has a
 /// value where the law rests, too.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::ask) struct Name {
+pub(crate) struct Name {
     pub of: Measured,
     pub geometric: bool,
 }
 
 impl Metered<'_> {
     /// The names in the quantities, each once, and the quantities over the numbers of these.
-    pub(in crate::ask) fn programs(&self) -> (Vec<Name>, Vec<Expression<usize>>) {
+    pub(crate) fn programs(&self) -> (Vec<Name>, Vec<Expression<usize>>) {
         let mut names: Vec<Name> = Vec::new();
         let mut number = |name: Name| {
             let known = names.iter().position(|of| *of == name);
@@ -154,7 +154,7 @@ pub(super) fn is_clear([value, noise]: [f64; 2]) -> bool {
 
 /// The value of a quantity, if it has one, and how far it may be off, over values of names that may be. A value that
 /// only rounding keeps finite, as that of 1/x where x is nothing but rounding, is none: away from it, it shrinks.
-pub(in super::super) fn evaluated(
+pub(crate) fn evaluated(
     program: &Expression<usize>,
     known: &[[f64; 2]],
 ) -> (Option<f64>, f64) {
@@ -185,13 +185,13 @@ pub(super) fn is_name(program: &Expression<usize>) -> bool {
 }
 
 /// True if a quantity is an angle known only up to whole turns.
-pub(in super::super) fn turns(quantity: &Quantity) -> bool {
+pub(crate) fn turns(quantity: &Quantity) -> bool {
     quantity.unit == SiUnit::RADIAN
         && (quantity.measured().any(is_turned) || has_atan2(&quantity.expression))
 }
 
 /// True if an expression has an angle in it that jumps by a turn.
-pub(in super::super) fn has_atan2(expression: &Expression<Measured>) -> bool {
+pub(crate) fn has_atan2(expression: &Expression<Measured>) -> bool {
     matches!(expression.node, Node::Call(Function::Atan2, _))
         || expression.operands().any(has_atan2)
 }

@@ -18,17 +18,17 @@ use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
 use crate::number::Number;
 use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
-pub(in super::super) use block::Block;
+pub(crate) use block::Block;
 use found::Here;
 use probe::{Plan, Probe};
-pub(in crate::ask) use programs::Name;
+pub(crate) use programs::Name;
 pub(super) use programs::{evaluated, has_atan2, turns};
 use recorded::Recording;
 use wants::Wants;
 
 /// Quantities to be evaluated on a motion, with the motion's inputs, law, load and outputs.
 #[derive(Clone, Debug)]
-pub(in super::super) struct Metered<'q> {
+pub(crate) struct Metered<'q> {
     pub quantities: Vec<Quantity>,
     /// The question with the inputs held.
     pub question: system::Question<'q>,
@@ -50,7 +50,7 @@ const RECORDED_AFTER: usize = match cfg!(target_family = "wasm") {
 /// Evaluates quantities at assembled configurations. What to work out, and only what some quantity needs, is planned
 /// once; rates, forces and Jacobian come from one factorisation of the closures. Of a long motion many rows are read side
 /// by side.
-pub(in super::super) struct Meter<'q> {
+pub(crate) struct Meter<'q> {
     of: &'q Metered<'q>,
     /// For each held coordinate the number of its input and how far that goes, if it is one.
     ways: Vec<Option<(usize, f64)>>,
@@ -87,7 +87,7 @@ pub(in super::super) struct Meter<'q> {
 }
 
 /// Receiver of rows with the quantities at them.
-pub(in super::super) type Take<'t> = dyn FnMut(&Block) + 't;
+pub(crate) type Take<'t> = dyn FnMut(&Block) + 't;
 
 /// The lines about which links spin: none, or those of each configuration.
 enum Spinning<'q> {

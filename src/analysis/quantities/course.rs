@@ -12,7 +12,7 @@ use crate::number::{Number, Taylor};
 
 /// The curve that a motion follows, whatever rows are asked for: pieces so short that all names in the quantities are
 /// polynomials there. What a quantity does between two places follows from these and its expression.
-pub(in super::super) struct Course<'m> {
+pub(crate) struct Course<'m> {
     passage: Passage<'m>,
     stretches: Vec<Stretch>,
     /// End of the last of them, with the part of the time, and true if the inputs turn back there.
@@ -24,7 +24,7 @@ pub(in super::super) struct Course<'m> {
 }
 
 /// A part of a stretch.
-pub(in super::super) struct Piece {
+pub(crate) struct Piece {
     stretch: usize,
     /// The parts of the stretch where it begins and ends.
     span: [f64; 2],
@@ -39,7 +39,7 @@ pub(in super::super) struct Piece {
 
 /// A part of a piece, from s = middle − radius to middle + radius.
 #[derive(Clone, Copy)]
-pub(in super::super) struct Part {
+pub(crate) struct Part {
     pub piece: usize,
     pub middle: f64,
     pub radius: f64,
@@ -322,7 +322,7 @@ impl<'m> Course<'m> {
 }
 
 /// A quantity over the numbers of names.
-pub(in super::super) struct Sought<'e> {
+pub(crate) struct Sought<'e> {
     pub program: &'e Expression<usize>,
     /// True for an angle without jumps.
     pub turns: bool,

@@ -1,6 +1,8 @@
 //! Motions that can begin, and their reports.
 
-use super::quantities::{Block, Course, Meter, Metered, Name, Sought, located};
+use super::course::{Course, Sought};
+use super::extremes::located;
+use super::meter::{Block, Meter, Metered, Name};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
     Columns, Dwell, Extremum, KeptRows, MetKind, MotionReport, MotionsReport, Passage, Paths, Row,
@@ -23,16 +25,16 @@ struct Located {
 /// Motions that can begin: of one mode or of several.
 #[derive(Clone, Debug)]
 pub struct Motions<'q> {
-    pub(super) mechanism: &'q Mechanism,
-    pub(super) held: Held<f64>,
-    pub(super) settings: SweepSettings,
-    pub(super) metered: Metered<'q>,
+    pub(crate) mechanism: &'q Mechanism,
+    pub(crate) held: Held<f64>,
+    pub(crate) settings: SweepSettings,
+    pub(crate) metered: Metered<'q>,
     /// Quantities that may dwell, by their numbers, with tolerances.
-    pub(super) dwells: Vec<(usize, f64)>,
+    pub(crate) dwells: Vec<(usize, f64)>,
     /// Start of each motion, with the number of its mode if one was asked for.
-    pub starts: super::Modes,
+    pub starts: Vec<(Option<usize>, Configuration<f64>)>,
     /// The joint or platform that moved most from its guess to the start of the motion.
-    pub(super) moved: Option<Moved>,
+    pub(crate) moved: Option<Moved>,
 }
 
 impl Motions<'_> {

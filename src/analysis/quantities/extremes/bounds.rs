@@ -1,7 +1,7 @@
 //! Between which values a quantity stays over a whole curve.
 
 use super::SENSES;
-use crate::ask::quantities::course::{Course, Sought};
+use crate::analysis::quantities::course::{Course, Sought};
 use crate::number::sorting::sort_by;
 
 /// Values nearer than this to the least or the greatest, relative to usual ones, are not distinguished from them.
