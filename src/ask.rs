@@ -38,12 +38,12 @@ mod workspace;
 
 use std::sync::Arc;
 
+pub use crate::analysis::quantities::Motions;
 pub use crate::system::Value;
 pub use error::{AskError, Item, Role, Unmeasured};
 pub use live::{Gained, Reading};
 pub use many::Many;
 pub use modes::{Mode, Modes, Solved, Store};
-pub use crate::analysis::quantities::Motions;
 pub use remedy::Holdable;
 pub use schedule::{TableError, TableErrorKind};
 pub use solver::Example;

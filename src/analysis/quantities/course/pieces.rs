@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_8, TAU};
 
 use super::{Course, Piece, TERMS, polynomial, within};
-use crate::analysis::sweep::Row;
 use crate::analysis::quantities::meter::{Block, Meter, Name};
+use crate::analysis::sweep::Row;
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::number::sorting::sort_by;

@@ -154,10 +154,7 @@ pub(super) fn is_clear([value, noise]: [f64; 2]) -> bool {
 
 /// The value of a quantity, if it has one, and how far it may be off, over values of names that may be. A value that
 /// only rounding keeps finite, as that of 1/x where x is nothing but rounding, is none: away from it, it shrinks.
-pub(crate) fn evaluated(
-    program: &Expression<usize>,
-    known: &[[f64; 2]],
-) -> (Option<f64>, f64) {
+pub(crate) fn evaluated(program: &Expression<usize>, known: &[[f64; 2]]) -> (Option<f64>, f64) {
     match estimated(program, known) {
         Some([value, noise]) if is_name(program) => {
             return (value.is_finite().then_some(value), noise);
