@@ -67,6 +67,11 @@ fn the_page_never_gets_stuck() {
 }
 
 #[test]
+fn pictures_in_the_page_read() {
+    browse("pictures.mjs");
+}
+
+#[test]
 fn mechanisms_are_drawn_in_the_page() {
     browse("drawing.mjs");
 }

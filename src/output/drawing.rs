@@ -233,8 +233,19 @@ impl<'s> Stage<'s> {
             pieces.extend(body(self, i, of));
         }
         for rod in &self.scene.rods {
-            let colour = if rod.driven { DRIVEN } else { INK };
-            pieces.extend(self.line(&rod.ends, Layer::Body, Style::line(colour, 3.0)));
+            pieces.extend(self.line(&rod.ends, Layer::Body, Style::line(INK, 3.0)));
+            if rod.driven {
+                // a cylinder about its piston rod
+                let [from, to] = rod.ends.map(Vector3);
+                let barrel = [0.12, 0.58].map(|part| (from + (to - from).times(part)).0);
+                let style = Style::line(DRIVEN, 8.0);
+                pieces.extend(
+                    (self.line(&barrel, Layer::Slide, style).into_iter()).map(|piece| Piece {
+                        near: piece.near + 0.5 * self.metres(),
+                        ..piece
+                    }),
+                );
+            }
             for (end, body) in rod.ends.iter().zip(rod.bodies) {
                 let on_ground = self.scene.bodies[body].ground;
                 pieces.extend(symbols::rod_end(self, &Vector3(*end), on_ground));
@@ -344,11 +355,13 @@ fn body(stage: &Stage, index: usize, body: &BodyShape) -> Vec<Piece> {
     };
     let corners: Vec<Vector3<f64>> = body.corners.iter().map(|corner| Vector3(*corner)).collect();
     let outline = stage.camera.hull(&corners);
-    let plate = !body.ground && outline.len() > 2;
+    // in space the base is a body too; a plane shows ground where it is
+    let plate = !(body.ground && stage.flat) && outline.len() > 2;
     if plate {
+        let (fill, edge) = if body.ground { (0.12, 1.0) } else { (0.3, 2.0) };
         let style = Style {
-            fill: Some((colour, 0.3)),
-            ..Style::line(colour, 2.0)
+            fill: Some((colour, fill)),
+            ..Style::line(colour, edge)
         };
         pieces.push(Piece {
             layer: Layer::Body,
@@ -356,7 +369,18 @@ fn body(stage: &Stage, index: usize, body: &BodyShape) -> Vec<Piece> {
             shape: stage.polygon(&outline, style),
         });
     }
-    let style = Style::line(colour, if body.ground { 2.0 } else { 4.0 });
+    // a leg that telescopes: its cylinder, and its piston rod
+    let [barrel, piston] = [0, 1].map(|end| {
+        let mut joints = stage.scene.joints.iter();
+        joints.any(|joint| joint.bodies[end] == index && symbols::telescopes(stage, joint))
+    });
+    let width = match (body.ground, barrel, piston) {
+        (true, ..) => 2.0,
+        (_, true, _) => 8.0,
+        (_, _, true) => 3.0,
+        _ => 4.0,
+    };
+    let style = Style::line(colour, width);
     let lines = body.lines.iter();
     pieces.extend(lines.flat_map(|points| stage.line(points, Layer::Body, style)));
     // a platform has no lines of a table: its corners are all that is known of it

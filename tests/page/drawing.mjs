@@ -344,6 +344,29 @@ const tests = {
     await page.close();
   },
 
+  async "a file that was written by hand is drawn on, and one of tables says that it is not"() {
+    const page = await opened("mechanisms/axes/four_bar.ron");
+    await page.setViewport({ width: 1200, height: 800 });
+    await page.click("#edit");
+    await drawn(page);
+    check(/^1 freedom,/.test(await status(page)), `it says: ${await status(page)}`);
+    const before = await text(page);
+    await tool(page, "Point");
+    const { phi2, phi3 } = await places(page);
+    await dragged(page, phi2.map((x, i) => (x + phi3[i]) / 2), [1500, 3200]);
+    const after = await text(page);
+    const comments = (of) => of.match(/\/\/.*/g).join("\n");
+    check(comments(after) === comments(before) && after.includes('(body: "coupler"'), after);
+    check(after.includes('"l0": 5, "l1": 1, "l2": 3, "l3": 4,'), "parameters are lost");
+    const point = Object.entries(await places(page)).at(-1)[1];
+    check(apart(point, [1500, 3200]) < 60, `the point is at ${point}`);
+    await page.close();
+    const tables = await opened("mechanisms/four_bar.ron");
+    await tables.click("#edit");
+    check(/edited as text/.test(await tables.$eval("#said", (e) => e.textContent)) && (await tables.$eval("#edit", (e) => e.getAttribute("aria-pressed"))) === "false", "tables are drawn on");
+    await tables.close();
+  },
+
   async "platforms and loops are made by their kinds"() {
     const page = await begun();
     for (const [legs, kind, held] of [["3", "RPS", 3], ["6", "UPS", 6], ["6", "PSS", 6], ["3", "RRR", 3]]) {

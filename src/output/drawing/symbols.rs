@@ -19,10 +19,11 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
     let flat = |k: usize| stage.camera.facing(&axis(k)).abs() > 1.0 - 1e-9;
     // what it stands on or slides along
     let mut pieces = match joint.kind {
+        _ if telescopes(stage, joint) => Vec::new(),
         Symbol::Cylindrical | Symbol::Prismatic => guide(stage, &at, &axis(0), on_ground),
         _ if !on_ground => Vec::new(),
         Symbol::Revolute | Symbol::Helical if flat(0) => support(stage, &at),
-        Symbol::Revolute | Symbol::Helical | Symbol::Universal => plate(stage, &at, &axis(0)),
+        Symbol::Revolute | Symbol::Helical | Symbol::Universal => bearing(stage, joint, &axis(0)),
         Symbol::Spherical => plate(stage, &at, &Vector3::unit(2)),
         Symbol::Planar | Symbol::Rigid => Vec::new(),
     };
@@ -30,6 +31,9 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
         Symbol::Revolute | Symbol::Helical if flat(0) => ball(stage, &at, 0.75, fill),
         Symbol::Revolute | Symbol::Helical => cylinder(stage, &at, &axis(0), 0.75, 1.1, fill),
         Symbol::Cylindrical => cylinder(stage, &at, &axis(0), 0.75, 1.4, fill),
+        Symbol::Prismatic if telescopes(stage, joint) => {
+            cylinder(stage, &at, &axis(0), 0.85, 0.5, fill)
+        }
         Symbol::Prismatic => block(stage, &at, &axis(0), [1.4, 0.8, 0.8], fill),
         Symbol::Universal => {
             let halves = [0, 1].map(|k| cylinder(stage, &at, &axis(k), 0.35, 1.2, fill));
@@ -40,6 +44,56 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
         Symbol::Rigid => Vec::new(),
     });
     pieces
+}
+
+/// A slide in space between two bodies that both move, as in a leg.
+pub(super) fn telescopes(stage: &Stage, joint: &JointShape) -> bool {
+    let mut bodies = joint.bodies.iter();
+    let moves = bodies.all(|&body| !stage.scene.bodies[body].ground);
+    joint.kind == Symbol::Prismatic && !stage.flat && moves
+}
+
+/// A bearing block: under a level axis, with a cheek at either end, on the side away from the link; a plate under an
+/// upright one.
+fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
+    let (at, metres) = (Vector3(joint.at), stage.metres());
+    let across = |way: Point| way - axis.times(way.dot(axis));
+    let unit = |way: Point| way.times(1.0 / way.norm().max(f64::MIN_POSITIVE));
+    let down = across(Vector3([0.0, 0.0, -1.0]));
+    let bodies = joint.bodies.iter().map(|&body| &stage.scene.bodies[body]);
+    let moved = bodies.filter(|body| !body.ground);
+    let points = moved.flat_map(|body| body.lines.iter().flatten().chain(&body.corners));
+    let away = points.fold(Vector3::zero(), |sum, point| sum + at - Vector3(*point));
+    let side = down + unit(across(away)).times(0.8);
+    if down.norm() < 0.4 || side.norm() < 0.2 {
+        return plate(stage, &at, axis);
+    }
+    let side = unit(side);
+    let third = axis.cross(&side);
+    let place = |along: f64, over: f64, below: f64| {
+        at + axis.times(along * metres) + third.times(over * metres) + side.times(below * metres)
+    };
+    let face = |corners: [Point; 4]| Piece {
+        layer: Layer::Ground,
+        near: stage.near(&corners),
+        shape: stage.polygon(&corners, Style::filled(Colour(0xcccccc)).edged(GROUND, 1.0)),
+    };
+    let square = |x: f64, y: f64| place(1.75 * x, 1.2 * y, 1.35);
+    let mut faces = vec![face([
+        square(-1.0, -1.0),
+        square(1.0, -1.0),
+        square(1.0, 1.0),
+        square(-1.0, 1.0),
+    ])];
+    for end in [-1.4, 1.4] {
+        faces.push(face([
+            place(end, -0.7, 1.35),
+            place(end, 0.7, 1.35),
+            place(end, 0.7, -0.3),
+            place(end, -0.7, -0.3),
+        ]));
+    }
+    faces
 }
 
 /// The ball at the end of a rod, with its base.

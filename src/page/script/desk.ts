@@ -79,11 +79,16 @@ export class Desk {
   }
 
   open(on: boolean) {
+    this.on = on;
     if (on && this.model.mechanism) {
       this.model.home();
-      if (!this.sketch) this.model.say("Only what is drawn by joint axes in the plane of x and y can be edited with the mouse; the file can always be.");
+      if (!this.sketch) {
+        this.on = false;
+        find<HTMLDetailsElement>("file-part").open = true;
+        this.show();
+        return this.model.say("Only a file of joint axes with pins, slides and rods in the plane of x and y can be drawn on. This one is edited as text.");
+      }
     }
-    this.on = on;
     this.acts.hide(on);
     this.stage.orbit.mouseButtons.LEFT = MOUSE.PAN;
     find<HTMLDetailsElement>("file-part").open ||= on;

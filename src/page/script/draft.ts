@@ -38,6 +38,8 @@ export class Draft {
   readonly root: Node;
   readonly changes: Changes;
   private readonly names = new Set<string>();
+  /** Entries of sections that the file does not have yet. */
+  private readonly missing = new Map<string, string[]>();
 
   constructor(private readonly model: Model, text: string, readonly sketch: Sketch) {
     this.root = read(text)!;
@@ -52,6 +54,8 @@ export class Draft {
   }
 
   get text(): string {
+    for (const [name, entries] of this.missing) this.changes.append(this.root, `${name}: {\n        ${entries.join(",\n        ")},\n    }`);
+    this.missing.clear();
     return this.changes.done();
   }
 
@@ -73,17 +77,17 @@ export class Draft {
     return name;
   }
 
-  private section(name: string): Node {
-    const found = field(this.root, name);
-    if (found) return found;
-    throw new Error(`the file has no ${name}`);
+  private insert(section: string, entry: string) {
+    const found = field(this.root, section);
+    if (found) this.changes.append(found, entry);
+    else this.missing.set(section, [...(this.missing.get(section) ?? []), entry]);
   }
 
   /** A new parameter; zero is written where it stands. */
   private parameter(name: string, value: string): string {
     if (value === "0") return value;
     while (this.names.has(name)) name += "_";
-    this.changes.append(this.section("parameters"), `${quoted(this.taken(name))}: ${value}`);
+    this.insert("parameters", `${quoted(this.taken(name))}: ${value}`);
     return quoted(name);
   }
 
@@ -108,7 +112,7 @@ export class Draft {
   }
 
   private joint(entry: string) {
-    this.changes.append(this.section("joints"), entry);
+    this.insert("joints", entry);
   }
 
   /** A joint that turns between what an end is on and a new body with a place on that; nothing if the end is free. */
@@ -128,7 +132,7 @@ export class Draft {
   private drives = false;
 
   private tip(body: string, place: string, name = this.letter()) {
-    this.changes.append(this.section("points"), `${quoted(name)}: (body: ${quoted(body)}, at: ${place})`);
+    this.insert("points", `${quoted(name)}: (body: ${quoted(body)}, at: ${place})`);
   }
 
   /** A link between two ends, one of which at least is on a body or on ground. */
@@ -189,7 +193,7 @@ export class Draft {
   /** The second joint is geared to the first: their wheels touch from outside. */
   gear(first: Joint, second: Joint) {
     const ratio = this.name("ratio");
-    this.changes.append(this.section("parameters"), `${quoted(ratio)}: 1`);
+    this.insert("parameters", `${quoted(ratio)}: 1`);
     const call = second.entry.value;
     this.drop(call, "role");
     this.drop(call, "home");

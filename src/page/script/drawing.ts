@@ -1,6 +1,6 @@
 // A scene as solids: links as bars and plates, joints by the symbols of the field.
 import { Vector3 } from "three";
-import { across, Shapes } from "./shapes";
+import { across, type Pick, Shapes } from "./shapes";
 import { bodyColour, theme } from "./theme";
 import type { BodyShape, JointShape, Scene, Triple } from "./types";
 
@@ -74,12 +74,15 @@ export class Drawing {
   draw(scene: Scene) {
     const { shapes } = this;
     shapes.begin();
-    scene.bodies.forEach((body, i) => this.body(body, i));
+    scene.bodies.forEach((body, i) => this.body(scene, body, i));
     scene.rods.forEach((rod, i) => {
-      const driven = rod.driven ? theme().driven : theme().ink;
       const [from, to] = [v(rod.ends[0]), v(rod.ends[1])];
-      shapes.rod(from, to, 0.25 * this.size, driven, { rod: i });
-      for (const end of [from, to]) shapes.ball(this.above(end, 2), 0.6 * this.size, theme().ink, { rod: i });
+      if (rod.driven) this.cylinder(from, to, theme().driven, { rod: i });
+      else shapes.rod(from, to, 0.25 * this.size, theme().ink, { rod: i });
+      [from, to].forEach((end, k) => {
+        if (scene.bodies[rod.bodies[k]!]?.ground) this.pinned(end, k ? from : to);
+        shapes.ball(this.above(end, 2), 0.6 * this.size, theme().ink, { rod: i });
+      });
     });
     scene.joints.forEach((joint, i) => this.joint(scene, joint, i));
     for (const wheel of scene.wheels ?? []) this.ring(v(wheel.at), v(wheel.axis), wheel.radius, bodyColour(wheel.body), { body: wheel.body });
@@ -91,16 +94,19 @@ export class Drawing {
     return this.plane ? point.clone().addScaledVector(this.plane.towards, 3 * layer * this.size) : point;
   }
 
-  private body(body: BodyShape, index: number) {
+  private body(scene: Scene, body: BodyShape, index: number) {
     const { shapes, size } = this;
     const pick = { body: index };
     const colour = body.ground ? theme().ground : bodyColour(index);
-    const corners = body.ground ? [] : outline(body.corners.map(v));
+    // in space the base is a body too; a plane shows ground where it is
+    const corners = body.ground && this.plane ? [] : outline(body.corners.map(v));
     if (corners.length > 2) {
-      shapes.plate(corners, colour, 0.4, pick);
-      corners.forEach((corner, i) => shapes.rod(corner, corners[(i + 1) % corners.length]!, 0.18 * size, colour, pick));
+      shapes.plate(corners, colour, body.ground ? 0.16 : 0.4, pick);
+      corners.forEach((corner, i) => shapes.rod(corner, corners[(i + 1) % corners.length]!, (body.ground ? 0.1 : 0.18) * size, colour, pick));
     }
-    const radius = (body.ground ? 0.18 : 0.36) * size;
+    const [barrel, piston] = [0, 1].map((end) => !this.plane && scene.joints.some((joint) =>
+      joint.kind === "prismatic" && joint.bodies[end] === index && joint.bodies.every((of) => !scene.bodies[of]?.ground)));
+    const radius = (body.ground ? 0.18 : barrel ? 0.6 : piston ? 0.26 : 0.36) * size;
     for (const line of body.lines) {
       for (let i = 0; i + 1 < line.length; i++) shapes.rod(v(line[i]!), v(line[i + 1]!), radius, colour, pick);
     }
@@ -121,6 +127,7 @@ export class Drawing {
     const free = plane ? theme().joint : theme().solid;
     const colour = held ? theme().driven : free;
     const at = this.above(v(joint.at), 2);
+    const moving = fixed ? this.awayFrom(scene, joint) : null;
     const axis = (k: number) => v(joint.axes[k] ?? [0, 0, 1]).normalize();
     const facing = plane && Math.abs(plane.towards.dot(axis(0))) > 1 - 1e-9;
     const rim = (radius: number) => plane && shapes.ball(this.above(v(joint.at), 1), radius, theme().ink, pick);
@@ -132,7 +139,7 @@ export class Drawing {
           rim(0.95 * size);
           shapes.ball(at, 0.72 * size, colour, pick);
         } else {
-          if (fixed) this.foot(at, axis(0));
+          if (fixed) this.bearing(at, axis(0), moving);
           shapes.cylinder(at, axis(0), 0.75 * size, 1.1 * size, colour, pick);
         }
         break;
@@ -141,16 +148,20 @@ export class Drawing {
         shapes.cylinder(at, axis(0), 0.75 * size, 1.4 * size, colour, pick);
         break;
       case "prismatic":
+        if (!plane && !fixed) {
+          shapes.cylinder(at, axis(0), 0.85 * size, 0.5 * size, colour, pick);
+          break;
+        }
         this.guide(v(joint.at), axis(0), fixed);
         if (plane) shapes.box(this.above(v(joint.at), 1), axis(0), [0.95 * size, 0.95 * size, 1.55 * size], theme().ink, pick, plane.towards);
         shapes.box(at, axis(0), [0.75 * size, 0.75 * size, 1.35 * size], colour, pick, plane?.towards);
         break;
       case "universal":
-        if (fixed) this.foot(at, axis(0));
+        if (fixed) this.bearing(at, axis(0), moving);
         for (const k of [0, 1]) shapes.cylinder(at, axis(k), 0.35 * size, 1.2 * size, colour, pick);
         break;
       case "spherical":
-        if (fixed) this.foot(at, new Vector3(0, 0, 1));
+        if (fixed) this.pinned(v(joint.at), moving);
         rim(0.95 * size);
         shapes.ball(at, (plane ? 0.72 : 0.9) * size, colour, pick);
         break;
@@ -203,11 +214,59 @@ export class Drawing {
     }
   }
 
-  /** A square of ground under a spatial joint. */
-  private foot(at: Vector3, axis: Vector3) {
-    const down = axis.clone().multiplyScalar(axis.z < -0.5 ? 1 : -1);
-    const place = at.clone().addScaledVector(down, 1.3 * this.size);
-    this.shapes.box(place, axis, [1.7 * this.size, 1.7 * this.size, 0.12 * this.size], theme().plate);
+  /** A cylinder and its piston rod between two places. */
+  private cylinder(from: Vector3, to: Vector3, colour: string, pick: Pick) {
+    const { shapes, size } = this;
+    const end = from.clone().lerp(to, 0.58);
+    const way = to.clone().sub(from);
+    const length = way.length();
+    if (!(length > 1e-9 * size)) return;
+    shapes.rod(from, to, 0.24 * size, theme().ink, pick);
+    const wall = Math.min(0.62 * size, 0.2 * length);
+    const begin = from.clone().lerp(to, Math.min(0.12, (1.2 * size) / length));
+    shapes.cylinder(begin.clone().lerp(end, 0.5), way.divideScalar(length), wall, begin.distanceTo(end) / 2, colour, pick);
+  }
+
+  /** A ball or a rod's end on ground, seen from where it leads to. */
+  private pinned(at: Vector3, towards: Vector3 | null) {
+    if (this.plane) return this.support(at);
+    const up = towards?.clone().sub(at).z ?? 1;
+    this.foot(at, new Vector3(0, 0, up < 0 ? -1 : 1));
+  }
+
+  /** The middle of what a joint on ground moves; none if it moves nothing that is drawn. */
+  private awayFrom(scene: Scene, joint: JointShape): Vector3 | null {
+    const moved = scene.bodies[joint.bodies.find((body) => !scene.bodies[body]?.ground) ?? -1];
+    const all = [...(moved?.lines.flat() ?? []), ...(moved?.corners ?? [])].map(v).filter((p) => p.distanceTo(v(joint.at)) > 0.5 * this.size);
+    return all.length ? all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(all.length) : null;
+  }
+
+  /** A bearing block: under a level axis, with a cheek at either end, on the side away from the link; round an upright one. */
+  private bearing(at: Vector3, axis: Vector3, link: Vector3 | null) {
+    const { shapes, size } = this;
+    const across = (way: Vector3) => way.clone().addScaledVector(axis, -way.dot(axis));
+    const down = across(new Vector3(0, 0, -1));
+    const away = link ? across(at.clone().sub(link)).normalize() : new Vector3();
+    const side = down.clone().addScaledVector(away, 0.8);
+    if (down.length() < 0.4 || side.length() < 0.2) {
+      const behind = link ? -Math.sign(link.clone().sub(at).dot(axis)) || -1 : -1;
+      const upright = axis.clone().multiplyScalar(-behind);
+      return this.foot(at, upright);
+    }
+    side.normalize();
+    const place = at.clone().addScaledVector(side, 1.35 * size);
+    shapes.box(place, side, [1.2 * size, 1.75 * size, 0.13 * size], theme().plate, undefined, axis);
+    for (const end of [-1, 1]) {
+      const cheek = at.clone().addScaledVector(axis, 1.35 * end * size).addScaledVector(side, 0.55 * size);
+      shapes.box(cheek, side, [0.7 * size, 0.16 * size, 0.8 * size], theme().plate, undefined, axis);
+    }
+  }
+
+  /** A square of ground under a spatial joint, which stands on it along a direction. */
+  private foot(at: Vector3, up: Vector3) {
+    const place = at.clone().addScaledVector(up, -1.3 * this.size);
+    this.shapes.box(place, up, [1.5 * this.size, 1.5 * this.size, 0.12 * this.size], theme().plate);
+    this.shapes.cylinder(at.clone().addScaledVector(up, -0.7 * this.size), up, 0.4 * this.size, 0.6 * this.size, theme().plate);
   }
 }
 

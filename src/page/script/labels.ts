@@ -32,6 +32,7 @@ export class Labels {
     const taken: DOMRect[] = [];
     const picture = new DOMRect(0, 0, stage.canvas.clientWidth, stage.canvas.clientHeight);
     // beside the symbols of joints, not over them
+    const things = this.shown && scene ? seen(stage, scene) : { pins: [], lines: [] };
     const off = Math.max(8, 1.3 * size * stage.pixelsPerMetre());
     wanted.forEach(({ words, at }, i) => {
       const span = this.spans[i]!;
@@ -43,13 +44,38 @@ export class Labels {
         [-width / 2, off + 4], [off + 4, -2 * height - 6], [-width - off - 4, height + 8], [off + 4, height + 8],
       ];
       const boxes = sides.map(([dx, dy]) => new DOMRect(x + dx, y + dy, width, height));
-      const free = boxes.find((box) => within(box, picture) && taken.every((other) => apart(box, other)));
+      const fits = boxes.filter((box) => within(box, picture) && taken.every((other) => apart(box, other)));
+      const clear = fits.map((box) => ({ box, hidden: covered(box, things) }));
+      const free = clear.reduce<{ box: DOMRect; hidden: number } | null>((best, of) => (best && best.hidden <= of.hidden ? best : of), null)?.box;
       span.hidden = !free;
       if (!free) return;
       taken.push(free);
       span.style.transform = `translate(${free.x}px, ${free.y}px)`;
     });
   }
+}
+
+/** Pins and lines of a scene in pixels. */
+interface Things {
+  pins: [number, number][];
+  lines: [[number, number], [number, number]][];
+}
+
+function seen(stage: Stage, scene: Scene): Things {
+  const pixel = (t: Triple) => stage.pixel(v(t));
+  const lines = [...scene.bodies.filter((body) => !body.ground).flatMap((body) => body.lines), ...scene.rods.map((rod) => rod.ends)];
+  return {
+    pins: scene.joints.map((joint) => pixel(joint.at)),
+    lines: lines.flatMap((line) => line.slice(1).map((to, i): [[number, number], [number, number]] => [pixel(line[i]!), pixel(to)])),
+  };
+}
+
+/** How many pins and lines a box would hide; a pin counts more. */
+function covered(box: DOMRect, { pins, lines }: Things): number {
+  const near = new DOMRect(box.x - 5, box.y - 5, box.width + 10, box.height + 10);
+  const inside = ([x, y]: [number, number], of: DOMRect) => x > of.left && x < of.right && y > of.top && y < of.bottom;
+  const crossed = lines.filter(([a, b]) => Array.from({ length: 17 }, (_, i) => i / 16).some((t) => inside([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])], box)));
+  return 3 * pins.filter((pin) => inside(pin, near)).length + crossed.length;
 }
 
 const within = (a: DOMRect, b: DOMRect) => a.left >= b.left && a.right <= b.right && a.top >= b.top && a.bottom <= b.bottom;

@@ -3,7 +3,7 @@ import { Vector3 } from "three";
 import { Background } from "./background";
 import { Desk } from "./desk";
 import { dragging } from "./drag";
-import { Drawing, guides, jointSize, planeOf, points } from "./drawing";
+import { Drawing, guides, jointSize, type Plane, planeOf, points } from "./drawing";
 import { Editor } from "./editor";
 import { button, find } from "./elements";
 import { exporting } from "./exporting";
@@ -25,6 +25,7 @@ import { newFile } from "./newfile";
 import { Quantities } from "./quantities";
 import { Solver } from "./solver";
 import { Stage, type View } from "./stage";
+import { Surroundings } from "./surroundings";
 import { onThemeChange } from "./theme";
 import type { Scene, Triple } from "./types";
 import { Values } from "./values";
@@ -45,17 +46,26 @@ class Picture {
   readonly stage = new Stage(find<HTMLCanvasElement>("canvas"));
   readonly drawing = new Drawing();
   readonly scenery = new Scenery();
+  readonly surroundings = new Surroundings();
   readonly labels = new Labels();
+  /** The plane of a planar mechanism. */
+  private plane: Plane | null = null;
   /** What is shown in place of where the mechanism is. */
   private other: Scene | null = null;
   private shown = "";
   private rest = 0;
+  /** Places of a motion. */
+  motion: Scene[] = [];
   /** Whether a drawing board is over it. */
   private drawn = false;
 
   constructor(private readonly model: Model) {
-    this.stage.world.add(this.drawing.shapes.group, this.scenery.shapes.group);
-    this.stage.orbit.addEventListener("change", () => this.label());
+    this.stage.world.add(this.drawing.shapes.group, this.scenery.shapes.group, this.surroundings.group);
+    this.stage.orbit.addEventListener("change", () => {
+      // symbols of the plane stand before their links only where that is seen from the front
+      if ((this.drawing.plane !== null) !== this.inPlane) this.draw();
+      else this.label();
+    });
     model.onLoaded(() => this.begin());
     model.onMoved(() => {
       this.other = null;
@@ -64,6 +74,12 @@ class Picture {
       this.rest = setTimeout(() => this.follow(), REST);
     });
     onThemeChange(() => this.draw());
+    const perspective = button("Perspective", () => {
+      const on = !this.stage.camera.perspective;
+      perspective.setAttribute("aria-pressed", String(on));
+      this.stage.view(on);
+      this.label();
+    }, { "aria-pressed": "false" });
     const names = button("Names", () => {
       this.labels.shown = !this.labels.shown;
       names.setAttribute("aria-pressed", String(this.labels.shown));
@@ -71,6 +87,8 @@ class Picture {
     }, { "aria-pressed": "false" });
     find("views").append(
       ...VIEWS.map(([words, view]) => button(words, () => this.look(view), { "data-view": view })),
+      button("Fit", () => this.fit(), { title: "All of the mechanism and its motion" }),
+      perspective,
       button("+", () => this.stage.zoom(1.25), { "aria-label": "nearer" }),
       button("−", () => this.stage.zoom(0.8), { "aria-label": "farther" }),
       names,
@@ -91,8 +109,11 @@ class Picture {
   draw() {
     const { scene } = this;
     if (!scene) return;
+    this.drawing.plane = this.inPlane ? this.plane : null;
+    this.drawing.shapes.flat = this.drawing.plane !== null;
     this.drawing.held = new Set(this.model.frame?.held ?? []);
     this.drawing.draw(scene);
+    this.surroundings.draw(scene, this.scenery.arrows.extent, this.drawing.size, this.inPlane || this.drawn);
     const forces = this.other ? null : this.model.frame?.forces;
     const words = forces && "arrows" in forces ? forces.arrows : [];
     this.scenery.draw(scene, words, this.drawing.size, this.drawing.plane !== null, (point) => this.drawing.above(point, 3));
@@ -101,7 +122,7 @@ class Picture {
   }
 
   private label() {
-    this.labels.place(this.stage, this.scene, this.scenery.notes, this.drawing.size);
+    this.labels.place(this.stage, this.scene, [...this.scenery.notes, ...this.surroundings.notes], this.drawing.size);
   }
 
   private get scene(): Scene | null {
@@ -114,16 +135,17 @@ class Picture {
     if (!frame || !mechanism) return;
     const { scene } = frame;
     this.other = null;
-    this.drawing.plane = planeOf(scene);
-    this.drawing.shapes.flat = this.drawing.plane !== null;
+    this.motion = [];
+    this.plane = planeOf(scene);
+    if (mechanism.name !== this.shown) this.surroundings.forget();
     const all = points(scene);
     const middle = all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(all.length, 1));
     const extent = 2 * Math.max(...all.map((p) => p.distanceTo(middle)), 1e-9);
     this.drawing.size = jointSize(scene, extent);
     this.scenery.arrows.extent = extent;
-    find("views").querySelector<HTMLElement>("[data-view=plane]")!.hidden = this.drawing.plane === null;
+    find("views").querySelector<HTMLElement>("[data-view=plane]")!.hidden = this.plane === null;
     if (this.drawn) return;
-    if (mechanism.name !== this.shown) this.look(this.drawing.plane ? "plane" : "iso");
+    if (mechanism.name !== this.shown) this.look(this.plane ? "plane" : "iso");
     this.shown = mechanism.name;
   }
 
@@ -133,6 +155,14 @@ class Picture {
     const towards = new Vector3(0, 0, 1);
     this.stage.look("plane", all, { right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0), towards });
     this.stage.zoom(0.75);
+  }
+
+  /** Shows all of the mechanism, of its motion and of what stands beside it. */
+  fit() {
+    if (!this.scene) return;
+    const beside = [...this.scenery.ghosts, ...this.motion].flatMap(points);
+    this.stage.fit([...points(this.scene), ...guides(this.scene, this.drawing.size), ...beside, ...traced(this)]);
+    this.draw();
   }
 
   /** Hides the solids behind a drawing board. */
@@ -147,14 +177,14 @@ class Picture {
 
   /** Whether a planar mechanism is seen along its normal. */
   get inPlane(): boolean {
-    const { plane } = this.drawing;
+    const { plane } = this;
     const sight = this.stage.camera.getWorldDirection(new Vector3());
     return plane !== null && Math.abs(sight.dot(plane.towards)) > 0.9999;
   }
 
   /** Downwards, in the plane of what is planar. */
   get down(): Vector3 {
-    return this.drawing.plane ? this.drawing.plane.up.clone().negate() : new Vector3(0, 0, -1);
+    return this.plane ? this.plane.up.clone().negate() : new Vector3(0, 0, -1);
   }
 
   /** Where a body is on the canvas. */
@@ -170,7 +200,7 @@ class Picture {
   }
 
   look(view: View) {
-    if (this.scene) this.stage.look(view, [...points(this.scene), ...guides(this.scene, this.drawing.size)], this.drawing.plane);
+    if (this.scene) this.stage.look(view, [...points(this.scene), ...guides(this.scene, this.drawing.size)], this.plane);
     this.draw();
   }
 }
@@ -203,7 +233,7 @@ async function begin() {
     picture.scenery.ghosts = scenes;
     picture.draw();
   });
-  new ModeList(model, (scenes) => {
+  const modes = new ModeList(model, (scenes) => {
     picture.scenery.ghosts = scenes;
     if (scenes.length) picture.stage.include(scenes.flatMap(points));
     picture.draw();
@@ -215,7 +245,10 @@ async function begin() {
       picture.draw();
     },
     (scene) => picture.instead(scene),
-    (scenes) => picture.stage.include([...scenes.flatMap(points), ...traced(picture)]),
+    (scenes) => {
+      picture.motion = scenes;
+      picture.stage.include([...scenes.flatMap(points), ...traced(picture)]);
+    },
   );
   const load = new Load(model, picture.scenery.arrows, () => picture.down);
   new GainedFreedoms(model, (screws, swung) => {
@@ -270,7 +303,7 @@ async function begin() {
   if (given.watch) watching(model);
   requestAnimationFrame(() => performance.mark("picture"));
   // for whoever tests or scripts the page
-  Object.assign(globalThis, { linkwork: model, picture, holding, desk });
+  Object.assign(globalThis, { linkwork: model, picture, holding, desk, modes });
   document.documentElement.dataset.ready = "true";
 }
 

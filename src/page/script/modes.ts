@@ -1,10 +1,12 @@
-// All assemblies for what is held: their numbers and certificates, ghosts in the picture, a click goes there.
+// All assemblies for what is held, those of one pose together: pictures and certificates, a ghost under the pointer, a click goes there.
 import { button, element, find } from "./elements";
 import type { Model } from "./model";
+import { poses } from "./poses";
+import { thumbnail } from "./thumbnail";
 import { type Modes, Refused, type Scene } from "./types";
 
 export class ModeList {
-  private found: Modes | null = null;
+  found: Modes | null = null;
   /** Where the inputs were when they were listed. */
   private inputs = "";
 
@@ -16,7 +18,8 @@ export class ModeList {
     find("modes").append(
       element("p", {}, list, " ", stop, " ", element("label", {}, ghost, " show as ghosts")),
       element("p", { id: "modes-said", role: "status" }),
-      element("ol", { id: "mode-list" }),
+      element("p", { id: "pose-count" }),
+      element("ul", { id: "mode-list" }),
     );
     model.onLoaded(() => this.clear());
     model.onMoved(() => this.mark());
@@ -44,20 +47,51 @@ export class ModeList {
   }
 
   private show() {
-    const modes = this.found?.report.assemblies ?? [];
-    find("mode-list").replaceChildren(
-      ...modes.map((mode, i) => {
-        const words = `mode ${mode.mode}`;
-        const go = button(words, () => this.go(i), { "data-mode": String(mode.mode) });
-        const notes = [
-          mode.certified ? "certified" : "not certified",
-          mode.within_limits ? "" : `${mode.outside_limits.join(", ")} outside limits`,
-        ];
-        return element("li", {}, go, " ", element("span", { class: "soft" }, notes.filter(Boolean).join("; ")));
-      }),
-    );
+    const { found } = this;
+    if (!found) return;
+    const groups = poses(found);
+    const several = groups.length < found.states.length;
+    find("pose-count").textContent = several ? `${groups.length} poses of the platform; the others of each differ in its legs only.` : "";
+    const waiting: [HTMLCanvasElement, Scene][] = [];
+    find("mode-list").replaceChildren(...groups.map(({ modes }, k) => {
+      const [first, ...others] = modes as [number, ...number[]];
+      const canvas = element("canvas", { width: "120", height: "120", "aria-hidden": "true" });
+      waiting.push([canvas, found.states[first]!.scene]);
+      const words = several ? `pose ${k + 1}` : `mode ${found.report.assemblies[first]!.mode}`;
+      const folded = others.length ? [this.variants(found, modes)] : [];
+      return element("li", {}, this.button(found, first, words, canvas), element("div", {}, element("span", { class: "soft" }, notes(found, first)), ...folded));
+    }));
+    // a picture at a time, so that the list is there at once
+    const next = () => {
+      const [canvas, scene] = waiting.shift() ?? [];
+      if (!canvas?.isConnected || !scene) return;
+      thumbnail(canvas, scene);
+      setTimeout(next, 0);
+    };
+    next();
     this.mark();
     this.showGhosts();
+  }
+
+  private button(found: Modes, index: number, words: string, ...inside: Node[]): HTMLButtonElement {
+    const go = button(words, () => this.go(index), { "data-mode": String(found.report.assemblies[index]!.mode), "data-index": String(index) });
+    go.prepend(...inside);
+    const over = (on: boolean) => () => this.inputs === this.held() && (on ? this.ghosts([found.states[index]!.scene]) : this.showGhosts());
+    for (const event of ["pointerenter", "focus"]) go.addEventListener(event, over(true));
+    for (const event of ["pointerleave", "blur"]) go.addEventListener(event, over(false));
+    return go;
+  }
+
+  /** The assemblies of a pose, which are made when they are looked at. */
+  private variants(found: Modes, modes: number[]): HTMLElement {
+    const inside = element("p", { class: "variants" });
+    const fold = element("details", {}, element("summary", {}, `${modes.length} variants of the legs`), inside);
+    fold.addEventListener("toggle", () => {
+      if (!fold.open || inside.children.length) return;
+      inside.replaceChildren(...modes.flatMap((index) => [this.button(found, index, String(found.report.assemblies[index]!.mode)), " "]));
+      this.mark();
+    });
+    return fold;
   }
 
   private go(index: number) {
@@ -72,10 +106,8 @@ export class ModeList {
     const same = this.inputs === this.held();
     find("mode-list").classList.toggle("old", !same);
     const at = this.model.frame?.at;
-    this.found.states.forEach((state, i) => {
-      const here = same && at !== undefined && distance(state.at.joints, at.joints) < 1e-6;
-      find("mode-list").children[i]?.querySelector("button")?.setAttribute("aria-pressed", String(here));
-    });
+    const here = this.found.states.map((state) => same && at !== undefined && distance(state.at.joints, at.joints) < 1e-6);
+    for (const of of find("mode-list").querySelectorAll<HTMLElement>("[data-index]")) of.setAttribute("aria-pressed", String(here[Number(of.dataset.index)]));
     const said = find("modes-said");
     said.textContent = same ? this.found.report.sentence : "Listed for other held values.";
     if (!same) this.ghosts([]);
@@ -90,6 +122,7 @@ export class ModeList {
   private clear() {
     this.found = null;
     find("mode-list").replaceChildren();
+    find("pose-count").textContent = "";
     find("modes-said").textContent = "";
     this.ghosts([]);
   }
@@ -110,6 +143,17 @@ export class ModeList {
     const values = held.map((name) => frame!.values[mechanism!.coordinates.findIndex((of) => of.name === name)]![1]);
     return JSON.stringify([held, values, file.set, file.text.length]);
   }
+}
+
+/** Whether it is certain, how it is conditioned, and limits that it does not keep. */
+function notes({ report }: Modes, index: number): string {
+  const { certified, condition, within_limits, outside_limits } = report.assemblies[index]!;
+  const parts = [
+    certified ? "certified" : "not certified",
+    condition === null || condition === undefined ? "" : `condition ${Number(condition.toPrecision(3))}`,
+    within_limits ? "" : `${outside_limits.join(", ")} outside limits`,
+  ];
+  return parts.filter(Boolean).join("; ");
 }
 
 function distance(a: number[], b: number[]): number {

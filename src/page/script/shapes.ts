@@ -65,6 +65,11 @@ export class Shapes {
     this.over = false;
   }
 
+  /** A strip of shadow on a level plane. */
+  shadow(at: Vector3, along: Vector3, half: number, width: number) {
+    place(this.take(box, "#000000", 0.07), at, along, [width, 1e-4 * width, half], new Vector3(0, 0, 1));
+  }
+
   ball(at: Vector3, radius: number, colour: string, pick?: Pick, opacity = 1) {
     const mesh = this.take(ball, colour, opacity, pick);
     mesh.matrix.makeScale(radius, radius, radius).setPosition(at);

@@ -15,9 +15,27 @@ export interface Hit {
   pick: Pick;
 }
 
+/** Looks along parallel lines, so that lengths compare, or from a point; at its target both show as much. */
+class Camera extends OrthographicCamera {
+  perspective = false;
+  /** From its target. */
+  distance = 1;
+
+  override updateProjectionMatrix() {
+    super.updateProjectionMatrix();
+    if (!this.perspective) return;
+    const part = this.near / this.distance / this.zoom;
+    this.projectionMatrix.makePerspective(this.left * part, this.right * part, this.top * part, this.bottom * part, this.near, this.far, this.coordinateSystem, this.reversedDepth);
+    this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
+  }
+}
+
+/** How far away the camera is, in radii of what is seen: along parallel lines, from a point. */
+const [FAR, NEAR] = [20, 4.5];
+
 export class Stage {
   readonly world = new World();
-  readonly camera = new OrthographicCamera();
+  readonly camera = new Camera();
   readonly renderer: WebGLRenderer;
   readonly orbit: OrbitControls;
   private readonly sun = new DirectionalLight(0xffffff, 2.2);
@@ -70,13 +88,34 @@ export class Stage {
     this.orbit.touches.ONE = flat ? TOUCH.PAN : TOUCH.ROTATE;
     const { center, radius } = this.sphere;
     this.camera.up.copy(up);
-    this.camera.position.copy(center).addScaledVector(from.clone().normalize(), 20 * radius);
-    this.camera.near = radius;
+    this.camera.position.copy(center).addScaledVector(from.clone().normalize(), this.away);
+    this.camera.near = this.camera.perspective ? 0.2 * radius : radius;
     this.camera.far = 60 * radius;
     this.camera.zoom = 1;
     this.orbit.target.copy(center);
     this.orbit.update();
     this.frame(points);
+  }
+
+  private get away(): number {
+    return (this.camera.perspective ? NEAR : FAR) * this.sphere.radius;
+  }
+
+  /** From a point, or along parallel lines, as it is seen now. */
+  view(perspective: boolean) {
+    const { camera, orbit } = this;
+    camera.perspective = perspective;
+    const way = camera.position.clone().sub(orbit.target).normalize();
+    camera.position.copy(orbit.target).addScaledVector(way, this.away);
+    camera.near = (perspective ? 0.2 : 1) * this.sphere.radius;
+    orbit.update();
+    this.project();
+    this.draw();
+  }
+
+  /** Shows all of these points from where they are seen. */
+  fit(points: Vector3[]) {
+    if (points.length) this.frame(points);
   }
 
   /** Makes room for points that are not in the picture, seen from where it is seen. */
@@ -104,7 +143,8 @@ export class Stage {
     const height = Math.max(this.canvas.parentElement!.clientHeight, 1);
     const [above, below] = this.covered();
     const room = Math.max(1 - (above + below) / height, 0.5);
-    this.half = 0.5 * Math.max(size.y / room, size.x / aspect, 0.1 * radius) * 1.12 + 0.06 * radius;
+    const deep = this.camera.perspective ? 1.15 : 1;
+    this.half = deep * 0.5 * Math.max(size.y / room, size.x / aspect, 0.1 * radius) * 1.12 + 0.06 * radius;
     const middle = frame.getCenter(new Vector3());
     middle.y -= ((below - above) * this.half) / height;
     middle.applyMatrix4(this.camera.matrixWorld);
@@ -177,6 +217,10 @@ export class Stage {
     const ray = new Raycaster();
     this.camera.updateMatrixWorld();
     ray.setFromCamera(at, this.camera);
+    if (this.camera.perspective) {
+      const origin = this.camera.getWorldPosition(new Vector3());
+      ray.set(origin, new Vector3(at.x, at.y, 0.5).unproject(this.camera).sub(origin).normalize());
+    }
     return ray;
   }
 
@@ -201,6 +245,7 @@ export class Stage {
   /** As much of the world as `half` says, above and below the middle. */
   private project() {
     const aspect = this.aspect();
+    this.camera.distance = this.camera.position.distanceTo(this.orbit.target);
     Object.assign(this.camera, { left: -this.half * aspect, right: this.half * aspect, top: this.half, bottom: -this.half });
     this.camera.updateProjectionMatrix();
   }

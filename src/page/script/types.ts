@@ -26,6 +26,7 @@ export interface JointShape {
 export interface Rod {
   name: string;
   ends: [Triple, Triple];
+  bodies: [number, number];
   driven: boolean;
 }
 
