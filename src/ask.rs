@@ -36,15 +36,17 @@ mod study_error;
 mod sweep;
 mod workspace;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+
+use rustc_hash::FxHashMap;
 
 pub use crate::analysis::quantities::Motions;
-pub use crate::system::Value;
-pub use error::{AskError, Item, Role, Unmeasured};
+pub use crate::system::{Demand, Role, Value};
+pub use error::{AskError, Item, Unmeasured};
 pub use live::{Gained, Reading};
 pub use many::Many;
 pub use modes::{Mode, Modes, Solved, Store};
-pub use remedy::Holdable;
+pub use remedy::Remedy;
 pub use schedule::{TableError, TableErrorKind};
 pub use solver::Example;
 pub use steering::Steering;
@@ -68,46 +70,21 @@ fn check_starts(given: usize) -> Result<(), AskError> {
     }
 }
 
-/// A coordinate that moves or is mapped over a range.
-#[derive(Clone, Debug, PartialEq)]
-struct Range {
-    name: String,
-    from: Value,
-    to: Value,
-}
-
-/// A force and a moment at a point.
-#[derive(Clone, Debug, PartialEq)]
-enum Wrench {
-    Numbers([f64; 3], [f64; 3]),
-    Text(String),
-}
-
-/// A question about a mechanism. Every analysis refuses one that is wrong in itself.
+/// What is asked of a mechanism. Every analysis refuses a question that is wrong in itself.
 ///
 /// A fresh question holds the actuated joints at home, starts at the home configuration and moves nothing. Coordinates
 /// are named as for [`system::Question`]; values are numbers in m and rad, or texts as in the file ([`Value`]).
 #[derive(Clone)]
 pub struct Question {
     mechanism: Arc<Mechanism>,
-    hold: Vec<(String, Value)>,
-    free: Vec<String>,
-    guess: Vec<(String, Value)>,
+    demands: Vec<Demand>,
     near: Option<Configuration<f64>>,
-    lock: Vec<String>,
     mode: Mode,
     seed: u64,
-    inputs: Vec<Range>,
     schedule: Option<Schedule>,
-    outputs: Vec<String>,
-    points: Vec<String>,
-    reports: Vec<String>,
-    dwells: Vec<(String, Value)>,
-    rates: Vec<(String, Value)>,
-    accelerations: Vec<(String, Value)>,
-    wrenches: Vec<(String, Wrench)>,
-    loads: Vec<(String, Value)>,
     store: Option<Arc<dyn Store>>,
+    /// The mechanism with coordinates of the points that are named, measured; made when the question is asked.
+    ready: OnceLock<Arc<Mechanism>>,
 }
 
 impl Question {
@@ -115,52 +92,63 @@ impl Question {
     pub fn new(mechanism: impl Into<Arc<Mechanism>>) -> Self {
         Question {
             mechanism: mechanism.into(),
-            hold: Vec::new(),
-            free: Vec::new(),
-            guess: Vec::new(),
+            demands: Vec::new(),
             near: None,
-            lock: Vec::new(),
             mode: Mode::Nearest,
             seed: 1,
-            inputs: Vec::new(),
             schedule: None,
-            outputs: Vec::new(),
-            points: Vec::new(),
-            reports: Vec::new(),
-            dwells: Vec::new(),
-            rates: Vec::new(),
-            accelerations: Vec::new(),
-            wrenches: Vec::new(),
-            loads: Vec::new(),
             store: None,
+            ready: OnceLock::new(),
         }
     }
 
-    /// The mechanism.
+    /// The mechanism. Coordinates of points that the question names ([`NamedPoint`]), such as `left+0.5,0.2.x`, are
+    /// joints of it, and its characteristic length takes account of what is held.
     pub fn mechanism(&self) -> &Arc<Mechanism> {
-        &self.mechanism
+        self.ready.get_or_init(|| self.prepared())
+    }
+
+    /// What is demanded by name, in the order in which it was demanded.
+    pub fn demands(&self) -> &[Demand] {
+        &self.demands
+    }
+
+    /// Adds a demand by its role. Names and values are checked when the question is asked.
+    pub fn demand(mut self, demand: Demand) -> Self {
+        self.add(demand);
+        self
+    }
+
+    /// Adds a demand to a question that exists.
+    pub fn add(&mut self, demand: Demand) {
+        let demand = self.led(demand);
+        self.demands.push(demand);
+        self.ready = OnceLock::new();
+    }
+
+    fn put(
+        self,
+        role: Role,
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = Value>,
+    ) -> Self {
+        self.demand(Demand::new(role, name, values))
     }
 
     /// Holds a joint, a coordinate of a platform or of a point, `left+0.5,0.2.x`, or a whole platform. What is freed is
     /// freed first: `actuated` may be free and one actuated joint held.
-    pub fn hold(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        let (name, [value]) = self.led(name.into(), [value.into()]);
-        self.hold.push((name, value));
-        self.measured()
+    pub fn hold(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.put(Role::Hold, name, [value.into()])
     }
 
     /// Lets a joint be solved for; `actuated` frees all actuated joints.
-    pub fn free(mut self, name: impl Into<String>) -> Self {
-        let name = self.placed(name.into());
-        self.free.push(name);
-        self.measured()
+    pub fn free(self, name: impl Into<String>) -> Self {
+        self.put(Role::Free, name, [])
     }
 
     /// Starts the search at a value.
-    pub fn guess(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        let (name, [value]) = self.led(name.into(), [value.into()]);
-        self.guess.push((name, value));
-        self
+    pub fn guess(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.put(Role::Guess, name, [value.into()])
     }
 
     /// Starts the search at a whole configuration, such as that of a mode; held coordinates keep their values.
@@ -171,13 +159,11 @@ impl Question {
 
     /// For mobilities: makes a joint, a coordinate of a platform or a whole platform stand still where the mechanism is
     /// closed; `actuated` locks all actuated joints.
-    pub fn lock(mut self, name: impl Into<String>) -> Self {
-        let name = self.placed(name.into());
-        self.lock.push(name);
-        self
+    pub fn lock(self, name: impl Into<String>) -> Self {
+        self.put(Role::Lock, name, [])
     }
 
-    /// Chooses among several assemblies.
+    /// Chooses one of several assemblies.
     pub fn mode(mut self, mode: Mode) -> Self {
         self.mode = mode;
         self
@@ -191,75 +177,75 @@ impl Question {
 
     /// Moves a coordinate over a range; for loci a side of their box, for a map a mapped coordinate.
     pub fn input(
-        mut self,
+        self,
         name: impl Into<String>,
         from: impl Into<Value>,
         to: impl Into<Value>,
     ) -> Self {
-        let (name, [from, to]) = self.led(name.into(), [from.into(), to.into()]);
-        self.inputs.push(Range { name, from, to });
-        self.measured()
+        self.put(Role::Input, name, [from.into(), to.into()])
     }
 
     /// Adds an output of singularities: a joint, a coordinate of a platform or of a point, or a frame with its orientation.
-    pub fn output(mut self, name: impl Into<String>) -> Self {
-        let name = self.placed(name.into());
-        self.outputs.push(name);
-        self
+    pub fn output(self, name: impl Into<String>) -> Self {
+        self.put(Role::Output, name, [])
     }
 
     /// Adds a point ([`Point::read`](crate::mechanism::Point::read)), such as `left` or `left+0.5,0.2`: for singularities
     /// an output, for velocities one that is followed, for a motion one whose path is traced.
-    pub fn point(mut self, name: impl Into<String>) -> Self {
-        self.points.push(name.into());
-        self
+    pub fn point(self, name: impl Into<String>) -> Self {
+        self.put(Role::Point, name, [])
     }
 
     /// Adds quantities that motions report ([`Quantity::read`](crate::mechanism::Quantity::read)): a list such as
     /// `transmission, velocity:left+1, reach=hypot(left.x, left.y)`, with names of the file's `outputs` too.
-    pub fn report(mut self, list: impl Into<String>) -> Self {
-        self.reports.push(list.into());
-        self
+    pub fn report(self, list: impl Into<String>) -> Self {
+        self.put(Role::Report, list, [])
     }
 
     /// Asks for the longest part of a motion over which a quantity stays within a tolerance, to either side, of one value.
-    pub fn dwell(mut self, quantity: impl Into<String>, tolerance: impl Into<Value>) -> Self {
-        self.dwells.push((quantity.into(), tolerance.into()));
-        self
+    pub fn dwell(self, quantity: impl Into<String>, tolerance: impl Into<Value>) -> Self {
+        self.put(Role::Dwell, quantity, [tolerance.into()])
     }
 
     /// Gives a held coordinate a rate, in m/s or rad/s.
-    pub fn rate(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        let name = self.placed(name.into());
-        self.rates.push((name, value.into()));
-        self
+    pub fn rate(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.put(Role::Rate, name, [value.into()])
     }
 
     /// Gives a held coordinate an acceleration, in m/s² or rad/s².
-    pub fn acceleration(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        let name = self.placed(name.into());
-        self.accelerations.push((name, value.into()));
-        self
+    pub fn acceleration(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.put(Role::Acceleration, name, [value.into()])
     }
 
     /// Applies a force (N) and a moment (N·m) at a point, in ground.
-    pub fn wrench(mut self, frame: impl Into<String>, force: [f64; 3], moment: [f64; 3]) -> Self {
-        let wrench = Wrench::Numbers(force, moment);
-        self.wrenches.push((frame.into(), wrench));
-        self
+    pub fn wrench(self, frame: impl Into<String>, force: [f64; 3], moment: [f64; 3]) -> Self {
+        let components = [force, moment].concat().into_iter().map(Value::Number);
+        self.put(Role::Wrench, frame, components)
     }
 
-    /// Applies a wrench given as `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
-    pub fn wrench_text(mut self, frame: impl Into<String>, text: impl Into<String>) -> Self {
-        let wrench = Wrench::Text(text.into());
-        self.wrenches.push((frame.into(), wrench));
-        self
+    /// Applies a force or a moment written `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
+    pub fn wrench_text(self, frame: impl Into<String>, text: impl Into<String>) -> Self {
+        self.put(Role::Wrench, frame, [Value::Text(text.into())])
     }
 
     /// Applies a force (N) or a moment (N·m) along a joint variable.
-    pub fn load(mut self, joint: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.loads.push((joint.into(), value.into()));
-        self
+    pub fn load(self, joint: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.put(Role::Load, joint, [value.into()])
+    }
+
+    /// Varies a parameter or a coordinate of a [`Study`] over a range.
+    pub fn vary(
+        self,
+        name: impl Into<String>,
+        from: impl Into<Value>,
+        to: impl Into<Value>,
+    ) -> Self {
+        self.put(Role::Vary, name, [from.into(), to.into()])
+    }
+
+    /// Varies a parameter or a held coordinate of a [`Study`] normally about its value, with this standard deviation.
+    pub fn deviate(self, name: impl Into<String>, deviation: impl Into<Value>) -> Self {
+        self.put(Role::Deviate, name, [deviation.into()])
     }
 
     /// Keeps generic solutions where they are found again.
@@ -268,72 +254,101 @@ impl Question {
         self
     }
 
-    /// A name of a coordinate with values. An output that follows a joint is that joint, at the values where it has
-    /// these. Errors in values are reported when the question is asked.
-    fn led<const N: usize>(&mut self, name: String, values: [Value; N]) -> (String, [Value; N]) {
-        let name = self.placed(name);
-        let Some(follower) = self.mechanism.follower(&name) else {
-            return (name, values);
-        };
-        let plain = system::Question::new(&self.mechanism);
-        let numbers = values
-            .each_ref()
-            .map(|value| plain.value(&name, value).ok());
-        match numbers.iter().all(Option::is_some) {
-            true => {
-                let leader = self.mechanism.joints()[follower.joint].name.clone();
-                (leader, numbers.map(|of| of.map_or(0.0, |(_, x)| x).into()))
+    /// The demands of a role, in their order.
+    fn of(&self, role: Role) -> impl Iterator<Item = (Item, &Demand)> {
+        let all = self.demands.iter().enumerate();
+        let of_role = all.filter(move |(_, demand)| demand.role == role);
+        of_role.map(|(index, demand)| (Item::new(index), demand))
+    }
+
+    fn has(&self, role: Role) -> bool {
+        self.of(role).next().is_some()
+    }
+
+    /// The demands of a role, which names no two of them.
+    fn once(&self, role: Role) -> Result<Vec<(Item, &Demand)>, AskError> {
+        let all: Vec<_> = self.of(role).collect();
+        let mut known = FxHashMap::default();
+        for (item, demand) in &all {
+            if let Some(first) = known.insert(&demand.name, *item) {
+                return Err(AskError::Twice {
+                    item: *item,
+                    first,
+                    name: demand.name.clone(),
+                });
             }
-            false => (name, values),
         }
+        Ok(all)
     }
 
-    /// A name of a coordinate. That of a point ([`NamedPoint`]), `left+0.5,0.2.x`, becomes a joint of the mechanism.
-    fn placed(&mut self, name: String) -> String {
+    /// The same question without some demands, about the same mechanism.
+    fn keeping(&self, keep: impl Fn(&Demand) -> bool) -> Question {
+        self.mechanism();
+        let mut asked = self.clone();
+        asked.demands.retain(keep);
+        asked
+    }
+
+    /// A demand on a joint in place of one on an output that follows it, at the values where the joint has these.
+    /// What is wrong with values is said when the question is asked.
+    fn led(&self, demand: Demand) -> Demand {
+        let Some(follower) = self.mechanism.follower(&demand.name) else {
+            return demand;
+        };
+        if !matches!(demand.role, Role::Hold | Role::Guess | Role::Input) {
+            return demand;
+        }
         let plain = system::Question::new(&self.mechanism);
-        if plain.coordinates(&name).is_err()
-            && let Some((point, "x" | "y" | "z")) = name.rsplit_once('.')
-            && let Ok(point) = NamedPoint::read(&self.mechanism, point)
-            && self.mechanism.body(point.point.frame) != Body::Ground
-        {
-            self.mechanism = self.mechanism.with_coordinates_of(&point).into();
+        let numbers = demand.values.iter().map(|value| {
+            let read = plain.value(&demand.name, value);
+            read.ok().map(|(_, number)| Value::Number(number))
+        });
+        match numbers.collect() {
+            Some(values) => Demand {
+                name: self.mechanism.joints()[follower.joint].name.clone(),
+                values,
+                ..demand
+            },
+            None => demand,
         }
-        name
     }
 
-    /// Measures the mechanism by its dimensions and by the held lengths. Errors in values are reported when the
-    /// question is asked.
-    fn measured(mut self) -> Self {
-        if let Some(measured) =
-            (self.given_lengths()).and_then(|held| self.mechanism.measured_by(&held))
-        {
-            self.mechanism = Arc::new(measured);
-        }
-        self
+    /// The mechanism with coordinates of the points that demands name, measured by its dimensions and by what is held.
+    fn prepared(&self) -> Arc<Mechanism> {
+        let names_coordinate = |demand: &&Demand| match demand.role {
+            Role::Hold | Role::Free | Role::Guess | Role::Lock | Role::Input => true,
+            Role::Output | Role::Rate | Role::Acceleration => true,
+            Role::Point | Role::Wrench | Role::Load | Role::Report | Role::Dwell => false,
+            Role::Vary | Role::Deviate => false,
+        };
+        let named = self.demands.iter().filter(names_coordinate);
+        let mechanism = named.fold(self.mechanism.clone(), |mechanism, demand| {
+            with_coordinate(mechanism, &demand.name)
+        });
+        let lengths = self.given_lengths(&mechanism);
+        let measured = lengths.and_then(|held| mechanism.measured_by(&held));
+        measured.map_or(mechanism, Arc::new)
     }
 
     /// The lengths that are held or that inputs go through, in m, if there is nothing wrong with them.
-    fn given_lengths(&self) -> Option<Vec<f64>> {
-        let plain = system::Question::new(&self.mechanism);
+    fn given_lengths(&self, mechanism: &Mechanism) -> Option<Vec<f64>> {
+        let plain = system::Question::new(mechanism);
         let mut inputs = Vec::new();
-        for range in &self.inputs {
-            let (coordinate, from) = plain.value(&range.name, &range.from).ok()?;
-            let (_, to) = plain.value(&range.name, &range.to).ok()?;
+        for (_, demand) in self.of(Role::Input) {
+            let (coordinate, from) = plain.value(&demand.name, demand.value(0)).ok()?;
+            let (_, to) = plain.value(&demand.name, demand.value(1)).ok()?;
             inputs.push((coordinate, [from, to]));
         }
         // where coordinates of platforms move, actuated joints are held only if that is asked for
-        let released = inputs
-            .iter()
-            .any(|(c, _)| ranges::of_platform(&self.mechanism, c));
-        let question = match released {
-            true => self.released().ok()?,
-            false => self.resolved().ok()?,
+        let mut released = inputs.iter();
+        let question = match released.any(|(c, _)| ranges::of_platform(mechanism, c)) {
+            true => self.resolve(plain.free("actuated").ok()?).ok()?,
+            false => self.resolve(plain).ok()?,
         };
         let moved = inputs.iter().fold(question, |q, (c, _)| q.without(*c));
-        let lengths = inputs.iter().filter(|(c, _)| !c.is_angle(&self.mechanism));
-        let own = |(of, ends): &(Coordinate, [f64; 2])| {
-            ends.map(|end| of.own_length(&self.mechanism, end))
-        };
+        let lengths = inputs.iter().filter(|(c, _)| !c.is_angle(mechanism));
+        let own =
+            |(of, ends): &(Coordinate, [f64; 2])| ends.map(|end| of.own_length(mechanism, end));
         let mut lengths: Vec<f64> = lengths.flat_map(own).collect();
         lengths.extend(moved.held_lengths());
         Some(lengths)
@@ -344,32 +359,46 @@ impl Question {
     /// # Errors
     /// If a name or a value is wrong, or two demands contradict one another.
     pub fn resolved(&self) -> Result<system::Question<'_>, AskError> {
-        self.put(system::Question::new(&self.mechanism))
+        self.resolve(system::Question::new(self.mechanism()))
     }
 
-    /// As [`Question::resolved`], with the actuated joints held only if that is asked for.
+    /// What is held, free and guessed where the actuated joints are held only if that is asked for.
     fn released(&self) -> Result<system::Question<'_>, AskError> {
-        let released = system::Question::new(&self.mechanism).free("actuated");
-        self.put(released.map_err(AskError::Question)?)
+        let released = system::Question::new(self.mechanism()).free("actuated");
+        self.resolve(released.map_err(AskError::Question)?)
     }
 
-    /// Puts the demands to a question: first what is freed, so that one joint of several that are free can be held.
-    fn put<'q>(
+    /// What is freed is freed first, so that one joint of several that are free can be held.
+    fn resolve<'q>(
         &self,
         mut question: system::Question<'q>,
     ) -> Result<system::Question<'q>, AskError> {
-        for (index, name) in self.free.iter().enumerate() {
-            question = (question.free(name)).map_err(Role::Free.named(index))?;
-        }
-        for (index, (name, value)) in self.hold.iter().enumerate() {
-            question = (question.hold(name, value)).map_err(Role::Hold.named(index))?;
-        }
-        for (index, (name, value)) in self.guess.iter().enumerate() {
-            question = (question.guess(name, value)).map_err(Role::Guess.named(index))?;
+        for role in [Role::Free, Role::Hold, Role::Guess] {
+            for (item, demand) in self.of(role) {
+                let name = &demand.name;
+                let put = match role {
+                    Role::Hold => question.hold(name, demand.value(0)),
+                    Role::Guess => question.guess(name, demand.value(0)),
+                    _ => question.free(name),
+                };
+                question = put.map_err(item.named())?;
+            }
         }
         Ok(match &self.near {
             Some(at) => question.near(at),
             None => question,
         })
     }
+}
+
+/// The mechanism with a joint for a coordinate of a point ([`NamedPoint`]), `left+0.5,0.2.x`, if that is its name.
+fn with_coordinate(mechanism: Arc<Mechanism>, name: &str) -> Arc<Mechanism> {
+    if let Some((point, "x" | "y" | "z")) = name.rsplit_once('.')
+        && system::Question::new(&mechanism).coordinates(name).is_err()
+        && let Ok(point) = NamedPoint::read(&mechanism, point)
+        && mechanism.body(point.point.frame) != Body::Ground
+    {
+        return mechanism.with_coordinates_of(&point).into();
+    }
+    mechanism
 }

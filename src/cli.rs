@@ -35,12 +35,6 @@ use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
-// the Python module says what is wrong, and how far work is, in the same words
-#[cfg(feature = "python")]
-pub use self::{
-    asked::said, watched::words as stage, words::Ranged, words::question::unknown_frame,
-};
-
 use clap::{Parser, Subcommand};
 use linkwork::output::complaint::Complaint;
 use linkwork::output::diagnostics::Style;

@@ -59,10 +59,9 @@ const NONE: &[Value] = &[];
 /// Reply in place of an answer.
 struct Refusal(Value);
 
-impl From<AskError> for Refusal {
-    fn from(error: AskError) -> Self {
-        Refusal(json!({ "error": words::refused(&error) }))
-    }
+/// The refusal of a question.
+fn refused(question: &Question) -> impl Fn(AskError) -> Refusal + '_ {
+    |error| nothing(&words::refused(question, &error))
 }
 
 impl Page {
@@ -93,13 +92,15 @@ impl Page {
             Request::Hold { names } => {
                 let at = self.steering()?.at().clone();
                 let asked = holding(&mechanism, &names, &at);
-                self.steering = Some(asked.steering_near(&at, watch)?);
+                let steering = asked.steering_near(&at, watch);
+                self.steering = Some(steering.map_err(refused(&asked))?);
                 Ok(self.frame(None))
             }
             Request::Go { at } => {
                 let at = configuration(&at, &mechanism)?;
                 let asked = self.steering()?.question();
-                self.steering = Some(asked.steering_from(at)?);
+                let steering = asked.steering_from(at);
+                self.steering = Some(steering.map_err(refused(&asked))?);
                 Ok(self.frame(None))
             }
             Request::Grab { part, at } => grip::grab(self.steering()?, part, at),
@@ -193,7 +194,8 @@ impl Page {
             Some(at) => asked.steering_near(&at, watch),
             None => asked.steering(watch),
         };
-        let why = steering.as_ref().err().map(words::refused);
+        let why = steering.as_ref().err();
+        let why = why.map(|error| words::refused(&asked, error));
         self.steering = steering.ok();
         self.load = load.load.clone();
         self.watch(load.quantities.clone());
@@ -227,20 +229,25 @@ impl Page {
             true => Question::new(mechanism.clone()),
             false => self.asked(mechanism),
         };
+        let refused = refused(&asked);
         Ok(match what {
-            Analysis::Solve => match asked.solve(&AssemblySettings::default(), watch)? {
-                Solved::Ended(report) => answered(&*report, NONE),
-                Solved::Lost(lost) => answered(&*lost, NONE),
-            },
+            Analysis::Solve => {
+                let solved = asked.solve(&AssemblySettings::default(), watch);
+                match solved.map_err(refused)? {
+                    Solved::Ended(report) => answered(&*report, NONE),
+                    Solved::Lost(lost) => answered(&*lost, NONE),
+                }
+            }
             Analysis::Assemblies => {
-                let report = asked.assemblies(Default::default(), watch)?;
+                let report = asked.assemblies(Default::default(), watch);
+                let report = report.map_err(refused)?;
                 let states = report.assemblies.iter().map(|assembly| {
                     let at = assembly.configuration();
                     json!({ "at": State::of(&at), "scene": Scene::of(mechanism, &at) })
                 });
                 answered(&report, &states.collect::<Vec<_>>())
             }
-            Analysis::Mobility => answered(&asked.mobility(watch)?, NONE),
+            Analysis::Mobility => answered(&asked.mobility(watch).map_err(refused)?, NONE),
         })
     }
 
@@ -270,7 +277,7 @@ impl Page {
             follow: sweep.follow,
             ..SweepSettings::default()
         };
-        let motions = asked.motions(&settings, watch)?;
+        let motions = asked.motions(&settings, watch).map_err(refused(&asked))?;
         let mut states = Vec::new();
         let mut keep = |_: Option<usize>, row: &Row| {
             states.push(Shown {

@@ -28,7 +28,6 @@ use crate::output::document::Cell;
 use crate::output::drawing::{DrawingSettings, Panel, sheet};
 use crate::output::view::{Viewed, page};
 use crate::scene::Scene;
-use crate::system::Value;
 use asked::{Asked, values};
 use report::Report;
 use watched::watched;
@@ -238,12 +237,10 @@ impl Mechanism {
             (None, "latin") => Points::LatinHypercube(count),
             (None, _) => Points::Sobol(count),
         };
-        let (asked, vary) = Asked::varied(self.mechanism.clone(), given, vary)?;
-        let deviate = values("deviate", deviate)?.into_iter();
-        let deviate: Vec<(String, Value)> = deviate
-            .map(|(name, deviation)| (name, (&deviation).into()))
-            .collect();
-        let study = Study::new(&asked.question, &vary, &deviate, points);
+        let mut asked = Asked::new(self.mechanism.clone(), given)?;
+        asked.put("vary", vary)?;
+        asked.put("deviate", deviate)?;
+        let study = Study::new(&asked.question, points);
         let study = study.map_err(|error| asked.refusal(&error.into()))?;
         let range = study.shard(part.0, part.1);
         let range = range.map_err(|error| asked.refusal(&AskError::from(error).into()))?;

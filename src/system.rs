@@ -37,7 +37,7 @@ pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
 pub use question::{
     Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,
-    QuestionError, Still, Verb, actuated, check_angle, check_angles, check_count,
+    QuestionError, Role, Still, actuated, check_angle, check_angles, check_count,
     coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
     with_coordinates,
 };

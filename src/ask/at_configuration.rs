@@ -1,6 +1,6 @@
 //! Analyses of one assembled configuration, and those that need none.
 
-use super::{AskError, Question, Role, Wrench};
+use super::{AskError, Question, Role, Value};
 use crate::algebra::EvaluationError;
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
@@ -56,25 +56,36 @@ impl Question {
     /// The wrenches and loads.
     pub(super) fn load_of(&self, question: &system::Question) -> Result<Load, AskError> {
         let mut load = Load::default();
-        for (index, (frame, wrench)) in self.wrenches.iter().enumerate() {
-            let loaded = match wrench {
-                Wrench::Numbers(force, moment) => load.forces(question, frame, (*force, *moment)),
-                Wrench::Text(text) => load.wrench(question, frame, text),
+        for (item, wrench) in self.of(Role::Wrench) {
+            let loaded = match wrench.values[..] {
+                [
+                    Value::Number(fx),
+                    Value::Number(fy),
+                    Value::Number(fz),
+                    Value::Number(mx),
+                    Value::Number(my),
+                    Value::Number(mz),
+                ] => load.forces(question, &wrench.name, ([fx, fy, fz], [mx, my, mz])),
+                _ => {
+                    let text = wrench.written().unwrap_or_default();
+                    load.wrench(question, &wrench.name, &text)
+                }
             };
-            load = loaded.map_err(Role::Wrench.loaded(index))?;
+            load = loaded.map_err(item.loaded())?;
         }
-        for (index, (joint, value)) in self.loads.iter().enumerate() {
-            load = (load.joint(question, joint, value)).map_err(Role::Load.loaded(index))?;
+        for (item, demand) in self.of(Role::Load) {
+            let loaded = load.joint(question, &demand.name, demand.value(0));
+            load = loaded.map_err(item.loaded())?;
         }
         Ok(load)
     }
 
     /// Resolves the locked coordinates.
     fn locked(&self, watch: &Watch) -> Result<Vec<Coordinate>, AskError> {
-        let plain = system::Question::new(&self.mechanism);
+        let plain = system::Question::new(self.mechanism());
         let mut locked: Vec<Coordinate> = Vec::new();
-        for (index, name) in self.lock.iter().enumerate() {
-            locked.extend(plain.coordinates(name).map_err(Role::Lock.named(index))?);
+        for (item, demand) in self.of(Role::Lock) {
+            locked.extend(plain.coordinates(&demand.name).map_err(item.named())?);
         }
         // three angles at once are an orientation, which has no gimbal lock
         let single = |coordinate: &&Coordinate| match **coordinate {
@@ -89,7 +100,7 @@ impl Question {
             && let Ok(closed) = self.closed(watch)?
         {
             for &angle in angles {
-                let checked = check_angle(&self.mechanism, &closed.configuration, angle);
+                let checked = check_angle(self.mechanism(), &closed.configuration, angle);
                 checked.map_err(AskError::Question)?;
             }
         }
@@ -103,7 +114,7 @@ impl Question {
             seed: self.seed,
             ..CompareSettings::default()
         };
-        compare(&self.mechanism, &settings, watch)
+        compare(self.mechanism(), &settings, watch)
     }
 
     /// The mechanism's formulas in closed form.
@@ -111,7 +122,7 @@ impl Question {
     /// # Errors
     /// If an expression of the file has no value in letters.
     pub fn formulas(&self, settings: &FormulasSettings) -> Result<FormulasReport, EvaluationError> {
-        formulas(&self.mechanism, settings)
+        formulas(self.mechanism(), settings)
     }
 
     /// The unknowns in closed form, as far as they have one: solved in the assembly near the start, or that of the mode
@@ -130,12 +141,13 @@ impl Question {
 
     pub(super) fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
         let mut drive = Drive::still(question);
-        for (index, (name, value)) in self.rates.iter().enumerate() {
-            drive = (drive.rate(question, name, value)).map_err(Role::Rate.driven(index))?;
+        for (item, demand) in self.once(Role::Rate)? {
+            let driven = drive.rate(question, &demand.name, demand.value(0));
+            drive = driven.map_err(item.driven())?;
         }
-        for (index, (name, value)) in self.accelerations.iter().enumerate() {
-            let driven = drive.acceleration(question, name, value);
-            drive = driven.map_err(Role::Acceleration.driven(index))?;
+        for (item, demand) in self.once(Role::Acceleration)? {
+            let driven = drive.acceleration(question, &demand.name, demand.value(0));
+            drive = driven.map_err(item.driven())?;
         }
         Ok(drive)
     }
@@ -143,12 +155,10 @@ impl Question {
     /// The points of the question, which must move.
     fn followed(&self) -> Result<Vec<Point>, AskError> {
         let points = self.asked_points()?;
-        let still = |point: &Point| self.mechanism.body(point.frame) == Body::Ground;
-        match points.iter().position(still) {
-            Some(index) => {
-                let name = self.points[index].clone();
-                Err(AskError::Motionless(Role::Point.item(index), name))
-            }
+        let still = |point: &Point| self.mechanism().body(point.frame) == Body::Ground;
+        let mut demands = self.of(Role::Point).zip(&points);
+        match demands.find(|(_, point)| still(point)) {
+            Some(((item, demand), _)) => Err(AskError::Motionless(item, demand.name.clone())),
             None => Ok(points),
         }
     }
@@ -161,9 +171,9 @@ impl Question {
 
     /// The points of the question with their names.
     pub(super) fn named_points(&self) -> Result<Vec<NamedPoint>, AskError> {
-        let points = self.points.iter().enumerate().map(|(index, text)| {
-            let wrong = |error| AskError::Point(Role::Point.item(index), error);
-            NamedPoint::read(&self.mechanism, text).map_err(wrong)
+        let points = self.of(Role::Point).map(|(item, demand)| {
+            let wrong = |error| AskError::Point(item, error);
+            NamedPoint::read(self.mechanism(), &demand.name).map_err(wrong)
         });
         points.collect()
     }

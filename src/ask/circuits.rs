@@ -17,7 +17,7 @@ impl Question {
     /// # Errors
     /// If the question is wrong or leaves another number of freedoms.
     pub fn circuits(&self, watch: &Watch) -> Result<CircuitsReport, AskError> {
-        let mechanism = &*self.mechanism;
+        let mechanism = &**self.mechanism();
         let released = self.one_freedom()?;
         let (input, question) = input(mechanism, &released)?;
         let question = question.with_spins_still();
@@ -67,7 +67,7 @@ impl Question {
     fn order(&self, point: &crate::mechanism::Point, watch: &Watch) -> Option<usize> {
         /// Points this near, over the characteristic length, are one that several configurations share.
         const SAME: f64 = 1e-6;
-        let cut = (self.mechanism).with_point_on_a_plane(point.frame, point.offset);
+        let cut = (self.mechanism()).with_point_on_a_plane(point.frame, point.offset);
         let length = cut.characteristic_length();
         let asked = Question {
             mechanism: cut.into(),

@@ -8,68 +8,40 @@ use crate::description::{count, listed};
 use crate::mechanism::QuantityError;
 use crate::system::{DriveError, ForceError, PointError, QuestionError};
 
-/// Role of a name or a value in a question.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// Something held.
-    Hold,
-    /// Something freed.
-    Free,
-    /// A start of the search.
-    Guess,
-    /// Something locked.
-    Lock,
-    /// A coordinate that moves or is mapped: its name or its whole range.
-    Input,
-    /// The beginning of its range.
-    From,
-    /// The end of its range.
-    To,
-    /// An output of singularities.
-    Output,
-    /// A point.
-    Point,
-    /// A rate.
-    Rate,
-    /// An acceleration.
-    Acceleration,
-    /// A wrench.
-    Wrench,
-    /// A load on a joint.
-    Load,
-    /// Quantities that a motion reports.
-    Quantity,
-    /// A quantity that may dwell, with a tolerance.
-    Dwell,
-}
-
-/// A part of a question: its role and its index among those of that role, from 0.
+/// A demand of a question that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// Its role.
-    pub role: Role,
-    /// Its index among those of its role, in the order in which they were given.
+    /// Its index among [`Question::demands`](super::Question::demands).
     pub index: usize,
+    /// The index of the value that is wrong, if not the name or all of it.
+    pub value: Option<usize>,
 }
 
-impl Role {
-    pub(super) fn item(self, index: usize) -> Item {
-        Item { role: self, index }
+impl Item {
+    pub(super) fn new(index: usize) -> Item {
+        Item { index, value: None }
     }
 
-    /// The error for the rate or acceleration of this index.
-    pub(super) fn driven(self, index: usize) -> impl Fn(DriveError) -> AskError {
-        move |error| AskError::Drive(self.item(index), Box::new(error))
+    pub(super) fn value(self, value: usize) -> Item {
+        Item {
+            value: Some(value),
+            ..self
+        }
     }
 
-    /// The error for the wrench or load of this index.
-    pub(super) fn loaded(self, index: usize) -> impl Fn(ForceError) -> AskError {
-        move |error| AskError::Load(self.item(index), Box::new(error))
+    /// The error for a rate or an acceleration.
+    pub(super) fn driven(self) -> impl Fn(DriveError) -> AskError {
+        move |error| AskError::Drive(self, Box::new(error))
     }
 
-    /// The error for the part of this index.
-    pub(super) fn named(self, index: usize) -> impl Fn(QuestionError) -> AskError {
-        move |error| AskError::Named(self.item(index), Box::new(error))
+    /// The error for a wrench or a load.
+    pub(super) fn loaded(self) -> impl Fn(ForceError) -> AskError {
+        move |error| AskError::Load(self, Box::new(error))
+    }
+
+    /// The error for a name or a value.
+    pub(super) fn named(self) -> impl Fn(QuestionError) -> AskError {
+        move |error| AskError::Named(self, Box::new(error))
     }
 }
 
@@ -134,16 +106,19 @@ pub enum AskError {
     /// The time of a motion is none.
     #[error("the duration of a motion must be positive, not {0} s")]
     Duration(f64),
-    /// One coordinate has two ranges, or two columns of values.
+    /// One name has two ranges or values.
     #[error("`{name}` is given twice")]
     Twice {
         /// The second of them.
         item: Item,
         /// The first.
         first: Item,
-        /// The coordinate.
+        /// The name.
         name: String,
     },
+    /// One coordinate has two columns of values.
+    #[error("`{0}` is given twice")]
+    TwoColumns(String),
     /// The range of a coordinate has no length, or its end comes before its beginning where that matters.
     #[error("the range of `{1}` is empty")]
     EmptyRange(Item, String),

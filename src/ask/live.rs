@@ -1,6 +1,6 @@
 //! Quantities, forces and freedoms gained while a mechanism is moved by hand.
 
-use super::{AskError, Steering};
+use super::{AskError, Role, Steering};
 use crate::algebra::SiUnit;
 use crate::analysis::quantities::{Meter, Metered};
 use crate::analysis::singularities::SingularitiesReport;
@@ -44,7 +44,7 @@ impl Steering {
         }
         let question = asked.resolved()?;
         // what is held decides the configuration, as inputs do
-        let quantities = asked.quantities(&question, !asked.hold.is_empty(), &[])?;
+        let quantities = asked.quantities(&question, asked.has(Role::Hold), &[])?;
         let metered = Metered {
             quantities,
             inputs: Vec::new(),

@@ -55,7 +55,7 @@ impl Question {
         values: &[f64],
         watch: &Watch,
     ) -> Result<Many, AskError> {
-        let mechanism = &*self.mechanism;
+        let mechanism = &**self.mechanism();
         let followers = names.iter().map(|name| mechanism.follower(name));
         let followers: Vec<_> = followers.collect();
         if followers.iter().any(Option::is_some) {
@@ -71,17 +71,13 @@ impl Question {
         let plain = system::Question::new(mechanism);
         let mut coordinates = Vec::new();
         let mut begins = self.clone();
-        for (index, name) in names.iter().enumerate() {
-            let (coordinate, _) = (plain.value(name, "home")).map_err(Role::Input.named(index))?;
-            if let Some(first) = coordinates.iter().position(|known| *known == coordinate) {
-                return Err(AskError::Twice {
-                    item: Role::Input.item(index),
-                    first: Role::Input.item(first),
-                    name: name.clone(),
-                });
+        for name in names {
+            let (coordinate, _) = (plain.value(name, "home")).map_err(AskError::Question)?;
+            if coordinates.contains(&coordinate) {
+                return Err(AskError::TwoColumns(name.clone()));
             }
             coordinates.push(coordinate);
-            if !self.hold.iter().any(|(held, _)| held == name) {
+            if !self.of(Role::Hold).any(|(_, held)| held.name == *name) {
                 begins = begins.hold(name, "home");
             }
         }

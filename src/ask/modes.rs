@@ -106,7 +106,7 @@ impl Question {
             match solver.follow(mode, &still.start(), &still.held(), watch)? {
                 Ok(at) => question = question.near(&at),
                 Err(reason) => {
-                    let lost = LostMode::new(&self.mechanism, mode, reason);
+                    let lost = LostMode::new(self.mechanism(), mode, reason);
                     return Ok(Solved::Lost(Box::new(lost)));
                 }
             }

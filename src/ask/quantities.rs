@@ -15,16 +15,15 @@ impl Question {
         moving: bool,
         points: &[NamedPoint],
     ) -> Result<Vec<Quantity>, AskError> {
-        let mechanism = &*self.mechanism;
-        if self.reports.is_empty() {
+        let mechanism = &**self.mechanism();
+        if !self.has(Role::Report) {
             let outputs = mechanism.outputs().iter();
             let known = outputs.filter(|output| self.unmeasured(held, moving, output).is_none());
             return Ok(known.cloned().collect());
         }
         let mut quantities = Vec::new();
-        for (index, list) in self.reports.iter().enumerate() {
-            let item = Role::Quantity.item(index);
-            for text in Quantity::split(list) {
+        for (item, list) in self.of(Role::Report) {
+            for text in Quantity::split(&list.name) {
                 for (name, text) in self.expanded(&text, held, points) {
                     quantities.push(self.quantity((held, moving), item, &name, &text)?);
                 }
@@ -41,7 +40,7 @@ impl Question {
         name: &str,
         text: &str,
     ) -> Result<Quantity, AskError> {
-        let mechanism = &*self.mechanism;
+        let mechanism = &**self.mechanism();
         let mut outputs = mechanism.outputs().iter();
         let read = match outputs.find(|output| output.name == text) {
             Some(output) => Ok(output.clone()),
@@ -68,14 +67,13 @@ impl Question {
         held: &system::Question,
         quantities: &mut Vec<Quantity>,
     ) -> Result<Vec<(usize, f64)>, AskError> {
-        let moving = !self.inputs.is_empty();
-        let dwells = self.dwells.iter().enumerate();
-        let dwells = dwells.map(|(index, (text, tolerance))| {
+        let moving = self.has(Role::Input);
+        let dwells = self.of(Role::Dwell).map(|(item, demand)| {
+            let (text, tolerance) = (&demand.name, demand.value(0));
             let known = quantities.iter().position(|known| known.name == *text);
             let place = match known {
                 Some(place) => place,
                 None => {
-                    let item = Role::Dwell.item(index);
                     quantities.push(self.quantity((held, moving), item, text, text)?);
                     quantities.len() - 1
                 }
@@ -85,17 +83,17 @@ impl Question {
                 SiUnit::METRE => Measure::Length,
                 _ => Measure::Number,
             };
-            let number = tolerance.number(&self.mechanism, measure);
+            let number = tolerance.number(self.mechanism(), measure);
             let number = number.map_err(|error| QuestionError::Value {
                 name: text.clone(),
                 text: tolerance.to_string(),
                 error,
             });
-            let number = number.map_err(Role::Dwell.named(index))?;
+            let number = number.map_err(item.named())?;
             match moving {
                 true => Ok((place, number.abs())),
                 false => Err(AskError::Unmeasured {
-                    item: Role::Dwell.item(index),
+                    item,
                     quantity: text.clone(),
                     error: Unmeasured::NoInput,
                 }),
@@ -121,7 +119,7 @@ impl Question {
         let of: Vec<String> = match points {
             [] => {
                 let known = held.held_coordinates();
-                let joints = self.mechanism.joints().iter().enumerate();
+                let joints = self.mechanism().joints().iter().enumerate();
                 let free = joints.filter(|(i, _)| !known.contains(&Coordinate::Joint(*i)));
                 free.map(|(_, joint)| joint.name.clone()).collect()
             }
@@ -150,8 +148,8 @@ impl Question {
             }
             let of = match *measured {
                 Measured::Figure(Figure::Determinant) => {
-                    let outputs = free_outputs(&self.mechanism, &held.driven_coordinates(), &[]);
-                    let rows = row_count(&self.mechanism, &outputs);
+                    let outputs = free_outputs(self.mechanism(), &held.driven_coordinates(), &[]);
+                    let rows = row_count(self.mechanism(), &outputs);
                     let columns = held.driven_coordinates().len();
                     return (rows != columns).then_some(Unmeasured::NotSquare { rows, columns });
                 }
@@ -160,12 +158,12 @@ impl Question {
                 _ => return None,
             };
             match held.driven_coordinates().contains(&of) {
-                true if self.wrenches.is_empty() && self.loads.is_empty() => {
+                true if !self.has(Role::Wrench) && !self.has(Role::Load) => {
                     Some(Unmeasured::NoLoad)
                 }
                 true => None,
                 false => Some(Unmeasured::NotHeld {
-                    name: of.name(&self.mechanism),
+                    name: of.name(self.mechanism()),
                     held: held.held_names(),
                 }),
             }

@@ -12,27 +12,18 @@ const MOST_TURNS: f64 = 10_000.0;
 impl Question {
     /// The inputs with their ranges; `refuse` is true for a range that is no use.
     pub(super) fn driven(&self, refuse: fn(f64, f64) -> bool) -> Result<Vec<Driven>, AskError> {
-        let question = system::Question::new(&self.mechanism);
-        for (index, input) in self.inputs.iter().enumerate() {
-            let mut before = self.inputs[..index].iter();
-            if let Some(first) = before.position(|first| first.name == input.name) {
-                return Err(AskError::Twice {
-                    item: Role::Input.item(index),
-                    first: Role::Input.item(first),
-                    name: input.name.clone(),
-                });
-            }
-        }
+        let question = system::Question::new(self.mechanism());
         let mut ranges = Vec::new();
-        for (index, input) in self.inputs.iter().enumerate() {
+        for (item, input) in self.once(Role::Input)? {
             let name = &input.name;
             // a wrong name is the first thing to say
-            (question.value(name, "home")).map_err(Role::Input.named(index))?;
-            let from = question.value(name, &input.from);
-            let (coordinate, from) = from.map_err(Role::From.named(index))?;
-            let (_, to) = (question.value(name, &input.to)).map_err(Role::To.named(index))?;
+            (question.value(name, "home")).map_err(item.named())?;
+            let from = question.value(name, input.value(0));
+            let (coordinate, from) = from.map_err(item.value(0).named())?;
+            let to = question.value(name, input.value(1));
+            let (_, to) = to.map_err(item.value(1).named())?;
             if refuse(from, to) {
-                return Err(AskError::EmptyRange(Role::Input.item(index), name.clone()));
+                return Err(AskError::EmptyRange(item, name.clone()));
             }
             ranges.push(Driven {
                 coordinate,
@@ -45,12 +36,12 @@ impl Question {
 
     /// Refuses inputs that turn so often that nobody waits for it.
     pub(super) fn few_turns(&self, inputs: &[Driven]) -> Result<(), AskError> {
-        for (index, input) in inputs.iter().enumerate() {
+        for (input, (item, demand)) in inputs.iter().zip(self.of(Role::Input)) {
             let turns = (input.to - input.from).abs() / TAU;
-            if input.coordinate.is_angle(&self.mechanism) && turns > MOST_TURNS {
+            if input.coordinate.is_angle(self.mechanism()) && turns > MOST_TURNS {
                 return Err(AskError::TooManyTurns {
-                    item: Role::Input.item(index),
-                    name: self.inputs[index].name.clone(),
+                    item,
+                    name: demand.name.clone(),
                     turns,
                     most: MOST_TURNS,
                 });
@@ -65,12 +56,10 @@ impl Question {
         mut question: system::Question<'q>,
         values: &[f64],
     ) -> Result<system::Question<'q>, AskError> {
-        for (index, (input, value)) in self.inputs.iter().zip(values).enumerate() {
+        for ((item, input), value) in self.of(Role::Input).zip(values) {
             question = (question.hold(&input.name, *value)).map_err(|error| match error {
-                QuestionError::Contradiction { .. } => {
-                    AskError::AlsoHeld(Role::Input.item(index), input.name.clone())
-                }
-                error => Role::Input.named(index)(error),
+                QuestionError::Contradiction { .. } => AskError::AlsoHeld(item, input.name.clone()),
+                error => item.named()(error),
             })?;
         }
         Ok(question)

@@ -1,23 +1,25 @@
-//! Values at which further coordinates of a question can be held.
+//! Remedies: changes after which a question has an answer. Errors are data; each door puts these into its own words.
 
-use super::{Question, RESTARTS};
+use super::{Demand, Question, RESTARTS, Role, Value};
 use crate::solve::Watch;
 
-/// A coordinate with a value at which it can be held.
+/// A change after which a question has an answer, or something that says more.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Holdable {
-    /// Its name.
-    pub name: String,
-    /// The value, rad or m; `None` for the value in the file.
-    pub value: Option<f64>,
-    /// True if it is an angle.
-    pub is_angle: bool,
+pub enum Remedy {
+    /// A demand is made.
+    Demand(Demand),
+    /// Demands of a role are made, as they suit.
+    Role(Role),
+    /// A setting, with a value if it takes one: `steps`, `100`.
+    Setting(&'static str, Option<String>),
+    /// Another analysis, with demands of a role if there is one: `solve`, `sweep` with inputs.
+    Analysis(&'static str, Option<Role>),
 }
 
 impl Question {
-    /// Values at which further coordinates can be held: those of the file if the mechanism assembles with
-    /// them, otherwise those that they have where it assembles. `None` if no assembly was found.
-    pub fn holdable(&self, names: &[String]) -> Option<Vec<Holdable>> {
+    /// Demands that hold coordinates beside what is held: at home if the mechanism assembles with them there, otherwise
+    /// at the values, in m or rad, that they have where it assembles. `None` if no assembly was found.
+    pub fn holdable(&self, names: &[String]) -> Option<Vec<Demand>> {
         let found = |question: &Question| {
             let resolved = question.resolved().ok()?;
             self.nearest(&resolved, RESTARTS, &Watch::none())
@@ -32,11 +34,11 @@ impl Question {
         let resolved = self.resolved().ok()?;
         let holdable = |name: &String| {
             let (coordinate, _) = resolved.value(name, "home").ok()?;
-            Some(Holdable {
-                name: name.clone(),
-                value: there.as_ref().map(|at| coordinate.of(&self.mechanism, at)),
-                is_angle: coordinate.is_angle(&self.mechanism),
-            })
+            let there = there.as_ref();
+            let value = there.map_or(Value::from("home"), |at| {
+                coordinate.of(self.mechanism(), at).into()
+            });
+            Some(Demand::new(Role::Hold, name, [value]))
         };
         names.iter().map(holdable).collect()
     }

@@ -2,9 +2,10 @@
 
 use thiserror::Error;
 
-use super::Question;
+use super::{Question, with_coordinate};
 use crate::analysis::sweep::Schedule;
 use crate::description::nearest;
+use crate::mechanism::Mechanism;
 use crate::system::{self, Coordinate, QuestionError};
 
 /// An error in a table of inputs over time, with its place.
@@ -84,6 +85,7 @@ impl Question {
             column: character(table.lines().nth(line - 1).unwrap_or_default(), value),
             kind,
         };
+        let mut mechanism = self.mechanism().clone();
         let mut header: Vec<(String, String)> = Vec::new();
         let mut coordinates: Vec<Coordinate> = Vec::new();
         let (mut times, mut values) = (Vec::new(), Vec::<Vec<f64>>::new());
@@ -107,11 +109,12 @@ impl Question {
                     return Err(error(line, 1, TableErrorKind::NoTime(record[0].into())));
                 }
                 for (i, (name, _)) in header.iter().enumerate().skip(1) {
-                    let name = self.placed(name.clone());
-                    let known = system::Question::new(&self.mechanism).value(&name, "home");
-                    let (of, _) = known.map_err(|_| error(line, i + 1, self.unknown(&name)))?;
+                    mechanism = with_coordinate(mechanism, name);
+                    let known = system::Question::new(&mechanism).value(name, "home");
+                    let unknown = |_| error(line, i + 1, unknown(&mechanism, name));
+                    let (of, _) = known.map_err(unknown)?;
                     if coordinates.contains(&of) {
-                        return Err(error(line, i + 1, TableErrorKind::Twice(name)));
+                        return Err(error(line, i + 1, TableErrorKind::Twice(name.clone())));
                     }
                     coordinates.push(of);
                     values.push(Vec::new());
@@ -122,7 +125,7 @@ impl Question {
                 let kind = TableErrorKind::Extra(header.len());
                 return Err(error(line, header.len() + 1, kind));
             }
-            let plain = system::Question::new(&self.mechanism);
+            let plain = system::Question::new(&mechanism);
             for (i, (name, unit)) in header.iter().enumerate() {
                 let text = record.get(i).unwrap_or_default();
                 if text.is_empty() {
@@ -154,14 +157,14 @@ impl Question {
         self.schedule = Some(Schedule::new(times, values));
         Ok(self)
     }
+}
 
-    fn unknown(&self, name: &str) -> TableErrorKind {
-        let known = Coordinate::all(&self.mechanism).map(|of| of.name(&self.mechanism));
-        let known: Vec<String> = known.collect();
-        TableErrorKind::Unknown {
-            name: name.into(),
-            suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
-        }
+fn unknown(mechanism: &Mechanism, name: &str) -> TableErrorKind {
+    let known = Coordinate::all(mechanism).map(|of| of.name(mechanism));
+    let known: Vec<String> = known.collect();
+    TableErrorKind::Unknown {
+        name: name.into(),
+        suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
     }
 }
 

@@ -51,7 +51,7 @@ impl Question {
         let question = question.with_spins_still();
         let held = still(question.with_still(held), &moved);
         let start = self.start(&question, watch)?;
-        let mechanism = &self.mechanism;
+        let mechanism = self.mechanism();
         Ok(along(
             mechanism, &held, &moved, &inputs, &start, &settings, watch,
         ))
@@ -72,7 +72,7 @@ impl Question {
             return Err(AskError::Sides(sides.len()));
         };
         let (question, held) = self.holding(&middles(&sides))?;
-        if let Some(TooLarge { unknowns, .. }) = too_large(&self.mechanism) {
+        if let Some(TooLarge { unknowns, .. }) = too_large(self.mechanism()) {
             return Err(AskError::TooLarge(unknowns));
         }
         let inputs = inputs(&question)?;
@@ -96,13 +96,13 @@ impl Question {
 
     /// The outputs that are asked for.
     pub(super) fn asked_outputs(&self) -> Result<Vec<Lock>, AskError> {
-        let question = system::Question::new(&self.mechanism);
-        let named = self.outputs.iter().enumerate().map(|(index, name)| {
+        let question = system::Question::new(self.mechanism());
+        let named = self.of(Role::Output).map(|(item, demand)| {
+            let name = &demand.name;
             if let Ok((coordinate, _)) = question.value(name, "home") {
                 return Ok(Lock::Coordinate(coordinate));
             }
-            let item = Role::Output.item(index);
-            match Point::read(&self.mechanism, name) {
+            match Point::read(self.mechanism(), name) {
                 // beside an origin the orientation is not meant
                 Ok(point) if !point.is_origin() => Ok(Lock::Point(point)),
                 Ok(point) => Ok(Lock::Frame(point.frame)),
@@ -131,7 +131,7 @@ impl Question {
             .0
             .held_coordinates()
             .iter()
-            .any(|of| of_platform(&self.mechanism, of));
+            .any(|of| of_platform(self.mechanism(), of));
         if inverse && matches!(count, Err(QuestionError::TooMany { .. })) {
             posed = with_inputs(self.released()?)?;
             count = check_count(&posed.0);

@@ -3,9 +3,9 @@
 mod pull;
 mod ways;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use super::{AskError, Question};
+use super::{AskError, Question, Role};
 use crate::analysis::sweep::{Row, SweepEnd, SweepReport, SweepSettings, sweep};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Watch;
@@ -67,7 +67,7 @@ impl Question {
     pub fn steering_from(&self, at: Configuration<f64>) -> Result<Steering, AskError> {
         let resolved = self.resolved()?;
         Ok(Steering {
-            mechanism: self.mechanism.clone(),
+            mechanism: self.mechanism().clone(),
             driven: resolved.held_coordinates(),
             still: resolved.with_spins_still().still().to_vec(),
             at,
@@ -79,7 +79,8 @@ impl Question {
 
     /// Holds a coordinate no longer, so that it can be an input.
     pub fn let_go(mut self, name: &str) -> Self {
-        self.hold.retain(|(held, _)| held != name);
+        (self.demands).retain(|of| of.role != Role::Hold || of.name != name);
+        self.ready = OnceLock::new();
         self
     }
 
@@ -96,17 +97,14 @@ impl Question {
         let mut asked = self;
         for name in free {
             asked = asked.let_go(&name);
-            if asked.mechanism.joint(&name).is_some() {
+            if asked.mechanism().joint(&name).is_some() {
                 asked = asked.free(name);
             }
         }
         let values = asked.holdable(&hold).unwrap_or_default();
         for holdable in values {
-            asked.free.retain(|free| *free != holdable.name);
-            asked = match holdable.value {
-                Some(value) => asked.hold(holdable.name, value),
-                None => asked.hold(holdable.name, "home"),
-            };
+            (asked.demands).retain(|of| of.role != Role::Free || of.name != holdable.name);
+            asked = asked.demand(holdable);
         }
         Ok(asked)
     }

@@ -141,36 +141,32 @@ fn number(
 }
 
 impl Study {
-    /// A study of a question: what it reports
-    /// ([`Question::report`], and `assemblies`, the number of real ones), at points of what it moves ([`Question::input`]),
-    /// which may be parameters too. What has a `deviation` varies normally about its value, with this standard deviation.
+    /// A study of a question: what it reports ([`Question::report`], and `assemblies`, the number of real ones) at points
+    /// of what it varies ([`Question::vary`], [`Question::deviate`]).
     ///
     /// # Errors
     /// If the question or the points are wrong.
-    pub fn new(
-        question: &Question,
-        vary: &[(String, system::Value, system::Value)],
-        deviations: &[(String, system::Value)],
-        points: Points,
-    ) -> Result<Self, AskError> {
+    pub fn new(question: &Question, points: Points) -> Result<Self, AskError> {
         let mechanism = question.mechanism().clone();
         let plain = system::Question::new(&mechanism);
         let (mut varied, mut ranges) = (Vec::new(), Vec::new());
-        for (index, (name, from, to)) in vary.iter().enumerate() {
+        for (item, demand) in question.once(Role::Vary)? {
+            let (name, from, to) = (&demand.name, demand.value(0), demand.value(1));
             if let Some((index, parameter)) = parameter(&mechanism, name)? {
                 let number = |value| number(&mechanism, index, value);
-                ranges.push(Spread::Even(number(from)?, number(to)?));
+                ranges.push(Spread::Even(number(&from)?, number(&to)?));
                 varied.push(Varied::parameter(index, parameter));
                 continue;
             }
-            let (of, from) = (plain.value(name, from)).map_err(Role::From.named(index))?;
-            let (_, to) = (plain.value(name, to)).map_err(Role::To.named(index))?;
+            let (of, from) = (plain.value(name, from)).map_err(item.value(0).named())?;
+            let (_, to) = (plain.value(name, to)).map_err(item.value(1).named())?;
             ranges.push(Spread::Even(from, to));
             // what follows a joint is that joint
             let name = of.name(&mechanism);
             varied.push(Varied::coordinate(&name, of, &mechanism));
         }
-        for (name, deviation) in deviations {
+        for (_, demand) in question.once(Role::Deviate)? {
+            let (name, deviation) = (&demand.name, &demand.value(0));
             if varied.iter().any(|of| of.name == *name) {
                 return Err(StudyError::Twice(name.clone()).into());
             }
@@ -180,11 +176,12 @@ impl Study {
                     (parameter.value, number(&mechanism, index, deviation)?)
                 }
                 None => {
-                    let held = question.hold.iter().rfind(|(held, _)| held == name);
-                    let home = "home".into();
-                    let held = held.map_or(&home, |(_, value)| value);
+                    let held = question
+                        .of(Role::Hold)
+                        .filter(|(_, held)| held.name == *name);
+                    let held = held.last().map_or("home".into(), |(_, held)| held.value(0));
                     let value = |value| plain.value(name, value).map_err(AskError::Question);
-                    let ((of, mean), (_, deviation)) = (value(held)?, value(deviation)?);
+                    let ((of, mean), (_, deviation)) = (value(&held)?, value(deviation)?);
                     if let Some(follower) = mechanism.follower(name) {
                         return Err(StudyError::Unknown {
                             name: name.clone(),
@@ -211,7 +208,7 @@ impl Study {
             Points::Sobol(count) if *count as u64 >= 1 << 32 => {
                 return Err(StudyError::Count.into());
             }
-            Points::Grid(_) if !deviations.is_empty() => return Err(StudyError::Grid.into()),
+            Points::Grid(_) if question.has(Role::Deviate) => return Err(StudyError::Grid.into()),
             Points::Grid(nodes) if nodes.len() != wanted => {
                 return width(format!("{} numbers of nodes", nodes.len()));
             }
@@ -226,16 +223,19 @@ impl Study {
             return Err(StudyError::Count.into());
         }
         let mut question = question.clone();
-        let lists = question.reports.iter();
         let mut counted = false;
-        let kept = lists.map(|list| {
-            let mut parts = Quantity::split(list);
+        let lists = question.demands.iter_mut();
+        for list in lists.filter(|demand| demand.role == Role::Report) {
+            let mut parts = Quantity::split(&list.name);
             let before = parts.len();
             parts.retain(|part| part.trim() != ASSEMBLIES);
             counted |= parts.len() < before;
-            parts.join(", ")
+            list.name = parts.join(", ");
+        }
+        question = question.keeping(|of| match of.role {
+            Role::Report => !of.name.is_empty(),
+            role => !matches!(role, Role::Vary | Role::Deviate),
         });
-        question.reports = kept.filter(|list| !list.is_empty()).collect();
         let mut study = Study {
             question,
             points,
@@ -273,11 +273,10 @@ impl Study {
     /// All that decides its rows beside the mechanism, as one text.
     pub fn identity(&self) -> String {
         let of = &self.question;
-        let held = (&of.hold, &of.free, &of.guess, &of.near, &of.mode, of.seed);
-        let asked = (&of.reports, &of.rates, &of.wrenches, &of.loads);
+        let asked = (&of.demands, &of.near, &of.mode, of.seed);
         let varied: Vec<&str> = self.varied.iter().map(|of| &*of.name).collect();
         let points = (&self.points, varied, &self.ranges, self.counted);
-        format!("{held:?} {asked:?} {points:?}")
+        format!("{asked:?} {points:?}")
     }
 
     /// The rows of these numbers, those of a [`shard`](Self::shard), on all cores.

@@ -25,8 +25,8 @@ impl Question {
         settings: &SweepSettings,
         watch: &Watch,
     ) -> Result<Motions<'_>, AskError> {
-        let mechanism = &*self.mechanism;
-        if self.inputs.is_empty() && !settings.follow {
+        let mechanism = &**self.mechanism();
+        if !self.has(Role::Input) && !settings.follow {
             let driven = CircuitsReport::input_of(mechanism);
             let driven = driven.map(|joint| mechanism.joints()[joint].name.clone());
             return Err(AskError::NothingMoves(driven));
@@ -54,14 +54,14 @@ impl Question {
         self.few_turns(&inputs)?;
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
         let mut question = self.with_inputs(self.resolved()?, &begin)?;
-        for (index, input) in inputs.iter().enumerate() {
+        for ((item, _), input) in self.of(Role::Input).zip(&inputs) {
             if let Coordinate::Joint(joint) = input.coordinate
                 && let joint = &mechanism.joints()[joint]
                 && let Some(limits) = joint.limits
                 && !joint.allows(input.from)
             {
                 return Err(AskError::OutsideLimits {
-                    item: Role::Input.item(index),
+                    item,
                     name: joint.name.clone(),
                     limits,
                     is_angle: joint.kind.is_angle(),
@@ -133,13 +133,13 @@ impl Question {
         watch: &Watch,
     ) -> Result<SweepReport, AskError> {
         let mut asked = self.clone();
-        if let Err(AskError::NothingLeft(_)) = asked.one_freedom() {
-            let joints = self.mechanism.joints();
+        if let Err(AskError::NothingLeft(_)) = self.one_freedom() {
+            let joints = self.mechanism().joints();
             let driven = |name: &str| {
-                let joint = self.mechanism.joint(name);
+                let joint = self.mechanism().joint(name);
                 joint.is_some_and(|joint| joints[joint].role == description::Role::Actuated)
             };
-            asked.hold.retain(|(name, _)| !driven(name));
+            asked = self.keeping(|of| of.role != Role::Hold || !driven(&of.name));
         }
         let question = asked.one_freedom()?.with_spins_still();
         let held = question.with_still(question.held());
@@ -147,7 +147,7 @@ impl Question {
             points: self.named_points()?,
             ..SweepSettings::default()
         };
-        let mechanism = &self.mechanism;
+        let mechanism = self.mechanism();
         Ok(sweep(mechanism, &held, &[], at, &settings, sink, watch))
     }
 

@@ -69,22 +69,18 @@ impl Question {
         if !self.is_inverse(axes)? {
             return Ok(closed(self.resolved()?, RESTARTS));
         }
-        let own = Question {
-            hold: Vec::new(),
-            free: Vec::new(),
-            ..self.clone()
-        };
+        let own = self.keeping(|of| !matches!(of.role, Role::Hold | Role::Free));
         let Some(home) = closed(own.resolved()?, RESTARTS) else {
             return Ok(None);
         };
         let values: Vec<f64> = axes
             .iter()
-            .map(|axis| axis.coordinate.of(&self.mechanism, &home))
+            .map(|axis| axis.coordinate.of(self.mechanism(), &home))
             .collect();
         let question = self.with_inputs(self.released()?, &values)?;
-        let question = match self.hold.is_empty() {
-            true => question.near(&home),
-            false => question,
+        let question = match self.has(Role::Hold) {
+            true => question,
+            false => question.near(&home),
         };
         // what a random start leads to is not home
         Ok(closed(question, 0))
@@ -94,15 +90,17 @@ impl Question {
     fn is_inverse(&self, axes: &[Driven]) -> Result<bool, AskError> {
         let held = self.resolved()?.held_coordinates();
         let mapped = axes.iter().map(|axis| axis.coordinate);
-        Ok(mapped.chain(held).any(|h| of_platform(&self.mechanism, &h)))
+        Ok(mapped
+            .chain(held)
+            .any(|h| of_platform(self.mechanism(), &h)))
     }
 
     /// The mapped coordinates with their ranges.
     fn axes(&self) -> Result<Vec<Driven>, AskError> {
-        let mechanism = &self.mechanism;
+        let mechanism = self.mechanism();
         let question = system::Question::new(mechanism);
-        for (index, input) in self.inputs.iter().enumerate() {
-            let wrong = |error| AskError::NotMapped(Role::Input.item(index), Box::new(error));
+        for (item, input) in self.of(Role::Input) {
+            let wrong = |error| AskError::NotMapped(item, Box::new(error));
             (question.value(&input.name, "home")).map_err(wrong)?;
         }
         // a range that is no number is refused too
@@ -124,20 +122,20 @@ impl Question {
 
     /// The question with the mapped coordinates in the middle of their ranges.
     fn mapped(&self, axes: &[Driven]) -> Result<system::Question<'_>, AskError> {
-        let mechanism = &self.mechanism;
+        let mechanism = self.mechanism();
         let inverse = self.is_inverse(axes)?;
         let question = match inverse {
             true => self.released()?,
             false => self.resolved()?,
         };
-        let demanded = self.hold.iter().map(|(name, _)| name).chain(&self.free);
-        for (index, (input, axis)) in self.inputs.iter().zip(axes).enumerate() {
+        let demanded = self.of(Role::Hold).chain(self.of(Role::Free));
+        let demanded: Vec<&String> = demanded.map(|(_, demand)| &demand.name).collect();
+        for ((item, input), axis) in self.of(Role::Input).zip(axes) {
             let platform = match axis.coordinate {
                 Coordinate::Pose(platform, _) => Some(&mechanism.platforms()[platform].name),
                 Coordinate::Joint(_) | Coordinate::Turn(..) => None,
             };
-            if (demanded.clone()).any(|name| *name == input.name || Some(name) == platform) {
-                let item = Role::Input.item(index);
+            if (demanded.iter()).any(|name| **name == input.name || Some(*name) == platform) {
                 return Err(AskError::AlsoHeld(item, input.name.clone()));
             }
         }
@@ -161,7 +159,7 @@ impl Question {
                 QuestionError::TooFew { .. } if inverse => missing(&question),
                 _ => Vec::new(),
             },
-            mapped: self.inputs.iter().map(|input| input.name.clone()).collect(),
+            mapped: (self.of(Role::Input).map(|(_, input)| input.name.clone())).collect(),
             error: Box::new(error),
         })?;
         Ok(question)

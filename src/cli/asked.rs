@@ -1,20 +1,17 @@
 //! The options that pose a question, and the one way from a question to its answer.
 
 use clap::Args;
-use linkwork::ask::{AskError, Item, Mode, Question, Role};
+use linkwork::ask::{AskError, Demand, Mode, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::output::JsonReport;
-use linkwork::output::complaint::{Complaint, Given};
+use linkwork::output::complaint::{Complaint, Door, Given, Ranged, Wording, unknown_frame};
 use linkwork::solve::Watch;
-use linkwork::system::{self, QuestionError};
+use linkwork::system;
 
 use super::format::Format;
-use super::source::{Assignment, Loaded, Source, once};
+use super::source::{Assignment, Loaded, Source};
 use super::watched::watched;
-use super::words::question::{
-    at_home, complaint, complaint_of, freed_in_vain, held_at, unknown_frame,
-};
-use super::words::{self, Ranged};
+use super::words::{self, Options};
 use super::{Answer, Refusal, style};
 
 #[derive(Args)]
@@ -29,10 +26,10 @@ pub struct Split {
 
 impl Split {
     /// The question about a mechanism that these options pose.
-    pub fn pose(&self, source: &Source) -> Result<Posed<'_>, Refusal> {
+    pub fn pose(&self, source: &Source) -> Result<Posed, Refusal> {
         let mut posed = Posed::new(source)?;
-        posed.names(Role::Free, "--free", &self.free, Question::free);
-        posed.values(Role::Hold, "--hold", &self.hold, Question::hold);
+        posed.names(Role::Free, &self.free);
+        posed.values(Role::Hold, &self.hold);
         Ok(posed)
     }
 }
@@ -47,10 +44,10 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// As [`Split::pose`], with guesses for free coordinates.
-    pub fn pose(&self, source: &Source) -> Result<Posed<'_>, Refusal> {
+    /// The question with guesses for what is free.
+    pub fn pose(&self, source: &Source) -> Result<Posed, Refusal> {
         let mut posed = self.split.pose(source)?;
-        posed.values(Role::Guess, "--guess", &self.guess, Question::guess);
+        posed.values(Role::Guess, &self.guess);
         Ok(posed)
     }
 }
@@ -75,34 +72,29 @@ impl Forces {
         !self.wrench.is_empty() || !self.load.is_empty()
     }
 
-    pub fn pose<'o>(&'o self, posed: &mut Posed<'o>) {
-        posed.values(
-            Role::Wrench,
-            "--wrench",
-            &self.wrench,
-            Question::wrench_text,
-        );
-        posed.values(Role::Load, "--load", &self.load, Question::load);
+    pub fn pose(&self, posed: &mut Posed) {
+        posed.values(Role::Wrench, &self.wrench);
+        posed.values(Role::Load, &self.load);
     }
 }
 
 /// A question with the file and the options that posed it.
-pub struct Posed<'o> {
+pub struct Posed {
     pub loaded: Loaded,
     pub question: Question,
-    given: Vec<(Role, Given<'o>)>,
-    ranges: Ranged,
+    options: Options,
+    ranged: Ranged,
 }
 
-impl<'o> Posed<'o> {
+impl Posed {
     /// The file's own question.
     pub fn new(source: &Source) -> Result<Self, Refusal> {
         let loaded = source.load()?;
         Ok(Posed {
             question: Question::new(loaded.mechanism.clone()),
             loaded,
-            given: Vec::new(),
-            ranges: Ranged::Input,
+            options: Options::default(),
+            ranged: Ranged::Input,
         })
     }
 
@@ -110,32 +102,22 @@ impl<'o> Posed<'o> {
         self.question = change(self.question.clone());
     }
 
-    /// Puts the names that an option gives into the question.
-    pub fn names(
-        &mut self,
-        role: Role,
-        option: &'o str,
-        names: &'o [String],
-        put: impl Fn(Question, String) -> Question,
-    ) {
-        for name in names {
-            self.given.push((role, Given::new(option, name, None)));
-            self.ask_with(|question| put(question, name.clone()));
-        }
+    /// Calls the option of a role by another name than that of the role.
+    pub fn spelled(&mut self, role: Role, option: &'static str) {
+        self.options.spelled.push((role, option));
     }
 
-    /// Adds values that an option gives to names.
-    pub fn values(
-        &mut self,
-        role: Role,
-        option: &'o str,
-        values: &'o [Assignment],
-        put: impl Fn(Question, String, String) -> Question,
-    ) {
-        for given in values {
-            self.given.push((role, given.given(option)));
-            self.ask_with(|question| put(question, given.name.clone(), given.value.clone()));
-        }
+    /// Puts the names that an option gives into the question.
+    pub fn names(&mut self, role: Role, names: &[String]) {
+        let demands = names.iter().map(|name| Demand::named(role, name));
+        demands.for_each(|demand| self.question.add(demand));
+    }
+
+    /// Puts the values that an option gives to names into the question.
+    pub fn values(&mut self, role: Role, values: &[Assignment]) {
+        let demand = |given: &Assignment| Demand::new(role, &given.name, [&given.value]);
+        let demands = values.iter().map(demand);
+        demands.for_each(|demand| self.question.add(demand));
     }
 
     pub fn mode(&mut self, number: Option<usize>) {
@@ -143,38 +125,27 @@ impl<'o> Posed<'o> {
         self.ask_with(|question| question.mode(mode));
     }
 
-    /// The ranges of an option, `NAME=FROM..TO`, as inputs.
-    pub fn ranges(&mut self, ranges: Ranged, given: &'o [Assignment]) -> Result<(), Refusal> {
-        for (name, from, to) in self.varied(ranges, given)? {
-            self.ask_with(|question| question.input(name, from, to));
-        }
-        Ok(())
-    }
-
-    pub fn varied(
-        &mut self,
-        ranges: Ranged,
-        given: &'o [Assignment],
-    ) -> Result<Vec<(String, String, String)>, Refusal> {
-        let option = ranges.option();
-        self.ranges = ranges;
-        once(option, given)?;
-        let mut varied = Vec::new();
-        for assignment in given {
-            let name = &assignment.name;
-            self.given.push((Role::Input, assignment.given(option)));
-            let Some((from, to)) = assignment.value.split_once("..") else {
+    /// Puts the ranges that an option gives, `NAME=FROM..TO`, into the question.
+    pub fn ranges(&mut self, ranged: Ranged, given: &[Assignment]) -> Result<(), Refusal> {
+        self.ranged = ranged;
+        let role = match ranged {
+            Ranged::Vary => Role::Vary,
+            Ranged::Input | Ranged::Locus | Ranged::Map => Role::Input,
+        };
+        for Assignment { name, value } in given {
+            let Some((from, to)) = value.split_once("..") else {
                 // a wrong name is the first thing to say
                 let known = system::Question::new(self.question.mechanism()).value(name, "home");
+                let option = self.options.option(role, ranged);
                 let said = match known {
-                    Err(error) if ranges != Ranged::Vary => complaint(&error),
-                    _ => words::no_range(ranges, name),
+                    Err(error) if ranged != Ranged::Vary => self.wording().question(&error),
+                    _ => words::no_range(&option, name),
                 };
-                return Err(refused(&said, Some(assignment.given(option))));
+                return Err(refused(&said, &option, name, Some(value)));
             };
-            varied.push((name.clone(), from.to_owned(), to.to_owned()));
+            self.question.add(Demand::new(role, name, [from, to]));
         }
-        Ok(varied)
+        Ok(())
     }
 
     pub fn ask<'q, R>(
@@ -194,80 +165,32 @@ impl<'o> Posed<'o> {
         self.loaded.answer(format, &report)
     }
 
-    /// The error in the held coordinates, with options that correct it.
-    pub fn complaint(&self, error: &QuestionError) -> Complaint {
-        held_wrong(&self.question, &self.given, error)
+    /// The words for an error, with options that put the question right.
+    pub fn complaint(&self, error: &AskError) -> Complaint {
+        self.wording().asked(&self.question, error)
     }
 
-    /// The error in the question, under its option if it is in one.
+    fn wording(&self) -> Wording<'_> {
+        Wording {
+            door: &self.options,
+            ranged: self.ranged,
+        }
+    }
+
+    /// The words for an error under the option that it is about, if it is about one.
     fn refusal(&self, error: &AskError) -> Refusal {
         if let AskError::Store(said) = error {
             return Refusal(said.clone());
         }
-        let (said, given) = said(&self.question, &self.given, self.ranges, error);
-        refused(&said, given)
+        Refusal(self.wording().refusal(&self.question, error, style()))
     }
 }
 
-/// The error in a question posed by options, and the option that it is in, if it is in one.
-pub fn said<'o>(
-    question: &Question,
-    given: &[(Role, Given<'o>)],
-    ranges: Ranged,
-    error: &AskError,
-) -> (Complaint, Option<Given<'o>>) {
-    let option = error.item().and_then(|item| option(given, item));
-    let said = match error {
-        AskError::Question(error) => held_wrong(question, given, error),
-        _ => words::complaint(question.mechanism(), ranges, error, option, &|names| {
-            let held = held(&question.clone().free("actuated"), names);
-            let freed = freed(given).filter(|freed| names.iter().any(|name| name == freed));
-            let freed: Vec<String> = freed.map(|name| format!("--free {name}")).collect();
-            match freed.is_empty() {
-                true => held,
-                false => format!("{held} without {}", freed.join(" ")),
-            }
-        }),
-    };
-    (said, option)
-}
-
-fn held_wrong(question: &Question, given: &[(Role, Given)], error: &QuestionError) -> Complaint {
-    let freed: Vec<&str> = freed(given).collect();
-    freed_in_vain(error, &freed)
-        .unwrap_or_else(|| complaint_of(error, &|names| held(question, names)))
-}
-
-/// The names that are freed.
-fn freed<'o>(given: &[(Role, Given<'o>)]) -> impl Iterator<Item = &'o str> {
-    let freed = given.iter().filter(|(role, _)| *role == Role::Free);
-    freed.map(|(_, given)| given.name)
-}
-
-fn option<'o>(given: &[(Role, Given<'o>)], item: Item) -> Option<Given<'o>> {
-    let role = match item.role {
-        Role::From | Role::To => Role::Input,
-        role => role,
-    };
-    let mut of_role = given.iter().filter(|(of, _)| *of == role);
-    of_role.nth(item.index).map(|(_, given)| *given)
-}
-
-/// The options that hold coordinates where the mechanism assembles.
-fn held(question: &Question, names: &[String]) -> String {
-    (question.holdable(names)).map_or_else(|| at_home(names), |holdable| held_at(&holdable))
-}
-
-fn refused(said: &Complaint, given: Option<Given>) -> Refusal {
-    Refusal(match given {
-        Some(given) => said.render_in(&given, style()),
-        None => said.render(style()),
-    })
+fn refused(said: &Complaint, option: &str, name: &str, value: Option<&str>) -> Refusal {
+    Refusal(said.render_in(&Given::new(option, name, value), style()))
 }
 
 pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
-    mechanism.frame(name).ok_or_else(|| {
-        let given = Given::new(option, name, None);
-        refused(&unknown_frame(mechanism, name), Some(given))
-    })
+    let said = |()| refused(&unknown_frame(mechanism, name), option, name, None);
+    mechanism.frame(name).ok_or(()).map_err(said)
 }

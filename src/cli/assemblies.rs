@@ -59,7 +59,7 @@ impl Assemblies {
         };
         // samples answer a question that holds too little, but what is missing is said too
         let missing = match posed.question.count() {
-            Err(AskError::Question(error)) => posed.complaint(&error).render_warning(style()),
+            Err(error @ AskError::Question(_)) => posed.complaint(&error).render_warning(style()),
             _ => String::new(),
         };
         let answer = posed.answer(self.format, |q, watch| q.assemblies(wanted, watch))?;

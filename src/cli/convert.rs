@@ -6,12 +6,11 @@ use linkwork::analysis::convert::{ConvertSettings, cognates, convert, possible_c
 use linkwork::analysis::frames::AxesReport;
 use linkwork::description::Convention;
 use linkwork::mechanism::NamedPoint;
-use linkwork::output::complaint::{Complaint, Part};
+use linkwork::output::complaint::{Complaint, Part, no_point};
 use linkwork::output::{Report, conversion};
 
 use super::format::{Format, with_file};
 use super::source::{Assignment, Loaded, Source};
-use super::words::question::no_point;
 use super::{Answer, Refusal, lines, style};
 
 /// Write a mechanism in the other convention, broken at another joint, or by joint coordinates, with the same

@@ -87,7 +87,8 @@ impl Draw {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        posed.names(Role::Point, "--trace", &self.trace, Question::point);
+        posed.spelled(Role::Point, "trace");
+        posed.names(Role::Point, &self.trace);
         self.forces.pose(&mut posed);
         posed.mode(self.mode);
         if self.all_modes || self.ghosts {

@@ -40,7 +40,7 @@ pub struct Mobility {
 impl Mobility {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
-        posed.names(Role::Lock, "--lock", &self.lock, Question::lock);
+        posed.names(Role::Lock, &self.lock);
         posed.ask_with(|question| question.seed(self.seed));
         posed.answer(self.format, Question::mobility)
     }

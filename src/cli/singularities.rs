@@ -4,16 +4,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use linkwork::analysis::singularities::SingularitiesSettings;
-use linkwork::ask::{Question, Role};
+use linkwork::ask::Role;
 use linkwork::output::singularities as output;
 
 use super::asked::Asked;
 use super::format::{Format, with_rows};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
-use super::words::Ranged;
 use super::written::{file, save};
 use super::{Answer, Refusal};
+use linkwork::output::complaint::Ranged;
 
 /// Find singularities: at a configuration, along inputs, or as curves in two inputs.
 ///
@@ -74,8 +74,8 @@ impl Singularities {
         };
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        posed.names(Role::Output, "--output", &self.output, Question::output);
-        posed.names(Role::Point, "--point", &self.point, Question::point);
+        posed.names(Role::Output, &self.output);
+        posed.names(Role::Point, &self.point);
         posed.ranges(Ranged::Input, &self.input)?;
         posed.mode(self.mode);
         if self.locus.is_empty() {

@@ -5,15 +5,14 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use linkwork::ask::{self, Points, Question, Role};
+use linkwork::ask::{self, Points, Role};
+use linkwork::output::complaint::Ranged;
 use linkwork::output::study::{Label, csv, spread};
-use linkwork::system::Value;
 
 use super::asked::{Asked, Forces};
 use super::search::Search;
-use super::source::{Assignment, Source, once};
+use super::source::{Assignment, Source};
 use super::watched::{cut_short_is_said, watched};
-use super::words::Ranged;
 use super::written::{file, save};
 use super::{Answer, Refusal, lines};
 
@@ -89,31 +88,19 @@ impl Study {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        once("--rate", &self.rate)?;
-        posed.names(
-            Role::Quantity,
-            "--quantity",
-            &self.quantity,
-            Question::report,
-        );
-        posed.values(Role::Rate, "--rate", &self.rate, Question::rate);
+        posed.spelled(Role::Report, "quantity");
+        posed.names(Role::Report, &self.quantity);
+        posed.values(Role::Rate, &self.rate);
         self.forces.pose(&mut posed);
-        let vary = posed.varied(Ranged::Vary, &self.vary)?.into_iter();
-        let vary: Vec<(String, Value, Value)> = vary
-            .map(|(name, from, to)| (name, from.into(), to.into()))
-            .collect();
-        once("--deviate", &self.deviate)?;
-        let deviate = self.deviate.iter();
-        let deviate: Vec<(String, Value)> = deviate
-            .map(|of| (of.name.clone(), of.value.as_str().into()))
-            .collect();
+        posed.ranges(Ranged::Vary, &self.vary)?;
+        posed.values(Role::Deviate, &self.deviate);
         let points = match self.samples {
             Some(samples) if self.latin => Points::LatinHypercube(samples),
             Some(samples) => Points::Sobol(samples),
-            None if self.grid.len() == 1 => Points::Grid(vec![self.grid[0]; vary.len()]),
+            None if self.grid.len() == 1 => Points::Grid(vec![self.grid[0]; self.vary.len()]),
             None => Points::Grid(self.grid.clone()),
         };
-        let study = posed.ask(|question, _| ask::Study::new(question, &vary, &deviate, points))?;
+        let study = posed.ask(|question, _| ask::Study::new(question, points))?;
         let (part, of) = self.shard;
         let mut range = study.shard(part, of).map_err(Refusal::error)?;
         let written = posed.loaded.description.to_ron().map_err(Refusal::error)?;

@@ -8,6 +8,7 @@ use linkwork::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::output::Report;
 use linkwork::output::canvas::gif;
+use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
 use linkwork::output::drawing::{DrawingSettings, View, frames};
 use linkwork::output::glb::glb;
@@ -19,7 +20,7 @@ use super::pictures::{LASTS, keep, view};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
-use super::words::{self, Ranged};
+use super::words;
 use super::written::{Lines, file, save, unwritten};
 use super::{Answer, Refusal, lines};
 
@@ -144,9 +145,10 @@ impl Sweep {
             let moved = moved.map_err(|error| Refusal::from(words::table(path, &error)))?;
             posed.ask_with(|_| moved);
         }
-        posed.names(Role::Point, "--of", &self.of, Question::point);
-        posed.names(Role::Quantity, "--report", &self.report, Question::report);
-        posed.values(Role::Dwell, "--dwell", &self.dwell, Question::dwell);
+        posed.spelled(Role::Point, "of");
+        posed.names(Role::Point, &self.of);
+        posed.names(Role::Report, &self.report);
+        posed.values(Role::Dwell, &self.dwell);
         self.forces.pose(&mut posed);
         posed.mode(self.mode);
         if self.all_modes {
@@ -201,7 +203,7 @@ impl Sweep {
 
     fn moved(&self, posed: &Posed) -> Result<Answer, Refusal> {
         if self.format == Format::Json && self.steps > MOST_KEPT {
-            return Err(words::steps(self.steps, MOST_KEPT, true).into());
+            return Err(words::too_many_kept(self.steps, MOST_KEPT).into());
         }
         let settings = SweepSettings {
             steps: self.steps,

@@ -5,7 +5,7 @@ use linkwork::ask::{Question, Role};
 
 use super::asked::Asked;
 use super::format::{Format, readable};
-use super::source::{Assignment, Source, once};
+use super::source::{Assignment, Source};
 use super::{Answer, Refusal};
 
 /// Find rates, accelerations and the input–output Jacobian for given rates of the inputs.
@@ -39,16 +39,9 @@ pub struct Velocity {
 impl Velocity {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
-        once("--rate", &self.rate)?;
-        once("--acceleration", &self.acceleration)?;
-        posed.values(Role::Rate, "--rate", &self.rate, Question::rate);
-        posed.values(
-            Role::Acceleration,
-            "--acceleration",
-            &self.acceleration,
-            Question::acceleration,
-        );
-        posed.names(Role::Point, "--point", &self.point, Question::point);
+        posed.values(Role::Rate, &self.rate);
+        posed.values(Role::Acceleration, &self.acceleration);
+        posed.names(Role::Point, &self.point);
         posed.answer(self.format, Question::velocity)
     }
 }

@@ -92,7 +92,7 @@ fn show(bar: &ProgressBar, now: Progress) {
         Some(_) => "{human_pos} of {human_len}, {eta} left {wide_bar}",
         None => "{human_pos}",
     };
-    if let Ok(style) = ProgressStyle::with_template(&format!("{}: {amount}", words(now.stage))) {
+    if let Ok(style) = ProgressStyle::with_template(&format!("{}: {amount}", now.stage)) {
         bar.set_style(style);
     }
     bar.update(|state| {
@@ -101,29 +101,4 @@ fn show(bar: &ProgressBar, now: Progress) {
         }
         state.set_pos(now.done as u64);
     });
-}
-
-pub fn words(stage: Stage) -> String {
-    let words = match stage {
-        Stage::Seeds { found } => return format!("{found} generic solutions; seeds tried"),
-        Stage::Loops { found } => return format!("{found} generic solutions; monodromy loops"),
-        Stage::Starts => "random starts",
-        Stage::Paths => "paths followed",
-        Stage::Certificates => "assemblies certified",
-        Stage::Boxes => "boxes proved",
-        Stage::Proofs => "closed forms compared in letters",
-        Stage::Samples => "samples",
-        Stage::Motion => "steps of the inputs",
-        Stage::Steps => "steps along the curve",
-        Stage::Inputs => "input values searched for assemblies",
-        Stage::Branches => "directions tried",
-        Stage::Loci => "random starts for loci",
-        Stage::Nodes => "nodes searched for modes",
-        Stage::Reached => "nodes in modes reached",
-        Stage::Boundary => "edges on which the boundary is located",
-        Stage::Rows => "rows",
-        Stage::Curves => "kinds of boundary followed",
-        _ => "done",
-    };
-    words.into()
 }

@@ -11,9 +11,10 @@ use super::asked::Asked;
 use super::format::{Format, beside_rows, with_rows};
 use super::search::Search;
 use super::source::{Assignment, Source};
-use super::words::{self, Ranged};
+use super::words;
 use super::written::{file, rows, save};
 use super::{Answer, Refusal, lines, style};
+use linkwork::output::complaint::Ranged;
 
 /// Map where the mechanism reaches, in which modes, and what bounds it.
 ///

@@ -1,5 +1,12 @@
 //! Errors of questions and options, as data: each door words and places them.
 
+mod asked;
+mod door;
+mod question;
+
+pub use door::{Door, Ranged, Wording};
+pub use question::{no_point, unknown_frame};
+
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};

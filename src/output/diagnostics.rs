@@ -7,7 +7,8 @@ use std::path::Path;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::complaint::{Complaint, Given, Part};
+use super::complaint::{Complaint, Given, Part, Wording};
+use crate::ask::{AskError, Question};
 use crate::description::{
     Description, FileError, Lines, Problem, ReplacementError, Severity, count, listed,
 };
@@ -225,6 +226,22 @@ impl<'a> Page<'a> {
     fn width_at(&self, span: &Range<usize>) -> usize {
         let [first, last] = [span.start, span.end].map(|at| self.lines.position(at).0);
         self.lines.start(last + 1) - self.lines.start(first)
+    }
+}
+
+impl Wording<'_> {
+    /// The words for a question that has no answer, under the demand that is wrong if one is.
+    pub fn refusal(&self, question: &Question, error: &AskError, style: Style) -> String {
+        let said = self.asked(question, error);
+        match (error.item()).and_then(|item| question.demands().get(item.index)) {
+            Some(demand) => {
+                let option = self.door.option(demand.role, self.ranged);
+                let value = demand.written();
+                let given = Given::new(&option, &demand.name, value.as_deref());
+                said.render_in(&given, style)
+            }
+            None => said.render(style),
+        }
     }
 }
 

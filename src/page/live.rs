@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::request::Press;
-use super::{Refusal, words};
+use super::{Refusal, nothing, words};
 use crate::algebra::SiUnit;
 use crate::ask::Steering;
 use crate::geometry::Vector3;
@@ -44,7 +44,7 @@ pub fn readings(steering: &Steering, list: &str) -> Value {
                 json!([of.name, shown.unwrap_or_else(|| UNKNOWN.into())])
             })
             .collect(),
-        Err(error) => json!({ "error": words::refused(&error) }),
+        Err(error) => json!({ "error": words::refused(&steering.question(), &error) }),
     }
 }
 
@@ -58,7 +58,12 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
     let found = steering.forces(&point, load.force, &Watch::none());
     let report = match found {
         Ok(found) => found.closed(),
-        Err(error) => return (scene, json!({ "error": words::refused(&error) })),
+        Err(error) => {
+            return (
+                scene,
+                json!({ "error": words::refused(&steering.question(), &error) }),
+            );
+        }
     };
     let Some(report) = report else {
         return (scene, Value::Null);
@@ -83,7 +88,9 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
 /// The freedoms gained at a singular configuration, with the mechanism on both sides of each.
 pub fn gained(steering: &Steering, watch: &Watch) -> Result<Value, Refusal> {
     let mechanism = steering.mechanism();
-    let Some(gained) = steering.gained(watch)? else {
+    let gained = steering.gained(watch);
+    let gained = gained.map_err(|error| nothing(&words::refused(&steering.question(), &error)))?;
+    let Some(gained) = gained else {
         return Ok(json!({ "scene": null, "words": [], "swings": [] }));
     };
     let scene = |at| Scene::of(mechanism, at);

@@ -1,9 +1,11 @@
-//! Words of a page for motions that end and questions that are refused: sliders and ticks in place of options.
+//! The words of the page for motions that end, and for questions that are refused with their remedies: sliders and ticks
+//! in place of options.
 
 use crate::analysis::sweep::{MetKind, SweepEnd, SweepReport};
-use crate::ask::AskError;
+use crate::ask::{AskError, Demand, Question, Remedy, Role};
 use crate::description::listed;
-use crate::mechanism::{Configuration, Mechanism, QuantityError};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::output::complaint::{Door, Ranged, Wording};
 use crate::output::quantity::quantity;
 use crate::output::sweep::sentence;
 use crate::system::{Coordinate, QuestionError};
@@ -64,17 +66,8 @@ fn at_limit(joint: &str, upper: bool, limit: &str) -> String {
 }
 
 /// Reason for which there is no answer, and the remedy.
-pub fn refused(error: &AskError) -> String {
+pub fn refused(question: &Question, error: &AskError) -> String {
     match error {
-        AskError::Quantity { error, .. } => match &**error {
-            QuantityError::Unknown {
-                suggestion: Some(meant),
-                ..
-            } => {
-                format!("{error}: did you mean `{meant}`?")
-            }
-            _ => error.to_string(),
-        },
         AskError::Question(QuestionError::TooMany { .. }) => {
             "More is held than the mechanism has freedoms: tick fewer values.".into()
         }
@@ -82,6 +75,52 @@ pub fn refused(error: &AskError) -> String {
             "The mechanism does not assemble with {} at these values.",
             listed(held)
         ),
-        _ => error.to_string(),
+        _ => {
+            let wording = Wording {
+                door: &ByHand,
+                ranged: Ranged::Input,
+            };
+            let said = wording.asked(question, error);
+            match said.help {
+                Some(help) => format!("{}; {help}", said.title),
+                None => said.title,
+            }
+        }
+    }
+}
+
+/// The page, where coordinates are held, let go and moved by hand.
+pub struct ByHand;
+
+impl Door for ByHand {
+    fn option(&self, role: Role, _: Ranged) -> String {
+        role.word().into()
+    }
+
+    fn remedies(&self, remedies: &[Remedy], _: Ranged) -> String {
+        let words: Vec<String> = remedies.iter().map(words).collect();
+        words.join(" and ")
+    }
+}
+
+fn words(remedy: &Remedy) -> String {
+    match remedy {
+        Remedy::Demand(demand) => demanded(demand),
+        Remedy::Role(role) => format!("“{}”", role.word()),
+        Remedy::Setting(setting, None) => format!("“{setting}”"),
+        Remedy::Setting(setting, Some(value)) => format!("“{setting}” {value}"),
+        Remedy::Analysis(analysis, _) => format!("“{analysis}”"),
+    }
+}
+
+fn demanded(demand: &Demand) -> String {
+    let Demand { role, name, .. } = demand;
+    match (role, demand.written()) {
+        (Role::Free, _) => format!("let go of {name}"),
+        (Role::Hold, Some(value)) if value == "home" => format!("hold {name}"),
+        (Role::Hold, Some(value)) => format!("hold {name} at {value}"),
+        (Role::Input, Some(range)) => format!("move {name} over {range}"),
+        (role, Some(value)) => format!("{} {name} = {value}", role.word()),
+        (role, None) => format!("{} {name}", role.word()),
     }
 }

@@ -8,17 +8,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
 use super::QuestionError;
-use super::words::{Refused, worded};
+use super::words::{Keywords, Refused, message, worded};
 use crate::analysis::assemblies::Wanted;
 use crate::analysis::compare::CompareSettings;
 use crate::analysis::singularities::SingularitiesSettings;
 use crate::analysis::sweep::{Law, SweepSettings};
 use crate::analysis::workspace::WorkspaceSettings;
-use crate::ask::{Mode, Question, Role, Value};
-use crate::cli::{self, Ranged};
+use crate::ask::{Demand, Mode, Question, Role, Value};
 use crate::description::listed;
 use crate::mechanism::Mechanism;
-use crate::output::complaint::{Complaint, Given};
+use crate::output::complaint::{Complaint, Ranged, Wording};
+use crate::output::diagnostics::Style;
 use crate::solve::Pruning;
 
 /// A number in SI units and rad, or an expression with units as in a file.
@@ -27,9 +27,6 @@ pub enum Number {
     Number(f64),
     Text(String),
 }
-
-/// A name with the ends of its range.
-pub(super) type Interval = (String, Value, Value);
 
 impl<'py> FromPyObject<'_, 'py> for Number {
     type Error = PyErr;
@@ -159,49 +156,22 @@ fn law(word: &str) -> PyResult<Law> {
     Law::from_word(word).ok_or_else(|| {
         let said = Complaint::new(format!("`{word}` is no law of motion"));
         let laws = listed(Law::ALL.map(Law::word));
-        QuestionError::new_err(worded(said.help(format!("the laws are {laws}")), None))
+        QuestionError::new_err(worded(&said.help(format!("the laws are {laws}"))))
     })
 }
-
-/// Something that was given, to be shown where it is wrong: the option, its name and its value.
-type Part = (Role, &'static str, String, Option<String>);
 
 /// A question with what posed it.
 pub struct Asked {
     pub question: Question,
     pub settings: Settings,
-    parts: Vec<Part>,
-    ranges: Ranged,
+    keywords: Keywords,
+    ranged: Ranged,
 }
 
-/// The options that give values to names.
-type Put = fn(Question, String, Value) -> Question;
-const VALUES: [(&str, Role, Put); 7] = [
-    ("hold", Role::Hold, Question::hold),
-    ("guess", Role::Guess, Question::guess),
-    ("rate", Role::Rate, Question::rate),
-    ("acceleration", Role::Acceleration, Question::acceleration),
-    ("load", Role::Load, Question::load),
-    ("dwell", Role::Dwell, Question::dwell),
-    ("wrench", Role::Wrench, |question, name, value| {
-        question.wrench_text(name, value.to_string())
-    }),
-];
-
-type Name = fn(Question, String) -> Question;
-const NAMES: [(&str, Role, Name); 6] = [
-    ("free", Role::Free, Question::free),
-    ("lock", Role::Lock, Question::lock),
-    ("output", Role::Output, Question::output),
-    ("point", Role::Point, Question::point),
-    ("trace", Role::Point, Question::point),
-    ("report", Role::Quantity, Question::report),
-];
-
-const RANGES: [(&str, Ranged); 3] = [
-    ("input", Ranged::Input),
-    ("locus", Ranged::Locus),
-    ("map", Ranged::Map),
+/// Keywords of roles that have another name, and of ranges with their use.
+const ALIASES: [(&str, Role, Ranged); 2] = [
+    ("locus", Role::Input, Ranged::Locus),
+    ("map", Role::Input, Ranged::Map),
 ];
 
 impl Asked {
@@ -210,8 +180,8 @@ impl Asked {
         let mut asked = Asked {
             question: Question::new(mechanism),
             settings: Settings::default(),
-            parts: Vec::new(),
-            ranges: Ranged::Input,
+            keywords: Keywords::default(),
+            ranged: Ranged::Input,
         };
         for (key, value) in given {
             asked.put(&key.extract::<String>()?, &value)?;
@@ -219,50 +189,44 @@ impl Asked {
         Ok(asked)
     }
 
-    /// Adds the varied names of a study; an error if one is wrong.
-    pub fn varied(
-        mechanism: Arc<Mechanism>,
-        given: &Bound<'_, PyDict>,
-        vary: &Bound<'_, PyAny>,
-    ) -> PyResult<(Self, Vec<Interval>)> {
-        let mut asked = Asked::new(mechanism, given)?;
-        asked.ranges = Ranged::Vary;
-        let mut varied = Vec::new();
-        for (name, ends) in entries("vary", vary)? {
-            let (from, to) = range(&format!("vary[{name:?}]"), &ends)?;
-            let range = Some(format!("{from}..{to}"));
-            asked.parts.push((Role::Input, "vary", name.clone(), range));
-            varied.push((name, (&from).into(), (&to).into()));
-        }
-        Ok((asked, varied))
-    }
-
-    fn put(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
-        if let Some((option, role, put)) = VALUES.iter().find(|(option, ..)| *option == key) {
-            for (name, number) in values(key, given)? {
-                self.change(|question| put(question, name.clone(), (&number).into()));
-                let value = Some(number.to_string());
-                self.parts.push((*role, option, name, value));
+    /// Puts what a keyword gives into the question or the settings.
+    pub fn put(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
+        let alias = ALIASES.iter().find(|(keyword, ..)| *keyword == key);
+        let role = match alias {
+            Some((_, role, ranged)) => {
+                self.ranged = *ranged;
+                Some(*role)
             }
-        } else if let Some((option, role, put)) = NAMES.iter().find(|(option, ..)| *option == key) {
-            let names = match taken(key, "a name or a list of names", given)? {
-                Names::One(name) => vec![name],
-                Names::Several(names) => names,
-            };
-            for name in names {
-                self.change(|question| put(question, name.clone()));
-                self.parts.push((*role, option, name, None));
+            None if key == "trace" => {
+                self.keywords.spelled.push((Role::Point, "of"));
+                Some(Role::Point)
             }
-        } else if let Some((option, ranges)) = RANGES.iter().find(|(option, _)| *option == key) {
-            for (name, ends) in entries(key, given)? {
-                let (from, to) = range(&format!("{key}[{name:?}]"), &ends)?;
-                self.ranges = *ranges;
-                self.change(|question| question.input(&name, &from, &to));
-                let range = Some(format!("{from}..{to}"));
-                self.parts.push((Role::Input, option, name, range));
+            None => Role::from_word(key),
+        };
+        match role {
+            None => self.set(key, given)?,
+            Some(role @ (Role::Input | Role::Vary)) => {
+                if role == Role::Vary {
+                    self.ranged = Ranged::Vary;
+                }
+                for (name, ends) in entries(key, given)? {
+                    let (from, to) = range(&format!("{key}[{name:?}]"), &ends)?;
+                    self.question.add(Demand::new(role, name, [&from, &to]));
+                }
             }
-        } else {
-            self.set(key, given)?;
+            Some(role @ (Role::Free | Role::Lock | Role::Output | Role::Point | Role::Report)) => {
+                let names = match taken(key, "a name or a list of names", given)? {
+                    Names::One(name) => vec![name],
+                    Names::Several(names) => names,
+                };
+                let demands = names.into_iter().map(|name| Demand::named(role, name));
+                demands.for_each(|demand| self.question.add(demand));
+            }
+            Some(role) => {
+                for (name, number) in values(key, given)? {
+                    self.question.add(Demand::new(role, name, [&number]));
+                }
+            }
         }
         Ok(())
     }
@@ -318,19 +282,15 @@ impl Asked {
         self.question = change(self.question.clone());
     }
 
-    /// The error in the question, in the words of the command line, under the argument that it is in, if it is in one.
+    /// The exception for an error, under the keyword that is wrong if one is.
     pub fn refusal(&self, error: &Refused) -> PyErr {
-        let parts = self
-            .parts
-            .iter()
-            .map(|(role, option, name, value)| (*role, Given::new(option, name, value.as_deref())));
-        let given: Vec<(Role, Given)> = parts.collect();
+        let wording = Wording {
+            door: &self.keywords,
+            ranged: self.ranged,
+        };
         QuestionError::new_err(match error {
-            Refused::Asked(error) => {
-                let (said, given) = cli::said(&self.question, &given, self.ranges, error);
-                worded(said, given)
-            }
-            Refused::Said(said) => worded(said.clone(), None),
+            Refused::Asked(error) => message(&wording.refusal(&self.question, error, Style::Plain)),
+            Refused::Said(said) => worded(said),
         })
     }
 }

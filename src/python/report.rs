@@ -12,7 +12,7 @@ use crate::analysis::overview::overview;
 use crate::analysis::sweep::Row;
 use crate::ask::Solved;
 use crate::mechanism::{Frame, Mechanism};
-use crate::output::complaint::Complaint;
+use crate::output::complaint::{Complaint, unknown_frame};
 use crate::output::document::{Cell, Document};
 use crate::output::sweep::{row_columns, row_values, worded};
 use crate::output::{JsonReport, Rows, html, json, markdown, text};
@@ -163,7 +163,7 @@ pub fn answer(
             let frame = |name: &Option<String>| {
                 let frame = |name: &String| {
                     let frame = mechanism.frame(name);
-                    frame.ok_or_else(|| Refused::Said(crate::cli::unknown_frame(mechanism, name)))
+                    frame.ok_or_else(|| Refused::Said(unknown_frame(mechanism, name)))
                 };
                 name.as_ref().map(frame).transpose()
             };

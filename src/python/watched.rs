@@ -11,7 +11,6 @@ use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 
-use crate::cli;
 use crate::solve::{Progress, Watch};
 
 /// The time between two looks at Python's signals and two calls of a progress function.
@@ -112,7 +111,7 @@ fn look(progress: Option<&Py<PyAny>>, now: Option<Progress>) -> PyResult<()> {
     Python::attach(|py| {
         py.check_signals()?;
         if let (Some(progress), Some(now)) = (progress, now) {
-            progress.call1(py, (cli::stage(now.stage), now.done, now.of))?;
+            progress.call1(py, (now.stage.to_string(), now.done, now.of))?;
         }
         Ok(())
     })

@@ -1,7 +1,7 @@
-//! Words of the command line as Python takes them.
+//! Demands, settings and analyses as keywords and methods.
 
-use crate::ask::AskError;
-use crate::output::complaint::{Complaint, Given};
+use crate::ask::{AskError, Demand, Remedy, Role};
+use crate::output::complaint::{Complaint, Door, Ranged};
 use crate::output::diagnostics::Style;
 
 pub enum Refused {
@@ -15,70 +15,133 @@ impl From<AskError> for Refused {
     }
 }
 
-/// A complaint whose remedies name keywords of Python.
-pub fn worded(mut said: Complaint, given: Option<Given>) -> String {
-    said.help = said.help.as_deref().map(keywords);
-    let rendered = match given {
-        Some(given) => said.render_in(&given, Style::Plain),
-        None => said.render(Style::Plain),
-    };
+/// A complaint as the message of an exception.
+pub fn message(rendered: &str) -> String {
     let rendered = rendered.trim_end();
     rendered.strip_prefix("error: ").unwrap_or(rendered).into()
 }
 
-/// `--hold a=1` as `hold={"a": "1"}`, `--input a=0..1` as `input={"a": ("0", "1")}`, `--free a` as `free="a"`, and
-/// commands as methods.
-fn keywords(help: &str) -> String {
-    let help = help.replace("`linkwork ", "`.");
-    let mut parts = help.split("--");
-    let mut words = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let ends = |c: char| !(c.is_alphanumeric() || c == '-');
-        let (option, rest) = part.split_at(part.find(ends).unwrap_or(part.len()));
-        let keyword = option.replace('-', "_");
-        let value = rest.strip_prefix(' ').unwrap_or_default();
-        let end = match value.strip_prefix('\'') {
-            Some(quoted) => quoted.find('\'').map_or(value.len(), |end| end + 2),
-            None => value.find([' ', ';']).unwrap_or(value.len()),
+pub fn worded(said: &Complaint) -> String {
+    message(&said.render(Style::Plain))
+}
+
+/// Demands as keywords. Roles that have another keyword here are `spelled` so.
+#[derive(Default)]
+pub struct Keywords {
+    pub spelled: Vec<(Role, &'static str)>,
+}
+
+impl Door for Keywords {
+    fn option(&self, role: Role, ranged: Ranged) -> String {
+        let spelled = self.spelled.iter().rfind(|(of, _)| *of == role);
+        let keyword = match (spelled, role, ranged) {
+            (Some((_, keyword)), ..) => keyword,
+            (None, Role::Input, Ranged::Locus) => "locus",
+            (None, Role::Input, Ranged::Map) => "map",
+            (None, role, _) => role.word(),
         };
-        let (value, after) = value.split_at(end);
-        let value = value.trim_matches('\'').trim_end_matches(',');
-        let written = match value.split_once('=') {
-            Some((name, value)) => Some(match value.split_once("..") {
-                Some((from, to)) => format!("{{\"{name}\": (\"{from}\", \"{to}\")}}"),
-                None => format!("{{\"{name}\": \"{value}\"}}"),
-            }),
-            None if option == "free" && !value.is_empty() => Some(format!("\"{value}\"")),
-            None if value.starts_with(|c: char| c.is_ascii_digit()) => Some(value.to_owned()),
-            None => None,
-        };
-        words += &match written {
-            Some(value) => format!("{keyword}={value}{after}"),
-            None => format!("`{keyword}`{rest}"),
-        };
+        keyword.into()
     }
-    words
+
+    fn remedies(&self, remedies: &[Remedy], ranged: Ranged) -> String {
+        let mut words: Vec<String> = Vec::new();
+        let mut demands: Vec<(Role, Vec<&Demand>)> = Vec::new();
+        for remedy in remedies {
+            match remedy {
+                Remedy::Demand(demand) => match demands.iter_mut().find(|of| of.0 == demand.role) {
+                    Some((_, of_role)) => of_role.push(demand),
+                    None => demands.push((demand.role, vec![demand])),
+                },
+                Remedy::Role(role) => words.push(format!("`{}`", self.option(*role, ranged))),
+                Remedy::Setting("circuits", _) => words.push("`.circuits`".into()),
+                Remedy::Setting(setting, None) => words.push(format!("`{setting}`")),
+                Remedy::Setting(setting, Some(value)) if value.contains(',') => {
+                    words.push(format!("{setting}=[{}]", value.replace(',', ", ")));
+                }
+                Remedy::Setting(setting, Some(value)) => words.push(format!("{setting}={value}")),
+                Remedy::Analysis(analysis, None) => words.push(format!("`.{analysis}`")),
+                Remedy::Analysis(analysis, Some(role)) => {
+                    let option = self.option(*role, ranged);
+                    words.push(format!("`.{analysis}` with `{option}`"));
+                }
+            }
+        }
+        let demands = demands
+            .iter()
+            .map(|(role, demands)| format!("{}={}", self.option(*role, ranged), mapping(demands)));
+        words.extend(demands);
+        words.join(", ")
+    }
+}
+
+/// `{"a": "1", "b": "2"}`, `{"a": ("0", "1")}`, `"a"` or `["a", "b"]`.
+fn mapping(demands: &[&Demand]) -> String {
+    let names = demands.iter().map(|demand| format!("{:?}", demand.name));
+    let value = |demand: &&Demand| {
+        let values = demand.values.iter();
+        let values: Vec<String> = values
+            .map(|value| format!("{:?}", value.to_string()))
+            .collect();
+        match &values[..] {
+            [] => None,
+            [one] => Some(one.clone()),
+            several => Some(format!("({})", several.join(", "))),
+        }
+    };
+    let values: Option<Vec<String>> = demands.iter().map(value).collect();
+    match values {
+        Some(values) => {
+            let entries = names
+                .zip(values)
+                .map(|(name, value)| format!("{name}: {value}"));
+            format!("{{{}}}", entries.collect::<Vec<_>>().join(", "))
+        }
+        None => match &names.collect::<Vec<_>>()[..] {
+            [one] => one.clone(),
+            several => format!("[{}]", several.join(", ")),
+        },
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::keywords;
+    use super::*;
 
     #[test]
-    fn options_become_keywords() {
+    fn remedies_are_keywords() {
+        let free = |name: &str| Remedy::Demand(Demand::named(Role::Free, name));
+        let hold = |name: &str| Remedy::Demand(Demand::new(Role::Hold, name, ["home"]));
+        let turn = Demand::new(Role::Input, "t", ["0deg", "360deg"]);
         let cases = [
-            ("free theta1: --free theta1", "free theta1: free=\"theta1\""),
+            (vec![free("theta1")], Ranged::Input, "free=\"theta1\""),
             (
-                "hold 1 more, e.g. --hold 'a b=home'; or use `linkwork sweep --input`",
-                "hold 1 more, e.g. hold={\"a b\": \"home\"}; or use `.sweep `input``",
+                vec![hold("a b"), hold("c")],
+                Ranged::Input,
+                "hold={\"a b\": \"home\", \"c\": \"home\"}",
             ),
             (
-                "e.g. --input t=0deg..360deg; follow with --follow; or --steps 100",
-                "e.g. input={\"t\": (\"0deg\", \"360deg\")}; follow with `follow`; or steps=100",
+                vec![free("a"), free("b"), hold("c")],
+                Ranged::Input,
+                "free=[\"a\", \"b\"], hold={\"c\": \"home\"}",
+            ),
+            (
+                vec![Remedy::Demand(turn)],
+                Ranged::Map,
+                "map={\"t\": (\"0deg\", \"360deg\")}",
+            ),
+            (
+                vec![Remedy::Setting("steps", Some("100".into()))],
+                Ranged::Input,
+                "steps=100",
+            ),
+            (
+                vec![Remedy::Analysis("sweep", Some(Role::Input))],
+                Ranged::Input,
+                "`.sweep` with `input`",
             ),
         ];
-        for (option, keyword) in cases {
-            assert_eq!(keywords(option), keyword);
+        for (remedies, ranged, words) in cases {
+            assert_eq!(Keywords::default().remedies(&remedies, ranged), words);
         }
     }
 }

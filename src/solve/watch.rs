@@ -1,5 +1,6 @@
 //! Progress and cancellation of long work.
 
+use std::fmt::{self, Display, Formatter};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -49,6 +50,36 @@ pub enum Stage {
     Boxes,
     /// Rows of a study.
     Rows,
+}
+
+/// The work of the stage, for a line that shows how far it is.
+impl Display for Stage {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Stage::Seeds { found } => {
+                return write!(f, "{found} generic solutions; seeds tried");
+            }
+            Stage::Loops { found } => {
+                return write!(f, "{found} generic solutions; monodromy loops");
+            }
+            Stage::Starts => "random starts",
+            Stage::Paths => "paths followed",
+            Stage::Certificates => "assemblies certified",
+            Stage::Boxes => "boxes proved",
+            Stage::Proofs => "closed forms compared in letters",
+            Stage::Samples => "samples",
+            Stage::Motion => "steps of the inputs",
+            Stage::Steps => "steps along the curve",
+            Stage::Inputs => "input values searched for assemblies",
+            Stage::Branches => "directions tried",
+            Stage::Loci => "random starts for loci",
+            Stage::Nodes => "nodes searched for modes",
+            Stage::Reached => "nodes in modes reached",
+            Stage::Boundary => "edges on which the boundary is located",
+            Stage::Rows => "rows",
+            Stage::Curves => "kinds of boundary followed",
+        })
+    }
 }
 
 /// Progress of a stage.

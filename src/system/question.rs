@@ -10,7 +10,7 @@ mod outputs;
 mod spins;
 
 pub use count::{Count, check_angle, check_angles, check_count};
-pub use demand::{Demand, Verb};
+pub use demand::{Demand, Role};
 pub use drive::{Drive, DriveError};
 pub use equilibrium::{Equilibrium, Loaded};
 pub use error::QuestionError;
@@ -22,7 +22,7 @@ pub use outputs::{
 pub use spins::Still;
 
 use super::equations::System;
-use crate::description::Role;
+use crate::description;
 use crate::geometry::Pose;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Value};
@@ -60,7 +60,7 @@ impl<'a> Question<'a> {
         let platforms = mechanism.platforms().len();
         Question {
             joints: (mechanism.joints().iter())
-                .map(|joint| joint.role == Role::Actuated)
+                .map(|joint| joint.role == description::Role::Actuated)
                 .collect(),
             held_by_name: vec![false; mechanism.joints().len()],
             coordinates: vec![[None; 6]; platforms],
@@ -84,7 +84,7 @@ impl<'a> Question<'a> {
     /// If there is no such joint or coordinate, the value has none, or something else was demanded of it before.
     pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
-        match self.demand(Verb::Hold, name, Some(value))? {
+        match self.demand(Role::Hold, name, Some(value))? {
             Target::Coordinate(of) => {
                 let number = self.number(name, value, of)?;
                 self.split_changed |= match of {
@@ -110,10 +110,10 @@ impl<'a> Question<'a> {
     pub fn free(mut self, name: &str) -> Result<Self, QuestionError> {
         if name == "actuated" && self.mechanism.joint(name).is_none() {
             for (held, joint) in self.joints.iter_mut().zip(self.mechanism.joints()) {
-                *held &= joint.role != Role::Actuated;
+                *held &= joint.role != description::Role::Actuated;
             }
         } else {
-            match self.demand(Verb::Free, name, None)? {
+            match self.demand(Role::Free, name, None)? {
                 Target::Coordinate(Coordinate::Joint(joint)) => self.joints[joint] = false,
                 _ => return Err(QuestionError::NotAJoint(name.into())),
             }
@@ -131,7 +131,7 @@ impl<'a> Question<'a> {
     /// If there is no such joint or coordinate, the value has none, or something else was guessed of it before.
     pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
-        match self.demand(Verb::Guess, name, Some(value))? {
+        match self.demand(Role::Guess, name, Some(value))? {
             Target::Coordinate(of) => {
                 let number = self.number(name, value, of)?;
                 match of {
@@ -299,7 +299,7 @@ impl<'a> Question<'a> {
     /// The value a joint was to start at, if one was given for it alone.
     pub(super) fn guess_of(&self, joint: usize) -> Option<f64> {
         let asked = (self.demands.iter()).any(|(of, demand)| {
-            *of == Target::Coordinate(Coordinate::Joint(joint)) && demand.verb == Verb::Guess
+            *of == Target::Coordinate(Coordinate::Joint(joint)) && demand.role == Role::Guess
         });
         asked.then(|| self.start.joints[joint])
     }

@@ -925,7 +925,8 @@ fn what_is_locked_stands_where_the_mechanism_is_closed() {
     let Err(ask::AskError::Named(item, _)) = refused else {
         panic!("{refused:?}");
     };
-    assert_eq!((item.role, item.index), (ask::Role::Lock, 0));
+    let wrong = &unknown.demands()[item.index];
+    assert_eq!(wrong, &ask::Demand::named(ask::Role::Lock, "theta9"));
 }
 
 /// Cranks on a line, each joined to the next by a coupler: with every crank and coupler at 0 all bars lie on that line. The

@@ -1,11 +1,11 @@
 //! The quantities of one row of a study.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::analysis::quantities::{Meter, Metered};
 use crate::analysis::sweep::Pace;
 use crate::ask::modes::NUMBERED;
-use crate::ask::{AskError, Question, Role, Unmeasured};
+use crate::ask::{AskError, Item, Question, Role, Unmeasured};
 use crate::mechanism::{Measured, Mechanism, Order, Quantity};
 use crate::solve::Watch;
 use crate::system::{self, Driven};
@@ -13,17 +13,11 @@ use crate::system::{self, Driven};
 impl Question {
     /// The question about another mechanism with the same names.
     pub(super) fn about(&self, mechanism: Arc<Mechanism>) -> Question {
-        let mut asked = Question {
+        Question {
             mechanism,
-            hold: Vec::new(),
-            free: Vec::new(),
+            ready: OnceLock::new(),
             ..self.clone()
-        };
-        asked = self.free.iter().fold(asked, |asked, name| asked.free(name));
-        let held = self.hold.iter();
-        held.fold(asked, |asked, (name, value)| {
-            asked.hold(name, value.clone())
-        })
+        }
     }
 
     /// The quantities that are asked for where what is held moves at the rates that are given, and how it moves.
@@ -45,7 +39,7 @@ impl Question {
             .find(|of| !drive.given && of.measured().any(moves));
         match at_rest {
             Some(quantity) => Err(AskError::Unmeasured {
-                item: Role::Quantity.item(0),
+                item: (self.of(Role::Report).next()).map_or(Item::new(0), |(item, _)| item),
                 quantity: quantity.name.clone(),
                 error: Unmeasured::NoInput,
             }),

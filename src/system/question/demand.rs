@@ -1,32 +1,102 @@
 //! Demands made by name, and contradictions between them.
 
+use std::fmt::{self, Display, Formatter};
+
 use crate::algebra::words;
+use crate::mechanism::Value;
 use crate::system::Coordinate;
 
-/// A demand on one joint, coordinate or platform, by name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Demand {
-    /// Hold, free or guess.
-    pub verb: Verb,
-    /// Its name.
-    pub name: String,
-    /// The value as given; none if it is freed.
-    pub value: Option<String>,
-}
-
 words! {
-    /// Treatment of a joint, coordinate or platform in a question.
-    Verb {
-        /// Its value is given.
+    /// The role of a name in a question.
+    Role {
+        /// The value is given.
         Hold = "hold",
-        /// Its value is to be found.
+        /// The value is to be found.
         Free = "free",
-        /// The search starts at a value.
+        /// The search starts at the value.
         Guess = "guess",
+        /// It stands still in the assembled mechanism.
+        Lock = "lock",
+        /// It moves, or is mapped, over a range.
+        Input = "input",
+        /// An output of singularities.
+        Output = "output",
+        /// A point that is followed or traced.
+        Point = "point",
+        /// The rate is given.
+        Rate = "rate",
+        /// The acceleration is given.
+        Acceleration = "acceleration",
+        /// A force and a moment act at the point.
+        Wrench = "wrench",
+        /// A force or a moment acts along the joint variable.
+        Load = "load",
+        /// Quantities to report.
+        Report = "report",
+        /// A quantity that may stay within a tolerance of one value.
+        Dwell = "dwell",
+        /// A parameter or coordinate of a study, over a range.
+        Vary = "vary",
+        /// A parameter or coordinate of a study, about its value with a standard deviation.
+        Deviate = "deviate",
     }
 }
 
-/// Meaning of the name in a demand.
+/// A demand: a role, the name that has it, and the values that it gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Demand {
+    /// The role.
+    pub role: Role,
+    /// The name of a joint, coordinate, platform, point or quantity.
+    pub name: String,
+    /// The values: none for a mere name, two for the ends of a range, otherwise one; six numbers of a wrench.
+    pub values: Vec<Value>,
+}
+
+impl Demand {
+    /// A demand on a name.
+    pub fn new(
+        role: Role,
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = impl Into<Value>>,
+    ) -> Self {
+        Demand {
+            role,
+            name: name.into(),
+            values: values.into_iter().map(Into::into).collect(),
+        }
+    }
+
+    /// A demand that gives no value.
+    pub fn named(role: Role, name: impl Into<String>) -> Self {
+        Demand::new(role, name, [0.0; 0])
+    }
+
+    /// The value of that index; without one the value in the file.
+    pub fn value(&self, index: usize) -> Value {
+        let given = self.values.get(index);
+        given.cloned().unwrap_or_else(|| "home".into())
+    }
+
+    /// The values as they are written, `FROM..TO` for a range; nothing where there is none.
+    pub fn written(&self) -> Option<String> {
+        let values: Vec<String> = self.values.iter().map(Value::to_string).collect();
+        let between = if values.len() == 2 { ".." } else { ", " };
+        (!values.is_empty()).then(|| values.join(between))
+    }
+}
+
+impl Display for Demand {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (role, name) = (self.role.word(), &self.name);
+        match self.written() {
+            Some(values) => write!(f, "`{role} {name}={values}`"),
+            None => write!(f, "`{role} {name}`"),
+        }
+    }
+}
+
+/// The joint, coordinate or platform of a demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     /// A joint or a coordinate of a platform.
@@ -36,7 +106,7 @@ pub(crate) enum Target {
 }
 
 impl Target {
-    /// True if the two are equal, or one is part of the other.
+    /// True if both are the same, or one is part of the other.
     pub(crate) fn meets(self, other: Target) -> bool {
         match (self, other) {
             (Target::Pose(whole), Target::Coordinate(part))
@@ -46,12 +116,12 @@ impl Target {
     }
 }
 
-impl Verb {
-    /// True if two demands on one target contradict each other.
-    pub(crate) fn clashes(self, other: Verb) -> bool {
+impl Role {
+    /// True if two demands of one target cannot both be meant.
+    pub(crate) fn clashes(self, other: Role) -> bool {
         match (self, other) {
-            (Verb::Free, Verb::Free) => false,
-            (Verb::Guess, other) | (other, Verb::Guess) => other == Verb::Guess,
+            (Role::Free, Role::Free) => false,
+            (Role::Guess, other) | (other, Role::Guess) => other == Role::Guess,
             _ => true,
         }
     }

@@ -134,16 +134,6 @@ impl Display for QuestionError {
     }
 }
 
-impl Display for Demand {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Demand { verb, name, value } = self;
-        match value {
-            Some(value) => write!(f, "`{} {name}={value}`", verb.word()),
-            None => write!(f, "`{} {name}`", verb.word()),
-        }
-    }
-}
-
 fn freedoms(number: usize) -> String {
     match number {
         0 => "no freedom".into(),

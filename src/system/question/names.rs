@@ -1,6 +1,6 @@
 //! Resolves names and values given to a question.
 
-use super::demand::{Demand, Target, Verb};
+use super::demand::{Demand, Role, Target};
 use super::{Question, QuestionError, actuated};
 use crate::description::nearest;
 use crate::mechanism::{PoseCoordinate, Value};
@@ -41,18 +41,14 @@ impl Question<'_> {
     /// Resolves a name and records the demand, unless it contradicts an earlier one.
     pub(super) fn demand(
         &mut self,
-        verb: Verb,
+        role: Role,
         name: &str,
         value: Option<&Value>,
     ) -> Result<Target, QuestionError> {
         let target = self.target(name)?;
-        let second = Demand {
-            verb,
-            name: name.into(),
-            value: value.map(Value::to_string),
-        };
+        let second = Demand::new(role, name, value);
         let mut demands = self.demands.iter();
-        let clash = demands.find(|(of, first)| of.meets(target) && first.verb.clashes(verb));
+        let clash = demands.find(|(of, first)| of.meets(target) && first.role.clashes(role));
         if let Some((_, first)) = clash {
             let first = first.clone();
             return Err(QuestionError::Contradiction { first, second });
