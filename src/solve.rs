@@ -26,7 +26,7 @@ pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use least_squares::{Fitted, LeastSquares, LevenbergMarquardt, Misfit};
 pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};
-pub use summit::summit;
+pub use summit::{edge, summit};
 pub use threads::{Pool, each};
 pub use warm::{Trail, Warm, WarmReport};
 pub use watch::{Observer, Progress, Stage, Watch};

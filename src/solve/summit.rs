@@ -9,24 +9,27 @@ pub fn summit(
     to: f64,
     mut height: impl FnMut(f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
-    let (low, high) = (from.min(to), from.max(to));
-    let way = high - low;
-    let mut section = Section {
-        low,
-        high,
-        a: low + GOLDEN * way,
-        b: high - GOLDEN * way,
-        heights: [height(low + GOLDEN * way)?, height(high - GOLDEN * way)?],
-    };
+    let way = (to - from).abs();
+    let mut section = Section::of(from, to, &mut height)?;
     section.narrow(1e-7 * way, &mut height)?;
     let rough = section.best();
     if let Some(smooth) = stationary(rough, way, &mut height) {
         return Some(smooth);
     }
-    // an edge, which has no slope, is as sharp as rounding leaves it
-    section.narrow(1e-15 * way, &mut height)?;
+    section.narrow(SHARP * way, &mut height)?;
     Some(section.best())
 }
+
+/// The maximum between two places of a function that has an edge there, and its height: an edge, which has no slope, is
+/// located to rounding by golden section alone (Kiefer 1953).
+pub fn edge(from: f64, to: f64, mut height: impl FnMut(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let mut section = Section::of(from, to, &mut height)?;
+    section.narrow(SHARP * (to - from).abs(), &mut height)?;
+    Some(section.best())
+}
+
+/// The part of an interval to which an edge is located.
+const SHARP: f64 = 1e-15;
 
 /// A golden section: the maximum lies between the ends, and two heights between them are known.
 struct Section {
@@ -40,6 +43,20 @@ struct Section {
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 impl Section {
+    fn of(from: f64, to: f64, height: &mut impl FnMut(f64) -> Option<f64>) -> Option<Self> {
+        let (low, high) = (from.min(to), from.max(to));
+        let part = GOLDEN * (high - low);
+        let (a, b) = (low + part, high - part);
+        let heights = [height(a)?, height(b)?];
+        Some(Section {
+            low,
+            high,
+            a,
+            b,
+            heights,
+        })
+    }
+
     /// Narrows the section to a width.
     fn narrow(&mut self, width: f64, height: &mut impl FnMut(f64) -> Option<f64>) -> Option<()> {
         while self.high - self.low > width.max(4.0 * f64::EPSILON * self.high.abs()) {
@@ -106,7 +123,7 @@ fn stationary(
 
 #[cfg(test)]
 mod tests {
-    use super::summit;
+    use super::{edge, summit};
 
     #[test]
     fn a_smooth_summit_is_placed_to_rounding() {
@@ -119,6 +136,10 @@ mod tests {
     fn an_edge_and_a_gap_are_told_too() {
         let (x, height) = summit(0.0, 1.0, |x: f64| Some(-(x - 0.3).abs())).unwrap();
         assert!((x - 0.3).abs() < 1e-15 && height > -1e-15, "{x} {height}");
+        assert_eq!(
+            edge(1.0, 0.0, |x: f64| Some(-(x - 0.3).abs())).map(|of| of.0),
+            Some(x)
+        );
         assert_eq!(summit(0.0, 1.0, |x: f64| (x > 0.5).then_some(x)), None);
     }
 }

@@ -131,6 +131,61 @@ fn four_bars_of_every_class_have_the_circuits_that_grashof_says() {
     }
 }
 
+/// A spherical 4-bar of arcs: ground, input, coupler and output.
+fn spherical([ground, input, coupler, output]: [f64; 4], t: f64) -> String {
+    format!(
+        r#"Mechanism(version: 1, name: "spherical 4-bar", convention: Standard,
+            joints: {{ "t": Actuated(home: {t:?}), "p": Passive(home: 0.5), "f": Passive(home: 0.5) }},
+            chains: {{ "left": Chain(rows: [(alpha: {input:?}, theta: "t"), (alpha: {coupler:?}, theta: "p")], tip: [Tz(0.1)]),
+                "right": Chain(base: [Rx({ground:?})], rows: [(alpha: {output:?}, theta: "f")], tip: [Tz(0.1)]) }},
+            closures: {{ "pin": Revolute("left", "right") }})"#
+    )
+}
+
+/// The ends u of the input and v of the output are a coupler apart: u·v = cos(coupler) is A sin f + B cos f = C, with two
+/// solutions where A² + B² > C². One circuit goes round each interval of the input where that holds; where it holds for a
+/// whole turn there are two.
+#[test]
+fn spherical_four_bars_have_a_circuit_for_each_interval_of_the_input() {
+    const ANGLES: usize = 5000;
+    let mut random = dice(11);
+    let mut seen = [0; 3];
+    while seen.iter().sum::<usize>() < 14 {
+        let arcs @ [ground, input, coupler, output] = [(); 4].map(|()| 0.2 + 2.7 * random());
+        let open = |i: usize| {
+            let (s, c) = (TAU * i as f64 / ANGLES as f64).sin_cos();
+            // the end of the input in axes of the output's pivot
+            let [x, y, z] = [s * input.sin(), -c * input.sin(), input.cos()];
+            let (s, c) = ground.sin_cos();
+            let [y, z] = [c * y + s * z, c * z - s * y];
+            let (a, b) = (x * output.sin(), -y * output.sin());
+            a * a + b * b - (coupler.cos() - z * output.cos()).powi(2)
+        };
+        let open: Vec<f64> = (0..ANGLES).map(open).collect();
+        let before = |i: usize| open[(i + ANGLES - 1) % ANGLES];
+        let ends = (0..ANGLES)
+            .filter(|&i| (open[i] > 0.0) != (before(i) > 0.0))
+            .count();
+        let (begin, most) = open
+            .iter()
+            .enumerate()
+            .max_by(|a, b| a.1.total_cmp(b.1))
+            .unwrap();
+        // an interval between samples would be a linkage next to its change point
+        let next = |i: usize| open[(i + 1) % ANGLES];
+        let turns = (0..ANGLES).filter(|&i| (open[i] > before(i)) == (open[i] > next(i)));
+        if *most < 1e-3 || turns.into_iter().any(|i| open[i].abs() < 1e-3) {
+            continue;
+        }
+        let report = circuits(&spherical(arcs, TAU * begin as f64 / ANGLES as f64));
+        let expected = if ends == 0 { 2 } else { ends / 2 };
+        assert_eq!(report.circuits.len(), expected, "{arcs:?}");
+        assert!(report.is_whole(), "{arcs:?}: {:?}", report.swept);
+        seen[ends / 2] += 1;
+    }
+    assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
+}
+
 /// A Stephenson six-bar with three circuits, of which the input q2 turns fully on none.
 const SIX_BAR: &str = r#"Mechanism(version: 1, name: "six-bar", convention: Modified,
     joints: { "q0": Passive(home: -1.4785313930596062), "q1": Passive(home: -1.5072427335563254),

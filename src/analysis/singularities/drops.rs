@@ -2,7 +2,7 @@
 
 use crate::linear::{Decomposition, RANK_TOLERANCE};
 use crate::mechanism::Configuration;
-use crate::solve::{Continuation, Place};
+use crate::solve::{Continuation, Place, edge};
 use crate::system::{Curve, Locked};
 
 type At = Place<Configuration<f64>>;
@@ -121,32 +121,13 @@ impl Drops<'_> {
     /// The place between two where σ is least, if it falls from both ends. Where two singular
     /// values vanish at once each does so linearly, and golden sections find the place to rounding.
     fn lowest(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
-        /// (√5 − 1)/2: one evaluation a section (Kiefer 1953).
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        const SECTIONS: usize = 80;
         for (end, part) in [(a, 1e-3), (b, 1.0 - 1e-3)] {
             if self.ahead(a, part * length)?.least() >= end.least() {
                 return None;
             }
         }
-        let (mut low, mut high) = (0.0, length);
-        let section = |at: f64, drops: &mut Self| Some((at, drops.ahead(a, at)?));
-        let mut left = section(high - GOLDEN * (high - low), self)?;
-        let mut right = section(low + GOLDEN * (high - low), self)?;
-        for _ in 0..SECTIONS {
-            if left.1.least() < right.1.least() {
-                high = right.0;
-                right = left;
-                left = section(high - GOLDEN * (high - low), self)?;
-            } else {
-                low = left.0;
-                left = right;
-                right = section(low + GOLDEN * (high - low), self)?;
-            }
-        }
-        Some(match left.1.least() < right.1.least() {
-            true => left.1.place,
-            false => right.1.place,
-        })
+        let least = |along| Some(-self.ahead(a, along)?.least());
+        let (along, _) = edge(0.0, length, least)?;
+        Some(self.ahead(a, along)?.place)
     }
 }
