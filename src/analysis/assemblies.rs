@@ -234,6 +234,7 @@ impl AssemblySolver {
             mechanism: &self.mechanism,
             coordinates: &self.family.coordinates,
             moved: self.family.moved_by_trace(),
+            flips: self.family.ways(),
             held,
             asked,
             bound: self.bound.as_ref(),

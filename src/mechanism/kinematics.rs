@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Frame;
 use super::configuration::Configuration;
-use super::dimensions::{Dimensions, LinearForm};
+use super::dimensions::{Dimensions, LinearForm, RowDimensions};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 pub(crate) use course::Course;
@@ -275,6 +275,30 @@ impl<T: Number> Kinematics<T> {
             slot = step.parent;
         }
         (fixed, slides)
+    }
+
+    /// The path to a slot from ground or the platform where it begins: that one's slot, rows that move, and what is fixed
+    /// behind the last of them.
+    pub(crate) fn path(&self, mut slot: Slot) -> (Slot, Vec<RowDimensions<T>>, Pose<T>) {
+        let mut rows: Vec<RowDimensions<T>> = Vec::new();
+        let mut tip = Pose::identity();
+        while slot > self.platforms {
+            let step = &self.steps[slot - 1 - self.platforms];
+            let moves = !step.turn.0.is_empty() || !step.slide.0.is_empty();
+            match rows.last_mut() {
+                _ if moves => rows.push(RowDimensions {
+                    before: step.fixed,
+                    turn: step.turn.clone(),
+                    slide: step.slide.clone(),
+                    after: Pose::identity(),
+                }),
+                Some(row) => row.before = step.fixed * row.before,
+                None => tip = step.fixed * tip,
+            }
+            slot = step.parent;
+        }
+        rows.reverse();
+        (slot, rows, tip)
     }
 
     /// The joints on the path to a slot, from it towards the root, and the platform that carries it.

@@ -90,7 +90,8 @@ impl<T: Factorable> System<T> {
         System::keeping(dimensions, held, &all, frames)
     }
 
-    fn keeping(
+    /// With chosen rows of every closure.
+    pub(crate) fn keeping(
         dimensions: &Dimensions<T>,
         held: &Held<T>,
         kept: &[Kept],

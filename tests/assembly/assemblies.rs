@@ -251,7 +251,7 @@ fn legs_that_close_apart_are_combined() {
     );
     sound(&report);
     assert_eq!((report.complex, report.real), (2560, 64 * spheres.real));
-    assert_eq!((report.paths, report.bound), (80, Some(2560)));
+    assert_eq!((report.paths, report.bound), (40, Some(2560)));
     for assembly in &report.assemblies {
         assert_eq!(assembly.shares_platform_pose_with.len(), 63);
         // u and v, or u + 180° and 180° − v

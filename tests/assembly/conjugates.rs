@@ -79,7 +79,7 @@ fn solutions_that_are_not_real_come_in_pairs() {
 #[test]
 fn partners_that_the_search_missed_are_added_and_told() {
     let mut missed = 0;
-    for name in ["three_rps", "stewart_gough_6sps"] {
+    for name in ["three_rps", "stephenson_six_bar"] {
         for seed in 1..6 {
             // one batch of seeds and no loop
             let settings = AssembliesSettings {

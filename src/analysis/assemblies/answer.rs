@@ -39,6 +39,8 @@ pub(super) struct Question<'a> {
     pub coordinates: &'a Coordinates,
     /// The family that the trace test moves.
     pub moved: Traced,
+    /// Number of ways in which universal joints stand in each pose.
+    pub flips: usize,
     pub held: &'a Held<f64>,
     pub asked: &'a Configuration<f64>,
     pub bound: Option<&'a KnownBound>,
@@ -297,7 +299,12 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
-            traced: (generic.traced).then_some(self.moved),
+            traced: (generic.traced).then_some(match generic.complete {
+                true => Traced::OneRod,
+                false => self.moved,
+            }),
+            general: generic.general,
+            flips: Some(self.flips).filter(|flips| *flips > 1),
             lost_in_loops: generic.lost_in_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,

@@ -5,17 +5,19 @@ mod bound;
 mod coordinates;
 mod direction;
 mod legwise;
+mod rods;
 
 pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, Input, size};
 pub(super) use direction::Direction;
 pub(super) use legwise::{LegwiseSolutions, count, learn};
+pub(super) use rods::Rod;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Dimensions, Mechanism};
+use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
 use crate::system::{Held, HeldPlatform, Mobility, System};
 
@@ -29,7 +31,7 @@ pub(crate) struct Member {
 /// All members of the family of one question.
 #[derive(Clone, Debug)]
 pub(crate) struct Family {
-    mechanism: Mechanism,
+    pub mechanism: Mechanism,
     pub coordinates: Coordinates,
     pub held: Held<C>,
     /// Values the mechanism itself has.
@@ -47,6 +49,14 @@ pub(crate) struct Family {
     pub is_square: bool,
     /// The equations with these values, if all expressions have one.
     own: Option<System<C>>,
+    /// Rows of closures that are evaluated.
+    kept: Vec<Kept>,
+    /// Parts that rods stand for; what is in them is not among the unknowns.
+    pub rods: Vec<Rod>,
+    /// A closure that is left out.
+    cut: Option<usize>,
+    /// The same family with rods, where there are such parts.
+    pub reduced: Option<Box<Family>>,
 }
 
 /// A length that has a factor among the parameters.
@@ -111,6 +121,10 @@ impl Family {
             is_square: false,
             mechanism: mechanism.clone(),
             own: None,
+            kept: mechanism.rows_that_vary().to_vec(),
+            rods: Vec::new(),
+            cut: None,
+            reduced: None,
         };
         let system = System::new(mechanism.dimensions(), held);
         let equations = family.varying_equations + system.hold_rows().len();
@@ -121,8 +135,31 @@ impl Family {
         if is_rigid {
             family.widen();
         }
+        if !family.is_square {
+            family.kept.fill(EVERY_ROW);
+        }
         family.own = family.system(&family.parameters);
+        family.reduced = family.with_rods().map(Box::new);
         family
+    }
+
+    /// The same family with rods for all parts that are no more than that.
+    fn with_rods(&self) -> Option<Self> {
+        let own = self.dimensions(&self.parameters)?;
+        let rods = Rod::all(&own, &self.held, self.mechanism.rows_that_vary());
+        let mut family = Family {
+            held: Rod::held(&rods, self.held.clone()),
+            varying_equations: self.varying_equations
+                - rods.iter().map(Rod::equations).sum::<usize>(),
+            kept: Rod::replaced(&rods, self.kept.clone(), vec![EVERY_ROW; rods.len()]),
+            own: None,
+            rods,
+            ..self.clone()
+        };
+        family.own = family.system(&self.parameters);
+        let system = family.own.as_ref().filter(|_| !family.rods.is_empty())?;
+        family.coordinates = self.coordinates.without(&family.held, system);
+        Some(family)
     }
 
     /// Rods, and other lengths that no parameter changes, get factors. With nothing to vary a family has one member, and no loop goes
@@ -145,16 +182,30 @@ impl Family {
         self.parameters.extend(factors);
     }
 
+    /// The same family without a closure of one row and with a joint held, which is given last among the inputs.
+    pub fn without(&self, closure: usize, joint: usize) -> Option<Self> {
+        let mut family = Family {
+            cut: Some(closure),
+            varying_equations: self.varying_equations - 1,
+            own: None,
+            reduced: None,
+            ..self.clone()
+        };
+        family.held.joints[joint] = true;
+        family.kept.remove(closure);
+        family.own = family.system(&self.parameters);
+        family.coordinates = self.coordinates.without(&family.held, family.own.as_ref()?);
+        family.coordinates.inputs.push(Input::Joint(joint));
+        Some(family)
+    }
+
     /// The equations of members with these parameters. `None` if an expression has no value.
     pub fn system(&self, parameters: &[C]) -> Option<System<C>> {
         match &self.own {
             Some(own) if parameters == self.parameters => Some(own.clone()),
             _ => {
                 let dimensions = self.dimensions(parameters)?;
-                Some(match self.is_square {
-                    true => System::reduced(&self.mechanism, &dimensions, &self.held),
-                    false => System::new(&dimensions, &self.held),
-                })
+                Some(System::keeping(&dimensions, &self.held, &self.kept, &[]))
             }
         }
     }
@@ -273,6 +324,33 @@ impl Family {
         x
     }
 
+    /// Number of ways in which the parts that rods stand for close together.
+    pub fn ways(&self) -> usize {
+        let rods = self.reduced.iter().flat_map(|reduced| &reduced.rods);
+        rods.map(Rod::ways).product()
+    }
+
+    /// The places of the parts that rods stand for among the flat unknowns, with held coordinates with only them free.
+    pub fn parts(&self, rods: &[Rod]) -> Vec<(Vec<usize>, Held<C>)> {
+        let c = &self.coordinates;
+        let place = |all: &[usize], one: usize| all.iter().position(|x| *x == one);
+        let parts = rods.iter().filter_map(|rod| match rod {
+            Rod::Hinged { joints, .. } => {
+                let places = joints.iter().map(|j| place(&c.free_joints, *j));
+                let places: Vec<usize> = places.collect::<Option<_>>()?;
+                let held = self.held_but(&places);
+                Some((places, held))
+            }
+            Rod::Body { platform, .. } => {
+                let first = c.free_joints.len() + 7 * place(&c.free_platforms, *platform)?;
+                let mut held = self.held_but(&[]);
+                held.platforms[*platform] = self.held.platforms[*platform].clone();
+                Some(((first..first + 7).collect(), held))
+            }
+        });
+        parts.collect()
+    }
+
     /// Held coordinates with only the joints at these places of the unknowns free.
     pub fn held_but(&self, places: &[usize]) -> Held<C> {
         let mut joints = vec![true; self.held.joints.len()];
@@ -299,6 +377,12 @@ impl Family {
         dimensions
             .joint_scales
             .clone_from(&self.coordinates.joint_scales);
+        if !self.rods.is_empty() {
+            dimensions = Rod::standing(&self.rods, &dimensions)?;
+        }
+        if let Some(closure) = self.cut {
+            dimensions.closures.remove(closure);
+        }
         Some(dimensions)
     }
 }

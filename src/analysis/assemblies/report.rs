@@ -126,6 +126,9 @@ pub enum Traced {
     Parameters,
     /// Lengths of the rods, where there are no inputs.
     Rods,
+    /// The length of one rod, with all points of the cut: there are no other isolated solutions, whatever loops lead
+    /// to, but such of which the joint that makes the cut does not turn with that length.
+    OneRod,
 }
 
 /// Assemblies that are connected, infinitely many, at the target inputs.
@@ -231,6 +234,13 @@ pub struct AssembliesReport {
     /// reached, and given up where it would take more paths than the loops that it saves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub traced: Option<Traced>,
+    /// For a platform on six rods: how many of the 40 poses of a general one, whose paths lead to all of its isolated poses, go
+    /// to infinity for generic inputs. Then nothing is searched.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub general: Option<usize>,
+    /// Number of ways in which universal joints stand in each pose, where their legs were left out of the search.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flips: Option<usize>,
     /// Number of held inputs compared with the freedoms of the mechanism.
     pub fit: Fit,
     /// Newton seeds tried at the generic member.

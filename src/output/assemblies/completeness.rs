@@ -79,14 +79,37 @@ fn searched(report: &AssembliesReport) -> String {
         Some(bound) => format!("no more than {bound} are possible for this structure"),
         None => "no bound is known for this structure".into(),
     };
-    let mut parts = vec![
-        format!("{} found", report.generic),
-        format!("{quiet} found no more"),
-        bound,
-    ];
-    if let Some(traced) = report.traced {
+    let flips = report.flips.unwrap_or(1);
+    let found = match flips {
+        1 => format!("{} found", report.generic),
+        flips => format!(
+            "{} found, {} with universal joints in {flips} ways each",
+            report.generic,
+            count(report.generic / flips, "pose")
+        ),
+    };
+    let mut parts = match report.general {
+        Some(infinite) => vec![
+            found,
+            format!(
+                "the 40 poses of a general platform on six rods lead to {}, and no others are isolated",
+                match infinite {
+                    0 => "these".into(),
+                    n => format!("{} here and {n} at infinity", 40 - n),
+                }
+            ),
+        ],
+        None if report.traced == Some(Traced::OneRod) => vec![
+            found,
+            "the trace test holds for the length of one rod with all points of its cut: no solution that this length \
+             moves is missing"
+                .into(),
+        ],
+        None => vec![found, format!("{quiet} found no more"), bound],
+    };
+    if let Some(traced) = report.traced.filter(|traced| *traced != Traced::OneRod) {
         let moved = match traced {
-            Traced::Inputs => "the inputs",
+            Traced::OneRod | Traced::Inputs => "the inputs",
             Traced::Parameters => "the parameters",
             Traced::Rods => "the lengths of the rods",
         };

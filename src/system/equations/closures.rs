@@ -45,6 +45,44 @@ impl<T: Factorable> System<T> {
         axes.collect()
     }
 
+    /// If every closure is a rod from what is fixed to what moves: both its ends in ground, at the placement last evaluated, and
+    /// its length.
+    pub(crate) fn rods(
+        &self,
+        at: &Configuration<T>,
+        work: &Work<T>,
+    ) -> Option<Vec<([Vector3<T>; 2], T)>> {
+        let closures = self.plans.iter().zip(&self.closures);
+        let rods = closures.map(|(plan, closure)| {
+            let joints = !plan.movers.is_empty() || !plan.extensions.is_empty();
+            let mut ends = closure.frames(&work.placement).map(|pose| pose.position);
+            match plan.platforms.as_slice() {
+                [(side, ..)] if closure.kind.has_length() && !joints => {
+                    if *side == Side::A {
+                        ends.reverse();
+                    }
+                    Some((ends, closure.length(&at.joints)))
+                }
+                _ => None,
+            }
+        });
+        rods.collect()
+    }
+
+    /// Each rod of fixed length: its closure, its row, its length.
+    pub(crate) fn fixed_rods(&self) -> impl Iterator<Item = (usize, usize, T)> {
+        let closures = self.plans.iter().zip(&self.closures).enumerate();
+        let rods = closures.filter(|(_, (_, c))| c.kind.has_length() && c.extension.0.is_empty());
+        rods.map(|(i, (plan, closure))| (i, plan.row, closure.length))
+    }
+
+    /// The same equations with another length of a rod.
+    pub(crate) fn with_length(&self, closure: usize, length: T) -> Self {
+        let mut other = self.clone();
+        other.closures[closure].length = length;
+        other
+    }
+
     /// The wrenches of every closure's rows, at the placement last evaluated.
     pub fn closure_wrenches(
         &self,

@@ -24,15 +24,24 @@ pub(crate) struct KnownBound {
 
 /// The known bound for a question, if its structure is recognised.
 pub(crate) fn known_bound(mechanism: &Mechanism, family: &Family) -> Option<KnownBound> {
-    let structure = Structure::of(mechanism, family)?;
-    match structure.platforms {
-        [] => (structure.dyads())
-            .or_else(|| structure.triad())
-            .or_else(|| structure.hinged_points())
-            .or_else(|| structure.arm()),
-        [HeldPlatform::Free] => structure.platform(),
-        _ => None,
-    }
+    let known = |family: &Family| {
+        let structure = Structure::of(mechanism, family)?;
+        match structure.platforms.as_slice() {
+            [] => (structure.dyads())
+                .or_else(|| structure.triad())
+                .or_else(|| structure.hinged_points())
+                .or_else(|| structure.arm()),
+            [HeldPlatform::Free] => structure.platform(),
+            _ => None,
+        }
+    };
+    // a universal joint stands in two ways wherever the rod of its leg is
+    let with_rods = family.reduced.as_ref().and_then(|reduced| known(reduced));
+    let with_rods = with_rods.map(|bound| KnownBound {
+        count: bound.count * family.ways(),
+        ..bound
+    });
+    with_rods.or_else(|| known(family))
 }
 
 fn bound(count: usize, structure: &'static str, source: &'static str) -> Option<KnownBound> {
@@ -57,10 +66,10 @@ struct Structure<'a> {
     dimensions: Dimensions<C>,
     links: Vec<Link>,
     /// Platforms whose whole pose is not held.
-    platforms: &'a [HeldPlatform<C>],
+    platforms: Vec<&'a HeldPlatform<C>>,
 }
 
-const SMALL: f64 = 1e-9;
+pub(super) const SMALL: f64 = 1e-9;
 
 fn parallel(a: &Vector3<C>, b: &Vector3<C>) -> bool {
     let size = |v: &Vector3<C>| v.0.iter().map(|x| complex::norm(*x)).fold(0.0, f64::max);
@@ -104,10 +113,10 @@ impl<'a> Structure<'a> {
             }
         });
         let links = links.collect();
-        let platforms = match family.held.platforms.as_slice() {
-            held if held.iter().all(|held| *held == HeldPlatform::Pose) => &[],
-            held => held,
-        };
+        let platforms = family.held.platforms.iter();
+        let platforms = platforms
+            .filter(|held| **held != HeldPlatform::Pose)
+            .collect();
         let plain = |joint: &usize| is_plain(&dimensions, *joint);
         let free = &family.coordinates.free_joints;
         free.iter().all(plain).then_some(Structure {
@@ -301,47 +310,20 @@ impl<'a> Structure<'a> {
                 "a rigid triangle on three circles of a plane",
                 "Hunt 1983; Gosselin, Sefrioui and Richard 1992",
             ),
-            6 => {
-                // each leg keeps a point of the platform on a sphere; a universal joint stands in
-                // two ways for each of its points
-                let ways = self.links.iter().map(|link| match link.kind {
-                    ClosureKind::Distance if link.joints.is_empty() => Some(1),
-                    ClosureKind::Spherical if self.universal(link) => Some(2),
-                    _ => None,
-                });
-                let ways: usize = ways.product::<Option<usize>>()?;
-                match (self.meets_by_pairs(), ways) {
-                    (true, _) => bound(
-                        16 * ways,
-                        "six legs that meet by pairs on a platform",
-                        "Nanua, Waldron and Murthy 1990; Faugère and Lazard 1995",
-                    ),
-                    (false, 1) => bound(
-                        40,
-                        "six legs between a base and a platform",
-                        "Ronga and Vust 1992; Raghavan 1993",
-                    ),
-                    (false, _) => bound(
-                        40 * ways,
-                        "six legs between a base and a platform, universal joints in two ways each",
-                        "Ronga and Vust 1992; Raghavan 1993",
-                    ),
-                }
-            }
+            6 if joints.is_empty() && all(ClosureKind::Distance) => match self.meets_by_pairs() {
+                true => bound(
+                    16,
+                    "six legs that meet by pairs on a platform",
+                    "Nanua, Waldron and Murthy 1990; Faugère and Lazard 1995",
+                ),
+                false => bound(
+                    40,
+                    "six legs between a base and a platform",
+                    "Ronga and Vust 1992; Raghavan 1993",
+                ),
+            },
             _ => None,
         }
-    }
-
-    /// True if a leg's two joints turn about axes that meet: ω₁·v₂ + ω₂·v₁ = 0.
-    fn universal(&self, link: &Link) -> bool {
-        let [(_, a, va), (_, b, vb)] = link.axes.joints.as_slice() else {
-            return false;
-        };
-        let size = self.dimensions.characteristic_length;
-        self.turns(&link.joints)
-            && link.joints.len() == 2
-            && !parallel(a, b)
-            && complex::norm(a.dot(vb) + b.dot(va)) <= SMALL * size
     }
 
     /// True if six legs end at three points of the platform, two at each.
@@ -368,7 +350,7 @@ impl<'a> Structure<'a> {
 }
 
 /// True if a joint stands in one row of one chain, or in the length of one closure, with a factor of absolute value 1.
-fn is_plain(dimensions: &Dimensions<C>, joint: usize) -> bool {
+pub(super) fn is_plain(dimensions: &Dimensions<C>, joint: usize) -> bool {
     let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
     let in_rows = rows.flat_map(|row| [row.turn.coefficient(joint), row.slide.coefficient(joint)]);
     let in_lengths = dimensions.closures.iter();

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::Factorable;
 use crate::mechanism::{
     Configuration, Dimensions, Mechanism, PlatformPose, PoseCoordinate, principal, turns_to_repeat,
 };
@@ -96,6 +97,15 @@ impl Coordinates {
             incommensurate,
             turns,
         }
+    }
+
+    /// The same without what is held besides, in a system where nothing of that is.
+    pub fn without(&self, held: &Held<C>, system: &System<C>) -> Self {
+        let mut rest = self.clone();
+        rest.free_joints.retain(|j| !held.joints[*j]);
+        (rest.free_platforms).retain(|p| held.platforms[*p] != HeldPlatform::Pose);
+        rest.legs = legs(&rest.free_joints, system);
+        rest
     }
 
     /// True if a joint is free, turns something and never comes back to the same place.
@@ -300,7 +310,7 @@ fn pose_gaps<'a>(x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
 
 /// Places of free joints that stand in one leg: those that affect one closure, or by closures that such
 /// joints join.
-fn legs(free_joints: &[usize], system: &System<f64>) -> Vec<Vec<usize>> {
+fn legs<T: Factorable>(free_joints: &[usize], system: &System<T>) -> Vec<Vec<usize>> {
     let mut legs: Vec<Vec<usize>> = (0..free_joints.len()).map(|place| vec![place]).collect();
     for joints in system.joints_of_closures() {
         let touched = |leg: &Vec<usize>| {

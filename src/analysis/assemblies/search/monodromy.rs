@@ -17,8 +17,9 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
+use super::rod_trace::RodTrace;
 use super::solutions::GenericSolutions;
-use super::trace;
+use super::{six_rods, trace};
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Member, learn};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
@@ -40,55 +41,24 @@ struct Search<'a> {
     found: GenericSolutions,
     /// The trace test holds for so many solutions.
     traced: Option<usize>,
+    /// The trace test over the length of a rod, and how often it was begun.
+    cut: Option<RodTrace<'a>>,
+    cuts: usize,
     /// Number of solutions from which on it is doubted that they are finite in number.
     doubtful: usize,
 }
 
-/// Searches a generic member, and another one where fewer solutions than the bound were found. `None`
-/// if a dimension has no value anywhere near.
-pub(crate) fn search(
-    family: &Family,
-    question: String,
-    bound: Option<usize>,
-    settings: &AssembliesSettings,
-    watch: &Watch,
-) -> Option<GenericSolutions> {
-    let first = search_one(family, &question, bound, settings, watch)?;
-    if first.count() == 0
-        || watch.is_stopped()
-        || first.exhausted
-        || first.traced
-        || bound.is_none_or(|bound| first.count() >= bound)
-    {
-        return Some(first);
-    }
-    let other = AssembliesSettings {
-        seed: !settings.seed,
-        ..settings.clone()
-    };
-    let second = search_one(family, &question, bound, &other, watch)?;
-    let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
-    let better = match second.count() > first.count() {
-        true => second,
-        false => first,
-    };
-    Some(GenericSolutions {
-        seeds,
-        loops,
-        seed: settings.seed,
-        ..better
-    })
-}
-
-fn search_one(
+/// Searches a given member, or a generic one.
+pub(super) fn search_one(
     family: &Family,
     question: &str,
     bound: Option<usize>,
     settings: &AssembliesSettings,
     watch: &Watch,
+    base: Option<Member>,
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
-    let base = family.generic_member(&mut rng);
+    let base = base.unwrap_or_else(|| family.generic_member(&mut rng));
     let found = GenericSolutions {
         question: question.to_owned(),
         parameters: base.parameters.clone(),
@@ -104,10 +74,20 @@ fn search_one(
         base,
         found,
         traced: None,
+        cut: None,
+        cuts: 0,
         doubtful: DOUBTFUL,
     };
-    search.found.exhausted = search.run()?;
-    search.found.traced = search.is_traced();
+    match six_rods::solved(family, &search.base, watch) {
+        Some((legwise, infinite)) => {
+            search.found.legwise = legwise;
+            search.found.general = Some(infinite);
+        }
+        None => {
+            search.found.exhausted = search.run()?;
+            search.found.traced = search.is_traced();
+        }
+    }
     if bound == Some(search.found.count()) {
         // no more are possible, so that what seemed to be others were these
         search.found.multiple = 0;
@@ -116,6 +96,21 @@ fn search_one(
         search.found.legwise.clear();
     }
     Some(search.found)
+}
+
+/// The search for the smaller problem of a trace test.
+fn smaller<'a>(
+    settings: &AssembliesSettings,
+    watch: &'a Watch<'a>,
+) -> impl Fn(&Family, Option<usize>, Member) -> Option<GenericSolutions> + 'a {
+    const FEW: usize = 32;
+    let few = AssembliesSettings {
+        quiet_seeds: FEW,
+        quiet_loops: 2,
+        most_loops: FEW,
+        ..settings.clone()
+    };
+    move |family, bound, member| search_one(family, "", bound, &few, watch, Some(member))
 }
 
 /// Seeds started at once at the generic member, and at most at a corner of a loop.
@@ -159,6 +154,9 @@ impl Search<'_> {
                     return Some(false);
                 }
                 self.trace();
+                if self.found.complete {
+                    return Some(false);
+                }
             }
             if self.bound == Some(self.found.count()) {
                 return Some(false);
@@ -249,7 +247,32 @@ impl Search<'_> {
     /// Runs the trace test where loops begin to bring nothing new.
     fn trace(&mut self) {
         const MOST: usize = 5000;
+        const CUTS: usize = 3;
         let count = self.found.count();
+        let (expected, watch) = (self.bound != Some(count), (self.watch, self.in_loops()));
+        if expected && self.cut.is_none() && self.cuts < CUTS {
+            self.cuts += 1;
+            let mut rng = generator(self.settings.seed, (1 << 45) + self.cuts as u64);
+            self.cut = RodTrace::new(
+                self.family,
+                &self.base,
+                (&smaller(self.settings, self.watch), &mut rng),
+                64 + 2 * count,
+            );
+        }
+        if let Some(cut) = self.cut.as_mut().filter(|_| expected && count <= MOST) {
+            let points = self.found.legwise.iter();
+            let points = points.flat_map(|s| s.points(&self.family.coordinates));
+            match cut.holds(&points.collect::<Vec<_>>(), watch) {
+                Some(true) => {
+                    self.found.complete = true;
+                    self.traced = Some(count);
+                    return;
+                }
+                Some(false) => {}
+                None => self.cut = None,
+            }
+        }
         // where a bound is known more are expected
         let quiet = if self.bound.is_some() { [3, 6] } else { [1, 4] };
         // combinations of ways of legs would be followed one by one
@@ -265,7 +288,6 @@ impl Search<'_> {
             let points: Vec<Vec<C>> = points.collect();
             let stream = (1 << 46) + self.found.loops as u64;
             let mut rng = generator(self.settings.seed, stream);
-            let watch = (self.watch, self.in_loops());
             let holds = trace::holds(self.family, &self.base, &points, &mut rng, watch);
             self.traced = holds.then_some(count);
         }
@@ -366,5 +388,38 @@ impl Search<'_> {
         points
             .flat_map(|s| s.spanning_points(coordinates))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rod_trace::Smaller;
+    use super::*;
+    use crate::description::Description;
+    use crate::mechanism::Mechanism;
+    use crate::system::Question;
+
+    /// The truss of 13 links has 126 solutions (`tests/data/truss_13.ron`), of which none can be left out.
+    #[test]
+    fn a_truss_is_complete_and_no_solution_can_be_left_out() {
+        let text = include_str!("../../../../tests/data/truss_13.ron");
+        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let family = Family::new(&mechanism, &Question::new(&mechanism).held());
+        let (settings, watch) = (AssembliesSettings::default(), Watch::none());
+        let found = search_one(&family, "", None, &settings, &watch, None).unwrap();
+        let points = found.legwise.iter();
+        let all: Vec<Vec<C>> = points.flat_map(|s| s.points(&family.coordinates)).collect();
+        assert_eq!((all.len(), found.complete), (126, true));
+        for left_out in [0, 125] {
+            let mut rest = all.clone();
+            rest.remove(left_out);
+            let how = (
+                &smaller(&settings, &watch) as &Smaller<'_>,
+                &mut generator(7, 0),
+            );
+            let mut test = RodTrace::new(&family, &found.member(), how, 64).unwrap();
+            let now = Progress::of(Stage::Paths);
+            assert_eq!(test.holds(&rest, (&watch, now)), Some(false));
+        }
     }
 }

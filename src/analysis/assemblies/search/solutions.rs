@@ -34,6 +34,12 @@ pub struct GenericSolutions {
     /// True if the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub traced: bool,
+    /// True if the trace test over the length of one rod holds with a complete cut: there are no others.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub complete: bool,
+    /// For a platform on six rods, whose solutions the 40 of a general one lead to: how many of these are at infinity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub general: Option<usize>,
     /// The most paths lost in one of them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub lost_in_loops: usize,

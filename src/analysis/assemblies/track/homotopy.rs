@@ -5,20 +5,14 @@ use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
 use crate::number::{Number, complex};
 use crate::solve::{Equations, Homotopy};
+use crate::system::System;
 
 impl Family {
     /// The homotopy from one member to another. `None` if an expression has no value at the start.
     pub fn homotopy(&self, from: &Member, to: &Member) -> Option<ParameterHomotopy<'_>> {
         let course = Segment::new(from, to);
         let here = MemberEquations::start(self, &course)?;
-        let rows = vec![C::from_f64(0.0); here.system.rows()];
-        Some(ParameterHomotopy {
-            family: self,
-            factors: vec![1.0; rows.len()],
-            residual: rows,
-            here,
-            course,
-        })
+        Some(ParameterHomotopy::new(self, here, course))
     }
 }
 
@@ -32,6 +26,33 @@ pub(crate) struct ParameterHomotopy<'f> {
     /// Factors by which the equations last factorised were multiplied.
     factors: Vec<f64>,
     course: Segment,
+}
+
+impl<'f> ParameterHomotopy<'f> {
+    /// From one system to another of the same structure, at the inputs of a member.
+    pub fn between(
+        family: &'f Family,
+        (from, to): (&System<C>, &System<C>),
+        member: &Member,
+    ) -> Option<Self> {
+        let course = Segment {
+            resized: true,
+            ..Segment::new(member, member)
+        };
+        let here = MemberEquations::between(family, &course, (from, to))?;
+        Some(ParameterHomotopy::new(family, here, course))
+    }
+
+    fn new(family: &'f Family, here: MemberEquations, course: Segment) -> Self {
+        let rows = vec![C::from_f64(0.0); here.system.rows()];
+        ParameterHomotopy {
+            family,
+            factors: vec![1.0; rows.len()],
+            residual: rows,
+            here,
+            course,
+        }
+    }
 }
 
 impl ParameterHomotopy<'_> {
@@ -52,6 +73,17 @@ impl ParameterHomotopy<'_> {
         // a solution far out may be simple although its pivots differ by the square of its size
         here.system.factorise_isolated(&mut here.work);
         largest
+    }
+
+    /// How fast the unknowns move at a solution while one residual does.
+    pub fn rate(&mut self, s: C, x: &[C], row: usize) -> Option<&[C]> {
+        self.linearise(s, x);
+        let mut residual = vec![C::from_f64(0.0); self.factors.len()];
+        residual[row] = C::from_f64(-1.0);
+        let longest = self.step_for(&mut residual);
+        longest
+            .is_finite()
+            .then(|| self.here.system.step_of(&self.here.work))
     }
 
     /// The step −J⁺r for a residual r and the factors last made.

@@ -60,14 +60,38 @@ pub(crate) struct MemberEquations {
 impl MemberEquations {
     /// The equations at s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &Segment) -> Option<Self> {
-        let mut system = family.system(&course.from.parameters)?;
-        let mut numbers = None;
+        let system = family.system(&course.from.parameters)?;
         if course.resized && family.is_square {
             let end = family.system(&course.parameters(C::new(1.0, 0.0)))?;
-            if let Some((moving, way)) = system.towards(&end) {
-                (system, numbers) = (moving, Some(Arc::new(way)));
+            let way = MemberEquations::between(family, course, (&system, &end));
+            if way.is_some() {
+                return way;
             }
         }
+        Some(MemberEquations::new(family, course, system, None))
+    }
+
+    /// At the first of two systems, on the way of the numbers of one to those of the other.
+    pub fn between(
+        family: &Family,
+        course: &Segment,
+        (from, to): (&System<C>, &System<C>),
+    ) -> Option<Self> {
+        let (system, way) = from.towards(to)?;
+        Some(MemberEquations::new(
+            family,
+            course,
+            system,
+            Some(Arc::new(way)),
+        ))
+    }
+
+    fn new(
+        family: &Family,
+        course: &Segment,
+        system: System<C>,
+        numbers: Option<Arc<Course<C>>>,
+    ) -> Self {
         let mut place = MemberEquations {
             work: system.work(),
             system,
@@ -80,7 +104,7 @@ impl MemberEquations {
             slots: Vec::new(),
         };
         place.go(family, course, C::new(0.0, 0.0));
-        Some(place)
+        place
     }
 
     /// Changes the equations to those at another s.

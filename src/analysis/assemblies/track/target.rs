@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::homotopy::ParameterHomotopy;
+use super::lift::{Lift, reduced};
 use super::path::{End, Path, arrived, follow};
 use super::simple::{are_one, near};
 use crate::analysis::assemblies::family::{
@@ -41,13 +42,50 @@ pub(crate) fn track_to_target(
     legwise: &[LegwiseSolutions],
     watch: &Watch,
 ) -> Option<Ends> {
-    let homotopy = family.homotopy(from, to)?;
+    if let Some(ends) = tracked_with_rods(family, (from, to), legwise, watch) {
+        return Some(ends);
+    }
+    ends(&family.homotopy(from, to)?, legwise, watch)
+}
+
+/// The same with rods for parts that are no more than that. `None` if there are none, or an end is not regular.
+fn tracked_with_rods(
+    family: &Family,
+    (from, to): (&Member, &Member),
+    legwise: &[LegwiseSolutions],
+    watch: &Watch,
+) -> Option<Ends> {
+    let with_rods = family.reduced.as_ref()?.homotopy(from, to)?;
+    let mut all = ends(&with_rods, &reduced(family, legwise), watch)?;
+    let lift = Lift::new(family, to)?;
+    let found = std::mem::take(&mut all.ends);
+    let lifted = each(found.len(), &lift, |lift, k| match &found[k] {
+        End::Regular(x) => {
+            let points = lift.of(x)?.points(&family.coordinates).into_iter();
+            Some(points.map(End::Regular).collect())
+        }
+        End::Infinite => Some(vec![End::Infinite; family.ways()]),
+        End::Singular(_) | End::Either(_) | End::Lost => None,
+    });
+    all.ends = lifted
+        .into_iter()
+        .collect::<Option<Vec<Vec<End>>>>()?
+        .concat();
+    Some(all)
+}
+
+/// The ends of all paths of a homotopy.
+pub(crate) fn ends(
+    homotopy: &ParameterHomotopy<'_>,
+    legwise: &[LegwiseSolutions],
+    watch: &Watch,
+) -> Option<Ends> {
     let followed = AtomicUsize::new(0);
     let mut best: Option<Ends> = None;
     let mut retries = 0;
     for bend in [0.0, 0.4, -0.4, 0.8, -0.8] {
         let mut batch = Batch {
-            homotopy: &homotopy,
+            homotopy,
             bend,
             care: if bend == 0.0 { 1.0 } else { 0.1 },
             followed: &followed,

@@ -1,0 +1,77 @@
+//! The search of a family: with rods for parts that are no more than that, and at another member where fewer solutions than
+//! the bound were found.
+
+use super::super::AssembliesSettings;
+use super::monodromy::search_one;
+use super::solutions::GenericSolutions;
+use crate::analysis::assemblies::family::{C, Family, learn};
+use crate::analysis::assemblies::track::Lift;
+use crate::solve::Watch;
+
+/// Searches a generic member, and another one where fewer solutions than the bound were found. `None`
+/// if a dimension has no value anywhere near.
+pub(crate) fn search(
+    family: &Family,
+    question: String,
+    bound: Option<usize>,
+    settings: &AssembliesSettings,
+    watch: &Watch,
+) -> Option<GenericSolutions> {
+    let parts = family.reduced.as_ref().and_then(|reduced| {
+        let bound = bound.map(|bound| bound / family.ways());
+        let found = search(reduced, question.clone(), bound, settings, watch)?;
+        completed(family, found)
+    });
+    if let Some(found) = parts {
+        return Some(found);
+    }
+    let first = search_one(family, &question, bound, settings, watch, None)?;
+    if first.count() == 0
+        || watch.is_stopped()
+        || first.exhausted
+        || first.traced
+        || first.general.is_some()
+        || bound.is_none_or(|bound| first.count() >= bound)
+    {
+        return Some(first);
+    }
+    let other = AssembliesSettings {
+        seed: !settings.seed,
+        ..settings.clone()
+    };
+    let second = search_one(family, &question, bound, &other, watch, None)?;
+    let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
+    let better = match second.count() > first.count() {
+        true => second,
+        false => first,
+    };
+    Some(GenericSolutions {
+        seeds,
+        loops,
+        seed: settings.seed,
+        ..better
+    })
+}
+
+/// Solutions found with rods, with what the rods stand for. `None` if that is not all that there is to find.
+fn completed(family: &Family, mut found: GenericSolutions) -> Option<GenericSolutions> {
+    let finite = found.freedom == 0 && found.multiple == 0 && !found.endless;
+    let reduced = family
+        .reduced
+        .as_ref()
+        .filter(|_| finite && found.count() > 0)?;
+    let lift = Lift::new(family, &found.member())?;
+    let points = found
+        .legwise
+        .iter()
+        .flat_map(|s| s.points(&reduced.coordinates));
+    let points: Vec<Vec<C>> = points.collect();
+    let parts = crate::solve::each(points.len(), &lift, |lift, k| lift.of(&points[k]));
+    found.legwise.clear();
+    for part in parts {
+        for x in part?.spanning_points(&family.coordinates) {
+            learn(&mut found.legwise, &family.coordinates, &x);
+        }
+    }
+    Some(found)
+}

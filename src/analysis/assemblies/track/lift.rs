@@ -1,0 +1,147 @@
+//! Solutions found with rods, completed by what the rods stand for.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+use super::homotopy::ParameterHomotopy;
+use super::path::{End, arrived};
+use crate::analysis::assemblies::family::{
+    C, Coordinates, Family, LegwiseSolutions, Member, learn, size,
+};
+use crate::mechanism::Dimensions;
+use crate::number::Number;
+use crate::solve::{Homotopy, Newton, Stop};
+use crate::system::{System, Work};
+
+/// The equations of every part that a rod stands for, at one member.
+#[derive(Clone, Debug)]
+pub(crate) struct Lift<'f> {
+    whole: ParameterHomotopy<'f>,
+    parts: Vec<Part>,
+}
+
+#[derive(Clone, Debug)]
+struct Part {
+    system: System<C>,
+    work: Work<C>,
+    /// Of its unknowns among those of the whole.
+    places: Vec<usize>,
+    ways: usize,
+}
+
+impl<'f> Lift<'f> {
+    /// Of a family that has a reduced one; `None` if an expression has no value.
+    pub fn new(family: &'f Family, member: &Member) -> Option<Self> {
+        let dimensions = family.dimensions(&member.parameters)?;
+        let rods = &family.reduced.as_ref()?.rods;
+        let parts = rods.iter().zip(family.parts(rods));
+        let parts = parts.map(|(rod, (places, held))| {
+            let (one, other) = rod.closures();
+            let own = [Some(one), other].into_iter().flatten();
+            let own = Dimensions {
+                closures: own.map(|c| dimensions.closures[c].clone()).collect(),
+                ..dimensions.clone()
+            };
+            let system = System::new(&own, &held);
+            Part {
+                work: system.work(),
+                system,
+                places,
+                ways: rod.ways(),
+            }
+        });
+        Some(Lift {
+            parts: parts.collect(),
+            whole: family.homotopy(member, member)?,
+        })
+    }
+
+    /// The solutions that one of the reduced family stands for; `None` if not every part closes in as many ways as it does in
+    /// general.
+    pub fn of(&mut self, x: &[C]) -> Option<LegwiseSolutions> {
+        const TRIES: u64 = 40;
+        let family = self.whole.family;
+        let coordinates = &family.coordinates;
+        let mut whole = vec![C::from_f64(0.0); coordinates.count()];
+        let rest = kept(coordinates, &family.reduced.as_ref()?.coordinates);
+        rest.zip(x).for_each(|(place, x)| whole[place] = *x);
+        let mut found: Vec<Vec<Vec<C>>> = vec![Vec::new(); self.parts.len()];
+        for (part, found) in self.parts.iter_mut().zip(&mut found) {
+            for k in 0..TRIES {
+                let random = family.random_point(&mut Pcg64::seed_from_u64(k), 1.0);
+                (part.places.iter()).for_each(|&place| whole[place] = random[place]);
+                self.whole.residual(C::from_f64(0.0), &whole);
+                let mut at = self.whole.here.at.clone();
+                let mut trial = at.clone();
+                let newton = Newton::default();
+                let report = newton.solve(&part.system, &mut at, &mut trial, &mut part.work);
+                let ended = coordinates.flatten(&at);
+                let near = 1e-8 * (1.0 + size(&ended).powi(2));
+                if report.stop == Stop::StepLimit
+                    || report.size.largest.is_nan()
+                    || report.size.largest > near
+                {
+                    continue;
+                }
+                let way: Vec<C> = part.places.iter().map(|place| ended[*place]).collect();
+                let is_joint = part.places[0] < coordinates.free_joints.len();
+                let is_new = !found.iter().any(|known| match is_joint {
+                    true => coordinates.same_way(&part.places, known, &way),
+                    false => coordinates.same_pose(known, &way),
+                });
+                if is_new {
+                    found.push(way);
+                }
+                if found.len() == part.ways {
+                    break;
+                }
+            }
+            if found.len() < part.ways {
+                return None;
+            }
+        }
+        let mut all = Vec::new();
+        for k in 0..self.parts.iter().map(|part| part.ways).max()? {
+            for (part, found) in self.parts.iter().zip(&found) {
+                let way = &found[k % found.len()];
+                part.places
+                    .iter()
+                    .zip(way)
+                    .for_each(|(place, x)| whole[*place] = *x);
+            }
+            let Some(End::Regular(x)) = arrived(&mut self.whole, &whole) else {
+                return None;
+            };
+            learn(&mut all, coordinates, &x);
+        }
+        let [one] = all.as_slice() else { return None };
+        (one.count() == family.ways()).then(|| one.clone())
+    }
+}
+
+/// Places among the unknowns of what is unknown with rods too.
+fn kept<'a>(all: &'a Coordinates, rest: &'a Coordinates) -> impl Iterator<Item = usize> + 'a {
+    let joints = all.free_joints.iter().enumerate();
+    let joints = joints
+        .filter(|(_, j)| rest.free_joints.contains(j))
+        .map(|(place, _)| place);
+    let platforms = all.free_platforms.iter().enumerate();
+    let platforms = platforms.filter(|(_, p)| rest.free_platforms.contains(p));
+    joints.chain(platforms.flat_map(|(k, _)| {
+        let first = all.free_joints.len() + 7 * k;
+        first..first + 7
+    }))
+}
+
+/// The solutions of a family with rods for parts.
+pub(crate) fn reduced(family: &Family, legwise: &[LegwiseSolutions]) -> Vec<LegwiseSolutions> {
+    let mut all = Vec::new();
+    if let Some(reduced) = &family.reduced {
+        let (whole, rest) = (&family.coordinates, &reduced.coordinates);
+        for x in legwise.iter().flat_map(|s| s.spanning_points(whole)) {
+            let x: Vec<C> = kept(whole, rest).map(|place| x[place]).collect();
+            learn(&mut all, rest, &x);
+        }
+    }
+    all
+}
