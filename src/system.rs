@@ -39,7 +39,7 @@ pub use question::{
     Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,
     QuestionError, Role, Still, actuated, check_angle, check_angles, check_count,
     coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
-    with_coordinates,
+    redundant_motors, with_coordinates,
 };
 pub(crate) use record::is_origin;
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};

@@ -72,6 +72,20 @@ pub fn assemble(
             };
             (count, Some(left))
         }
+        Err(QuestionError::TooMany {
+            mobility,
+            held,
+            free,
+            ..
+        }) => {
+            let agreed = agreeing(question, settings, watch, &free);
+            return agreed.map_err(|apart| QuestionError::TooMany {
+                mobility,
+                held,
+                free,
+                apart,
+            });
+        }
         Err(error) => return Err(error),
     };
     let mut found = search.go_on(first, settings.restarts, settings.seed, watch);
@@ -97,6 +111,54 @@ pub fn assemble(
         Some(freedoms) => reporter.assembled(found.attempt, &freedoms),
         None => reporter.unassembled(found.attempt, local_minimum),
     })
+}
+
+/// The assembly of a question that holds more joints than there are freedoms, if those too many stand where the others put
+/// them; otherwise the one that is farthest from there, and by how much, if that could be found.
+fn agreeing(
+    question: &Question,
+    settings: &AssemblySettings,
+    watch: &Watch,
+    free: &[String],
+) -> Result<AssemblyReport, Option<(String, f64, SiUnit)>> {
+    /// As far as a held joint may be beyond its limits.
+    const ROUNDING: f64 = 1e-9;
+    let mechanism = question.mechanism();
+    let joints: Option<Vec<usize>> = free.iter().map(|name| mechanism.joint(name)).collect();
+    let joints = joints.ok_or(None)?;
+    let eased = question.clone().letting_go(&joints);
+    let mut report = assemble(&eased, settings, watch).map_err(|_| None)?;
+    if !report.is_assembled() || report.left.is_some() {
+        return Err(None);
+    }
+    let (asked, found) = (question.start(), report.configuration());
+    let apart = joints.iter().map(|&joint| {
+        let (value, wanted) = (found.joints[joint], asked.joints[joint]);
+        let by = match mechanism.repeats(joint) {
+            true => turn_near(value, wanted) - wanted,
+            false => value - wanted,
+        };
+        (joint, by.abs())
+    });
+    let farthest = apart.max_by(|a, b| a.1.total_cmp(&b.1));
+    let (joint, by) = farthest.ok_or(None)?;
+    let turns = mechanism.joints()[joint].kind.is_angle();
+    let size = if turns {
+        1.0
+    } else {
+        mechanism.characteristic_length()
+    };
+    if by > ROUNDING * size {
+        let name = mechanism.joints()[joint].name.clone();
+        return Err(Some((name, by, SiUnit::of_coordinate(turns))));
+    }
+    let redundant = report.variables.iter_mut();
+    redundant
+        .filter(|of| free.contains(&of.name))
+        .for_each(|of| of.held = true);
+    report.held = question.held_names();
+    report.redundant = free.to_vec();
+    Ok(report)
 }
 
 /// Continues from the end of Newton's method to the closest approach, which may be assembled after all; true if it is a
@@ -174,6 +236,7 @@ impl Reporter<'_> {
             left: self.left.clone(),
             moved: None,
             held: self.question.held_names(),
+            redundant: Vec::new(),
             frames: frames.collect(),
             centre: mechanism.dimensions().centre,
             platforms: platforms

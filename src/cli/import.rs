@@ -7,7 +7,7 @@ use linkwork::description::{self, Convention, LoadError, ProblemKind, Role};
 use linkwork::interchange::{ImportError, ImportSettings, Remark, load};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
-use linkwork::system::{Question, QuestionError, check_count};
+use linkwork::system::redundant_motors;
 
 use super::export::remarks;
 use super::written::{file, written};
@@ -62,14 +62,15 @@ impl Import {
         // without loops every motor has a freedom of its own
         if let Ok(mechanism) = &made
             && !mechanism.closures().is_empty()
-            && let Err(QuestionError::TooMany { free, .. } | QuestionError::Dependent { free, .. }) =
-                check_count(&Question::new(mechanism))
         {
+            let free = redundant_motors(mechanism);
             let joints = imported.description.joints.iter_mut();
             for joint in joints.filter(|joint| free.contains(&joint.name.value)) {
                 joint.value.role = Role::Passive;
             }
-            imported.remarks.push(Remark::Redundant { joints: free });
+            if !free.is_empty() {
+                imported.remarks.push(Remark::Redundant { joints: free });
+            }
         }
         if let Err(mut problems) = made {
             for problem in &mut problems {

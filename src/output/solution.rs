@@ -19,6 +19,7 @@ impl Report for AssemblyReport {
             .warnings(self.warning())
             .notes(self.moved.as_ref().map(closing::from_start))
             .interrupted(self.interrupted, "other starts")
+            .notes(redundant(self))
             .notes(left(self))
             .notes(idle(self))
             .notes(others(self))
@@ -100,6 +101,22 @@ fn is_fixed(report: &AssemblyReport) -> bool {
     let mut platforms = report.platforms.0.iter();
     report.variables.iter().all(|joint| joint.held)
         && platforms.all(|(name, _)| report.held.contains(name))
+}
+
+/// Held coordinates that the others determine.
+fn redundant(report: &AssemblyReport) -> Option<String> {
+    let names = &report.redundant;
+    (!names.is_empty()).then(|| {
+        format!(
+            "the held values agree: {} where the others put {}",
+            clause(names, "stands", "stand"),
+            form(
+                names.len(),
+                "it, and is redundant",
+                "them, and are redundant"
+            ),
+        )
+    })
 }
 
 /// Freedoms that no held coordinate decides, and coordinates that would.

@@ -9,7 +9,7 @@ mod names;
 mod outputs;
 mod spins;
 
-pub use count::{Count, check_angle, check_angles, check_count};
+pub use count::{Count, check_angle, check_angles, check_count, redundant_motors};
 pub use demand::{Demand, Role};
 pub use drive::{Drive, DriveError};
 pub use equilibrium::{Equilibrium, Loaded};
@@ -104,6 +104,13 @@ impl<'a> Question<'a> {
         }
         self.changed = true;
         Ok(self)
+    }
+
+    /// The same question with some joints left to be found.
+    pub(crate) fn letting_go(mut self, joints: &[usize]) -> Self {
+        joints.iter().for_each(|&joint| self.joints[joint] = false);
+        self.split_changed = true;
+        self
     }
 
     /// Lets a joint be found, actuated or not; `actuated` frees every actuated joint.

@@ -3,11 +3,12 @@
 #![cfg(feature = "interchange")]
 
 use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings};
-use linkwork::ask::{Question, Solved};
+use linkwork::ask::{AskError, Question, Solved};
 use linkwork::description::Description;
 use linkwork::interchange::{ImportSettings, Imported, NotRead, import, tree_of, write_sdf};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
+use linkwork::system::QuestionError;
 
 fn read_with(text: &str, files: &dyn Fn(&str) -> Result<String, NotRead>) -> (Imported, Question) {
     let imported = import("file", text, files, None, &ImportSettings::default());
@@ -707,4 +708,52 @@ fn renamed_joints_are_told_in_one_line() {
         .collect();
     assert_eq!(renamed.len(), 1, "{lines}");
     assert!(renamed[0].contains("and 3 more alike"), "{lines}");
+}
+
+/// A parallelogram with motors on both cranks: what is held twice must agree.
+#[test]
+fn joints_held_where_the_others_put_them_are_redundant() {
+    let text = r#"<mujoco><compiler angle="radian"/><worldbody>
+        <body name="left"><joint name="left" axis="0 0 1"/><geom size="1"/>
+          <body name="bar" pos="0 0.2 0"><joint name="bar" axis="0 0 1"/><geom size="1"/></body></body>
+        <body name="right" pos="0.5 0 0"><joint name="right" axis="0 0 1"/><geom size="1"/></body></worldbody>
+        <equality><connect body1="bar" body2="right" anchor="0.5 0 0"/></equality>
+        <actuator><position joint="left"/><position joint="right"/></actuator></mujoco>"#;
+    let (_, question) = read(text);
+    for angle in [0.0, 0.4, -1.0] {
+        let report = solved(&question.clone().hold("left", angle).hold("right", angle));
+        near(value(&report, "bar"), -angle);
+        assert_eq!(report.redundant, ["right"]);
+        assert_eq!(report.held, ["left", "right"]);
+    }
+    let apart = question.hold("left", 0.4).hold("right", 0.37);
+    let error = apart.solve(&AssemblySettings::default(), &Watch::none());
+    match error.map(|_| ()) {
+        Err(AskError::Question(QuestionError::TooMany {
+            mobility: 1,
+            held: 2,
+            free,
+            apart: Some((joint, by, _)),
+        })) => {
+            assert_eq!((&free[..], &*joint), (&["right".to_owned()][..], "right"));
+            near(by, 0.03);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A joint that closes a loop has an axis, unless it needs none.
+#[test]
+fn a_loop_joint_without_an_axis_is_refused() {
+    let text = |kind: &str| {
+        format!(
+            r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+            <joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>
+            <joint name="k" type="continuous"><parent link="a"/><child link="c"/><axis xyz="0 0 1"/></joint>
+            <loop_joint name="l" type="{kind}"><link1 link="b" xyz="1 0 0"/><link2 link="c" xyz="1 0 0"/></loop_joint>
+            </robot>"#
+        )
+    };
+    assert!(refused(&text("revolute")).contains("`axis`"));
+    assert_eq!(read(&text("spherical")).0.description.closures.len(), 1);
 }

@@ -113,6 +113,9 @@ pub struct AssemblyReport {
     pub moved: Option<Moved>,
     /// Names of the held coordinates.
     pub held: Vec<String>,
+    /// Those of them that the others determine: they are held where they would stand anyway.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub redundant: Vec<String>,
     /// Joint values of the assembled configuration, or of the closest approach, rad or m.
     pub joints: Named<f64>,
     /// Values there of the outputs of the file that depend on joints alone, in SI units and rad.

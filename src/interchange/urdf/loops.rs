@@ -165,6 +165,11 @@ impl LoopReader<'_> {
             let origin = child(node, &format!("{name}_origin")).or(child(end, "origin"));
             let pose = self.problems.origin(origin.unwrap_or(end));
             let axis = child(node, &format!("{name}_axis")).or(child(node, "axis"));
+            let has_axis = !matches!(kind, ClosureKind::Spherical | ClosureKind::Rigid);
+            if axis.is_none() && has_axis && node.has_tag_name("loop_joint") {
+                self.problems.missing(node, "element `axis`".into());
+                return None;
+            }
             if let Some(axis) = axis
                 && let Some(along) = self.problems.numbers(axis, "xyz")
             {

@@ -6,6 +6,7 @@ use crate::algebra::Expression;
 use crate::ask::{Demand, Remedy, Role};
 use crate::description::{ProblemKind, Scope, listed, nearest};
 use crate::mechanism::{Mechanism, QuantityError};
+use crate::output::quantity::quantity;
 use crate::system::{DriveError, ForceError, PointError, QuestionError, ValueError};
 
 impl Wording<'_> {
@@ -36,10 +37,24 @@ impl Wording<'_> {
             )),
             QuestionError::Value { text, error, .. } => value(text, error),
             QuestionError::Contradiction { first, second } => self.contradiction(first, second),
-            QuestionError::TooMany { mobility, free, .. } => said.help(match mobility {
+            QuestionError::TooMany {
+                mobility,
+                free,
+                apart,
+                ..
+            } => {
+                let help = match mobility {
                 0 => self.release(free) + "; it is a structure, which nothing can move",
                 _ => self.release(free),
-            }),
+            };
+                said.help(match apart {
+                    Some((name, by, unit)) => {
+                        let by = quantity(*by, *unit);
+                        format!("{help}; the others put {name} {by} from the value held")
+                    }
+                    None => help,
+                })
+            }
             QuestionError::TooFew { hold, .. } => said.help(format!(
                 "hold {} too, e.g. {}",
                 listed(hold),

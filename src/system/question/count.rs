@@ -69,6 +69,18 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     })
 }
 
+/// The actuated joints that the others determine, at the regular assembled configuration nearest to home; none if the
+/// mechanism does not assemble.
+pub fn redundant_motors(mechanism: &Mechanism) -> Vec<String> {
+    let motors = Question::new(mechanism).held_coordinates();
+    let Some(mobility) = Mobility::near(mechanism, &mechanism.home()) else {
+        return Vec::new();
+    };
+    let chosen = mobility.independent(mechanism, &motors);
+    let others = motors.iter().filter(|motor| !chosen.contains(motor));
+    others.map(|motor| motor.name(mechanism)).collect()
+}
+
 /// Compares the held coordinates with the freedoms at a configuration.
 fn compared(
     question: &Question,
@@ -114,6 +126,7 @@ fn compared(
             mobility,
             held,
             free,
+            apart: None,
         }),
         (true, false) => Err(QuestionError::TooFew {
             mobility,

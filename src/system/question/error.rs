@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use thiserror::Error;
 
 use super::demand::Demand;
+use crate::algebra::SiUnit;
 use crate::description::{count, listed};
 use crate::mechanism::{Value, ValueError};
 
@@ -45,6 +46,9 @@ pub enum QuestionError {
         held: usize,
         /// Coordinates which, freed, leave a question that has an answer.
         free: Vec<String>,
+        /// Of these the joint that the others put farthest from its value, if it was looked for: its name and by how much,
+        /// in the unit of its values.
+        apart: Option<(String, f64, SiUnit)>,
     },
     /// Less is held than the mechanism has freedoms.
     TooFew {
