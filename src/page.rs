@@ -108,7 +108,7 @@ impl Page {
                 let grip = grip::points(&mechanism, &grip)?;
                 let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
                 let report = steering.pull(&grip, to, sight, watch);
-                Ok(self.frame(words::stopped(&report).as_deref()))
+                Ok(self.frame(words::pulled(&report).as_deref()))
             }
             Request::Press { load } => {
                 self.load = load;
@@ -286,7 +286,7 @@ impl Page {
                 points: row.points.to_vec(),
             });
         };
-        let report = worded(motions.report(usize::MAX, &mut keep, watch));
+        let report = words::swept(worded(motions.report(usize::MAX, &mut keep, watch)));
         Ok(answered(&report, &states))
     }
 
@@ -339,7 +339,7 @@ impl Page {
             "at": State::of(&at),
             "values": shown::values(mechanism, &at),
             "held": self.steering.as_ref().map(shown::held),
-            "limits": words::limits(mechanism, &at),
+            "limits": self.steering.as_ref().map(words::limits).unwrap_or_default(),
             "crossed": self.steering.as_ref().is_some_and(Steering::is_crossed),
             "figures": self.steering.as_ref().map(shown::figures),
         })

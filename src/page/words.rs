@@ -1,14 +1,14 @@
 //! The words of the page for motions that end, and for questions that are refused with their remedies: sliders and ticks
 //! in place of options.
 
-use crate::analysis::sweep::{MetKind, SweepEnd, SweepReport};
-use crate::ask::{AskError, Demand, Question, Remedy, Role};
+use crate::algebra::SiUnit;
+use crate::analysis::sweep::{MetKind, MotionsReport, SweepEnd, SweepReport};
+use crate::ask::{AskError, Demand, Question, Remedy, Role, Steering};
 use crate::description::listed;
-use crate::mechanism::{Configuration, Mechanism};
 use crate::output::complaint::{Door, Ranged, Wording};
 use crate::output::quantity::quantity;
 use crate::output::sweep::sentence;
-use crate::system::{Coordinate, QuestionError};
+use crate::system::QuestionError;
 
 /// Reason for which a motion did not reach its end.
 pub fn stopped(report: &SweepReport) -> Option<String> {
@@ -40,23 +40,38 @@ pub fn stopped(report: &SweepReport) -> Option<String> {
     })
 }
 
-/// The joints that are at a limit.
-pub fn limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<(String, String)> {
-    /// As near as this a joint is at its limit, in rad or characteristic lengths.
-    const NEAR: f64 = 1e-6;
-    let joints = mechanism.joints().iter().enumerate();
-    let there = joints.filter_map(|(joint, of)| {
-        let (low, high) = of.limits?;
-        let coordinate = Coordinate::Joint(joint);
-        let near = NEAR * coordinate.scale(mechanism);
-        let value = at.joints[joint];
-        let upper = value >= high - near;
-        (upper || value <= low + near).then(|| {
-            let unit = crate::algebra::SiUnit::of_coordinate(coordinate.is_angle(mechanism));
-            let limit = quantity(if upper { high } else { low }, unit);
-            (of.name.clone(), at_limit(&of.name, upper, &limit))
-        })
-    });
+/// Why a part did not follow a pointer. A pull goes round dead points: where a step ended before one, the next goes on.
+pub fn pulled(report: &SweepReport) -> Option<String> {
+    match report.ending {
+        SweepEnd::Fold => None,
+        _ => stopped(report),
+    }
+}
+
+/// The motions with what is said of them where they cannot begin.
+pub fn swept(mut report: MotionsReport) -> MotionsReport {
+    for motion in &mut report.motions {
+        if motion.sweep.ending == SweepEnd::SingularStart {
+            motion.sentence = "The motion begins where branches meet. Move the mechanism a little \
+                               first, so that it is on one of them."
+                .into();
+        }
+    }
+    report
+}
+
+/// The joints that are at a limit, with words for it.
+pub fn limits(steering: &Steering) -> Vec<(String, String)> {
+    let there = steering
+        .at_limits()
+        .into_iter()
+        .filter_map(|(joint, upper)| {
+            let of = &steering.mechanism().joints()[joint];
+            let (low, high) = of.limits?;
+            let limit = if upper { high } else { low };
+            let limit = quantity(limit, SiUnit::of_coordinate(of.kind.is_angle()));
+            Some((of.name.clone(), at_limit(&of.name, upper, &limit)))
+        });
     there.collect()
 }
 

@@ -138,6 +138,21 @@ pub(super) fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> b
     })
 }
 
+impl Steering {
+    /// The joints that are at a limit, and whether it is the upper one.
+    pub fn at_limits(&self) -> Vec<(usize, bool)> {
+        let reached = |upper: bool| {
+            let rate = if upper { 1.0 } else { -1.0 };
+            let there = at_limits(&self.mechanism, &self.at, move |_| rate);
+            there.filter_map(move |of| match of {
+                Coordinate::Joint(joint) => Some((joint, upper)),
+                _ => None,
+            })
+        };
+        reached(false).chain(reached(true)).collect()
+    }
+}
+
 /// Joints that are at a limit and would go beyond it in a motion.
 pub(super) fn at_limits<'m>(
     mechanism: &'m Mechanism,
