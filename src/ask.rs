@@ -58,8 +58,38 @@ use crate::analysis::sweep::Schedule;
 use crate::mechanism::{Body, Configuration, Mechanism, NamedPoint};
 use crate::system::{self, Coordinate};
 
-/// Random starts where one assembly near the start is wanted.
-const RESTARTS: usize = 20;
+/// The roles of demands that each analysis takes beside those that hold, free and guess.
+const TAKES: [(&str, &[Role]); 11] = {
+    use Role::*;
+    [
+        ("solve", &[]),
+        ("assemblies", &[]),
+        ("mobility", &[Lock]),
+        ("velocity", &[Rate, Acceleration, Point]),
+        ("statics", &[Wrench, Load]),
+        ("singularities", &[Output, Point]),
+        ("singularities along inputs", &[Input, Output, Point]),
+        (
+            "sweep",
+            &[Input, Output, Point, Report, Dwell, Wrench, Load],
+        ),
+        ("circuits", &[Point]),
+        ("workspace", &[Input]),
+        (
+            "study",
+            &[
+                Output,
+                Report,
+                Rate,
+                Acceleration,
+                Wrench,
+                Load,
+                Vary,
+                Deviate,
+            ],
+        ),
+    ]
+};
 
 /// Refuses random starts, or nodes that are searched, that are none or too many.
 fn check_starts(given: usize) -> Result<(), AskError> {
@@ -281,8 +311,37 @@ impl Question {
         Ok(all)
     }
 
+    /// Refuses demands that an analysis would not use.
+    fn takes(&self, analysis: &'static str) -> Result<(), AskError> {
+        let takes = |(name, roles): &(&str, &[Role]), role| {
+            let everywhere = [Role::Hold, Role::Free, Role::Guess];
+            *name == analysis && (everywhere.contains(&role) || roles.contains(&role))
+        };
+        let mut demands = self.demands.iter().enumerate();
+        match demands.find(|(_, demand)| !TAKES.iter().any(|of| takes(of, demand.role))) {
+            None => Ok(()),
+            Some((index, demand)) => Err(AskError::Unused {
+                item: Item::new(index),
+                analysis,
+                demand: demand.to_string(),
+                takers: (TAKES.iter())
+                    .filter(|(_, roles)| roles.contains(&demand.role))
+                    .map(|(name, _)| *name)
+                    .collect(),
+            }),
+        }
+    }
+
+    /// Refuses every mode at once where an analysis is of one.
+    fn one_mode(&self) -> Result<(), AskError> {
+        match self.mode {
+            Mode::All => Err(AskError::AllModes),
+            Mode::Nearest | Mode::Number(_) => Ok(()),
+        }
+    }
+
     /// The same question without some demands, about the same mechanism.
-    fn keeping(&self, keep: impl Fn(&Demand) -> bool) -> Question {
+    pub fn keeping(&self, keep: impl Fn(&Demand) -> bool) -> Question {
         self.mechanism();
         let mut asked = self.clone();
         asked.demands.retain(keep);

@@ -44,8 +44,8 @@ pub use question::{
 pub(crate) use record::is_origin;
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
-    Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, Search, Searched, TooLarge,
-    WidestGap, close, moved, random_configuration, sampling_range, too_large,
+    Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, RESTARTS, Search, Searched,
+    TooLarge, WidestGap, close, moved, random_configuration, sampling_range, too_large,
 };
 pub use sets::sets_of_angles;
 pub use tangent::{

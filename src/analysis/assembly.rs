@@ -8,7 +8,8 @@ use crate::geometry::Pose;
 use crate::mechanism::{Configuration, Frame, Mechanism, turn_near};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{
-    Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count, moved,
+    Attempt, Freedoms, Neighbourhood, Question, QuestionError, RESTARTS, Search, approach,
+    check_count, moved,
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 pub use report::{AssemblyReport, JointVariable, Left, Outcome};
@@ -31,7 +32,7 @@ impl Default for AssemblySettings {
     fn default() -> Self {
         AssemblySettings {
             newton: Newton::default(),
-            restarts: 40,
+            restarts: RESTARTS,
             seed: 1,
         }
     }

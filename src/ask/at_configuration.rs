@@ -1,6 +1,6 @@
 //! Analyses of one assembled configuration, and those that need none.
 
-use super::{AskError, Question, Role, Value};
+use super::{AskError, Mode, Question, Role, Value};
 use crate::algebra::EvaluationError;
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
@@ -30,17 +30,20 @@ impl Question {
     /// # Errors
     /// If a name or a value is wrong, or an angle is locked of a platform whose pitch is ±90°.
     pub fn mobility(&self, watch: &Watch) -> Result<Analysed<MobilityReport>, AskError> {
+        self.takes("mobility")?;
+        let question = self.in_mode(watch)?;
         let settings = MobilitySettings {
             seed: self.seed,
             locked: self.locked(watch)?,
         };
-        Ok(mobility(&self.resolved()?, &settings, watch))
+        Ok(mobility(&question, &settings, watch))
     }
 
     /// Rates and accelerations of everything for those of the question's held coordinates; held coordinates without a
     /// rate stand still. Points of the question are followed.
     pub fn velocity(&self, watch: &Watch) -> Result<Analysed<VelocityReport>, AskError> {
-        let question = self.resolved()?;
+        self.takes("velocity")?;
+        let question = self.in_mode(watch)?;
         let points = self.followed()?;
         let drive = self.drive(&question)?;
         velocity(&question, &drive, &points, watch).map_err(AskError::Question)
@@ -48,9 +51,23 @@ impl Question {
 
     /// The forces that balance the wrenches and loads of the question.
     pub fn statics(&self, watch: &Watch) -> Result<Analysed<StaticsReport>, AskError> {
-        let question = self.resolved()?;
+        self.takes("statics")?;
+        let question = self.in_mode(watch)?;
         let load = self.load_of(&question)?;
         statics(&question, &load, watch).map_err(AskError::Question)
+    }
+
+    /// The question near its start, or near the configuration of the mode that is asked for.
+    fn in_mode(&self, watch: &Watch) -> Result<system::Question<'_>, AskError> {
+        self.one_mode()?;
+        let question = self.resolved()?;
+        Ok(match self.mode {
+            Mode::Nearest => question,
+            Mode::Number(_) | Mode::All => {
+                let start = self.start(&question.clone().with_spins_still(), watch)?;
+                question.near(&start)
+            }
+        })
     }
 
     /// The wrenches and loads.

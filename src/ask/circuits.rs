@@ -17,6 +17,7 @@ impl Question {
     /// # Errors
     /// If the question is wrong or leaves another number of freedoms.
     pub fn circuits(&self, watch: &Watch) -> Result<CircuitsReport, AskError> {
+        self.takes("circuits")?;
         let mechanism = &**self.mechanism();
         let released = self.one_freedom()?;
         let (input, question) = input(mechanism, &released)?;

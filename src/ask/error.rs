@@ -103,6 +103,21 @@ pub enum AskError {
         /// The reason.
         error: Unmeasured,
     },
+    /// The analysis would not use a demand.
+    #[error("{analysis} takes no {demand}")]
+    Unused {
+        /// The demand.
+        item: Item,
+        /// The analysis.
+        analysis: &'static str,
+        /// The demand in words.
+        demand: String,
+        /// The analyses that take such demands.
+        takers: Vec<&'static str>,
+    },
+    /// Every mode is asked for where an analysis is of one.
+    #[error("all modes are asked for, and this analysis is of one")]
+    AllModes,
     /// The time of a motion is none.
     #[error("the duration of a motion must be positive, not {0} s")]
     Duration(f64),
@@ -299,6 +314,7 @@ impl AskError {
             | AskError::Quantity { item, .. }
             | AskError::Unmeasured { item, .. }
             | AskError::Twice { item, .. }
+            | AskError::Unused { item, .. }
             | AskError::TooManyTurns { item, .. }
             | AskError::OutsideLimits { item, .. } => Some(*item),
             _ => None,

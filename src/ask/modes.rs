@@ -1,6 +1,6 @@
 //! Choice among several assemblies: their numbers, and the starts of work.
 
-use super::{AskError, Question, RESTARTS};
+use super::{AskError, Question};
 use crate::analysis::assemblies::{
     AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, GenericSolutions,
     LostMode, Wanted,
@@ -8,7 +8,7 @@ use crate::analysis::assemblies::{
 use crate::analysis::assembly::{AssemblyReport, AssemblySettings, assemble};
 use crate::mechanism::Configuration;
 use crate::solve::{Newton, Watch};
-use crate::system::{self, Count, QuestionError, Search, check_count};
+use crate::system::{self, Count, QuestionError, RESTARTS, Search, check_count};
 
 /// Assembly in which work begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -75,6 +75,7 @@ impl Question {
     /// # Errors
     /// If the question is wrong or holds too much.
     pub fn assemblies(&self, wanted: Wanted, watch: &Watch) -> Result<AssembliesReport, AskError> {
+        self.takes("assemblies")?;
         let question = self.resolved()?;
         match self.count() {
             // samples answer it
@@ -94,6 +95,8 @@ impl Question {
     /// # Errors
     /// If the question is wrong, or there is no such mode.
     pub fn solve(&self, settings: &AssemblySettings, watch: &Watch) -> Result<Solved, AskError> {
+        self.takes("solve")?;
+        self.one_mode()?;
         let mut question = self.resolved()?;
         let mut settings = AssemblySettings {
             seed: self.seed,

@@ -16,13 +16,17 @@ impl Question {
         points: &[NamedPoint],
     ) -> Result<Vec<Quantity>, AskError> {
         let mechanism = &**self.mechanism();
-        if !self.has(Role::Report) {
+        let lists = || {
+            self.of(Role::Report)
+                .filter(|(_, list)| !list.name.is_empty())
+        };
+        if lists().next().is_none() {
             let outputs = mechanism.outputs().iter();
             let known = outputs.filter(|output| self.unmeasured(held, moving, output).is_none());
             return Ok(known.cloned().collect());
         }
         let mut quantities = Vec::new();
-        for (item, list) in self.of(Role::Report) {
+        for (item, list) in lists() {
             for text in Quantity::split(&list.name) {
                 for (name, text) in self.expanded(&text, held, points) {
                     quantities.push(self.quantity((held, moving), item, &name, &text)?);

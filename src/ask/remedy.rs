@@ -1,7 +1,8 @@
 //! Remedies: changes after which a question has an answer. Errors are data; each door puts these into its own words.
 
-use super::{Demand, Question, RESTARTS, Role, Value};
+use super::{Demand, Question, Role, Value};
 use crate::solve::Watch;
+use crate::system::RESTARTS;
 
 /// A change after which a question has an answer, or something that says more.
 #[derive(Clone, Debug, PartialEq)]

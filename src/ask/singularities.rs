@@ -23,6 +23,8 @@ impl Question {
         settings: &SingularitiesSettings,
         watch: &Watch,
     ) -> Result<Analysed<SingularitiesReport>, AskError> {
+        self.takes("singularities")?;
+        self.one_mode()?;
         let settings = self.with_outputs(settings)?;
         let (mut question, _) = self.holding(&[])?;
         inputs(&question)?;
@@ -42,6 +44,8 @@ impl Question {
         settings: &SingularitiesSettings,
         watch: &Watch,
     ) -> Result<AlongReport, AskError> {
+        self.takes("singularities along inputs")?;
+        self.one_mode()?;
         let settings = self.with_outputs(settings)?;
         let moved = self.driven(|from, to| from == to)?;
         self.few_turns(&moved)?;
@@ -66,6 +70,7 @@ impl Question {
         settings: &SingularitiesSettings,
         watch: &Watch,
     ) -> Result<LocusReport, AskError> {
+        self.takes("singularities along inputs")?;
         let settings = self.with_outputs(settings)?;
         let sides = self.driven(|from, to| from >= to)?;
         let [a, b] = sides[..] else {

@@ -147,6 +147,7 @@ impl Study {
     /// # Errors
     /// If the question or the points are wrong.
     pub fn new(question: &Question, points: Points) -> Result<Self, AskError> {
+        question.takes("study")?;
         let mechanism = question.mechanism().clone();
         let plain = system::Question::new(&mechanism);
         let (mut varied, mut ranges) = (Vec::new(), Vec::new());
@@ -232,10 +233,6 @@ impl Study {
             counted |= parts.len() < before;
             list.name = parts.join(", ");
         }
-        question = question.keeping(|of| match of.role {
-            Role::Report => !of.name.is_empty(),
-            role => !matches!(role, Role::Vary | Role::Deviate),
-        });
         let mut study = Study {
             question,
             points,

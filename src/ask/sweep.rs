@@ -25,6 +25,7 @@ impl Question {
         settings: &SweepSettings,
         watch: &Watch,
     ) -> Result<Motions<'_>, AskError> {
+        self.takes("sweep")?;
         let mechanism = &**self.mechanism();
         if !self.has(Role::Input) && !settings.follow {
             let driven = CircuitsReport::input_of(mechanism);

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::ranges::{middles, of_platform};
-use super::{AskError, Mode, Question, RESTARTS, Role, check_starts};
+use super::{AskError, Mode, Question, Role, check_starts};
 use crate::analysis::workspace::{WorkspaceReport, WorkspaceSettings, cell_bytes, workspace};
 use crate::mechanism::Configuration;
 use crate::solve::Watch;
 use crate::system::{
-    self, Coordinate, Driven, Mobility, QuestionError, TooLarge, check_count, too_large,
+    self, Coordinate, Driven, Mobility, QuestionError, RESTARTS, TooLarge, check_count, too_large,
 };
 
 /// Bytes that a map takes at most.
@@ -28,6 +28,7 @@ impl Question {
         settings: &WorkspaceSettings,
         watch: &Watch,
     ) -> Result<WorkspaceReport, AskError> {
+        self.takes("workspace")?;
         let axes = self.axes()?;
         let question = self.mapped(&axes)?.with_spins_still();
         let bytes = cell_bytes(&question, axes.len()) as f64;

@@ -152,8 +152,20 @@ impl Posed {
         &'q self,
         work: impl FnOnce(&'q Question, &Watch) -> Result<R, AskError>,
     ) -> Result<R, Refusal> {
-        let answer = watched(|watch| work(&self.question, watch));
-        answer.map_err(|error| self.refusal(&error))
+        self.ask_of(&self.question, work)
+    }
+
+    /// The answer to another question that the same options pose.
+    pub fn ask_of<'q, R>(
+        &self,
+        question: &'q Question,
+        work: impl FnOnce(&'q Question, &Watch) -> Result<R, AskError>,
+    ) -> Result<R, Refusal> {
+        let answer = watched(|watch| work(question, watch));
+        answer.map_err(|error| match error {
+            AskError::Store(said) => Refusal(said),
+            error => Refusal(self.wording().refusal(question, &error, style())),
+        })
     }
 
     pub fn answer<'q, R: JsonReport>(
@@ -175,14 +187,6 @@ impl Posed {
             door: &self.options,
             ranged: self.ranged,
         }
-    }
-
-    /// The words for an error under the option that it is about, if it is about one.
-    fn refusal(&self, error: &AskError) -> Refusal {
-        if let AskError::Store(said) = error {
-            return Refusal(said.clone());
-        }
-        Refusal(self.wording().refusal(&self.question, error, style()))
     }
 }
 

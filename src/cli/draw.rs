@@ -183,20 +183,23 @@ impl Draw {
             }
         }
         let here = posed.question.clone().near(at.clone()).mode(Mode::Nearest);
+        let loaded = here.keeping(|of| of.role != Role::Point);
+        let here = loaded.keeping(|of| !matches!(of.role, Role::Wrench | Role::Load));
         if self.centres
-            && let Some(report) = posed.ask(|_, watch| here.velocity(watch))?.closed()
+            && let Some(report) = posed.ask_of(&here, Question::velocity)?.closed()
         {
             scene = scene.with_centres(&report);
         }
         if self.screws {
             let settings = SingularitiesSettings::default();
-            let report = posed.ask(|_, watch| here.singularities(&settings, watch))?;
+            let report =
+                posed.ask_of(&here, |asked, watch| asked.singularities(&settings, watch))?;
             if let Some(report) = report.closed() {
                 scene = scene.with_gained(&report);
             }
         }
         if self.forces.are_given()
-            && let Some(report) = posed.ask(|_, watch| here.statics(watch))?.closed()
+            && let Some(report) = posed.ask_of(&loaded, Question::statics)?.closed()
         {
             if !report.balanced {
                 let moved = listed(&report.unbalanced);

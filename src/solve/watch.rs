@@ -128,6 +128,13 @@ pub struct Watch<'a> {
     stopped: AtomicBool,
 }
 
+/// Shows nothing and never stops anything.
+impl Default for Watch<'_> {
+    fn default() -> Self {
+        Watch::none()
+    }
+}
+
 impl<'a> Watch<'a> {
     /// Calls `observer` again and again.
     pub fn new(observer: &'a Observer<'a>) -> Self {

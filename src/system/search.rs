@@ -21,6 +21,10 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stage, Stop, Watch};
 use crate::system::{Freedoms, Held, HeldPlatform};
 
+/// Random starts within limits after the guess has failed: the same wherever one assembly is sought, so that all analyses
+/// assemble where one does.
+pub const RESTARTS: usize = 40;
+
 /// Newton's method from one start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {

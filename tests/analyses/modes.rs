@@ -254,3 +254,56 @@ fn assemblies_that_share_a_pose_of_the_platform_are_listed_by_pose() {
                 .any(|line| line.trim_start().starts_with("pose"))
     );
 }
+
+/// The configuration in which an analysis is made is that of the mode asked for, as `assemblies` has it.
+#[test]
+fn a_mode_is_the_same_configuration_for_mobilities() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let watch = &Watch::default();
+    let asked = Question::new(load(&folder.join("four_bar.ron"))).hold("theta1", "60 deg");
+    let all = asked.assemblies(Default::default(), watch).unwrap();
+    assert_eq!(all.real, 2);
+    for known in &all.assemblies {
+        let asked = asked.clone().mode(Mode::Number(known.mode));
+        let report = asked.mobility(watch).unwrap().closed().unwrap();
+        let [at, wanted] = [&report.joints, &known.joints].map(|of| *of.get("phi1").unwrap());
+        assert!((at - wanted).abs() < 1e-9, "{at} is not {wanted}");
+    }
+    let third = asked.clone().mode(Mode::Number(3)).velocity(watch);
+    assert!(
+        matches!(third, Err(AskError::NoSuchMode { .. })),
+        "{third:?}"
+    );
+    let every = asked.mode(Mode::All).statics(watch);
+    assert!(matches!(every, Err(AskError::AllModes)), "{every:?}");
+}
+
+#[test]
+fn a_demand_that_an_analysis_would_not_use_is_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let watch = &Watch::default();
+    let asked = Question::new(load(&folder.join("four_bar.ron")));
+    let (locked, moved) = (
+        asked.clone().lock("phi1"),
+        asked.clone().input("theta1", 0.0, 1.0),
+    );
+    let (dwells, loaded) = (
+        asked.clone().dwell("phi1", 0.1),
+        asked.clone().load("phi1", 2.0),
+    );
+    let settings = SingularitiesSettings::default();
+    for error in [
+        locked.solve(&AssemblySettings::default(), watch).err(),
+        moved.solve(&AssemblySettings::default(), watch).err(),
+        moved.singularities(&settings, watch).err(),
+        dwells.velocity(watch).err(),
+        loaded.velocity(watch).err(),
+        loaded.circuits(watch).err(),
+    ] {
+        let refused = matches!(error, Some(AskError::Unused { .. }));
+        assert!(refused, "{error:?}");
+    }
+    // where they are used they are taken
+    assert!(locked.mobility(watch).is_ok() && loaded.statics(watch).is_ok());
+    assert!(moved.along(&settings, watch).is_ok());
+}

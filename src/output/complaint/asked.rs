@@ -59,6 +59,14 @@ impl Wording<'_> {
             AskError::Point(_, error) => no_point(mechanism, error),
             AskError::Quantity { text, error, .. } => no_quantity(mechanism, text, error),
             AskError::Unmeasured { error, .. } => self.unmeasured(said, error),
+            AskError::Unused { takers, .. } => {
+                let help = format!("leave it out; it is taken by {}", listed(takers));
+                said.label("not used").help(help)
+            }
+            AskError::AllModes => said.help(format!(
+                "choose one by its number, as {} numbers them",
+                self.analysis("assemblies")
+            )),
             AskError::Duration(_) => said.help(format!(
                 "give a time in s, e.g. {}",
                 self.setting("duration", Some("2"))

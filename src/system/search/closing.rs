@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Search;
+use super::{RESTARTS, Search};
 use crate::algebra::SiUnit;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
@@ -56,7 +56,7 @@ impl Closing {
     pub fn seeded(seed: u64) -> Self {
         Closing {
             newton: Newton::default(),
-            restarts: 40,
+            restarts: RESTARTS,
             seed,
         }
     }
