@@ -12,6 +12,7 @@ pub mod frames;
 pub mod mobility;
 pub mod overview;
 pub mod quantities;
+pub mod rounding;
 pub mod singularities;
 pub mod solver;
 pub mod statics;

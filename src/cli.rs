@@ -18,6 +18,7 @@ mod pictures;
 mod search;
 mod served;
 mod singularities;
+mod snap;
 mod solve;
 mod source;
 mod statics;
@@ -72,7 +73,7 @@ commands! {
     check: Check, solve: Solve, assemblies: Assemblies, compare: Compare, convert: Convert, draw: Draw, frames: Frames,
     export: Export, import: Import, formulas: Formulas, generate: Generate, mobility: Mobility, velocity: Velocity,
     view: View, statics: Statics, sweep: Sweep, singularities: Singularities, workspace: Workspace, study: Study,
-    merge: Merge,
+    merge: Merge, snap: Snap,
 }
 
 /// Answer of a command.

@@ -13,6 +13,7 @@ mod embedded;
 mod expectation;
 mod lexemes;
 mod lines;
+mod literals;
 mod load;
 mod naming;
 mod numbers;
@@ -32,6 +33,7 @@ pub use closure_kind::*;
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;
+pub use literals::{Literal, rounding_of_text, roundings};
 pub use load::{FileError, LoadError, load, load_text, load_text_within};
 #[cfg(feature = "interchange")]
 pub(crate) use naming::variable_name;

@@ -21,6 +21,7 @@ mod quantity;
 mod recut;
 mod relation;
 mod rings;
+mod rounded;
 mod section;
 mod serial_axes;
 mod turns;
@@ -39,6 +40,7 @@ pub use point::{NamedPoint, Point, PointError};
 pub use relation::Relation;
 
 pub use quantity::{Figure, Measured, Order, Quantity, QuantityError};
+pub use rounded::{NumberChange, Rounded, Rounding};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;
 
@@ -82,6 +84,9 @@ pub struct Mechanism {
     rows_that_vary: OnceLock<Vec<Kept>>,
     coordinates: Option<Arc<Coordinates>>,
     warnings: Arc<Vec<Problem>>,
+    /// The most by which numbers of the file are off, in m, if it says so.
+    tolerance: Option<f64>,
+    rounding: Option<Arc<Rounding>>,
 }
 
 /// A frame of a mechanism; chains, platforms and frames by their indices.

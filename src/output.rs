@@ -33,6 +33,7 @@ pub mod mobility;
 pub mod overview;
 pub mod plot;
 pub mod quantity;
+pub mod rounding;
 mod screws;
 pub mod singularities;
 pub mod solution;

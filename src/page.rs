@@ -20,6 +20,7 @@ use serde_json::{Value, json};
 
 use crate::algebra::Measure;
 use crate::analysis::assembly::AssemblySettings;
+use crate::analysis::rounding::posed;
 use crate::analysis::sweep::{MetKind, Row, SweepSettings};
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
@@ -27,6 +28,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::output::JsonReport;
 use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
 use crate::output::json::render;
+use crate::output::rounding::Prefaced;
 use crate::output::sweep::worded;
 use crate::scene::Scene;
 use crate::solve::Watch;
@@ -176,7 +178,7 @@ impl Page {
             description = (description.with_parameter(name, value))
                 .map_err(|error| nothing(&format!("{name} = {value}: {error}")))?;
         }
-        let mechanism = Mechanism::new(&description).map_err(|problems| wrong(&problems))?;
+        let (description, mechanism) = posed(description).map_err(|problems| wrong(&problems))?;
         let mechanism = Arc::new(mechanism);
         self.mechanism = Some(mechanism.clone());
         let near = load
@@ -234,8 +236,8 @@ impl Page {
             Analysis::Solve => {
                 let solved = asked.solve(&AssemblySettings::default(), watch);
                 match solved.map_err(refused)? {
-                    Solved::Ended(report) => answered(&*report, NONE),
-                    Solved::Lost(lost) => answered(&*lost, NONE),
+                    Solved::Ended(report) => answered(mechanism, &*report, NONE),
+                    Solved::Lost(lost) => answered(mechanism, &*lost, NONE),
                 }
             }
             Analysis::Assemblies => {
@@ -245,9 +247,11 @@ impl Page {
                     let at = assembly.configuration();
                     json!({ "at": State::of(&at), "scene": Scene::of(mechanism, &at) })
                 });
-                answered(&report, &states.collect::<Vec<_>>())
+                answered(mechanism, &report, &states.collect::<Vec<_>>())
             }
-            Analysis::Mobility => answered(&asked.mobility(watch).map_err(refused)?, NONE),
+            Analysis::Mobility => {
+                answered(mechanism, &asked.mobility(watch).map_err(refused)?, NONE)
+            }
         })
     }
 
@@ -287,7 +291,7 @@ impl Page {
             });
         };
         let report = words::swept(worded(motions.report(usize::MAX, &mut keep, watch)));
-        Ok(answered(&report, &states))
+        Ok(answered(mechanism, &report, &states))
     }
 
     fn steering(&self) -> Result<&Steering, Refusal> {
@@ -368,8 +372,9 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
 }
 
 /// A report as the command line prints it, with the configurations that it lists. It may be long: it is written once.
-fn answered(report: &impl JsonReport, states: &[impl Serialize]) -> String {
-    let (report, states) = (render(report), serde_json::to_string(states));
+fn answered(mechanism: &Mechanism, report: &impl JsonReport, states: &[impl Serialize]) -> String {
+    let report = Prefaced::new(mechanism, report);
+    let (report, states) = (render(&report), serde_json::to_string(states));
     let states = states.expect("what a page is shown can be written");
     format!("{{\"report\":{report},\"states\":{states}}}")
 }

@@ -18,6 +18,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::analysis::convert::to_axes;
+use crate::analysis::rounding::posed;
 use crate::ask::{AskError, Points, Study};
 use crate::description::{Description, FileError, Role};
 use crate::mechanism;
@@ -82,8 +83,8 @@ impl Mechanism {
                 MechanismError::new_err(diagnostics::replacement(&refused, given, style))
             })?;
         }
-        match mechanism::Mechanism::new(&description) {
-            Ok(mechanism) => Ok(Mechanism {
+        match posed(description.clone()) {
+            Ok((description, mechanism)) => Ok(Mechanism {
                 text,
                 description,
                 mechanism: mechanism.into(),

@@ -5,10 +5,14 @@ use std::sync::Arc;
 
 use clap::Args;
 use linkwork::analysis::frames::{AxesReport, FramesReport, FramesSettings, frames, joint_axes};
+use linkwork::analysis::rounding::posed;
 use linkwork::ask::Question;
-use linkwork::description::{AxesDescription, Convention, LoadError, is_mechanism, load_text};
+use linkwork::description::{
+    AxesDescription, Convention, Description, LoadError, is_mechanism, load_text,
+};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::frames as output;
+use linkwork::output::rounding::{Prefaced, sentence};
 
 use super::format::{Format, with_file};
 use super::watched::watched;
@@ -49,11 +53,29 @@ impl Frames {
         }
         let refused =
             |problems| Refusal::from(LoadError::wrong(&self.file, text.clone(), problems));
-        let axes = AxesDescription::read(&text).map_err(refused)?;
+        let mut axes = AxesDescription::read(&text).map_err(refused)?;
+        let exact = axes.tables().and_then(posed).ok();
+        let rounding = exact
+            .as_ref()
+            .and_then(|(_, mechanism)| mechanism.rounding());
+        let note = lines("note", rounding.map(sentence));
+        if let (
+            Some(_),
+            Some((
+                Description {
+                    coordinates: Some(of),
+                    ..
+                },
+                _,
+            )),
+        ) = (rounding, &exact)
+        {
+            axes = of.axes.clone();
+        }
         let report = frames(&axes, &self.settings()).map_err(refused)?;
-        let mut answer = self.tables(&report)?;
+        let mut answer = self.tables(&report)?.after(note);
         if !report.warnings.is_empty() {
-            answer.remarks = refused(report.warnings).0;
+            answer = answer.after(refused(report.warnings).0);
         }
         Ok(answer)
     }
@@ -71,7 +93,10 @@ impl Frames {
 
     /// Writes the axes of tables, and other tables of these if they are asked for.
     fn axes_of_mechanism(&self) -> Result<Answer, Refusal> {
-        let mechanism = Arc::new(Mechanism::load(&self.file)?);
+        let (text, description) = Mechanism::read(&self.file)?;
+        let (_, mechanism) =
+            posed(description).map_err(|problems| LoadError::wrong(&self.file, text, problems))?;
+        let mechanism = Arc::new(mechanism);
         let question = Question::new(mechanism.clone());
         let (at, gap) = match watched(|watch| question.closed(watch)) {
             Ok(Ok(closed)) => (closed.configuration, false),
@@ -79,7 +104,10 @@ impl Frames {
         };
         let axes = joint_axes(&mechanism, &at).map_err(|error| output::no_axes(&error))?;
         let mut answer = match self.steps || self.convention.is_some() {
-            false => self.format.answer(&AxesReport::from(axes))?,
+            false => {
+                let axes = AxesReport::from(axes);
+                self.format.answer(&Prefaced::new(&mechanism, axes))?
+            }
             true => {
                 // the axes have no text of their own that could be pointed at
                 let report = frames(&axes, &self.settings()).map_err(|problems| {

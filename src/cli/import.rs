@@ -1,17 +1,20 @@
 //! `linkwork import`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use linkwork::description::{self, Convention, LoadError, ProblemKind, Role};
+use linkwork::analysis::rounding::posed;
+use linkwork::description::rounding_of_text;
+use linkwork::description::{self, Convention, Description, LoadError, ProblemKind, Role};
 use linkwork::interchange::{ImportError, ImportSettings, Remark, load};
-use linkwork::mechanism::Mechanism;
+use linkwork::mechanism::{Mechanism, Rounding};
 use linkwork::output::diagnostics;
+use linkwork::output::rounding::sentence;
 use linkwork::system::redundant_motors;
 
 use super::export::remarks;
 use super::written::{file, written};
-use super::{Answer, Refusal, style};
+use super::{Answer, Refusal, lines, style};
 
 /// Read a URDF, MJCF or SDF file as a mechanism.
 ///
@@ -58,6 +61,8 @@ impl Import {
                 ImportError::Unreadable(error) => return Refusal::error(error),
             })
         })?;
+        let (exact, note) = exact(&imported.description, &self.file);
+        imported.description = exact;
         let made = Mechanism::new(&imported.description);
         // without loops every motor has a freedom of its own
         if let Ok(mechanism) = &made
@@ -90,6 +95,40 @@ impl Import {
         let said = |error| format!("the mechanism cannot be written: {error}");
         let text = text.map_err(|error| Refusal::error(said(error)))?;
         let data = written(text, self.output.as_deref())?;
-        Ok(Answer::yes(data, remarks(&imported.remarks)))
+        Ok(Answer::yes(data, remarks(&imported.remarks) + &note))
+    }
+}
+
+/// The description of the nearest linkage that closes exactly where loops close within the rounding of the numbers of a file
+/// of another program, with what is said about it. A pose there is a product of many numbers.
+fn exact(description: &Description, path: &Path) -> (Description, String) {
+    const PRODUCT: f64 = 4.0;
+    let rounded = description::load_text(path)
+        .ok()
+        .and_then(|text| rounding_of_text(&text));
+    let length = Mechanism::new(description)
+        .ok()
+        .map(|of| of.characteristic_length());
+    let tolerance = rounded
+        .zip(length)
+        .map(|(off, length)| PRODUCT * off * length.max(0.25));
+    let tolerant = tolerance.and_then(|tolerance| {
+        description
+            .clone()
+            .with_tolerance(&format!("{tolerance} m"))
+    });
+    let found = tolerant.and_then(|tolerant| posed(tolerant).ok());
+    match found
+        .as_ref()
+        .map(|(exact, mechanism)| (exact, mechanism.rounding()))
+    {
+        Some((exact, Some(rounding @ Rounding::Nearest(_)))) => {
+            let exact = Description {
+                tolerance: None,
+                ..exact.clone()
+            };
+            (exact, lines("note", [sentence(rounding)]))
+        }
+        _ => (description.clone(), String::new()),
     }
 }

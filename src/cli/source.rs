@@ -5,14 +5,16 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
+use linkwork::analysis::rounding::posed;
 use linkwork::description::{Description, FileError, LoadError, MAX_BYTES, load_text_within};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given};
+use linkwork::output::rounding::{Prefaced, sentence};
 use linkwork::output::view::Viewed;
 use linkwork::output::{JsonReport, diagnostics};
 
 use super::format::Format;
-use super::{Answer, Refusal, style};
+use super::{Answer, Refusal, lines, style};
 
 #[derive(Args)]
 pub struct Source {
@@ -21,6 +23,9 @@ pub struct Source {
     /// Give a parameter another value: a number or an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
+    /// How far any number of the file may be off, e.g. --tolerance "0.01 mm"; otherwise half a unit of its last digit
+    #[arg(long, value_name = "LENGTH")]
+    tolerance: Option<String>,
     /// Largest file to read, in bytes: a guard against mistaken files
     #[arg(long, value_name = "BYTES", default_value_t = MAX_BYTES)]
     max_bytes: u64,
@@ -83,6 +88,7 @@ impl Source {
         Source {
             file,
             set,
+            tolerance: None,
             max_bytes: MAX_BYTES,
         }
     }
@@ -91,6 +97,12 @@ impl Source {
     pub fn load(&self) -> Result<Loaded, Refusal> {
         let (text, mut description) = Mechanism::read_within(&self.file, self.max_bytes)?;
         once("--set", &self.set)?;
+        if let Some(tolerance) = &self.tolerance {
+            description = description.with_tolerance(tolerance).ok_or_else(|| {
+                let title = format!("`--tolerance {tolerance}` is no length, such as `0.01 mm`");
+                Refusal::from(Complaint::new(title))
+            })?;
+        }
         let mut refused = Vec::new();
         for assignment in &self.set {
             let Assignment { name, value } = assignment;
@@ -105,8 +117,8 @@ impl Source {
         if !refused.is_empty() {
             return Err(Refusal(refused.join("\n")));
         }
-        match Mechanism::new(&description) {
-            Ok(mechanism) => Ok(Loaded {
+        match posed(description.clone()) {
+            Ok((description, mechanism)) => Ok(Loaded {
                 path: self.file.clone(),
                 set: self.set.iter().map(|given| given.name.clone()).collect(),
                 text,
@@ -154,15 +166,30 @@ impl From<LoadError> for Refusal {
 
 impl Loaded {
     pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
-        Ok(format.answer(report)?.after(self.warnings()))
+        let report = self.prefaced(report);
+        Ok(format.answer(&report)?.after(self.warnings_beside(format)))
     }
 
     pub fn excerpt(&self, span: &std::ops::Range<usize>) -> &str {
         self.text.get(span.clone()).unwrap_or_default()
     }
 
-    /// The warnings about the file; empty if there are none.
+    /// A report that says first what the rounding of the file's numbers means.
+    pub fn prefaced<R>(&self, report: R) -> Prefaced<R> {
+        Prefaced::new(&self.mechanism, report)
+    }
+
+    /// The warnings about the file, and what its rounding means; empty if there is nothing to say.
     pub fn warnings(&self) -> String {
-        diagnostics::warnings(&self.mechanism, &self.path, &self.text, style())
+        let rounding = self.mechanism.rounding().map(sentence);
+        self.warnings_beside(Format::Text) + &lines("note", rounding)
+    }
+
+    /// What is said beside a report that is prefaced and written in a format.
+    pub fn warnings_beside(&self, format: Format) -> String {
+        match format {
+            Format::Csv | Format::Ron => self.warnings(),
+            _ => diagnostics::warnings(&self.mechanism, &self.path, &self.text, style()),
+        }
     }
 }

@@ -249,10 +249,12 @@ impl Sweep {
         });
         let rows_alone = report.motions.iter().filter(|_| self.format == Format::Csv);
         let certified = rows_alone.flat_map(|motion| certified(&motion.sweep));
+        let report = posed.loaded.prefaced(&report);
         let document = report.document();
         Ok(Answer {
             data: self.format.shown(&report, &document),
-            remarks: posed.loaded.warnings() + &lines("note", unfinished.chain(certified)),
+            remarks: posed.loaded.warnings_beside(self.format)
+                + &lines("note", unfinished.chain(certified)),
             yes: !document.no,
         })
     }

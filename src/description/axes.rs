@@ -27,6 +27,8 @@ pub struct AxesDescription {
     pub source: Option<Spanned<String>>,
     /// The convention of the tables to be made.
     pub convention: Option<Spanned<Convention>>,
+    /// The most by which any number of the file is off (m), if not half a unit of its last digit.
+    pub tolerance: Option<Entry>,
     /// Dimensions and other constants.
     pub parameters: Vec<Named<Entry>>,
     /// The joints; in a serial chain from the base to the tool.

@@ -124,11 +124,11 @@ impl Structure {
     pub fn fields(self) -> Vec<&'static str> {
         let fields = match self {
             Self::Mechanism => {
-                "version name source convention parameters joints chains platforms closures closed_forms outputs"
+                "version name source convention tolerance parameters joints chains platforms closures closed_forms outputs"
             }
             Self::Variable(_) => "home limits",
             Self::Axes => {
-                "version name source convention parameters joints bodies points base tool cut closed_forms outputs"
+                "version name source convention tolerance parameters joints bodies points base tool cut closed_forms outputs"
             }
             Self::Joint(kind) => match kind {
                 AxisKind::Revolute | AxisKind::Prismatic => {

@@ -47,6 +47,8 @@ pub struct Description {
     pub source: Option<Spanned<String>>,
     /// The convention of the chains that give none.
     pub convention: Option<Spanned<Convention>>,
+    /// The most by which any number of the file is off (m), if not half a unit of its last digit.
+    pub tolerance: Option<Entry>,
     /// Dimensions and other constants.
     pub parameters: Vec<Named<Entry>>,
     /// The joint variables.

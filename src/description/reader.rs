@@ -100,6 +100,7 @@ impl Reader {
             name: self.required_text(f, "name"),
             source: self.optional_text(f, "source", Expected::Text),
             convention: self.convention_field(f),
+            tolerance: self.optional_entry(f, "tolerance"),
             parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
             joints: self.named(f, "joints", Noun::Joint, Self::joint),
             chains: self.named(f, "chains", Noun::Chain, Self::chain),

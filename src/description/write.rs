@@ -95,7 +95,7 @@ macro_rules! written {
 written! {
     Description |file| as "Mechanism", {
         "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
-        "parameters": file.parameters, "joints": file.joints, "chains": file.chains, "platforms": file.platforms,
+        "tolerance": file.tolerance, "parameters": file.parameters, "joints": file.joints, "chains": file.chains, "platforms": file.platforms,
         "closures": file.closures, "closed_forms": file.closed_forms, "outputs": file.outputs,
     }
     JointDescription |joint| as joint.role.word(), { "home": joint.home, "limits": joint.limits }
@@ -111,7 +111,7 @@ written! {
     }
     AxesDescription |file| as "Axes", {
         "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
-        "parameters": file.parameters, "joints": Some(Map(&file.joints)), "bodies": bodies(&file.bodies),
+        "tolerance": file.tolerance, "parameters": file.parameters, "joints": Some(Map(&file.joints)), "bodies": bodies(&file.bodies),
         "points": file.points, "base": file.base, "tool": file.tool, "cut": file.cut,
         "closed_forms": file.closed_forms, "outputs": file.outputs,
     }

@@ -138,6 +138,8 @@ impl Mechanism {
             doubtful,
         };
         let parameters = builder.parameters(description);
+        let tolerance = description.tolerance.as_ref();
+        let tolerance = tolerance.and_then(|of| builder.measured(of, Measure::Length));
         let (joints, homes) = builder.joints(description);
         let chains = builder.chains(description);
         let (platforms, poses) = builder.platforms(description);
@@ -172,6 +174,8 @@ impl Mechanism {
             rows_that_vary: OnceLock::new(),
             coordinates: description.coordinates.clone().map(Arc::from),
             warnings: Arc::default(),
+            tolerance: tolerance.map(|(_, value)| value.abs()),
+            rounding: None,
         };
         let refused = |problem: &Problem| problem.severity() == Severity::Error;
         if !builder.problems.iter().any(refused) {

@@ -1,13 +1,14 @@
 //! Parts, names, bodies and frames of a mechanism.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::configuration::Configuration;
 use super::kinematics::Kinematics;
 use super::model::{
     Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Row, Symbol,
 };
-use super::{Dimensions, Frame, Mechanism, Quantity, relation};
+use super::{Dimensions, Frame, Mechanism, Quantity, Rounding, relation};
 use crate::algebra::Affine;
 use crate::description::{Coordinates, GROUND, Problem};
 use crate::geometry::Pose;
@@ -160,6 +161,22 @@ impl Mechanism {
             frames.extend(named.map(|frame| Frame::OnPlatform { platform, frame }));
         }
         frames
+    }
+
+    /// The most by which numbers of the file are off, in m, if it says so.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.tolerance
+    }
+
+    /// What the rounding of its numbers means, if it was looked at and means anything.
+    pub fn rounding(&self) -> Option<&Rounding> {
+        self.rounding.as_deref()
+    }
+
+    /// The same mechanism with what the rounding of its numbers means.
+    pub fn with_rounding(self, rounding: Rounding) -> Self {
+        let rounding = Some(Arc::new(rounding));
+        Mechanism { rounding, ..self }
     }
 
     /// The home configuration of the file; it need not be assembled.

@@ -29,6 +29,20 @@ pub trait Report {
     }
 }
 
+impl<R: Report + ?Sized> Report for &R {
+    fn document(&self) -> Document {
+        (**self).document()
+    }
+
+    fn rows(&self) -> Option<Rows<'_>> {
+        (**self).rows()
+    }
+
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        (**self).file()
+    }
+}
+
 /// The values of a row. Only their values are written: numbers with all their digits, nothing for one that is not
 /// finite.
 pub type Record = Vec<Cell>;

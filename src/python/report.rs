@@ -14,6 +14,7 @@ use crate::ask::Solved;
 use crate::mechanism::{Frame, Mechanism};
 use crate::output::complaint::{Complaint, unknown_frame};
 use crate::output::document::{Cell, Document};
+use crate::output::rounding::Prefaced;
 use crate::output::sweep::{row_columns, row_values, worded};
 use crate::output::{JsonReport, Rows, html, json, markdown, text};
 use crate::solve::Watch;
@@ -130,9 +131,12 @@ impl Column {
     }
 }
 
-fn report<R: JsonReport + Send + Sync + 'static>(report: R) -> (Report, Vec<Column>) {
+fn prefaced<R: JsonReport + Send + Sync + 'static>(
+    mechanism: &Mechanism,
+    report: R,
+) -> (Report, Vec<Column>) {
     let columns = report.rows().map_or_else(Vec::new, Column::of);
-    (Report(Box::new(report)), columns)
+    (Report(Box::new(Prefaced::new(mechanism, report))), columns)
 }
 
 /// Asks the question that has this name.
@@ -145,20 +149,20 @@ pub fn answer(
     let (question, settings) = (&asked.question, &asked.settings);
     let singularities = &settings.singularities;
     Ok(match what {
-        "check" => report(overview(mechanism)),
+        "check" => prefaced(mechanism, overview(mechanism)),
         "solve" => match question.solve(&AssemblySettings::default(), watch)? {
-            Solved::Ended(ended) => report(*ended),
-            Solved::Lost(lost) => report(*lost),
+            Solved::Ended(ended) => prefaced(mechanism, *ended),
+            Solved::Lost(lost) => prefaced(mechanism, *lost),
         },
-        "assemblies" => report(question.assemblies(settings.assemblies, watch)?),
-        "mobility" => report(question.mobility(watch)?),
-        "velocity" => report(question.velocity(watch)?),
-        "statics" => report(question.statics(watch)?),
-        "singularities" => report(question.singularities(singularities, watch)?),
-        "along" => report(question.along(singularities, watch)?),
-        "loci" => report(question.loci(singularities, watch)?),
-        "workspace" => report(question.workspace(&settings.workspace, watch)?),
-        "compare" => report(question.compare(settings.compare.samples, watch)),
+        "assemblies" => prefaced(mechanism, question.assemblies(settings.assemblies, watch)?),
+        "mobility" => prefaced(mechanism, question.mobility(watch)?),
+        "velocity" => prefaced(mechanism, question.velocity(watch)?),
+        "statics" => prefaced(mechanism, question.statics(watch)?),
+        "singularities" => prefaced(mechanism, question.singularities(singularities, watch)?),
+        "along" => prefaced(mechanism, question.along(singularities, watch)?),
+        "loci" => prefaced(mechanism, question.loci(singularities, watch)?),
+        "workspace" => prefaced(mechanism, question.workspace(&settings.workspace, watch)?),
+        "compare" => prefaced(mechanism, question.compare(settings.compare.samples, watch)),
         "formulas" => {
             let frame = |name: &Option<String>| {
                 let frame = |name: &String| {
@@ -173,16 +177,23 @@ pub fn answer(
                 ..FormulasSettings::default()
             };
             let formulas = question.formulas(&settings);
-            report(formulas.map_err(|error| Refused::Said(Complaint::new(error.to_string())))?)
+            prefaced(
+                mechanism,
+                formulas.map_err(|error| Refused::Said(Complaint::new(error.to_string())))?,
+            )
         }
-        "circuits" => report(question.circuits(watch)?),
-        "sweep" => return motions(asked, watch),
+        "circuits" => prefaced(mechanism, question.circuits(watch)?),
+        "sweep" => return motions(asked, mechanism, watch),
         _ => unreachable!("the questions of the package are these"),
     })
 }
 
 /// Rows of motions are kept as columns, and few of them in the report.
-fn motions(asked: &Asked, watch: &Watch) -> Result<(Report, Vec<Column>), Refused> {
+fn motions(
+    asked: &Asked,
+    mechanism: &Mechanism,
+    watch: &Watch,
+) -> Result<(Report, Vec<Column>), Refused> {
     /// Rows that the text shows.
     const SHOWN: usize = 37;
     let all = asked.question.motions(&asked.settings.sweep, watch)?;
@@ -192,5 +203,6 @@ fn motions(asked: &Asked, watch: &Watch) -> Result<(Report, Vec<Column>), Refuse
         Column::row(&mut columns, row_values(&names, mode, row));
     };
     let report = worded(all.report(SHOWN, &mut sink, watch));
+    let report = Prefaced::new(mechanism, report);
     Ok((Report(Box::new(report)), columns))
 }

@@ -230,7 +230,7 @@ impl LeastSquares for Bundle<'_> {
         let mut work = system.work();
         let mut misfit = Misfit {
             equations: 0.0,
-            squares: self.departures(&at.numbers).map(|x| x * x).sum(),
+            squares: self.kept(&at.numbers).iter().map(|x| x * x).sum(),
         };
         for (k, at) in at.configurations.iter().enumerate() {
             misfit.equations += system.residual(at, &mut work).squares;
@@ -244,7 +244,7 @@ impl LeastSquares for Bundle<'_> {
 
     fn model(&self, at: &Bundled) -> Option<Arrow> {
         let mut reduced = Reduced::new(self.numbers.len(), self.cut);
-        for (number, departure) in self.departures(&at.numbers).enumerate() {
+        for (number, departure) in self.kept(&at.numbers).into_iter().enumerate() {
             reduced.near(number, departure);
         }
         let all = self.linear(at)?;
@@ -286,11 +286,15 @@ impl LeastSquares for Bundle<'_> {
 
 impl Bundle<'_> {
     /// Distances of the shared numbers from the values near which they stay, in their units.
-    fn departures(&self, numbers: &[f64]) -> impl Iterator<Item = f64> {
-        let near = self.near.iter().flatten();
-        let pairs = near.zip(numbers).zip(&self.sizes);
-        let departures: Vec<f64> = pairs.map(|((near, x), size)| (x - near) / size).collect();
-        departures.into_iter()
+    fn kept(&self, numbers: &[f64]) -> Vec<f64> {
+        let near = self.near.as_ref();
+        near.map_or_else(Vec::new, |near| self.departures(numbers, near))
+    }
+
+    /// The differences of shared numbers from others, in their units.
+    pub fn departures(&self, numbers: &[f64], from: &[f64]) -> Vec<f64> {
+        let pairs = numbers.iter().zip(from).zip(&self.sizes);
+        pairs.map(|((x, from), size)| (x - from) / size).collect()
     }
 }
 

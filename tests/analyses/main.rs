@@ -22,6 +22,7 @@ mod quantities;
 mod rank;
 mod refused;
 mod reports;
+mod rounding;
 mod singularities;
 mod spins;
 mod statics;

@@ -95,6 +95,7 @@ impl AxesDescription {
                 name: axes.name.clone(),
                 source: axes.source.clone(),
                 convention: Some(axes.convention.clone().unwrap_or(convention)),
+                tolerance: axes.tolerance.clone(),
                 parameters: axes.parameters.clone(),
                 closed_forms: axes.closed_forms.clone(),
                 outputs: axes.outputs.clone(),

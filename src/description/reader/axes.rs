@@ -19,6 +19,7 @@ impl Reader {
             name: self.required_text(f, "name"),
             source: self.optional_text(f, "source", Expected::Text),
             convention: self.convention_field(f),
+            tolerance: self.optional_entry(f, "tolerance"),
             parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
             joints: self.named(f, "joints", Noun::Axis, Self::axis),
             bodies: self.named(f, "bodies", Noun::Body, |reader, piece| {
@@ -89,7 +90,7 @@ impl Reader {
         })
     }
 
-    fn optional_entry(&mut self, fields: &mut Fields, field: &str) -> Option<Entry> {
+    pub(super) fn optional_entry(&mut self, fields: &mut Fields, field: &str) -> Option<Entry> {
         let piece = fields.take(field)?;
         self.entry(piece)
     }
