@@ -3,7 +3,8 @@
 use crate::linear::{Svd, add, dot};
 
 /// The least largest |δ| of all δ that meet the conditions which a change meets: rows of coefficients, what is left of them at
-/// their end. Weighted least squares whose weights grow where a change is large come near it from above (Lawson 1961).
+/// their end. Weighted least squares come near it from above, in which changes that are large cost more from one round to the next
+/// (Lawson 1961).
 pub(super) fn least_largest(rows: &[Vec<f64>], change: &[f64]) -> f64 {
     const ROUNDS: usize = 200;
     let largest = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -44,12 +45,12 @@ pub(super) fn least_largest(rows: &[Vec<f64>], change: &[f64]) -> f64 {
         if met {
             least = least.min(largest(&found));
         }
-        // the change of x = W Cᵀy is large where the weight must be
-        let sum: f64 = weights.iter().zip(&found).map(|(w, x)| w + x.abs()).sum();
-        weights
-            .iter_mut()
-            .zip(&found)
-            .for_each(|(w, x)| *w = (0.5 * *w + x.abs()) / sum);
+        // what is large becomes dearer, what is small cheaper
+        let most = largest(&found).max(f64::MIN_POSITIVE);
+        let of = found.iter().map(|x| x.abs() / most + 1e-3);
+        weights.iter_mut().zip(of).for_each(|(w, x)| *w /= x);
+        let most = largest(&weights);
+        weights.iter_mut().for_each(|w| *w /= most);
     }
     least
 }
@@ -62,7 +63,7 @@ mod tests {
     fn a_sum_is_shared_evenly_and_what_appears_alone_is_not() {
         // x + y + z = 3; and x = 2
         let sum = vec![1.0, 1.0, 1.0, 0.0];
-        assert!((least_largest(&[sum.clone()], &[3.0, 0.0, 0.0]) - 1.0).abs() < 1e-3);
+        assert!((least_largest(std::slice::from_ref(&sum), &[3.0, 0.0, 0.0]) - 1.0).abs() < 1e-3);
         let alone = vec![1.0, 0.0, 0.0, 0.0];
         assert!((least_largest(&[sum, alone], &[2.0, 1.0, 0.0]) - 2.0).abs() < 1e-3);
         // x + 2 y = 3 has the least largest 1, its shortest solution 6/5
