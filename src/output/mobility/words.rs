@@ -44,7 +44,18 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
 /// The pose that was judged, where that is beside the singular one it is taken for.
 pub(super) fn judged(report: &MobilityReport) -> Option<String> {
     let part = report.neglected?;
-    let at = listed(values(&report.variables, report.joints.values()));
+    /// Smaller values, in rad or m, are written with an exponent: how far they are from 0 matters here.
+    const SMALL: f64 = 1e-4;
+    let values = values(&report.variables, report.joints.values()).into_iter();
+    let exact = report.variables.iter().zip(report.joints.values());
+    let at = listed(
+        values
+            .zip(exact)
+            .map(|(said, (of, x))| match *x != 0.0 && x.abs() < SMALL {
+                true => format!("{} = {x:.1e} {}", of.name, of.unit),
+                false => said,
+            }),
+    );
     Some(format!(
         "The configuration judged, {at}, is beside a singular one and is taken for it: singular values of up to {part:.1e} of \
          the largest count as 0."
