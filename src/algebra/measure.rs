@@ -21,7 +21,7 @@ pub enum Measure {
     Open,
 }
 
-/// A unit that does not fit, and which part of an expression has it.
+/// A unit that does not fit, with the part of the expression that has it.
 pub type MeasureError = ExpressionError<MeasureErrorKind>;
 
 /// Reasons for which a unit does not fit.

@@ -20,7 +20,7 @@ pub use batch::{BATCH, Batch, Registers};
 pub use elimination::{LEAST_PIVOT, Pivot, eliminate};
 pub use operation::Operation;
 
-/// A place in a list of operations.
+/// Index of an operation in its list.
 pub type Place = u32;
 
 type Key = (std::mem::Discriminant<Operation>, u64, u64);

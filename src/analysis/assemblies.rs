@@ -86,7 +86,7 @@ impl Default for Wanted {
     }
 }
 
-/// Reasons for which a question cannot be put.
+/// Errors of a search for assemblies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum AssembliesError {
     /// An expression has no value near the mechanism's own dimensions.

@@ -1,3 +1,5 @@
+//! Quaternions, and roll, pitch and yaw.
+
 use super::{Axis, Rotation, Vector3};
 use crate::number::{Number, real};
 

@@ -1,5 +1,5 @@
 //! Stable sorts of short lists that share one sort of indices: the standard library's is 8 kB of code for each type of
-//! element and each comparison. Rows by the million are sorted by that.
+//! element and each comparison. Rows by the million are sorted by the standard library's.
 
 use std::cmp::Ordering;
 

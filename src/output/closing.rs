@@ -1,4 +1,4 @@
-//! Words about closing a mechanism before it is analysed.
+//! Words about the assembly of a mechanism before it is analysed.
 
 use super::document::Document;
 use super::quantity::{clause, degrees, if_any, metres, quantity};

@@ -27,7 +27,7 @@ pub trait Conditions: Sync {
     fn slopes<'a>(&self, work: &'a Self::Work) -> &'a [Interval];
 }
 
-/// When to give up.
+/// Limits of branch and prune.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pruning {
     /// Boxes after which the search ends.
@@ -45,7 +45,7 @@ impl Default for Pruning {
     }
 }
 
-/// A box.
+/// The sides of a box, an interval for each unknown.
 pub type Sides = Vec<Interval>;
 
 /// Result of branch and prune.

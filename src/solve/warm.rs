@@ -46,7 +46,7 @@ const LONGEST_STEP: f64 = 0.5;
 /// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell the remaining error.
 const STALE: f64 = 1e-2;
 
-/// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, …, ∇⁵m of the latest
+/// The past of a motion: its factorised Jacobian, if any, and the backward differences m, ∇m, …, ∇⁵m of the latest
 /// moves m from solution to solution.
 ///
 /// Extrapolation of order p adds the first p of them; the order is that which would have missed the latest move least,

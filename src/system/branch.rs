@@ -1,3 +1,5 @@
+//! Test for two solutions of one branch.
+
 use super::{System, Work};
 use crate::linear::{DENSE_LIMIT, norm, relative_change};
 use crate::mechanism::Configuration;

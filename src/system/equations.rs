@@ -1,3 +1,5 @@
+//! Closure equations of a mechanism and their Jacobian, block by block.
+
 mod approach;
 mod closure_gap;
 mod closures;

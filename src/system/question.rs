@@ -1,3 +1,5 @@
+//! Questions posed by name: held, free and guessed coordinates, and where to start.
+
 mod count;
 mod demand;
 mod drive;

@@ -14,7 +14,7 @@ const PART: f64 = 0.1;
 /// The most unknowns that are solved for at once at the end.
 const LAST: usize = 3;
 
-/// A number that is divided by.
+/// A divisor in the elimination.
 pub struct Pivot {
     /// The number.
     pub number: Recorded,

@@ -21,7 +21,8 @@ use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
 use crate::system::{Held, HeldPlatform, Mobility, System};
 
-/// A member: values of the independent parameters, then factors of other lengths, and values of the inputs.
+/// A member of the family: values of the independent parameters, then factors of other lengths, and values of the
+/// inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Member {
     pub parameters: Vec<C>,

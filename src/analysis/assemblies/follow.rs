@@ -12,7 +12,7 @@ use crate::number::Number;
 use crate::solve::{Arrival, Progress, Stage, Stages, Tracker, Watch};
 use crate::system::{Held, System};
 
-/// The configuration at the target inputs, or why the mode was not followed to them.
+/// The configuration at the target inputs, or the reason for which the mode was not followed to them.
 pub type Followed = Result<Configuration<f64>, LostReason>;
 
 /// A point at which a mode ceases to exist.

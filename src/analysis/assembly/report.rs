@@ -8,7 +8,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::system::{FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin};
 
-/// Freedoms that nothing held decides.
+/// Freedoms that the held coordinates leave.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Left {
     /// Number of freedoms.

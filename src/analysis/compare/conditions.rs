@@ -17,7 +17,7 @@ use crate::number::Interval;
 /// Joint values, rad or m, for which a divisor is shown to have no zero.
 const ANYWHERE: f64 = 1e9;
 
-/// A formula in a closed form that must not be zero, and of which it is not shown that it never is.
+/// A formula in a closed form that must not be zero, and is not proved never to be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Divisor {
     /// A divisor of the form; cos x for tan x, √(x² + y²) for atan2(y, x), the argument of a logarithm.

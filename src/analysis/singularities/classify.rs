@@ -58,7 +58,7 @@ pub struct Singularity {
     pub compared: bool,
 }
 
-/// Infinitesimal motions, with other things at rest.
+/// Infinitesimal motions with the inputs, or the outputs, at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Movement {
     /// Number of independent motions.

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::{Operation, Pivot, Place, SiUnit};
 use crate::system::is_origin;
 
-/// A component of the arrays that go in and out.
+/// A component of the input or the state array.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Component {
     /// The joint, `top.x` for a coordinate of a platform, `top.qw` for a component of its unit quaternion.
@@ -28,7 +28,7 @@ pub struct FrameProgram {
     pub twists: Vec<Vec<Place>>,
 }
 
-/// A number that is divided by.
+/// A divisor, with its reciprocal and its natural size.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Divisor {
     /// Its place.

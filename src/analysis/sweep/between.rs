@@ -29,8 +29,8 @@ impl Stretch {
     }
 }
 
-/// Solves for configurations on such pieces: at a part of the way between their ends, in time where the inputs are
-/// prescribed.
+/// Interpolates a motion by configurations solved on [`Stretch`]es: at a part of the way between their ends, in time
+/// where the inputs are prescribed.
 pub struct Passage<'m> {
     pub mechanism: &'m Mechanism,
     held: &'m Held<f64>,

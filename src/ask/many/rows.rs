@@ -49,7 +49,7 @@ pub(super) struct Rows<'a> {
     pub done: AtomicUsize,
 }
 
-/// Rows that are followed from the start.
+/// A block of rows, followed from the start configuration.
 pub(super) struct Block<'a> {
     /// The place of the first.
     pub first: usize,

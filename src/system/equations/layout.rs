@@ -1,3 +1,5 @@
+//! Held coordinates, unknowns, and the blocks of the Jacobian.
+
 use super::Spin;
 use crate::geometry::Rotation;
 use crate::linear::{Block, Factorable, SparseStep};

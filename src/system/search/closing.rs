@@ -10,7 +10,7 @@ use crate::number::real;
 use crate::solve::{Equations, Newton, Watch};
 use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
-/// Gap of a closure at a given pose.
+/// The closure with the widest gap at a given pose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WidestGap {
     /// Name of the closure.

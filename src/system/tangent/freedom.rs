@@ -1,3 +1,5 @@
+//! Infinitesimal freedoms and mobility.
+
 use std::collections::BTreeMap;
 
 use super::neighbourhood::Neighbourhood;
