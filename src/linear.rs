@@ -42,7 +42,8 @@ pub use svd::Svd;
 pub use vectors::{add, complement, dot, norm, orthonormal, product, remove, without};
 pub(crate) use vectors::{orthogonalise, rotate};
 
-/// The one rank tolerance of the program: a direction counts as lost when it is this small beside the largest one.
+/// The one rank tolerance of the program: a singular value counts as zero when it is this small relative to the
+/// largest.
 ///
 /// Jacobians are dimensionless, and at a double solution a closure residual of 1e-14 leaves the joints uncertain by its
 /// square root.

@@ -56,7 +56,7 @@ pub trait Number:
     fn pi() -> Self {
         Self::from_f64(std::f64::consts::PI)
     }
-    /// An angle of so many degrees, in radians.
+    /// An angle given in degrees, in radians.
     #[inline]
     fn degrees(angle: f64) -> Self {
         Self::from_f64(angle.to_radians())

@@ -29,7 +29,7 @@ pub enum EvaluationErrorKind {
     NotFinite,
 }
 
-/// The largest value an expression may have: beside it, all dimensions of a mechanism are lost to
+/// The largest value an expression may have: in sums with it, all dimensions of a mechanism are lost to
 /// rounding, and its fourth power, a squared closure row, is still far from overflow.
 pub const LARGEST: f64 = 1e30;
 

@@ -31,7 +31,7 @@ const NEAR_SINGULAR: f64 = 1e-6;
 /// Settings of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompareSettings {
-    /// Random joint values to try beside the home configuration.
+    /// Random joint values to try besides the home configuration.
     pub samples: usize,
     /// Seed of the random joint values.
     pub seed: u64,

@@ -203,7 +203,7 @@ impl PlacedChain {
     }
 }
 
-/// An offset so many times as long as the mechanism is large is worth a warning.
+/// Offset, relative to the size of the mechanism, that is worth a warning.
 const FAR: f64 = 1e3;
 
 /// Nearly parallel axes whose common normal is far off.

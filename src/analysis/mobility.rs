@@ -173,7 +173,8 @@ pub fn mobility(
     Analysed::Closed(report)
 }
 
-/// The largest singular value beyond the rank, beside the largest, if no rounding of a double solution explains it.
+/// The largest singular value beyond the rank, relative to the largest, if no rounding of a double solution explains
+/// it.
 fn neglected(of: &Decomposition) -> Option<f64> {
     /// Joints of a double solution are uncertain by the root of its residual, which is rounding.
     const UNCERTAIN: f64 = 2e-8;

@@ -170,7 +170,7 @@ pub enum AskError {
     /// Nothing moves, though a joint may be driven.
     #[error("no input moves")]
     NothingMoves(Option<String>),
-    /// A motion of so many steps.
+    /// A number of steps outside its range.
     #[error("a motion has 1 to {most} steps, not {given}")]
     Steps {
         /// The number given.
@@ -215,13 +215,13 @@ pub enum AskError {
     /// A map has one to three coordinates.
     #[error("{}", wrong_axes(*.0))]
     Axes(usize),
-    /// Links that spin without a joint that could be held still; so many such freedoms.
+    /// Links that spin without a joint that could be held still; the number of these freedoms.
     #[error(
         "{} of links that spin about their own axes remain whatever the inputs do",
         count(*.0, "freedom")
     )]
     Spinning(usize),
-    /// The mechanism has so many unknowns, too many.
+    /// The mechanism has too many unknowns.
     #[error("the mechanism has {0} unknowns, too many for this analysis")]
     TooLarge(usize),
     /// The nodes of a map are not one number or one for each coordinate, or too few.

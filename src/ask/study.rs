@@ -251,7 +251,7 @@ impl Study {
         self.points.count().unwrap_or_default()
     }
 
-    /// The rows of a shard, from 1, of so many: all have the same number of rows but for one.
+    /// The rows of a shard, from 1, of `of` shards: all have the same number of rows but for one.
     ///
     /// # Errors
     /// If there is no such shard, or it has more rows than are computed at once.
@@ -267,7 +267,7 @@ impl Study {
         }
     }
 
-    /// All that decides its rows beside the mechanism, as one text.
+    /// All that decides its rows besides the mechanism, as one text.
     pub fn identity(&self) -> String {
         let of = &self.question;
         let asked = (&of.demands, &of.near, &of.mode, of.seed);

@@ -64,7 +64,7 @@ pub enum StudyError {
         /// The fewest shards in which the whole study can be computed.
         shards: usize,
     },
-    /// A shard that is none of so many.
+    /// A shard whose number is not among those of the study.
     #[error("there is no shard {0} of {1}: they are 1/{1} to {1}/{1}")]
     Shard(usize, usize),
 }

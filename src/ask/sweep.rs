@@ -16,7 +16,7 @@ const MOST_STEPS: usize = 1_000_000_000;
 
 impl Question {
     /// The motions of the inputs through their ranges; without inputs those along the whole curve of a mechanism with
-    /// one freedom. Points of the question are traced beside those of the settings.
+    /// one freedom. Points of the question are traced besides those of the settings.
     ///
     /// # Errors
     /// If the question is wrong, or the mechanism does not assemble where the inputs begin.

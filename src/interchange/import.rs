@@ -25,7 +25,7 @@ pub struct ImportSettings {
     pub frames: Vec<String>,
     /// True if the frames of all links and sites are kept.
     pub all_frames: bool,
-    /// Folders beside that of the model from which included files may be read.
+    /// Folders besides that of the model from which included files may be read.
     pub include_from: Vec<PathBuf>,
 }
 

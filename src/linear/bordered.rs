@@ -97,7 +97,7 @@ impl<T: Factorable> Bordered<T> {
         }
     }
 
-    /// Takes pivots into account that are larger than this beside the largest: where unknowns are known to be determined,
+    /// Counts pivots that are larger than this relative to the largest: where unknowns are known to be determined,
     /// however badly.
     pub fn trust(&mut self, tolerance: f64) {
         self.border.trust(tolerance);

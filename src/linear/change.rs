@@ -1,8 +1,8 @@
-//! Change of a matrix beside itself.
+//! Relative change of a matrix.
 
 use super::{RANK_TOLERANCE, dot, norm};
 
-/// ‖A⁺(B − A)‖ in the Frobenius norm, for column-major A and B of so many rows; infinite where A has no left inverse.
+/// ‖A⁺(B − A)‖ in the Frobenius norm, for column-major A and B of `rows` rows; infinite where A has no left inverse.
 ///
 /// Below 1 along a path of Jacobians A, the function has one zero at most there (see
 /// [`Continuation`](crate::solve::Continuation)).

@@ -175,7 +175,8 @@ impl Decomposition {
         }
     }
 
-    /// The pivot of a large matrix that is nearest to losing its rank, beside its largest singular value; 1 of others.
+    /// The pivot of a large matrix that is nearest to losing its rank, relative to its largest singular value; 1 of
+    /// others.
     pub fn least_pivot(&self) -> f64 {
         self.large().map_or(1.0, |large| {
             large.elimination.least_pivot() / large.elimination.largest()
@@ -196,7 +197,7 @@ impl Decomposition {
     }
 }
 
-/// Up to so many singular values rotations of pairs of columns are faster than an iteration.
+/// Most singular values for which rotations of pairs of columns are faster than an iteration.
 const FEW: usize = 6;
 
 /// The lengths of the columns, or of the rows if these are fewer, once they are made orthogonal, largest first.

@@ -40,7 +40,7 @@ struct Step {
 }
 
 impl Elimination {
-    /// Factorises groups of rows over so many unknowns.
+    /// Factorises groups of rows over `columns` unknowns.
     pub fn of(columns: usize, groups: Vec<Rows>) -> Self {
         let mut elimination = Elimination {
             groups,

@@ -16,12 +16,12 @@ pub struct Qr<T: Field> {
     scales: Vec<f64>,
     order: Vec<usize>,
     rank: usize,
-    /// Pivots count as lost that are this small beside the largest.
+    /// Pivots this small relative to the largest count as zero.
     tolerance: f64,
 }
 
 impl<T: Field> Qr<T> {
-    /// Room for at most `rows` rows, `pivots` columns to factorise and `carried` columns beside.
+    /// Room for at most `rows` rows, `pivots` columns to factorise and `carried` further columns.
     pub fn new(rows: usize, pivots: usize, carried: usize) -> Self {
         Qr {
             rows,
@@ -87,7 +87,7 @@ impl<T: Field> Qr<T> {
         used[self.pivots * self.rows..].chunks_exact(self.rows.max(1))
     }
 
-    /// Factorises in place until pivots are lost beside `reference` or the largest pivot, which it returns.
+    /// Factorises in place until pivots are lost relative to `reference` or the largest pivot, which it returns.
     pub fn factorise(&mut self, reference: f64) -> f64 {
         // the sizes of one closure, of a planar loop and of one platform, known to the compiler: three times as fast
         match (self.rows, self.pivots) {

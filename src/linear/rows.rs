@@ -111,7 +111,7 @@ impl Rows {
     }
 }
 
-/// The number of rows, and the whole matrix of so many columns, column-major.
+/// The number of rows, and the whole matrix of `columns` columns, column-major.
 pub fn dense(columns: usize, groups: &[Rows]) -> (usize, Vec<f64>) {
     let rows = groups.iter().map(|group| group.count).sum();
     let mut entries = vec![0.0; rows * columns];
@@ -138,7 +138,7 @@ pub(super) fn product(groups: &[Rows], x: &[f64]) -> Vec<f64> {
     product
 }
 
-/// Aᵀ y, for so many columns.
+/// Aᵀ y, for `columns` columns.
 pub(super) fn transposed_product(groups: &[Rows], columns: usize, y: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; columns];
     let mut first = 0;

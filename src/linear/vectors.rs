@@ -17,7 +17,7 @@ pub fn add(x: &mut [f64], factor: f64, y: &[f64]) {
     x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
 }
 
-/// A x for a column-major matrix of so many rows.
+/// A x for a column-major matrix of `rows` rows.
 pub fn product(entries: &[f64], rows: usize, x: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; rows];
     for (column, x) in entries.chunks_exact(rows.max(1)).zip(x) {

@@ -82,7 +82,7 @@ impl Mechanism {
         Mechanism::read_within(path, MAX_BYTES)
     }
 
-    /// As [`Mechanism::read`], for a file of at most so many bytes.
+    /// As [`Mechanism::read`], for a file of at most `limit` bytes.
     ///
     /// # Errors
     /// If the file cannot be read or is not well formed; then with all its problems.

@@ -240,7 +240,8 @@ impl<T: Number> Closure<T> {
         all
     }
 
-    /// Expression that, beside the conditions, vanishes only where the axes point the same way: a·b − 1, or the trace −
+    /// Expression that, with the conditions, vanishes only where the axes point the same way: a·b − 1, or the trace −
+    /// 3.
     /// 3.
     pub(crate) fn alignment(&self, placement: &Placement<T>) -> Option<T> {
         let [a, b] = self.frames(placement);

@@ -342,7 +342,7 @@ impl<T: Number> Placement<T> {
     }
 
     /// Rotation rate and velocity at a point that joints and a platform carry, for the rates of their dimensionless
-    /// variables: ω = Σ z q̇ and v = Σ z × (p − o) q̇, or z q̇ for a slide, beside the platform's own twist (ω; v/L).
+    /// variables: ω = Σ z q̇ and v = Σ z × (p − o) q̇, or z q̇ for a slide, plus the platform's own twist (ω; v/L).
     #[inline(always)]
     pub(crate) fn carried<'a>(
         &self,

@@ -240,7 +240,7 @@ pub(crate) struct ClosureInLetters {
     pub gap: Vector3<Symbolic>,
     pub length: Symbolic,
     pub conditions: Vec<Symbolic>,
-    /// Expression that, beside the conditions, vanishes only where the axes point the same way.
+    /// Expression that, with the conditions, vanishes only where the axes point the same way.
     pub alignment: Option<Symbolic>,
 }
 

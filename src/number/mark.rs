@@ -1,4 +1,4 @@
-//! A number that tells texts apart.
+//! Hash of a text.
 
 /// FNV-1a (Fowler, Noll and Vo 1991) in 64 bits.
 pub(crate) fn mark(text: &str) -> u64 {

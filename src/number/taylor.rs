@@ -2,7 +2,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::{Number, functions, operators};
 
-/// A function of t from −1 to 1: a polynomial, and a bound of what is left beside it (Makino and Berz, Taylor models, 2003).
+/// A function of t from −1 to 1: a polynomial, and a bound of the rest (Makino and Berz, Taylor models, 2003).
 ///
 /// The bound is that of the series cut off; rounding in the polynomial, some 10⁻¹⁵ of its terms, is not in it. What has
 /// no bound, as a quotient whose divisor may vanish, has the rest ∞.
@@ -303,7 +303,7 @@ mod tests {
     /// The number of the angle among the functions.
     const ANGLE: usize = 13;
 
-    /// Every function over a model holds the values of the function, and over a short range little beside them.
+    /// Every function over a model holds the values of the function, and over a short range little more.
     #[test]
     fn a_model_holds_all_values_of_a_function() {
         fn all<T: Number>(x: T) -> Vec<T> {

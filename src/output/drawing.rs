@@ -47,7 +47,7 @@ const COLUMNS: usize = 3;
 /// Opacity of parts that lie behind.
 const FAINT: f64 = 0.3;
 
-/// Colours that people with any colour vision tell apart, from M. Okabe and K. Ito 2008.
+/// Colours that people with any colour vision distinguish, from M. Okabe and K. Ito 2008.
 pub(crate) const COLOURS: [Colour; 6] = [
     Colour(0x0072B2),
     Colour(0x009E73),

@@ -84,7 +84,7 @@ fn across(report: &StaticsReport) -> Option<String> {
     })
 }
 
-/// The force (N) and the moment (N·m) that are rounding beside the largest of a report.
+/// The force (N) and the moment (N·m) that are rounding relative to the largest of a report.
 fn rounding(report: &StaticsReport) -> [f64; 2] {
     let length = report.normalising_length;
     let reactions = report.closures.iter().chain(&report.joints);

@@ -137,7 +137,7 @@ pub enum MergeError {
     /// Numbers of rows that make no grid of these nodes along each coordinate.
     #[error("{0} rows are not a grid of {grid} nodes", grid = .1.iter().map(usize::to_string).collect::<Vec<_>>().join(" by "))]
     Grid(usize, Vec<usize>),
-    /// Shards that are not there, of so many.
+    /// Missing shards, of how many.
     #[error("shard{plural} {listed} of {of} {are} missing", plural = if shards.len() == 1 { "" } else { "s" },
             listed = runs(shards), are = if shards.len() == 1 { "is" } else { "are" })]
     MissingShards {

@@ -14,7 +14,7 @@ thread_local! {
     static REPLY: RefCell<String> = RefCell::default();
 }
 
-/// The address of room for a request of so many bytes.
+/// The address of room for a request of `bytes` bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize) -> *mut u8 {
     REQUEST.with_borrow_mut(|request| {

@@ -170,7 +170,7 @@ pub fn prune<C: Conditions>(
     all
 }
 
-/// A box and its halves, halves of halves and so on, until there are so many.
+/// Prunes a box and the parts into which it is halved, up to `most` boxes.
 fn piece<C: Conditions>(
     conditions: &C,
     start: &Sides,

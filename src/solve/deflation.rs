@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::linear::Svd;
 
-/// Equations at a point, with the slopes that vanish beside the largest set apart.
+/// Equations at a point, with the slopes set apart that vanish relative to the largest.
 struct Split {
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
@@ -71,7 +71,7 @@ pub fn deflating_step(
     lost: f64,
     mut linearised: impl FnMut(&[f64]) -> (Vec<f64>, Vec<f64>),
 ) -> Option<Vec<f64>> {
-    /// Along a null vector of no more curvature, beside the largest or in the errors of differences, there may
+    /// Along a null vector of no more curvature, relative to the largest or in the errors of differences, there may
     /// be a set of solutions.
     const FLAT: f64 = 1e-3;
     const ROUNDED: f64 = 1e-6;

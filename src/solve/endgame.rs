@@ -42,7 +42,7 @@ pub enum PathEnd {
 const SAMPLES: usize = 8;
 /// The most turns waited for.
 const MOST_TURNS: usize = 8;
-/// A term with a negative power counts from here, beside the size of the solution.
+/// Size from which a term with a negative power counts, relative to the solution.
 const GROWING: f64 = 1e-3;
 /// Circles in a row on which it must grow; as another meeting point inside looks the same, until all of one is far out.
 const IN_A_ROW: usize = 3;

@@ -318,7 +318,7 @@ impl Family {
         x
     }
 
-    /// A point beside another one, up to about `distance` away in every coordinate.
+    /// A random point up to about `distance` away from another one in every coordinate.
     pub fn shaken(&self, x: &[C], distance: f64, rng: &mut Pcg64) -> Vec<C> {
         let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * distance).collect();
         self.coordinates.settle(&mut x);

@@ -108,7 +108,7 @@ pub fn prove(
     proof
 }
 
-/// The variables that tell assemblies apart, and where they are sought.
+/// The variables that distinguish assemblies, with the ranges in which these are sought.
 struct Space {
     variables: JointSpace,
     sides: Sides,

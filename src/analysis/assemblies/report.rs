@@ -152,7 +152,7 @@ pub struct ListedJoint {
     pub unit: SiUnit,
     /// True if its value was given.
     pub held: bool,
-    /// True if its values repeat with every turn, without limits that tell turns apart.
+    /// True if its values repeat with every turn, without limits that distinguish turns.
     pub periodic: bool,
     /// True if its value is to be found and no number of turns leads back to the same place: it travels as it turns, or
     /// turns something by a ratio that is no fraction.
@@ -286,7 +286,7 @@ pub struct Range {
 /// A part of the region that a proof covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
-    /// The joints that tell assemblies apart, with their values in it.
+    /// The joints that distinguish assemblies, with their values in it.
     pub ranges: Vec<Range>,
     /// Numbers of the listed assemblies in it.
     pub modes: Vec<usize>,

@@ -71,7 +71,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// The size beside which the value of an identity is small.
+    /// The size relative to which the value of an identity is small.
     pub fn size(&self) -> f64 {
         self.terms + self.motion
     }

@@ -77,7 +77,8 @@ pub struct MobilityReport {
     /// About how far a singular configuration is where a regular one is nearer to it than the
     /// length of a step, in rad and normalising lengths: to first order, along the motions.
     pub singular_at: Option<f64>,
-    /// The largest singular value that counts as zero beside the largest, where the configuration is a singular one only
+    /// The largest singular value that counts as zero, relative to the largest, where the configuration is a singular
+    /// one only
     /// to within the rank tolerance; none where what counts as zero is rounding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neglected: Option<f64>,

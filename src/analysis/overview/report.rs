@@ -45,7 +45,7 @@ pub struct CoordinatesOverview {
     /// The file of joint coordinates, serialised as its text.
     #[serde(rename = "file", with = "axes_text")]
     pub axes: AxesDescription,
-    /// The joints that are cut, beside balls and rods.
+    /// The joints that are cut, besides balls and rods.
     pub cut: Vec<String>,
     /// Bodies with nothing but two balls, taken for rods.
     pub rods: Vec<String>,

@@ -292,7 +292,7 @@ impl<'m> Course<'m> {
         of.radius * self.width(of.piece) < 1e-13
     }
 
-    /// The length of a piece beside its stretch.
+    /// The length of a piece relative to its stretch.
     pub fn width(&self, piece: usize) -> f64 {
         let [begin, end] = self.pieces[piece].span;
         end - begin

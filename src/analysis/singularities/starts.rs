@@ -12,7 +12,7 @@ use crate::system::{
     random_configuration, with_coordinates,
 };
 
-/// While more curves are likely, at most so many times the starts of the settings are made.
+/// Factor by which more starts than those of the settings are made at most, while more curves are likely.
 const MORE: usize = 10;
 
 pub(super) struct Search<'m> {

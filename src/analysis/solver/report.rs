@@ -35,7 +35,7 @@ pub struct Divisor {
     pub place: Place,
     /// The place of its reciprocal.
     pub inverse: Place,
-    /// Its natural size: it is small where it is small beside this.
+    /// Its natural size: the divisor is small if it is small relative to this.
     pub scale: f64,
 }
 
@@ -56,7 +56,7 @@ impl Divisor {
 pub struct Radicand {
     /// Its place.
     pub place: Place,
-    /// The place of the number beside which it is small.
+    /// The place of the number relative to which it is small.
     pub size: Place,
 }
 

@@ -177,7 +177,7 @@ pub struct KeptRows {
 }
 
 impl KeptRows {
-    /// Keeps no more than this many rows, at least two.
+    /// Keeps at most this many rows, at least two.
     pub fn of(most: usize) -> Self {
         KeptRows {
             rows: Vec::new(),

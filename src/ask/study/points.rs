@@ -8,10 +8,11 @@ pub enum Points {
     /// Every combination of so many equally spaced values along each range, ends included; the last varies fastest. A
     /// range with one value has it in its middle.
     Grid(Vec<usize>),
-    /// So many points, of which each of as many equal parts of each range has one, at random within it (McKay, Beckman and
+    /// Points of a Latin hypercube: each of as many equal parts of each range has one, at random within it (McKay,
+    /// Beckman and
     /// Conover 1979).
     LatinHypercube(usize),
-    /// So many points of Sobol's sequence, without its first, the corner. They fill the box evenly whatever their number.
+    /// Points of Sobol's sequence, without its first, the corner. They fill the box evenly whatever their number.
     Sobol(usize),
     /// The values themselves.
     Given(Vec<Vec<f64>>),

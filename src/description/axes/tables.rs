@@ -32,7 +32,7 @@ use crate::description::{
 pub struct Coordinates {
     /// The file, rods of bodies written as such.
     pub axes: AxesDescription,
-    /// The joints that are cut, beside rods and balls.
+    /// The joints that are cut, besides rods and balls.
     pub cut: Vec<String>,
     /// Bodies with nothing but two balls, taken for rods.
     pub rods: Vec<String>,

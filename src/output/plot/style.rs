@@ -2,7 +2,7 @@
 
 use crate::output::canvas::{Colour, Style};
 
-/// Colours that people with any colour vision tell apart, from M. Okabe and K. Ito 2008.
+/// Colours that people with any colour vision distinguish, from M. Okabe and K. Ito 2008.
 const COLOURS: [Colour; 7] = [
     Colour(0x0072B2),
     Colour(0xD55E00),

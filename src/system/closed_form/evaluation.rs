@@ -15,10 +15,11 @@ pub trait Branching<T> {
     /// one is chosen.
     fn sign(&mut self, slope: T) -> T;
 
-    /// √radicand, which is real if it is not negative; `size` is the scale beside which it is small.
+    /// √radicand, which is real if it is not negative; `size` is the scale relative to which it is small.
     fn root(&mut self, radicand: T, size: T) -> T;
 
-    /// The angle near a value of given sine and cosine, both times `norm`; it is undetermined where `norm` is small beside `size`.
+    /// The angle near a value of given sine and cosine, both times `norm`; it is undetermined where `norm` is small
+    /// relative to `size`.
     fn angle(&mut self, near: T, sin: T, cos: T, norm: T) -> T;
 
     /// of/over

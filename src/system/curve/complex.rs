@@ -62,7 +62,7 @@ impl ComplexCurve {
         direction
     }
 
-    /// The largest imaginary part of an unknown, and the real configuration beside.
+    /// The largest imaginary part of an unknown, and the configuration of the real parts.
     pub fn split(&self, at: &Configuration<C>) -> (f64, Configuration<f64>) {
         let mut real = at.map(|z| z.re);
         for platform in &mut real.platforms {

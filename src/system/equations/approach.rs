@@ -10,7 +10,7 @@ use crate::solve::{Equations, walk_down};
 /// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic lengths).
 const WEIGHT: f64 = 10.0;
 const KEPT: f64 = 1e-10;
-/// A gradient this small beside the gaps vanishes.
+/// A gradient this small relative to the gaps vanishes.
 const LEVEL: f64 = 1e-6;
 
 /// The closest approach to assembly near a configuration, with held coordinates kept, and true if it is a

@@ -109,7 +109,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// Divides equations by the length of their row of the Jacobian where that exceeds 1, and writes these factors down:
-    /// beside long rows the pivots of others would seem lost.
+    /// relative to long rows the pivots of others would seem lost.
     pub fn shorten_rows(&self, work: &mut Work<T>, factors: &mut [f64]) {
         let width = self.empty.shared().len().max(1);
         let mut first = 0;

@@ -94,7 +94,7 @@ impl System<f64> {
     }
 }
 
-/// Singular values that vanish where so much of the equations is left are no larger beside the largest:
+/// Singular values that vanish where so much of the equations is left are no larger relative to the largest:
 /// slopes are of first order in the distance, and what is left of second.
 fn lost(left: f64) -> f64 {
     (10.0 * left.sqrt()).clamp(1e-4, 3e-2)

@@ -28,7 +28,7 @@ impl Twist<f64> {
 /// Twists of chosen frames at chosen points for rates of all joints and platforms, in dimensionless unknowns.
 ///
 /// ω = Σ z q̇ and v = Σ z × (p − o) q̇ (or z q̇ for a slide) over the joints on the way to the frame,
-/// beside the twist of the platform that carries it.
+/// plus the twist of the platform that carries it.
 #[derive(Clone, Debug)]
 pub struct FrameTwists<T> {
     kinematics: Kinematics<T>,

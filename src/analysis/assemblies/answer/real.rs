@@ -9,7 +9,7 @@ use crate::system::{System, Work};
 
 use crate::analysis::assemblies::report::{Named, PoseReport};
 
-/// Rounding beside the size of a solution.
+/// Rounding relative to the size of a solution.
 const ROUNDING: f64 = 1e-14;
 
 /// The real configuration at a complex solution, refined; `None` if it is not real.

@@ -39,7 +39,7 @@ struct Search<'a> {
     settings: &'a AssembliesSettings,
     base: Member,
     found: GenericSolutions,
-    /// The trace test holds for so many solutions.
+    /// Number of solutions for which the trace test holds.
     traced: Option<usize>,
     /// The trace test over the length of a rod, and how often it was begun.
     cut: Option<RodTrace<'a>>,

@@ -16,7 +16,7 @@ pub(crate) enum Seed {
     Nothing,
     /// A simple isolated solution.
     Isolated(Vec<C>),
-    /// Solutions that coincide, or that rounding does not tell apart.
+    /// Solutions that coincide, or that rounding does not distinguish.
     Multiple(Vec<C>),
     /// A set of solutions with so much freedom.
     Free(usize),

@@ -35,7 +35,7 @@ impl End {
     }
 }
 
-/// Rounding beside the square of the size of a solution.
+/// Rounding relative to the square of the size of a solution.
 const ROUNDING: f64 = 1e-15;
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;

@@ -110,7 +110,7 @@ struct Batch<'a, 'f> {
     homotopy: &'a ParameterHomotopy<'f>,
     /// Bend of the way to the side, through complex s.
     bend: f64,
-    /// The corrections aimed at, beside the usual ones.
+    /// Factor of the corrections aimed at, relative to the usual ones.
     care: f64,
     /// Number of paths tracked, each as often as it was.
     followed: &'a AtomicUsize,

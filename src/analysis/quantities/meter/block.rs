@@ -33,7 +33,7 @@ struct Waiting {
 }
 
 impl Block {
-    /// Room for so many quantities.
+    /// Room for `quantities` quantities.
     pub fn new(quantities: usize) -> Self {
         let none = Column {
             values: [f64::NAN; BATCH],

@@ -20,7 +20,7 @@ pub(super) struct Plan {
     /// The outputs of the Jacobian, if it is wanted.
     pub outputs: Option<Vec<Lock>>,
     pub transmission: Option<TransmissionAngles>,
-    /// All frames that these need beside those of the closures.
+    /// All frames that these need besides those of the closures.
     pub frames: Vec<Frame>,
 }
 

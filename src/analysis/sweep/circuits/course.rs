@@ -52,7 +52,7 @@ impl<'m> Course<'m> {
         found: &Found,
         of: Coordinate,
     ) -> Option<Self> {
-        /// A rate as small beside a unit tangent is rounding.
+        /// A rate this small relative to a unit tangent is rounding.
         const STILL: f64 = 1e-9;
         /// Angles that change more in one step do not follow from the pose.
         const JUMP: f64 = 0.5;

@@ -73,7 +73,7 @@ pub enum FourBarClass {
     DoubleCrank,
     /// Neither link on ground turns fully, but the coupler does: two circuits.
     DoubleRocker,
-    /// No link turns fully beside another: one circuit.
+    /// No link turns fully relative to another: one circuit.
     TripleRocker,
     /// Branches cross: all links can lie in one line.
     ChangePoint,

@@ -18,7 +18,7 @@ impl Configurations {
         self.platforms.extend(at.platforms);
     }
 
-    /// Puts a configuration at a place among so many.
+    /// Puts a configuration at a place among `count`.
     pub fn put(&mut self, place: usize, count: usize, at: &Configuration<f64>) {
         let widths = [at.joints.len(), at.platforms.len()];
         while self.joints.len() + self.platforms.len() < count * (widths[0] + widths[1]) {

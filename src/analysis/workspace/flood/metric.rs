@@ -194,7 +194,7 @@ impl Metric {
     /// True if the motions at two configurations, a step of the given length of the mapped
     /// coordinates apart, are near enough for these to be on one solution.
     ///
-    /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N
+    /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short relative to N
     /// wherever Newton's theorem makes a step sure. Across a point where legs fold the
     /// configuration may go on smoothly, and only motions to the side tell: they turn round. Where
     /// one leg folds, as one of length ρ = 0, that may be seen in one passive joint only: it turns

@@ -46,7 +46,7 @@ pub(crate) struct ReachedSet {
 }
 
 impl ReachedSet {
-    /// The set of solutions at so many nodes in any order, each with one of those connected with it.
+    /// The set of solutions at `nodes` nodes in any order, each with one of those connected with it.
     pub fn new(
         nodes: usize,
         mut solutions: Vec<NodeSolution>,
