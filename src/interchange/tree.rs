@@ -63,7 +63,7 @@ pub struct Coupling {
     pub terms: Vec<(String, f64)>,
     /// The value of the sum, in rad or m.
     pub constant: f64,
-    /// What is added to the constant.
+    /// Term added to the constant.
     pub bend: Option<Bend>,
 }
 

@@ -23,7 +23,7 @@ impl<T: Number> Relation<T> {
         }
     }
 
-    /// The same over another number, for which constants are what they are for this one.
+    /// The relation over another number, with the constants of this one.
     pub(super) fn map<U>(&self, lift: impl FnMut(T) -> U) -> Relation<U> {
         Relation {
             formula: self.formula.clone(),

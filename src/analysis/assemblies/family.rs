@@ -56,7 +56,7 @@ pub(crate) struct Family {
     pub rods: Vec<Rod>,
     /// A closure that is left out.
     cut: Option<usize>,
-    /// The same family with rods, where there are such parts.
+    /// The family with rods in place of parts that are no more, if there are any.
     pub reduced: Option<Box<Family>>,
 }
 
@@ -144,7 +144,7 @@ impl Family {
         family
     }
 
-    /// The same family with rods for all parts that are no more than that.
+    /// The family with rods in place of all parts that are no more.
     fn with_rods(&self) -> Option<Self> {
         let own = self.dimensions(&self.parameters)?;
         let rods = Rod::all(&own, &self.held, self.mechanism.rows_that_vary());
@@ -183,7 +183,7 @@ impl Family {
         self.parameters.extend(factors);
     }
 
-    /// The same family without a closure of one row and with a joint held, which is given last among the inputs.
+    /// The family without a closure of one row and with a joint held, which is given last among the inputs.
     pub fn without(&self, closure: usize, joint: usize) -> Option<Self> {
         let mut family = Family {
             cut: Some(closure),

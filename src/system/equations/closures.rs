@@ -76,7 +76,7 @@ impl<T: Factorable> System<T> {
         rods.map(|(i, (plan, closure))| (i, plan.row, closure.length))
     }
 
-    /// The same equations with another length of a rod.
+    /// The equations with another length of a rod.
     pub(crate) fn with_length(&self, closure: usize, length: T) -> Self {
         let mut other = self.clone();
         other.closures[closure].length = length;

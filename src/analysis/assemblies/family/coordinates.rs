@@ -99,7 +99,7 @@ impl Coordinates {
         }
     }
 
-    /// The same without what is held besides, in a system where nothing of that is.
+    /// The coordinates without those held besides, in a system where none of these is.
     pub fn without(&self, held: &Held<C>, system: &System<C>) -> Self {
         let mut rest = self.clone();
         rest.free_joints.retain(|j| !held.joints[*j]);

@@ -227,7 +227,7 @@ impl Rod {
         all.into_iter().flatten().collect()
     }
 
-    /// The same dimensions with rods.
+    /// The dimensions with rods in place of parts.
     pub fn standing(rods: &[Rod], dimensions: &Dimensions<C>) -> Option<Dimensions<C>> {
         let ways = ways(dimensions);
         let mut reduced = dimensions.clone();

@@ -75,7 +75,7 @@ impl ParameterHomotopy<'_> {
         largest
     }
 
-    /// How fast the unknowns move at a solution while one residual does.
+    /// Rates of the unknowns at a solution while one residual changes.
     pub fn rate(&mut self, s: C, x: &[C], row: usize) -> Option<&[C]> {
         self.linearise(s, x);
         let mut residual = vec![C::from_f64(0.0); self.factors.len()];

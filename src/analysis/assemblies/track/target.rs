@@ -48,7 +48,7 @@ pub(crate) fn track_to_target(
     ends(&family.homotopy(from, to)?, legwise, watch)
 }
 
-/// The same with rods for parts that are no more than that. `None` if there are none, or an end is not regular.
+/// Paths tracked with rods in place of parts that are no more. `None` if there are none, or an end is not regular.
 fn tracked_with_rods(
     family: &Family,
     (from, to): (&Member, &Member),
