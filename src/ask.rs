@@ -55,7 +55,7 @@ pub use study_error::StudyError;
 pub use workspace::MOST_BYTES;
 
 use crate::analysis::sweep::Schedule;
-use crate::mechanism::{Body, Configuration, Mechanism, NamedPoint};
+use crate::mechanism::{Body, Configuration, Mechanism, NamedPoint, PoseCoordinate};
 use crate::system::{self, Coordinate};
 
 /// The roles of demands that each analysis takes beside those that hold, free and guess.
@@ -374,16 +374,25 @@ impl Question {
 
     /// The mechanism with coordinates of the points that demands name, measured by its dimensions and by what is held.
     fn prepared(&self) -> Arc<Mechanism> {
-        let names_coordinate = |demand: &&Demand| match demand.role {
-            Role::Hold | Role::Free | Role::Guess | Role::Lock | Role::Input => true,
-            Role::Output | Role::Rate | Role::Acceleration => true,
-            Role::Point | Role::Wrench | Role::Load | Role::Report | Role::Dwell => false,
-            Role::Vary | Role::Deviate => false,
+        let with = |mechanism: Arc<Mechanism>, demand: &Demand| match demand.role {
+            Role::Hold | Role::Free | Role::Guess | Role::Lock | Role::Input => {
+                with_coordinate(with_frame(mechanism, demand), &demand.name)
+            }
+            Role::Output | Role::Rate | Role::Acceleration => {
+                with_coordinate(mechanism, &demand.name)
+            }
+            Role::Load | Role::Vary | Role::Deviate => with_joint(mechanism, &demand.name),
+            Role::Report | Role::Dwell => {
+                let name = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+                let words = demand.name.split(|c| !name(c));
+                // the transmission angle is that of a closure
+                let words = words.filter(|word| !word.starts_with("transmission:"));
+                let joints = words.map(|word| word.rsplit(':').next().unwrap_or_default());
+                joints.fold(mechanism, with_joint)
+            }
+            Role::Point | Role::Wrench => mechanism,
         };
-        let named = self.demands.iter().filter(names_coordinate);
-        let mechanism = named.fold(self.mechanism.clone(), |mechanism, demand| {
-            with_coordinate(mechanism, &demand.name)
-        });
+        let mechanism = self.demands.iter().fold(self.mechanism.clone(), with);
         let lengths = self.given_lengths(&mechanism);
         let measured = lengths.and_then(|held| mechanism.measured_by(&held));
         measured.map_or(mechanism, Arc::new)
@@ -444,20 +453,54 @@ impl Question {
             }
         }
         Ok(match &self.near {
-            Some(at) => question.near(at),
+            Some(at) => {
+                let at = question.mechanism().completed(&self.mechanism, at);
+                question.near(&at)
+            }
             None => question,
         })
     }
 }
 
-/// The mechanism with a joint for a coordinate of a point ([`NamedPoint`]), `left+0.5,0.2.x`, if that is its name.
+/// The mechanism with a variable for a coordinate that has none, if that is its name: a joint at which a loop is cut; a
+/// coordinate of a point ([`NamedPoint`]), `left+0.5,0.2.x`; an angle of a frame, `plate.tool.yaw`.
 fn with_coordinate(mechanism: Arc<Mechanism>, name: &str) -> Arc<Mechanism> {
-    if let Some((point, "x" | "y" | "z")) = name.rsplit_once('.')
-        && system::Question::new(&mechanism).coordinates(name).is_err()
-        && let Ok(point) = NamedPoint::read(&mechanism, point)
-        && mechanism.body(point.point.frame) != Body::Ground
-    {
-        return mechanism.with_coordinates_of(&point).into();
+    if system::Question::new(&mechanism).coordinates(name).is_ok() {
+        return mechanism;
     }
-    mechanism
+    let mechanism = with_joint(mechanism, name);
+    let Some((of, word)) = name.rsplit_once('.') else {
+        return mechanism;
+    };
+    let more = match PoseCoordinate::from_word(word) {
+        Some(angle) if angle.is_angle() => mechanism.with_frame_as_platform(of),
+        Some(_) => NamedPoint::read(&mechanism, of)
+            .ok()
+            .filter(|point| mechanism.body(point.point.frame) != Body::Ground)
+            .map(|point| mechanism.with_coordinates_of(&point)),
+        None => None,
+    };
+    more.map_or(mechanism, Arc::new)
+}
+
+/// The mechanism with a variable for a joint at which a loop is cut, if that is its name.
+fn with_joint(mechanism: Arc<Mechanism>, name: &str) -> Arc<Mechanism> {
+    match mechanism.with_closing_joint(name) {
+        Some(more) => more.into(),
+        None => mechanism,
+    }
+}
+
+/// The mechanism with a platform for a frame whose whole pose is given.
+fn with_frame(mechanism: Arc<Mechanism>, demand: &Demand) -> Arc<Mechanism> {
+    let mut values = demand.values.iter();
+    let whole = values.any(|value| match value {
+        Value::Pose(_) => true,
+        Value::Text(text) => text.trim_start().starts_with('['),
+        Value::Number(_) => false,
+    });
+    match whole.then(|| mechanism.with_frame_as_platform(&demand.name)) {
+        Some(Some(more)) => more.into(),
+        _ => mechanism,
+    }
 }

@@ -2,6 +2,7 @@
 
 mod build;
 mod centre;
+mod closing;
 mod closure;
 mod configuration;
 mod coordinate;
@@ -29,6 +30,7 @@ mod value;
 mod vanishing;
 mod variable;
 
+pub use closing::{ClosingJoint, ClosingValues};
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
 pub use coordinate::PoseCoordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
@@ -56,6 +58,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::description::{Coordinates, Problem};
 
+pub(crate) use closing::joint_values;
 pub(crate) use closure::{Closure, EVERY_ROW, Kept, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::{Course as KinematicsCourse, Mover, Need};
@@ -77,6 +80,12 @@ pub struct Mechanism {
     closed_forms: Arc<Vec<ClosedForm>>,
     outputs: Arc<Vec<Quantity>>,
     homes: Arc<model::Homes>,
+    /// The variables of closures that are not among the joints.
+    closing: Arc<[ClosingJoint]>,
+    /// How many chains and closures the file has; those that make points, frames and closures joints come after them.
+    own: [usize; 2],
+    /// How many unknowns, and as many independent equations, were added to what the file has.
+    added_unknowns: usize,
     dimensions: Arc<Dimensions<f64>>,
     /// For each joint after how many turns every frame is where it was, if ever.
     cycles: Vec<Option<f64>>,

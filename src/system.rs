@@ -41,8 +41,8 @@ pub use question::{
     coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
     redundant_motors, with_coordinates,
 };
-pub(crate) use record::is_origin;
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
+pub(crate) use record::{is_origin, uncut};
 pub use search::{
     Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, RESTARTS, Search, Searched,
     TooLarge, WidestGap, close, moved, random_configuration, sampling_range, too_large,

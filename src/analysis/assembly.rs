@@ -216,13 +216,31 @@ impl Reporter<'_> {
         let joints = joints.map(|i| (i, &mechanism.joints()[i], at.joints[i]));
         let platforms = mechanism.platforms().iter().zip(&at.platforms);
         let [own_chains, _] = mechanism.own_parts();
-        let tips = (0..own_chains).map(|chain| Frame::Tip { chain });
-        let tips = mechanism.placed(&tips.collect::<Vec<_>>(), &at);
-        let frames = mechanism.chains().iter().zip(&tips);
-        let frames = frames.filter(|(part, _)| mechanism.is_given(&part.name));
+        let named = mechanism.frames().into_iter().filter(|frame| match *frame {
+            Frame::Tip { chain } => chain < own_chains,
+            Frame::OnPlatform { .. } => true,
+            _ => false,
+        });
+        let named = named.map(|frame| (mechanism.frame_name(frame), frame));
+        let (names, named): (Vec<String>, Vec<Frame>) =
+            named.filter(|(name, _)| mechanism.is_given(name)).unzip();
+        let poses = mechanism.placed(&named, &at);
         let ground = Pose::identity().inverse();
-        let frames =
-            frames.map(|(part, pose)| (part.name.clone(), FrameRecord::of(&(ground * *pose))));
+        let poses = poses.iter().map(|pose| FrameRecord::of(&(ground * *pose)));
+        let frames = names.into_iter().zip(poses);
+        let cut = mechanism.closing_joints().iter();
+        let cut = cut.zip(mechanism.closing_values(&at));
+        let closing = cut.clone().map(|(joint, _)| JointVariable {
+            name: joint.name.clone(),
+            unit: SiUnit::of_coordinate(joint.kind.is_angle()),
+            role: crate::description::Role::Passive,
+            held: false,
+            limits: None,
+            within_limits: true,
+        });
+        let closing_values = cut
+            .clone()
+            .map(|(joint, value)| (joint.name.clone(), value));
         let mut report = AssemblyReport {
             mechanism: mechanism.name().into(),
             near_singular: attempt.report.stop == Stop::Solved && condition > POOR_CONDITION,
@@ -260,10 +278,13 @@ impl Reporter<'_> {
                     limits: joint.limits,
                     within_limits: joint.allows(value),
                 })
+                .chain(closing)
                 .collect(),
             joints: joints
                 .map(|(_, joint, value)| (joint.name.clone(), value))
+                .chain(closing_values)
                 .collect(),
+            cut: mechanism.cut_joints(),
             outputs: (mechanism.joint_outputs(&at.joints))
                 .map(|(output, value)| (output.name.clone(), value))
                 .collect(),

@@ -116,12 +116,16 @@ pub fn convert(
     description: &Description,
     settings: &ConvertSettings,
 ) -> Result<Conversion, ConvertError> {
+    let mut description = description.clone();
+    if settings.cut.is_some() || settings.convention.is_some() {
+        references::number_links(&mut description);
+    }
     let mut conversion = Conversion {
-        description: description.clone(),
+        description,
         notes: Vec::new(),
     };
     if let Some(joint) = &settings.cut {
-        conversion = cut::cut(mechanism, description, joint)?;
+        conversion = cut::cut(mechanism, &conversion.description, joint)?;
     }
     if let Some(convention) = settings.convention {
         convention::convert(&mut conversion, convention);

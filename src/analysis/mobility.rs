@@ -115,10 +115,10 @@ pub fn mobility(
         .filter(|name| !known.contains(name))
         .collect();
     let spins = |name: &&String| idle_freedoms.iter().any(|freedom| freedom.moves(name));
-    let slides = mechanism.slides_of_points();
+    let slides = mechanism.added_unknowns();
     let mut report = MobilityReport {
         mechanism: mechanism.name().into(),
-        variables: Variable::joints(mechanism),
+        variables: Variable::all_joints(mechanism),
         locked: names(mechanism, &held, &locking),
         mobility: found.freedoms,
         kutzbach: unknowns as i64 - rows as i64,
@@ -131,7 +131,7 @@ pub fn mobility(
         gimbal_locked_joints,
         gimbal_locked: locked.len(),
         counted_beside: beside.is_some(),
-        joints: mechanism.named_joints(&closed.configuration.joints),
+        joints: mechanism.all_joints(&closed.configuration),
         character: found.character,
         branches,
         branch_count: found.count,
@@ -196,7 +196,7 @@ fn elsewhere(
     here: &MobilityReport,
 ) -> Vec<Elsewhere> {
     let (mechanism, watch) = (search.near.mechanism(), search.watch);
-    let slides = mechanism.slides_of_points();
+    let slides = mechanism.added_unknowns();
     let mut found: Vec<Elsewhere> = Vec::new();
     for start in 0..here.elsewhere_starts {
         if watch.stops(Stage::Starts, start, Some(here.elsewhere_starts)) {
@@ -221,7 +221,7 @@ fn elsewhere(
         }
         found.push(Elsewhere {
             mobility: freedoms,
-            joints: mechanism.named_joints(&tangent.at.joints),
+            joints: mechanism.all_joints(&tangent.at),
         });
     }
     found

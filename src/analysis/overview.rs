@@ -14,12 +14,14 @@ use crate::algebra::{Affine, Node, SiUnit};
 use crate::description::AxisKind;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
-    Chain, FixedStep, Formula, Given, JointKind, Mechanism, NamedClosure, Platform, Row, Symbol,
+    Body, Chain, ClosureKind, FixedStep, Formula, Frame, Given, JointKind, Mechanism, NamedClosure,
+    Platform, Row, Symbol,
 };
 
 /// Lists the parts of a mechanism, with its loops and the count of its freedoms.
 pub fn overview(mechanism: &Mechanism) -> Overview {
     let parameters = mechanism.parameters().iter();
+    let [own_chains, _] = mechanism.own_parts();
     let closed_forms = mechanism.closed_forms().iter();
     Overview {
         name: mechanism.name().into(),
@@ -37,9 +39,10 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
             })
             .collect(),
         joints: joints(mechanism),
-        chains: (mechanism.chains().iter())
+        chains: (mechanism.chains()[..own_chains].iter())
             .map(|part| chain(mechanism, part))
             .collect(),
+        bodies: bodies(mechanism),
         platforms: (mechanism.platforms().iter())
             .map(|part| platform(mechanism, part))
             .collect(),
@@ -165,13 +168,72 @@ fn platform(mechanism: &Mechanism, platform: &Platform) -> PlatformOverview {
 }
 
 fn closure(mechanism: &Mechanism, closure: &NamedClosure) -> ClosureOverview {
+    let (kind, frames) = closure.written();
     ClosureOverview {
         name: closure.name.clone(),
-        kind: closure.kind,
-        frames: closure.frames.map(|frame| mechanism.frame_name(frame)),
+        kind,
+        frames: frames.map(|frame| mechanism.frame_name(frame)),
         length: (closure.length.as_ref()).map(|length| written_affine(mechanism, length)),
-        equations: closure.kind.equations(),
+        equations: kind.equations(),
     }
+}
+
+/// The bodies with what joins them, and with the tips of chains and the frames of platforms on them.
+fn bodies(mechanism: &Mechanism) -> Vec<BodyOverview> {
+    let bodies = mechanism.bodies().into_iter();
+    let mut known: Vec<(Body, BodyOverview)> = (bodies.filter(|body| !mechanism.is_added(*body)))
+        .map(|body| {
+            let overview = BodyOverview {
+                name: mechanism.body_name(body),
+                joints: Vec::new(),
+                frames: Vec::new(),
+            };
+            (body, overview)
+        })
+        .collect();
+    let mut joined = |of: Body, by: &str| {
+        let found = known.iter_mut().find(|(body, _)| *body == of);
+        if let Some((_, body)) = found.filter(|(_, body)| body.joints.iter().all(|one| one != by)) {
+            body.joints.push(by.to_owned());
+        }
+    };
+    let [own_chains, _] = mechanism.own_parts();
+    for (chain, part) in mechanism.chains()[..own_chains].iter().enumerate() {
+        let mut below = mechanism.body(part.on);
+        for (i, row) in part.rows.iter().enumerate() {
+            let body = mechanism.body(Frame::Link { chain, row: i + 1 });
+            for joint in row.joints() {
+                let joint = &mechanism.joints()[joint].name;
+                joined(below, joint);
+                joined(body, joint);
+            }
+            below = body;
+        }
+    }
+    let closures = mechanism.closures().iter();
+    for closure in closures.filter(|closure| closure.kind != ClosureKind::Coupling) {
+        let (_, frames) = closure.written();
+        for frame in frames {
+            joined(mechanism.body(frame), &closure.name);
+        }
+    }
+    for frame in mechanism.frames() {
+        let own = match frame {
+            Frame::Tip { chain } => chain < own_chains,
+            Frame::OnPlatform { .. } => true,
+            _ => false,
+        };
+        let name = mechanism.frame_name(frame);
+        let found = known
+            .iter_mut()
+            .find(|(of, _)| *of == mechanism.body(frame));
+        if let (true, Some((_, body))) = (own && mechanism.is_given(&name), found)
+            && body.name != name
+        {
+            body.frames.push(name);
+        }
+    }
+    known.into_iter().map(|(_, body)| body).collect()
 }
 
 /// A fixed transform as in the file: `Tx(l2)`.

@@ -91,8 +91,8 @@ impl Question {
         }
         // the slides in the plane
         let real = (report.assemblies.iter())
-            .filter_map(|of| of.joints.0.last_chunk())
-            .map(|[(_, x), (_, y)]| [[*x, 0.0], [*y, 0.0]]);
+            .filter_map(|of| of.configuration().joints.last_chunk().copied())
+            .map(|[x, y]| [[x, 0.0], [y, 0.0]]);
         let complex = (report.complex_assemblies.iter())
             .filter_map(|of| of.joints.0.last_chunk())
             .map(|[(_, x), (_, y)]| [*x, *y]);

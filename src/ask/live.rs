@@ -54,8 +54,9 @@ impl Steering {
             outputs: Vec::new(),
             question,
         };
-        let mut meter = Meter::new(&metered, self.at());
-        let values = meter.read(self.at(), 0.0).iter();
+        let at = (asked.mechanism()).completed(self.mechanism(), self.at());
+        let mut meter = Meter::new(&metered, &at);
+        let values = meter.read(&at, 0.0).iter();
         let readings = metered
             .quantities
             .iter()

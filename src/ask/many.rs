@@ -5,7 +5,7 @@ mod rows;
 use std::sync::atomic::AtomicUsize;
 use std::sync::{Mutex, PoisonError};
 
-use super::{AskError, Question, Role};
+use super::{AskError, Question, Role, with_joint};
 use crate::algebra::BATCH;
 use crate::analysis::solver::{Follower, Following};
 use crate::linear::DENSE_LIMIT;
@@ -56,6 +56,16 @@ impl Question {
         watch: &Watch,
     ) -> Result<Many, AskError> {
         let mechanism = &**self.mechanism();
+        let known = self.mechanism().clone();
+        let more = (names.iter()).fold(known, |mechanism, name| with_joint(mechanism, name));
+        if mechanism.joints().len() < more.joints().len() {
+            let asked = Question {
+                mechanism: more,
+                ready: Default::default(),
+                ..self.clone()
+            };
+            return asked.solve_many(names, values, watch);
+        }
         let followers = names.iter().map(|name| mechanism.follower(name));
         let followers: Vec<_> = followers.collect();
         if followers.iter().any(Option::is_some) {

@@ -11,7 +11,14 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     let joints = names(Noun::Joint, &description.joints);
     let quantities = check_quantities(parameters.chain(joints), problems);
     let platforms = names(Noun::Platform, &description.platforms);
-    let bodies = names(Noun::Chain, &description.chains).chain(platforms);
+    let rows = description
+        .chains
+        .iter()
+        .flat_map(|chain| &chain.value.rows);
+    let links = rows.filter_map(|row| Some((Noun::Body, row.link.as_ref()?)));
+    let bodies = names(Noun::Chain, &description.chains)
+        .chain(platforms)
+        .chain(links);
     let bodies: Vec<_> = bodies.collect();
     for &(noun, name) in &bodies {
         check_body(noun, name, problems);

@@ -74,6 +74,19 @@ impl ClosureKind {
         }
     }
 
+    /// The variables of such a joint, in the order in which its rows move the second frame against the first: the end of the
+    /// name of each, and whether it slides along the axis or turns about it. None where no numbers say how far a joint has
+    /// moved without a choice: those of balls and planes.
+    pub fn variables(self) -> &'static [(&'static str, bool)] {
+        match self {
+            Self::Revolute => &[("", false)],
+            Self::Prismatic => &[("", true)],
+            Self::Cylindrical => &[("_turn", false), ("_slide", true)],
+            Self::Universal => &[("_1", false), ("_2", false)],
+            Self::Spherical | Self::Planar | Self::Rigid | Self::Distance | Self::Coupling => &[],
+        }
+    }
+
     /// True if the z axes lie in one line.
     pub fn joins_axes(self) -> bool {
         let conditions = self.conditions();

@@ -149,7 +149,7 @@ impl Structure {
             Self::Point => "body at frame",
             Self::BodyFrame => "origin frame",
             Self::Chain => "on convention base rows tip",
-            Self::Row => "alpha a d theta",
+            Self::Row => "alpha a d theta link",
             Self::Platform => "home frames",
             Self::ClosedForm => {
                 "of in where source position rotation transform entries identity identities"

@@ -47,6 +47,8 @@ impl Description {
     /// True if a chain or platform that is added may have this name.
     pub(crate) fn is_free_body(&self, name: &str) -> bool {
         let taken = place_of(&self.chains, name).or(place_of(&self.platforms, name));
-        name != GROUND && taken.is_none()
+        let rows = self.chains.iter().flat_map(|chain| &chain.value.rows);
+        let mut links = rows.filter_map(|row| row.link.as_ref());
+        name != GROUND && taken.is_none() && links.all(|link| link.value != name)
     }
 }

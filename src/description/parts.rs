@@ -128,6 +128,8 @@ pub struct Row {
     pub d: Entry,
     /// Angle about the joint axis (rad).
     pub theta: Entry,
+    /// A name for the link behind the row, which is its body.
+    pub link: Option<Spanned<String>>,
     /// The place of the row.
     pub span: Range<usize>,
 }
@@ -251,6 +253,7 @@ impl Row {
             a,
             d,
             theta,
+            link: None,
             span,
         }
     }
@@ -363,7 +366,7 @@ equal_up_to_place! {
     Entry: expression;
     JointDescription: role, home, limits;
     super::AxisDescription: kind, place, second, role, home, drawn, value, pitch, limits, between;
-    Row: alpha, a, d, theta;
+    Row: alpha, a, d, theta, link;
     ClosureDescription: kind, frames, length;
 }
 

@@ -190,6 +190,7 @@ impl Reader {
             a: self.entry_or_zero(&mut fields, "a"),
             d: self.entry_or_zero(&mut fields, "d"),
             theta: self.entry_or_zero(&mut fields, "theta"),
+            link: self.optional_text(&mut fields, "link", Expected::NameOf(Noun::Body)),
             span: fields.span,
         })
     }

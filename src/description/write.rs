@@ -102,7 +102,7 @@ written! {
     ChainDescription |chain| as "Chain", {
         "on": chain.on, "convention": chain.convention, "base": chain.base, "rows": chain.rows, "tip": chain.tip,
     }
-    Row |row| { "alpha": row.alpha, "a": row.a, "d": row.d, "theta": row.theta }
+    Row |row| { "alpha": row.alpha, "a": row.a, "d": row.d, "theta": row.theta, "link": row.link }
     PlatformDescription |platform| as "Platform", { "home": platform.home, "frames": platform.frames }
     ClosedFormDescription |form| as "ClosedForm", {
         "of": form.of, "in": form.relative_to, "where": form.locals, "source": form.source,

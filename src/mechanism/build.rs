@@ -169,6 +169,9 @@ impl Mechanism {
                 joints: homes,
                 platforms: poses,
             }),
+            closing: Arc::default(),
+            own: [description.chains.len(), description.closures.len()],
+            added_unknowns: 0,
             dimensions: super::Dimensions::empty().into(),
             cycles: Vec::new(),
             rows_that_vary: OnceLock::new(),
@@ -179,9 +182,11 @@ impl Mechanism {
         };
         let refused = |problem: &Problem| problem.severity() == Severity::Error;
         if !builder.problems.iter().any(refused) {
+            mechanism.open_declared(description);
             mechanism.infer_kinds();
             builder.check_joint_units(description, &mechanism.joints);
             mechanism.outputs = builder.outputs(description, &mechanism).into();
+            mechanism.name_closing_joints();
             inspect::inspect(&mechanism, description, &mut builder.problems);
         }
         if !builder.problems.iter().any(refused) {
@@ -297,6 +302,7 @@ impl Builder<'_> {
                         d: d?,
                         theta: theta?,
                         written: entries.map(|entry| entry.expression.to_string()),
+                        link: row.link.as_ref().map(|link| link.value.clone()),
                     })
                 };
                 rows.push(whole());

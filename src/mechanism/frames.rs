@@ -112,10 +112,14 @@ impl Mechanism {
         self.platforms.iter().position(|part| part.name == name)
     }
 
-    /// The frame of that name: `ground`, `leg1`, `leg1.2`, `top`, `top.S1`.
+    /// The frame of that name: `ground`, `leg1`, `leg1.2`, `top`, `top.S1`, or the name of a link.
     pub fn frame(&self, name: &str) -> Option<Frame> {
+        let numbered = |frame: Frame| match frame {
+            Frame::Link { chain, row } => format!("{}.{row}", self.chains[chain].name) == name,
+            _ => false,
+        };
         let mut frames = self.frames().into_iter();
-        frames.find(|&frame| self.frame_name(frame) == name)
+        frames.find(|&frame| self.frame_name(frame) == name || numbered(frame))
     }
 
     /// The name of a frame.
@@ -127,7 +131,11 @@ impl Mechanism {
                 let Platform { name, frames, .. } = &self.platforms[platform];
                 format!("{name}.{}", frames[frame].0)
             }
-            Frame::Link { chain, row } => format!("{}.{row}", self.chains[chain].name),
+            Frame::Link { chain, row } => {
+                let Chain { name, rows, .. } = &self.chains[chain];
+                let given = row.checked_sub(1).and_then(|row| rows[row].link.clone());
+                given.unwrap_or_else(|| format!("{name}.{row}"))
+            }
             Frame::Tip { chain } => self.chains[chain].name.clone(),
         }
     }

@@ -108,6 +108,8 @@ pub struct Row {
     pub theta: Affine<Symbol>,
     /// α, a, d, θ as written in the file.
     pub written: [String; 4],
+    /// The name of the link behind it, if the file gives one.
+    pub link: Option<String>,
 }
 
 /// A serial chain.
@@ -162,6 +164,16 @@ pub struct Closure {
     pub length: Option<Affine<Symbol>>,
     /// The expression of joint variables that a `Coupling` makes zero.
     pub relation: Option<Formula>,
+    /// Its kind and its first frame as written, where the variables of its joint are rows in front of it and it is rigid.
+    pub opened: Option<(ClosureKind, super::Frame)>,
+}
+
+impl Closure {
+    /// Its kind and its frames as the file has them, also where its joint has variables.
+    pub fn written(&self) -> (ClosureKind, [super::Frame; 2]) {
+        let (kind, first) = self.opened.unwrap_or((self.kind, self.frames[0]));
+        (kind, [first, self.frames[1]])
+    }
 }
 
 /// A printed formula, to be checked against the chains.

@@ -15,6 +15,8 @@ pub(super) struct Names<'a> {
     pub joints: HashMap<&'a str, usize>,
     chains: HashMap<&'a str, usize>,
     platforms: HashMap<&'a str, usize>,
+    /// Chain and row of links with names.
+    links: HashMap<&'a str, (usize, usize)>,
     description: &'a Description,
     /// Number of unknown names still to be compared with all others for a suggestion.
     suggestions: Cell<usize>,
@@ -33,7 +35,13 @@ fn index<T>(named: &[Named<T>]) -> HashMap<&str, usize> {
 
 impl<'a> Names<'a> {
     pub fn new(description: &'a Description) -> Self {
+        let chains = description.chains.iter().enumerate();
+        let links = chains.flat_map(|(c, chain)| {
+            let rows = (1..).zip(&chain.value.rows);
+            rows.filter_map(move |(k, row)| Some((row.link.as_ref()?.value.as_str(), (c, k))))
+        });
         Names {
+            links: links.collect(),
             parameters: index(&description.parameters),
             joints: index(&description.joints),
             chains: index(&description.chains),
@@ -92,6 +100,9 @@ impl<'a> Names<'a> {
         if name == GROUND {
             return Ok(Frame::Ground);
         }
+        if let Some(&(chain, row)) = self.links.get(name) {
+            return Ok(Frame::Link { chain, row });
+        }
         let (owner, rest) = match name.split_once('.') {
             Some((owner, rest)) => (owner, Some(rest)),
             None => (name, None),
@@ -133,6 +144,7 @@ impl<'a> Names<'a> {
             let links = (0..=value.rows.len().min(20)).map(|row| format!("{}.{row}", name.value));
             names.extend(links);
         }
+        names.extend(self.links.keys().map(|link| (*link).to_owned()));
         for Named { name, value } in &self.description.platforms {
             names.push(name.value.clone());
             let frames = value.frames.iter();

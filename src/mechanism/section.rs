@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Row, Symbol};
+use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
 use super::{Body, ClosureKind, Convention, Frame, Mechanism, NamedPoint, Point, Role};
 use crate::algebra::Affine;
 use crate::description::first_free;
@@ -40,7 +40,9 @@ impl Mechanism {
         let slides =
             slides.map(|(axis, home, turns)| (format!("{}.{axis}", point.name), home, turns));
         let base = FixedStep::Rotate(Axis::Y, Formula::number(turn));
-        self.with_slides(&point.name, point.point, vec![base], &slides)
+        let mut with = self.with_slides(&point.name, point.point, vec![base], &slides);
+        with.added_unknowns += 3;
+        with
     }
 
     /// True if a joint is a coordinate of a point ([`Mechanism::with_coordinates_of`]): no other name has a dot.
@@ -48,29 +50,46 @@ impl Mechanism {
         self.joints[joint].name.contains('.')
     }
 
-    fn points_as_joints(&self) -> usize {
-        let joints = 0..self.joints.len();
-        joints.filter(|&joint| self.is_of_point(joint)).count() / 3
-    }
-
-    /// Numbers of chains and closures but for those that make coordinates of points joints, which come last.
+    /// How many chains and closures the file has: those that make points, frames and closures joints come after them.
     pub fn own_parts(&self) -> [usize; 2] {
-        let points = self.points_as_joints();
-        [self.chains.len() - 2 * points, self.closures.len() - points]
+        self.own
     }
 
-    /// Number of unknowns, and of as many independent equations, that make coordinates of points joints.
-    pub fn slides_of_points(&self) -> usize {
-        3 * self.points_as_joints()
+    /// How many unknowns and equations, of equal number and independent, make points, frames and closures joints.
+    pub fn added_unknowns(&self) -> usize {
+        self.added_unknowns
     }
 
-    /// True if a body is one of the slides that make coordinates of a point joints.
-    pub fn is_slide_of_point(&self, body: Body) -> bool {
-        let Body::Link { chain, .. } = body else {
-            return false;
+    /// Whether a body is one that the file does not have: a slide of a point, or a link in front of a closure.
+    pub fn is_added(&self, body: Body) -> bool {
+        matches!(body, Body::Link { chain, .. } if chain >= self.own[0])
+    }
+
+    /// The mechanism with a frame as a platform of its own, called as the frame is, so that its position and its angles are
+    /// coordinates; `None` for ground and for a platform.
+    pub fn with_frame_as_platform(&self, name: &str) -> Option<Mechanism> {
+        let frame = self.frame(name)?;
+        if self.platform(name).is_some() || self.body(frame) == Body::Ground {
+            return None;
+        }
+        let mut more = self.clone();
+        let platform = more.platforms.len();
+        more.platforms.push(Platform {
+            name: name.to_owned(),
+            home: self.transform(Frame::Ground, frame, &self.home()),
+            frames: Arc::default(),
+        });
+        let closure = Closure {
+            name: self.free_name(&format!("frame {name}")),
+            kind: ClosureKind::Rigid,
+            frames: [frame, Frame::Platform { platform }],
+            length: None,
+            relation: None,
+            opened: None,
         };
-        let mut joints = self.chains[chain].rows.iter().flat_map(Row::joints);
-        joints.any(|joint| self.is_of_point(joint))
+        Arc::make_mut(&mut more.closures).push(closure);
+        more.added_unknowns += 6;
+        Some(more.remeasured(self.characteristic_length()))
     }
 
     /// The mechanism with a point closed by a ball to the end of a chain of slides, each with its home value and α and
@@ -102,6 +121,7 @@ impl Mechanism {
                 d: affine(0.0, vec![(joint, Formula::number(1.0))]),
                 theta: affine(*theta, Vec::new()),
                 written: Default::default(),
+                link: None,
             }
         });
         let rows: Vec<Row> = rows.collect();
@@ -134,15 +154,12 @@ impl Mechanism {
             frames: tips,
             length: None,
             relation: None,
+            opened: None,
         });
-        let values: Vec<f64> = self.parameters.iter().map(|of| of.value).collect();
-        let dimensions = cut.dimensions_over(&values);
-        let dimensions = dimensions.expect("expressions had values before, and these are numbers");
-        cut.set_dimensions(dimensions);
-        cut.measured(self.characteristic_length())
+        cut.remeasured(self.characteristic_length())
     }
 
-    fn free_name(&self, name: &str) -> String {
+    pub(super) fn free_name(&self, name: &str) -> String {
         let joints = self.joints.iter().map(|joint| &joint.name);
         let chains = self.chains.iter().map(|chain| &chain.name);
         let others = self.platforms.iter().map(|platform| &platform.name);

@@ -38,6 +38,14 @@ impl Variable {
             .collect()
     }
 
+    /// The joints of a mechanism, those at which loops are cut last.
+    pub fn all_joints(mechanism: &Mechanism) -> Vec<Self> {
+        let cut = mechanism.closing_joints().iter();
+        let unit = SiUnit::of_coordinate;
+        let cut = cut.map(|joint| Variable::new(&joint.name, unit(joint.kind.is_angle())));
+        Variable::joints(mechanism).into_iter().chain(cut).collect()
+    }
+
     /// The poses of its platforms: position, quaternion, and roll, pitch and yaw.
     pub fn poses(mechanism: &Mechanism) -> Vec<Self> {
         const PARTS: [(&str, SiUnit); 10] = [

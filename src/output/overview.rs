@@ -6,10 +6,11 @@ use super::quantity::{at, degrees, form, number, quantity, signed};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::overview::{
-    ChainOverview, ClosedFormOverview, ClosureOverview, CoordinatesOverview, JointOverview,
-    LoopStep, MobilityCount, Overview, ParameterOverview, PlatformOverview, RowOverview,
+    BodyOverview, ChainOverview, ClosedFormOverview, ClosureOverview, CoordinatesOverview,
+    JointOverview, LoopStep, MobilityCount, Overview, ParameterOverview, PlatformOverview,
+    RowOverview,
 };
-use crate::description::{ClosureKind, Convention, count, quoted};
+use crate::description::{ClosureKind, Convention, count, listed, quoted};
 
 impl Report for Overview {
     fn document(&self) -> Document {
@@ -21,6 +22,7 @@ impl Report for Overview {
             .sections(self.chains.iter().map(chain))
             .sections(platforms(self))
             .section(closures(self))
+            .table("Bodies", bodies(self))
             .sections((!self.closures.is_empty()).then(|| loops(self)))
             .section(mobility(&self.count))
             .table("Closed forms", closed_forms(self))
@@ -147,6 +149,14 @@ pub(super) fn closures(overview: &Overview) -> Section {
                 format!("{}: {}", closure.equations, equations(closure))
             }),
     )
+}
+
+/// Bodies, by names that every option takes where it takes a frame.
+fn bodies(overview: &Overview) -> TableOf<&BodyOverview> {
+    Table::of(&overview.bodies)
+        .words("name", |body| &body.name)
+        .words("joined by", |body| listed(&body.joints))
+        .words("frames on it", |body| body.frames.join(", "))
 }
 
 /// The equations of a closure in words; the axes are the z axes of the frames.

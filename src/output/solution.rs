@@ -99,8 +99,13 @@ fn sentence(report: &AssemblyReport) -> String {
 /// True if everything is held.
 fn is_fixed(report: &AssemblyReport) -> bool {
     let mut platforms = report.platforms.0.iter();
-    report.variables.iter().all(|joint| joint.held)
-        && platforms.all(|(name, _)| report.held.contains(name))
+    !any_solved(report) && platforms.all(|(name, _)| report.held.contains(name))
+}
+
+/// True if a joint variable is not held. Joints at which loops are cut follow from the others.
+fn any_solved(report: &AssemblyReport) -> bool {
+    let mut free = report.variables.iter().filter(|joint| !joint.held);
+    free.any(|joint| !report.cut.contains(&joint.name))
 }
 
 /// Held coordinates that the others determine.
@@ -151,7 +156,7 @@ fn idle(report: &AssemblyReport) -> Option<String> {
 
 /// Remark on other configurations with the same inputs, as far as they are not known.
 fn others(report: &AssemblyReport) -> Option<String> {
-    let solved = report.variables.iter().any(|joint| !joint.held) || !report.platforms.0.is_empty();
+    let solved = any_solved(report) || !report.platforms.0.is_empty();
     let decided = report.is_assembled() && report.left.is_none();
     let may_differ = decided && solved && !report.gaps.is_empty();
     let another = match report.restarts {

@@ -165,12 +165,15 @@ impl<'a> Question<'a> {
 
     /// Starts the search at a whole configuration; held coordinates keep their values.
     pub fn near(mut self, at: &Configuration<f64>) -> Self {
-        for (joint, value) in at.joints.iter().enumerate() {
-            if !self.joints[joint] {
-                self.start.joints[joint] = *value;
+        let joints = self.start.joints.iter_mut().zip(&at.joints);
+        for ((own, value), held) in joints.zip(&self.joints) {
+            if !held {
+                *own = *value;
             }
         }
-        self.start.platforms.clone_from(&at.platforms);
+        for (own, pose) in self.start.platforms.iter_mut().zip(&at.platforms) {
+            *own = *pose;
+        }
         self.guessed_joints.fill(true);
         self.guessed_platforms.fill(true);
         self

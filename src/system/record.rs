@@ -7,7 +7,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
-use crate::mechanism::{Mechanism, Variable};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 
 /// Values by name, in the order of the mechanism file; serialised as a map.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -110,6 +110,12 @@ impl PlatformRecord {
     }
 }
 
+/// The values of joints that are not cut, of joints by name.
+pub(crate) fn uncut(joints: &Named<f64>, cut: &[String]) -> Vec<f64> {
+    let joints = joints.0.iter().filter(|(name, _)| !cut.contains(name));
+    joints.map(|(_, value)| *value).collect()
+}
+
 /// The names in formulas about a mechanism.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FormulaNames {
@@ -128,6 +134,21 @@ impl Mechanism {
         joints
             .map(|(joint, &value)| (joint.name.clone(), value))
             .collect()
+    }
+
+    /// Values of all joints with their names, those of joints at which loops are cut after those of the joint variables.
+    pub fn all_joints(&self, at: &Configuration<f64>) -> Named<f64> {
+        let mut all = self.named_joints(&at.joints);
+        let cut = self.closing_joints().iter().zip(self.closing_values(at));
+        all.0
+            .extend(cut.map(|(joint, value)| (joint.name.clone(), value)));
+        all
+    }
+
+    /// The names of the joints at which loops are cut.
+    pub fn cut_joints(&self) -> Vec<String> {
+        let cut = self.closing_joints().iter();
+        cut.map(|joint| joint.name.clone()).collect()
     }
 
     /// The names in formulas.

@@ -1,5 +1,6 @@
 //! The same mechanism in the other convention, or broken at another joint, over all that are shipped.
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
 
 use linkwork::analysis::compare::{CompareSettings, compare};
@@ -244,8 +245,25 @@ fn a_mechanism_broken_at_another_joint_is_assembled_where_it_was() {
                 let new = Mechanism::new(&conversion.description).unwrap();
                 let text = conversion.description.to_ron().unwrap();
                 assert_eq!(Description::read(&text).unwrap(), conversion.description);
-                assert!(new.joint(&joint.name).is_none());
+                assert!(
+                    new.closures()
+                        .iter()
+                        .any(|closure| closure.name == joint.name)
+                );
                 let (old_home, home) = (mechanism.home(), new.home());
+                // every joint has the value that it had, by turns and all
+                let values = new.all_joints(&home);
+                for (name, value) in mechanism.all_joints(&old_home).0 {
+                    let now = values
+                        .get(&name)
+                        .unwrap_or_else(|| panic!("{what}: {name}"));
+                    let slides = |of: &linkwork::mechanism::Joint| !of.kind.is_angle();
+                    let off = match mechanism.joint(&name).map(|j| &mechanism.joints()[j]) {
+                        Some(joint) if slides(joint) => now - value,
+                        _ => ((now - value) / 2.0).sin(),
+                    };
+                    assert!(off.abs() < 1e-9, "{what}: {name} was {value} and is {now}");
+                }
                 for (old, found) in common(&mechanism, &conversion, &new) {
                     let [a] = mechanism.poses([old], &old_home);
                     let [b] = new.poses([found], &home);
@@ -366,7 +384,7 @@ fn cuts_that_are_not_possible_say_why() {
 }
 
 #[test]
-fn limits_that_a_cut_loses_are_noted_and_other_cuts_are_named() {
+fn limits_stay_with_a_joint_that_is_cut_and_other_cuts_are_named() {
     let text = include_str!("../../mechanisms/four_bar.ron");
     let limited = text.replacen(
         "Passive(home: \"-12 deg\"",
@@ -374,21 +392,21 @@ fn limits_that_a_cut_loses_are_noted_and_other_cuts_are_named() {
         1,
     );
     assert_ne!(limited, text);
-    let notes = |text: &str, joint: &str| {
+    let limits = |text: &str, joint: &str| {
         let description = Description::read(text).unwrap();
         let mechanism = Mechanism::new(&description).unwrap();
         let settings = ConvertSettings {
             cut: Some(joint.into()),
             ..ConvertSettings::default()
         };
-        convert(&mechanism, &description, &settings).unwrap().notes
+        let made = convert(&mechanism, &description, &settings).unwrap();
+        let made = Mechanism::new(&made.description).unwrap();
+        made.joint("phi2").map(|joint| made.joints()[joint].limits)
     };
-    let lost = ConversionNote::LimitsLost {
-        joint: "phi2".into(),
-    };
-    assert!(notes(&limited, "phi2").contains(&lost));
-    assert!(!notes(&limited, "theta1").contains(&lost));
-    assert!(!notes(text, "phi2").contains(&lost));
+    let given = Some((-FRAC_PI_2, FRAC_PI_2));
+    assert_eq!(limits(&limited, "phi2"), Some(given));
+    assert_eq!(limits(&limited, "theta1"), Some(given));
+    assert_eq!(limits(text, "phi2"), Some(None));
     let (description, mechanism) = shipped("four_bar");
     assert_eq!(
         possible_cuts(&mechanism, &description),

@@ -1,5 +1,6 @@
 //! The other analyses, each against closed forms and published values.
 
+mod bodies;
 mod circuits;
 mod closed_form;
 mod closed_reports;
@@ -8,6 +9,7 @@ mod commands;
 mod comparison;
 mod conversion;
 mod cusps;
+mod cut_joints;
 mod cycles;
 mod cylinders;
 mod formulas;

@@ -1394,11 +1394,13 @@ fn csv_has_a_whole_line_for_every_row_and_json_and_svg_hold_the_same_motion() {
     let mut reader = csv.lines();
     let header = reader.next().unwrap();
     assert!(
-        header.starts_with("mode,step,theta1 (rad),phi2 (rad),phi1 (rad),\"left+2.5,0.x (m)\",")
+        header.starts_with(
+            "mode,step,theta1 (rad),phi2 (rad),phi1 (rad),C (rad),\"left+2.5,0.x (m)\","
+        )
     );
     let rows: Vec<Vec<&str>> = reader.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 51);
-    assert!(rows.iter().all(|row| row.len() == 9));
+    assert!(rows.iter().all(|row| row.len() == 10));
     assert!(csv.ends_with('\n') && !csv.contains("NaN") && !csv.contains("inf"));
     let more = ["--format", "json", "--svg", picture.to_str().unwrap()];
     let (code, json, _) = linkwork(&[&asked[..], &more].concat());
@@ -1406,7 +1408,7 @@ fn csv_has_a_whole_line_for_every_row_and_json_and_svg_hold_the_same_motion() {
     let motion = &json["motions"][0];
     assert_eq!((code, &motion["ending"]), (0, &Value::from("complete")));
     for (row, same) in rows.iter().zip(motion["values"].as_array().unwrap()) {
-        for k in 0..7 {
+        for k in 0..8 {
             assert_eq!(
                 row[k + 1].parse::<f64>().unwrap(),
                 same[k].as_f64().unwrap()

@@ -248,7 +248,7 @@ fn overconstrained_loops_have_their_printed_assemblies() {
             "{name}"
         );
         let found: Vec<Vec<f64>> = (report.assemblies.iter())
-            .map(|a| a.joints.0.iter().map(|(_, x)| *x).collect())
+            .map(|a| a.configuration().joints)
             .collect();
         same_lists(&found, &printed, turn, 1e-9);
         compared += 1;

@@ -77,7 +77,14 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
     }
     for (x, y) in a.assemblies.iter().zip(&b.assemblies) {
         let digits = if x.multiplicity == 1 { 1e-9 } else { 1e-6 };
-        for (j, ((name, u), (_, v))) in x.joints.0.iter().zip(&y.joints.0).enumerate() {
+        for (j, ((name, u), (_, v))) in x
+            .joints
+            .0
+            .iter()
+            .zip(&y.joints.0)
+            .take(mechanism.joints().len())
+            .enumerate()
+        {
             if apart(mechanism, j, *u, *v) > digits {
                 found.push(format!("mode {}: {name} {u} against {v}", x.mode));
             }

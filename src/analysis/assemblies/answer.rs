@@ -8,7 +8,7 @@ mod paired;
 mod real;
 
 pub(super) use describe::grouped;
-pub(super) use real::{named_joints, real_solution};
+pub(super) use real::real_solution;
 
 use std::ops::Range;
 
@@ -285,6 +285,16 @@ impl Question<'_> {
                     periodic: self.mechanism.repeats(j) && joint.limits.is_none(),
                     winding: self.coordinates.winds(j),
                 })
+                .chain(self.mechanism.closing_joints().iter().map(|joint| {
+                    let angle = joint.kind.is_angle();
+                    ListedJoint {
+                        name: joint.name.clone(),
+                        unit: SiUnit::of_coordinate(angle),
+                        held: false,
+                        periodic: angle,
+                        winding: false,
+                    }
+                }))
                 .collect(),
             held_platforms: platforms
                 .filter(|(_, held)| **held == HeldPlatform::Pose)

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::AssembliesError;
-use super::answer::{named_joints, real_solution};
+use super::answer::real_solution;
 use super::family::{C, Family, Input, Member};
 use super::report::Named;
 use super::track::{located, polish};
@@ -148,7 +148,7 @@ pub(super) fn follow(
     let fold = Fold {
         fraction: done,
         inputs: names.zip(inputs).collect(),
-        joints: named_joints(mechanism, &last.map(|z| z.re)),
+        joints: mechanism.named_joints(&last.map(|z| z.re).joints),
         turns_back,
     };
     Ok(Err(match turns_back {

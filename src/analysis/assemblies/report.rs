@@ -6,7 +6,7 @@ use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::Complex;
-use crate::system::{Gap, is_origin};
+use crate::system::{Gap, is_origin, uncut};
 pub use crate::system::{Named, Unfit};
 
 /// The pose of a platform in ground.
@@ -25,9 +25,12 @@ pub struct PoseReport {
 pub struct Assembly {
     /// Its number, from 1.
     pub mode: usize,
-    /// Joint values in rad or m. Angles lie in (−π, π], or are that and whole turns where the
-    /// limits of the joint ask for it.
+    /// Joint values in rad or m, those of joints at which loops are cut last. Angles lie in (−π, π], or are that and whole
+    /// turns where the limits of the joint ask for it.
     pub joints: Named<f64>,
+    /// The joints at which loops are cut.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut: Vec<String>,
     /// Platform poses.
     pub platforms: Named<PoseReport>,
     /// Position in ground, in m, from which its [configuration](Assembly::configuration) measures positions: the origin
@@ -69,7 +72,7 @@ impl Assembly {
             position: Vector3(platform.position) - Vector3(self.centre),
         });
         Configuration {
-            joints: self.joints.values().copied().collect(),
+            joints: uncut(&self.joints, &self.cut),
             platforms: platforms.collect(),
         }
     }
@@ -143,7 +146,7 @@ pub struct Continuum {
     pub samples: Vec<usize>,
 }
 
-/// A joint variable of the list.
+/// A joint of the list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListedJoint {
     /// Its name.
@@ -165,7 +168,7 @@ pub struct ListedJoint {
 pub struct AssembliesReport {
     /// Name of the mechanism.
     pub mechanism: String,
-    /// The joint variables, in the order of the file.
+    /// The joints, in the order of the file, those at which loops are cut last.
     pub variables: Vec<ListedJoint>,
     /// Names of the platforms whose whole pose is held.
     pub held_platforms: Vec<String>,

@@ -6,7 +6,9 @@ use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::system::{FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin};
+use crate::system::{
+    FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin, uncut,
+};
 
 /// Freedoms that the held coordinates leave.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -116,8 +118,12 @@ pub struct AssemblyReport {
     /// Those of them that the others determine: they are held where they would stand anyway.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub redundant: Vec<String>,
-    /// Joint values of the assembled configuration, or of the closest approach, rad or m.
+    /// Joint values of the assembled configuration, or of the closest approach, rad or m, those of joints at which loops
+    /// are cut last.
     pub joints: Named<f64>,
+    /// The joints at which loops are cut.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut: Vec<String>,
     /// Values there of the outputs of the file that depend on joints alone, in SI units and rad.
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub outputs: Named<f64>,
@@ -126,7 +132,8 @@ pub struct AssemblyReport {
     pub output_units: Vec<SiUnit>,
     /// Poses of the platforms there.
     pub platforms: Named<PlatformRecord>,
-    /// Tip frames of the chains there; of a file of joint coordinates, of the bodies and points that it names.
+    /// Tip frames of the chains and frames of the platforms there; of a file of joint coordinates, of the bodies and points
+    /// that it names.
     pub frames: Named<FrameRecord>,
     /// Position in ground, in m, from which a [configuration](AssemblyReport::configuration) measures positions: the
     /// origin unless the mechanism is far from it.
@@ -134,7 +141,7 @@ pub struct AssemblyReport {
     pub centre: [f64; 3],
     /// Gap of each closure.
     pub gaps: Named<Gap>,
-    /// The joint variables.
+    /// The joints, in the order of their values.
     pub variables: Vec<JointVariable>,
     /// True if rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
     /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
@@ -151,7 +158,7 @@ impl AssemblyReport {
     /// The assembled configuration, or the closest approach.
     pub fn configuration(&self) -> Configuration<f64> {
         Configuration {
-            joints: self.joints.values().copied().collect(),
+            joints: uncut(&self.joints, &self.cut),
             platforms: (self.platforms.values())
                 .map(|platform| PlatformPose {
                     orientation: Quaternion(platform.frame.quaternion),

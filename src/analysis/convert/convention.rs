@@ -67,7 +67,11 @@ fn rewrite(chain: &mut ChainDescription, links: &Links, to: Convention) {
     let shift = usize::from(to == Convention::Standard);
     let rows = chain.rows.iter().enumerate().map(|(k, old)| {
         let (alpha, a) = links[k + shift].clone();
-        Row::new(alpha, a, old.d.clone(), old.theta.clone())
+        Row {
+            alpha,
+            a,
+            ..old.clone()
+        }
     });
     chain.rows = rows.collect();
     let step = |k: usize| -> Vec<Displacement> { link(&links[k].0, &links[k].1) };

@@ -34,13 +34,16 @@ struct Place {
     /// Index of its row, from 0.
     row: usize,
     slides: bool,
+    /// What the variable turns or slides by for a unit.
+    factor: f64,
 }
 
 /// The joints at which a mechanism can be broken instead, in the order of the file.
 pub fn possible_cuts(mechanism: &Mechanism, description: &Description) -> Vec<String> {
+    let mechanism = mechanism.as_written();
     let possible = names_of(&description.joints).filter(|name| {
-        let place = find(mechanism, description, name);
-        place.is_ok_and(|place| closing(mechanism, &place, name).is_ok())
+        let place = find(&mechanism, description, name);
+        place.is_ok_and(|place| closing(&mechanism, &place, name).is_ok())
     });
     possible.map(str::to_owned).collect()
 }
@@ -50,9 +53,18 @@ pub(super) fn cut(
     description: &Description,
     joint: &str,
 ) -> Result<Conversion, CutError> {
-    let place = find(mechanism, description, joint)?;
-    let (closure, side) = closing(mechanism, &place, joint)?;
-    Ok(rebuild(mechanism, description, &place, closure, side))
+    let written = mechanism.as_written();
+    let place = find(&written, description, joint)?;
+    let (closure, side) = closing(&written, &place, joint)?;
+    let declared = mechanism.closures()[closure].opened.is_some();
+    let motion = ClosureRows::of(&written, description, closure, side, declared);
+    Ok(rebuild(
+        &written,
+        description,
+        &place,
+        (closure, side),
+        motion,
+    ))
 }
 
 fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<Place, CutError> {
@@ -76,7 +88,8 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
             let (turn, slide) = (&dims.turn.0, &dims.slide.0);
             let stands = |(j, _): &&(usize, f64)| *j == index;
             if turn.iter().chain(slide).any(|term| stands(&term)) {
-                places.push((chain, row, turn.len() + slide.len(), !slide.is_empty()));
+                let factor = turn.iter().chain(slide).map(|(_, factor)| *factor).sum();
+                places.push((chain, row, turn.len() + slide.len(), factor));
             }
         }
     }
@@ -85,12 +98,19 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
         .flat_map(|c| &c.extension.0)
         .any(|(j, _)| *j == index);
     match (places[..].as_ref(), in_length) {
+        ([], _) if place_of(&description.closures, name).is_some() => {
+            Err(CutError::AlreadyCut(joint()))
+        }
         ([], _) => Err(CutError::NoRow(joint())),
-        (&[(chain, row, 1, slides)], false) => Ok(Place {
+        (&[(chain, row, 1, factor)], false) => Ok(Place {
             joint: index,
             chain,
             row,
-            slides,
+            slides: !mechanism.dimensions().chains[chain].rows[row]
+                .slide
+                .0
+                .is_empty(),
+            factor,
         }),
         ([_], false) => Err(CutError::SharedRow(joint())),
         _ => Err(CutError::SeveralRows(joint())),
@@ -165,10 +185,9 @@ fn rebuild(
     mechanism: &Mechanism,
     description: &Description,
     place: &Place,
-    closure: usize,
-    side: usize,
+    (closure, side): (usize, usize),
+    motion: ClosureRows,
 ) -> Conversion {
-    let motion = ClosureRows::of(mechanism, description, closure, side);
     let convention = mechanism.chains()[place.chain].convention;
     let Named { name, value: chain } = &description.chains[place.chain];
     let (old, r) = (&chain.rows, place.row);
@@ -180,15 +199,15 @@ fn rebuild(
     };
     let links = |k: usize| links(k).unwrap_or_default();
     // forth to the axis of the joint
-    let fixed = match place.slides {
-        true => Displacement::Rotate(Axis::Z, constant(&old[r].theta, description)),
-        false => Displacement::Translate(Axis::Z, constant(&old[r].d, description)),
-    };
+    let fixed = [
+        Displacement::Rotate(Axis::Z, constant(&old[r].theta, description)),
+        Displacement::Translate(Axis::Z, constant(&old[r].d, description)),
+    ];
     let mut tip = match convention {
         Convention::Modified => links(r),
         Convention::Standard => Vec::new(),
     };
-    tip.extend(doing_something([fixed]));
+    tip.extend(doing_something(fixed));
     let front = ChainDescription {
         rows: old[..r].to_vec(),
         tip,
@@ -224,9 +243,13 @@ fn rebuild(
         Some(Substitute { frame, steps })
     });
     let at = place_of(&new.chains, &name.value).unwrap_or(0);
+    let mut rows = motion.rows(convention);
+    if let Some(last) = rows.last_mut() {
+        last.link = old.last().and_then(|row| row.link.clone());
+    }
     let held = ChainDescription {
         convention: chain.convention.clone(),
-        rows: motion.rows(convention),
+        rows,
         tip: end,
         ..ChainDescription::frame(&new.closures[closure].value.frames[1 - side].value, vec![])
     };
@@ -245,20 +268,38 @@ fn rebuild(
     );
     let opened = &description.joints[place.joint];
     let joint = opened.name.value.clone();
+    let name = free_closure(&new, closure, &joint);
+    // the closure measures its joint from its first frame to its second
+    let mut ends = [front_name, back_name].map(Spanned::nowhere);
+    if place.factor < 0.0 {
+        ends.swap(0, 1);
+    }
+    let used = new
+        .closed_forms
+        .iter()
+        .any(|form| names(&form.value).any(|name| *name == joint));
+    let told = opened.value.role == Role::Actuated || opened.value.limits.is_some();
+    let reported = (new
+        .outputs
+        .iter()
+        .flat_map(|output| output.value.expression.names()))
+    .any(|(name, _)| *name == joint);
+    let kept = name == joint && place.factor.abs() == 1.0 && (used || told || reported);
     new.closures[closure] = Named::new(
-        free_closure(&new, closure, &joint),
+        name,
         ClosureDescription {
             kind: match place.slides {
                 true => ClosureKind::Prismatic,
                 false => ClosureKind::Revolute,
             },
-            frames: [Spanned::nowhere(front_name), Spanned::nowhere(back_name)],
+            frames: ends,
             length: None,
             span: 0..0,
         },
     );
-    new.joints
-        .splice(place.joint..=place.joint, motion.joints.clone());
+    // declared under the name of the closure, the joint keeps its variable
+    let end = place.joint + usize::from(!kept);
+    new.joints.splice(place.joint..end, motion.joints.clone());
     let renamed = renamed.into_iter();
     let mut notes: Vec<ConversionNote> = renamed
         .map(|(from, to)| ConversionNote::Renamed { from, to })
@@ -267,16 +308,17 @@ fn rebuild(
         closure: description.closures[closure].name.value.clone(),
         joints: names_of(&motion.joints).map(str::to_owned).collect(),
     });
-    if opened.value.role == Role::Actuated {
+    if opened.value.role == Role::Actuated && !kept {
         let joint = joint.clone();
         notes.push(ConversionNote::DriveLost { joint });
     }
-    if opened.value.limits.is_some() {
+    if opened.value.limits.is_some() && !kept {
         let joint = joint.clone();
         notes.push(ConversionNote::LimitsLost { joint });
     }
     new.closed_forms.retain(|form| {
-        let lost = names(&form.value).any(|name| *name == joint)
+        let lost = !kept
+            && names(&form.value).any(|name| *name == joint)
             && place_of(&form.value.locals, &joint).is_none();
         if lost {
             notes.push(ConversionNote::Dropped {
@@ -319,7 +361,12 @@ fn back(
         let twist = |of: fn(&Row) -> &Entry| twisted.map_or_else(zero, |row| negated(of(row)));
         let (alpha, a) = (twist(|row| &row.alpha), twist(|row| &row.a));
         let Row { d, theta, .. } = &chain.rows[k];
-        Row::new(alpha, a, negated(d), negated(theta))
+        // the way back comes from behind a joint to the link before it
+        let link = chain.rows[k - 1].link.clone();
+        Row {
+            link,
+            ..Row::new(alpha, a, negated(d), negated(theta))
+        }
     });
     ChainDescription {
         on: Some(Spanned::nowhere(name.to_owned())),

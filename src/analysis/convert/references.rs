@@ -88,6 +88,24 @@ pub(super) fn exchange(
     renamed
 }
 
+/// Refers to links that have names by chain and number, as a conversion may put their frames elsewhere.
+pub(super) fn number_links(description: &mut Description) {
+    let chains = description.chains.iter();
+    let links = chains.flat_map(|chain| {
+        let rows = (1..).zip(&chain.value.rows);
+        rows.filter_map(|(k, row)| {
+            let link = row.link.as_ref()?.value.clone();
+            Some((link, format!("{}.{k}", chain.name.value)))
+        })
+    });
+    let links: Vec<(String, String)> = links.collect();
+    exchange(description, |frame| {
+        let (_, frame) = links.iter().find(|(link, _)| link == frame)?.clone();
+        let steps = Vec::new();
+        Some(Substitute { frame, steps })
+    });
+}
+
 /// Exchanges the names of frames in closed forms and quantities.
 pub(super) fn rename(
     closed_forms: &mut [Named<ClosedFormDescription>],

@@ -29,6 +29,9 @@ pub struct Overview {
     pub platforms: Vec<PlatformOverview>,
     /// The closures.
     pub closures: Vec<ClosureOverview>,
+    /// The bodies, ground first.
+    #[serde(default)]
+    pub bodies: Vec<BodyOverview>,
     /// Independent loops.
     pub loops: Vec<Loop>,
     /// Freedoms expected by count.
@@ -183,6 +186,17 @@ pub struct ClosureOverview {
     pub length: Option<String>,
     /// Number of its equations.
     pub equations: usize,
+}
+
+/// A body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyOverview {
+    /// Its name, which is that of a frame on it.
+    pub name: String,
+    /// The joints and closures that join it to others.
+    pub joints: Vec<String>,
+    /// The other frames on it that have names of their own.
+    pub frames: Vec<String>,
 }
 
 /// A closed form.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Dwell, Pace, Row, Straightness, SweepReport};
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
-use crate::mechanism::{Mechanism, NamedPoint, PoseCoordinate, Variable};
+use crate::mechanism::{ClosingValues, Mechanism, NamedPoint, PoseCoordinate, Variable};
 use crate::system::Moved;
 
 /// The motions of one question: one, or one in each mode.
@@ -116,9 +116,10 @@ pub struct Extreme {
 }
 
 /// Columns of the rows of a motion.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Columns {
     variables: Vec<Variable>,
+    cut: ClosingValues,
     /// Position in ground, in m, from which configurations measure positions.
     centre: Vector3<f64>,
 }
@@ -127,7 +128,7 @@ impl Columns {
     /// The number of the step, then all joints, platforms and traced points of a mechanism, then quantities.
     pub fn new(mechanism: &Mechanism, points: &[NamedPoint], quantities: Vec<Variable>) -> Self {
         let mut variables = vec![Variable::plain("step")];
-        variables.extend(Variable::joints(mechanism));
+        variables.extend(Variable::all_joints(mechanism));
         variables.extend(Variable::poses(mechanism));
         for point in points {
             let (axes, name) = (["x", "y", "z"], &point.name);
@@ -137,6 +138,7 @@ impl Columns {
         variables.extend(quantities);
         Columns {
             variables,
+            cut: ClosingValues::new(mechanism),
             centre: Vector3(mechanism.dimensions().centre),
         }
     }
@@ -160,7 +162,8 @@ impl Columns {
         });
         let points = row.points.iter().flatten().copied();
         let quantities = row.quantities.iter().map(|value| value.unwrap_or(f64::NAN));
-        let places = at.joints.iter().copied().chain(poses).chain(points);
+        let joints = at.joints.iter().copied().chain(self.cut.at(at));
+        let places = joints.chain(poses).chain(points);
         places.chain(quantities)
     }
 }

@@ -4,9 +4,10 @@ use super::places::{difference, length};
 use super::tables::Tables;
 use super::{AxisKind, AxisPlace};
 use crate::algebra::Expression;
-use crate::description::steps::between;
+use crate::description::steps::{between, signed_sum};
 use crate::description::{
-    ChainDescription, ClosureDescription, Displacement, Named, Spanned, first_free, place_of,
+    Axis, ChainDescription, ClosureDescription, ClosureKind, Displacement, Named, Row, Spanned,
+    first_free, place_of,
 };
 
 impl Tables<'_> {
@@ -27,7 +28,17 @@ impl Tables<'_> {
         };
         let first = self.bodies[self.graph.ends[joint][0]].clone();
         let otherwise = first.map_or_else(Vec::new, |body| body.frame);
-        let frames = [0, 1].map(|side| self.side(joint, side, &otherwise));
+        // what follows other joints stands on a row that moves it so
+        let (kind, row) =
+            match described.value.value.is_some() && described.value.kind.has_variable() {
+                true => (
+                    ClosureKind::Rigid,
+                    Some(self.row(joint, self.moved[joint].clone())),
+                ),
+                false => (kind, None),
+            };
+        let first = self.side(joint, 0, &otherwise, row);
+        let frames = [first, self.side(joint, 1, &otherwise, None)];
         let length = (described.value.kind == AxisKind::Distance).then(|| {
             match (&described.value.place, &described.value.value) {
                 (_, Some(value)) => value.clone(),
@@ -50,26 +61,44 @@ impl Tables<'_> {
         });
     }
 
-    /// The name of the frame of a cut joint on one of its bodies.
-    fn side(&mut self, joint: usize, side: usize, otherwise: &[Displacement]) -> String {
+    /// The name of the frame of a cut joint on one of its bodies, or of that which a row moves there. On the first it stands
+    /// back by the value in the drawing, so that frames that coincide mean a value of zero.
+    fn side(
+        &mut self,
+        joint: usize,
+        side: usize,
+        otherwise: &[Displacement],
+        row: Option<Row>,
+    ) -> String {
         let body = self.graph.ends[joint][side];
-        let steps = self.joint_frame(joint, side, side, otherwise);
+        let mut steps = self.joint_frame(joint, side, side, otherwise);
+        let described = &self.axes.joints[joint].value;
+        if side == 0 && row.is_none() && described.kind.has_variable() {
+            let back = signed_sum([(-1.0, &described.at_drawing())]);
+            steps.push(match described.kind.is_length() {
+                true => Displacement::Translate(Axis::Z, back),
+                false => Displacement::Rotate(Axis::Z, back),
+            });
+        }
         let Some(placed) = self.bodies[body].clone() else {
             return String::new();
         };
         let relative = between(&placed.frame, &steps);
-        if relative.is_empty() {
+        if relative.is_empty() && row.is_none() {
             return placed.name;
         }
         let wanted = &self.axes.joints[joint].name.value;
-        if let Some(platform) = placed.platform {
+        if let (Some(platform), None) = (placed.platform, &row) {
             let frames = &mut self.made.platforms[platform].value.frames;
             let name = first_free(wanted, "_", |name| place_of(frames, name).is_none());
             frames.push(Named::new(name.clone(), relative));
             return format!("{}.{name}", placed.name);
         }
         let name = self.free_name(&format!("{wanted}_{}", side + 1));
-        let chain = ChainDescription::frame(&placed.name, relative);
+        let chain = ChainDescription {
+            rows: row.into_iter().collect(),
+            ..ChainDescription::frame(&placed.name, relative)
+        };
         self.made.chains.push(Named::new(name.clone(), chain));
         name
     }

@@ -147,6 +147,13 @@ impl AxesDescription {
         self.joints.iter().enumerate().map(driven).collect()
     }
 
+    /// Whether the value of another joint, or a quantity that the file names, is given in terms of this one.
+    pub(crate) fn leads(&self, name: &str) -> bool {
+        let values = self.joints.iter().flat_map(|joint| &joint.value.value);
+        let mut names = values.flat_map(|value| value.expression.names());
+        names.any(|(used, _)| used == name)
+    }
+
     /// The joints that are closures whatever is chosen.
     pub(crate) fn always_cut(&self) -> BTreeSet<usize> {
         let cut = |j: &usize| self.joints[*j].value.kind.always_cut();
@@ -191,14 +198,10 @@ impl AxesDescription {
     pub(crate) fn placed_cuts(&self, graph: &Graph) -> Result<BTreeSet<usize>, Vec<Problem>> {
         let mut cuts = self.always_cut();
         let (driven, depths) = (self.driven(), graph.depths());
-        let leads = |name: &str| {
-            let values = self.joints.iter().flat_map(|joint| &joint.value.value);
-            let mut names = values.flat_map(|value| value.expression.names());
-            names.any(|(used, _)| used == name)
-        };
         let order = |j: usize| {
             let joint = &self.joints[j].value;
-            let stays = driven[j] || joint.value.is_some() || leads(&self.joints[j].name.value);
+            let stays =
+                driven[j] || joint.value.is_some() || self.leads(&self.joints[j].name.value);
             match joint.kind {
                 AxisKind::Fixed if joint.second.is_none() => 0,
                 AxisKind::Helical => 1,

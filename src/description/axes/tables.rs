@@ -36,8 +36,6 @@ pub struct Coordinates {
     pub cut: Vec<String>,
     /// Bodies with nothing but two balls, taken for rods.
     pub rods: Vec<String>,
-    /// Warnings.
-    pub warnings: Vec<Problem>,
 }
 
 /// A body with its frame: how that is called, and where it is in the drawing.
@@ -53,7 +51,7 @@ pub(super) struct Tables<'a> {
     pub axes: &'a AxesDescription,
     pub graph: &'a Graph,
     /// For each joint the change of its value against the drawing, over variables.
-    moved: Vec<Entry>,
+    pub moved: Vec<Entry>,
     cuts: &'a BTreeSet<usize>,
     pub bodies: Vec<Option<Placed>>,
     pub taken: Vec<String>,
@@ -107,13 +105,7 @@ impl AxesDescription {
         let always = axes.always_cut();
         let name = |j: &usize| axes.joints[*j].name.value.clone();
         let cut: Vec<String> = cuts.difference(&always).map(name).collect();
-        let warnings = axes.lost_by_cuts(|name| cut.iter().any(|cut| cut == name));
-        let coordinates = Coordinates {
-            axes,
-            cut,
-            rods,
-            warnings,
-        };
+        let coordinates = Coordinates { axes, cut, rods };
         Ok(Description {
             coordinates: Some(Box::new(coordinates)),
             ..made
@@ -203,12 +195,16 @@ impl Tables<'_> {
         }
     }
 
-    /// The joint variables, those of cut joints left out.
+    /// The joint variables, those of cut joints left out that nothing drives, limits or follows.
     fn variables(&mut self) {
         let driven = self.axes.driven();
         for (j, joint) in self.axes.joints.iter().enumerate() {
             let Named { name, value } = joint;
-            let kept = !self.cuts.contains(&j) || value.kind == AxisKind::Distance;
+            let kept = !self.cuts.contains(&j)
+                || value.kind == AxisKind::Distance
+                || driven[j]
+                || value.limits.is_some()
+                || self.axes.leads(&name.value);
             if !value.is_variable() || !kept {
                 continue;
             }

@@ -34,6 +34,7 @@ impl Builder<'_> {
                     frames: [a, b],
                     length: length.as_ref().and_then(|(_, affine)| affine.clone()),
                     relation: None,
+                    opened: None,
                 });
             }
             if let (ClosureKind::Distance, Some((entry, Some(affine)))) = (value.kind, length)
@@ -65,6 +66,7 @@ impl Builder<'_> {
             frames: [Frame::Ground; 2],
             length: None,
             relation: Some(formula),
+            opened: None,
         })
     }
 

@@ -17,7 +17,6 @@ const PERPENDICULAR: f64 = 1e-9;
 impl Builder<'_> {
     /// Axes need a direction, those of universal joints a right angle between them.
     pub(super) fn check_coordinates(&mut self, coordinates: &Coordinates) {
-        self.problems.extend(coordinates.warnings.iter().cloned());
         for joint in &coordinates.axes.joints {
             let places = [Some(&joint.value.place), joint.value.second.as_ref()];
             for place in places.into_iter().flatten() {

@@ -54,7 +54,7 @@ fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
         let mut known = HashSet::from([Body::Ground]);
         for frame in frames.chain(open) {
             let body = mechanism.body(frame);
-            if !mechanism.is_slide_of_point(body) && known.insert(body) {
+            if !mechanism.is_added(body) && known.insert(body) {
                 carriers.push((body, frame));
             }
         }

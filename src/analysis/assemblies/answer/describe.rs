@@ -85,6 +85,7 @@ impl Question<'_> {
             report.assemblies.push(Assembly {
                 mode: k + 1,
                 joints: named_joints(self.mechanism, &f.point),
+                cut: self.mechanism.cut_joints(),
                 platforms: named_poses(self.mechanism, &f.point, f.multiplicity == 1),
                 centre: self.mechanism.dimensions().centre,
                 condition,

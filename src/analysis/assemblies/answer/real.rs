@@ -154,10 +154,11 @@ fn order_from<T>(place: usize, found: &mut [T], key: &impl Fn(&T) -> &[f64]) {
 
 /// Joint values by name, angles by the turn that is within their limits if one is.
 pub(crate) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) -> Named<f64> {
-    let names = mechanism.joints().iter().map(|j| j.name.clone());
-    let values = point.joints.iter().enumerate();
-    let values = values.map(|(j, value)| mechanism.by_limits(j, *value));
-    Named(names.zip(values).collect())
+    let mut all = mechanism.all_joints(point);
+    for (j, (_, value)) in (0..mechanism.joints().len()).zip(&mut all.0) {
+        *value = mechanism.by_limits(j, *value);
+    }
+    all
 }
 
 pub(crate) fn named_poses(

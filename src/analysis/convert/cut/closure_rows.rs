@@ -11,13 +11,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::algebra::{Expression, Node, Operator};
-use crate::description::steps::zero;
+use crate::description::steps::{negated, zero};
 use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
     Row, free_variable, names_of,
 };
 use crate::geometry::{Pose, Rotation};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, joint_values};
 use crate::number::{Number, real};
 
 /// The rows that take the place of a closure, from its other frame to the frame behind the cut.
@@ -44,30 +44,34 @@ impl ClosureRows {
         }
     }
 
-    /// The rows for a closure of which the given side moves against the other.
+    /// The rows for a closure of which the given side moves against the other. The values of its joint stay, and its names if
+    /// the file declares them.
     pub fn of(
         mechanism: &Mechanism,
         description: &Description,
         closure: usize,
         side: usize,
+        declared: bool,
     ) -> Self {
         let model = &mechanism.closures()[closure];
-        let [from, to] = [model.frames[1 - side], model.frames[side]];
-        let pose = mechanism.transform(from, to, &mechanism.home());
+        let poses = mechanism.poses(model.frames, &mechanism.home());
+        let pose = poses[0].inverse() * poses[1];
         let mut motion = ClosureRows {
             joints: Vec::new(),
             parts: Vec::new(),
             tip: Vec::new(),
         };
         let name = &model.name;
-        let [x, _, z] = pose.rotation.0;
-        let angle = Number::atan2(x.0[1], x.0[0]);
         let mut add = |suffix: &str, home: Entry| {
+            let wanted = format!("{name}{suffix}");
+            if declared {
+                return Entry::from(Expression::name(wanted));
+            }
             let taken: Vec<&str> = (names_of(&description.joints))
                 .chain(names_of(&description.parameters))
                 .chain(names_of(&motion.joints))
                 .collect();
-            let name = free_variable(&format!("{name}{suffix}"), |name| !taken.contains(&name));
+            let name = free_variable(&wanted, |name| !taken.contains(&name));
             let joint = JointDescription {
                 role: Role::Passive,
                 home,
@@ -77,49 +81,52 @@ impl ClosureRows {
             motion.joints.push(Named::new(name.clone(), joint));
             Entry::from(Expression::name(name))
         };
-        match model.kind {
-            ClosureKind::Revolute => {
-                let theta = add("", Entry::angle(angle));
-                motion.parts.push((zero(), zero(), theta));
+        if model.kind == ClosureKind::Spherical {
+            let turned = poses[1 - side].inverse() * poses[side];
+            let ([one, two, three], beyond) = meeting(&turned.rotation);
+            let one = add("_1", Entry::angle(one));
+            let mut two = add("_2", Entry::angle(two));
+            let three = add("_3", Entry::angle(three));
+            if beyond {
+                let [x, y] = [two, right_angle(1.0)].map(|e| Box::new(e.expression));
+                two = Node::Binary(Operator::Add, x, y).at(0..0).into();
+                let back = Displacement::Rotate(Axis::Y, right_angle(-1.0));
+                motion.tip.push(back);
             }
-            ClosureKind::Prismatic => {
-                let d = add("", Entry::length(pose.position.0[2]));
-                motion.parts.push((zero(), d, zero()));
-            }
-            ClosureKind::Cylindrical => {
-                let theta = add("_turn", Entry::angle(angle));
-                let d = add("_slide", Entry::length(pose.position.0[2]));
-                motion.parts.push((zero(), d, theta));
-            }
-            ClosureKind::Universal => {
-                // Rz(θ₁)·Rx(90°) takes z to (sin θ₁, −cos θ₁, 0)
-                let first = Number::atan2(z.0[0], -z.0[1]);
-                let cross = Pose::rotation(Axis::Z, first) * Pose::rotation(Axis::X, FRAC_PI_2);
-                let [x, ..] = (cross.inverse() * pose).rotation.0;
-                let one = add("_1", Entry::angle(first));
-                let two = add("_2", Entry::angle(Number::atan2(x.0[1], x.0[0])));
-                motion.parts.push((zero(), zero(), one));
-                motion.parts.push((right_angle(1.0), zero(), two));
-            }
-            ClosureKind::Spherical => {
-                let ([one, two, three], beyond) = meeting(&pose.rotation);
-                let one = add("_1", Entry::angle(one));
-                let mut two = add("_2", Entry::angle(two));
-                let three = add("_3", Entry::angle(three));
-                if beyond {
-                    let [x, y] = [two, right_angle(1.0)].map(|e| Box::new(e.expression));
-                    two = Node::Binary(Operator::Add, x, y).at(0..0).into();
-                    let back = Displacement::Rotate(Axis::Y, right_angle(-1.0));
-                    motion.tip.push(back);
+            motion.parts.push((zero(), zero(), one));
+            motion.parts.push((right_angle(-1.0), zero(), two));
+            motion.parts.push((right_angle(1.0), zero(), three));
+            return motion;
+        }
+        let values = joint_values(model.kind, &pose);
+        let variables = model.kind.variables().iter().zip(values);
+        let variables = variables.map(|(&(end, slides), home)| match slides {
+            true => add(end, Entry::length(home)),
+            false => add(end, Entry::angle(home)),
+        });
+        // seen from the second frame everything moves the other way
+        let variables = variables.map(|variable| match side {
+            0 => negated(&variable),
+            _ => variable,
+        });
+        let mut variables: Vec<Entry> = variables.collect();
+        match (model.kind, &mut variables[..]) {
+            (ClosureKind::Universal, [first, second]) => {
+                let sign = if side == 0 { -1.0 } else { 1.0 };
+                if side == 0 {
+                    std::mem::swap(first, second);
                 }
-                motion.parts.push((zero(), zero(), one));
-                motion.parts.push((right_angle(-1.0), zero(), two));
-                motion.parts.push((right_angle(1.0), zero(), three));
+                motion.parts.push((zero(), zero(), first.clone()));
+                motion
+                    .parts
+                    .push((right_angle(sign), zero(), second.clone()));
             }
-            ClosureKind::Rigid
-            | ClosureKind::Planar
-            | ClosureKind::Distance
-            | ClosureKind::Coupling => {}
+            (ClosureKind::Cylindrical, [turn, slide]) => {
+                motion.parts.push((zero(), slide.clone(), turn.clone()));
+            }
+            (ClosureKind::Prismatic, [d]) => motion.parts.push((zero(), d.clone(), zero())),
+            (_, [theta]) => motion.parts.push((zero(), zero(), theta.clone())),
+            _ => {}
         }
         motion
     }

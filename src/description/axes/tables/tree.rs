@@ -80,15 +80,14 @@ impl Tables<'_> {
             }
             AxisKind::Fixed => (zero(), zero()),
             _ => {
-                let value = match forwards {
-                    true => self.moved[joint].clone(),
-                    false => signed_sum([(-1.0, &self.moved[joint])]),
-                };
-                match (kind, &described.value.pitch) {
-                    (AxisKind::Prismatic, _) => (value, zero()),
-                    (AxisKind::Helical, Some(pitch)) => (along(&value, pitch), value),
-                    _ => (zero(), value),
-                }
+                let row = self.row(
+                    joint,
+                    match forwards {
+                        true => self.moved[joint].clone(),
+                        false => signed_sum([(-1.0, &self.moved[joint])]),
+                    },
+                );
+                (row.d, row.theta)
             }
         };
         let name = self.graph.bodies[body].clone();
@@ -104,6 +103,17 @@ impl Tables<'_> {
             &frame,
             (d, theta),
         );
+    }
+
+    /// The row of a joint with one variable that moves by a value.
+    pub(in super::super) fn row(&self, joint: usize, by: Entry) -> Row {
+        let described = &self.axes.joints[joint].value;
+        let (d, theta) = match (described.kind, &described.pitch) {
+            (AxisKind::Prismatic, _) => (by, zero()),
+            (AxisKind::Helical, Some(pitch)) => (along(&by, pitch), by),
+            _ => (zero(), by),
+        };
+        Row::new(zero(), zero(), d, theta)
     }
 
     fn chain(

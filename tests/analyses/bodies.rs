@@ -1,0 +1,126 @@
+//! Bodies: their names, and their frames where the axes of joints are nearly parallel.
+#![cfg(feature = "cli")]
+
+use linkwork::description::Description;
+use linkwork::mechanism::Mechanism;
+use serde_json::Value;
+
+use crate::linkwork;
+
+/// A file of this test alone.
+fn written(name: &str, text: &str) -> String {
+    let path = std::env::temp_dir().join(format!("linkwork-{}-{name}", std::process::id()));
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn answer(arguments: &[&str]) -> Value {
+    let (code, out, err) = linkwork(&[arguments, &["--format", "json"]].concat());
+    assert_eq!(code, 0, "{err}");
+    serde_json::from_str(&out).unwrap()
+}
+
+/// Quaternions of six digits put the axes of the arm 7e-6 rad apart, and their common normals 13 km away.
+#[test]
+#[cfg(feature = "interchange")]
+fn nearly_parallel_axes_keep_the_size_of_the_machine() {
+    let file = written("near_parallel.ron", "");
+    std::fs::remove_file(&file).unwrap();
+    let (code, _, err) = linkwork(&[
+        "import",
+        "tests/exchange/near_parallel.xml",
+        "--output",
+        &file,
+    ]);
+    assert_eq!(code, 0, "{err}");
+    let mobility = answer(&["mobility", &file]);
+    assert_eq!(
+        (&mobility["mobility"], &mobility["infinitesimal"]),
+        (&13.into(), &13.into())
+    );
+    assert!(mobility["normalising_length"].as_f64().unwrap() < 2.0);
+    let solved = answer(&["solve", &file, "--hold", "crank0=0.3"]);
+    for (joint, value) in [
+        ("rod0", -0.31379264957810193),
+        ("foot0", 0.2117678447468777),
+    ] {
+        let found = solved["joints"][joint].as_f64().unwrap();
+        assert!((found - value).abs() < 1e-9, "{joint} {found}");
+    }
+    let _ = std::fs::remove_file(file);
+}
+
+const NAMED: &str = r#"Mechanism(version: 1, name: "named links", convention: Modified, joints: {
+        "t": Actuated(home: "60 deg"), "p": Passive(home: "-80 deg"), "r": Passive(home: "100 deg"),
+    }, chains: {
+        "left": Chain(rows: [(theta: "t", link: "crank"), (a: 1, theta: "p", link: "coupler")], tip: [Tx(3)]),
+        "right": Chain(base: [Tx(3)], rows: [(theta: "r", link: "rocker")], tip: [Tx(2)]),
+        "mark": Chain(on: "coupler", base: [T(1, 0.5, 0)]),
+    }, closures: { "pin": Revolute("left", "right") })"#;
+
+#[test]
+fn links_have_names_that_options_take() {
+    let file = written("named.ron", NAMED);
+    let checked = answer(&["check", &file]);
+    let names = |of: &Value| -> Vec<String> {
+        let bodies = of["bodies"].as_array().unwrap().iter();
+        bodies
+            .map(|body| body["name"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(names(&checked), ["ground", "crank", "coupler", "rocker"]);
+    let coupler = &checked["bodies"][2];
+    assert_eq!(coupler["joints"], serde_json::json!(["p", "pin"]));
+    assert_eq!(coupler["frames"], serde_json::json!(["left", "mark"]));
+    let point = |name: &str| {
+        answer(&["velocity", &file, "--rate", "t=1", "--point", name])["frames"].clone()
+    };
+    let (by_name, by_number) = (point("coupler+1,0.5"), point("left.2+1,0.5"));
+    assert_eq!(by_name[0]["velocity"], by_number[0]["velocity"]);
+    // a name given twice points at both, an unknown one at what was meant
+    let twice = NAMED.replace("link: \"rocker\"", "link: \"left\"");
+    let (code, _, err) = linkwork(&["check", &written("twice.ron", &twice)]);
+    assert!(code == 2 && err.contains("`left`"), "{err}");
+    let wrong = NAMED.replace("on: \"coupler\"", "on: \"copler\"");
+    let (code, _, err) = linkwork(&["check", &written("wrong.ron", &wrong)]);
+    assert!(
+        code == 2 && err.contains("did you mean `coupler`?"),
+        "{err}"
+    );
+}
+
+#[test]
+fn shipped_files_name_every_body() {
+    let checked = answer(&["check", "mechanisms/three_rps.ron"]);
+    let bodies = checked["bodies"].as_array().unwrap();
+    let (_, mechanism) = {
+        let text = std::fs::read_to_string("mechanisms/three_rps.ron").unwrap();
+        let description = Description::read(&text).unwrap();
+        (text, Mechanism::new(&description).unwrap())
+    };
+    assert_eq!(bodies.len(), mechanism.bodies().len());
+    for body in bodies {
+        assert!(mechanism.frame(body["name"].as_str().unwrap()).is_some());
+    }
+}
+
+/// A file with names keeps them where it is written again, cut elsewhere, and in the other convention.
+#[test]
+fn names_of_links_survive_conversions() {
+    let file = written("convert.ron", NAMED);
+    for how in [
+        &["--cut", "p"][..],
+        &["--cut", "t"],
+        &["--convention", "standard"],
+    ] {
+        let (code, out, err) = linkwork(&[&["convert", &file], how].concat());
+        assert_eq!(code, 0, "{err}");
+        let other = Mechanism::new(&Description::read(&out).unwrap()).unwrap();
+        for name in ["crank", "coupler", "rocker"] {
+            let frame = other
+                .frame(name)
+                .unwrap_or_else(|| panic!("{how:?} {name}\n{out}"));
+            assert_eq!(other.body_name(other.body(frame)), name, "{how:?}");
+        }
+    }
+}
