@@ -48,7 +48,7 @@ struct Arguments {
     command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.\n\
+const EXIT_CODES: &str = "Exit codes: 0 success, 1 negative or incomplete answer, 2 invalid input or system error.\n\
      Answers go to stdout, as text or JSON; with exit code 2 there is none, and stderr says why, always as text.";
 
 /// Each command is the type of that name in its module.
@@ -140,7 +140,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             say(&answer.remarks);
             match write(&answer.data) {
                 Ok(()) if watched::was_cut_short() => {
-                    say("note: interrupted: the answer has what was found until then\n");
+                    say("note: interrupted: the answer has the results found so far\n");
                     1
                 }
                 Ok(()) => u8::from(!answer.yes),

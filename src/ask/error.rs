@@ -196,7 +196,7 @@ pub enum AskError {
     #[error("the remaining freedom is not that of one joint or one coordinate of a platform")]
     NotOneCoordinate,
     /// The mechanism does not assemble with this held, where the work is to begin.
-    #[error("the mechanism does not assemble where the motion begins: {}", .0.join(", "))]
+    #[error("no assembly was found {}", with_held(.0))]
     NotAssembled(Vec<String>),
     /// There is no mode of that number.
     #[error("{}", no_such_mode(*mode, *modes))]
@@ -326,6 +326,14 @@ fn nothing_left(held: &[String]) -> String {
     match held {
         [] => "the mechanism has no freedom, so there is no motion to follow".into(),
         held => format!("with {} held no freedom remains", listed(held)),
+    }
+}
+
+fn with_held(held: &[String]) -> String {
+    match held {
+        [] => "near the start".into(),
+        [one] => format!("with {one} held at its value"),
+        several => format!("with {} held at their values", listed(several)),
     }
 }
 

@@ -12,7 +12,7 @@ use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
 use linkwork::output::drawing::{DrawingSettings, View, frames};
 use linkwork::output::glb::glb;
-use linkwork::output::sweep::{Picture, certified, row_columns, row_values, worded};
+use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, worded};
 
 use super::asked::{Asked, Forces, Posed};
 use super::format::{Format, with_rows};
@@ -131,7 +131,6 @@ fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
 }
 
 const MOST_KEPT: usize = 1_000_000;
-const SHOWN: usize = 37;
 
 impl Sweep {
     pub fn run(&self) -> Result<Answer, Refusal> {

@@ -58,6 +58,9 @@ impl Report for MotionsReport {
     }
 }
 
+/// Rows of a motion that text shows at most; more are thinned evenly.
+pub const SHOWN: usize = 37;
+
 /// The report with the sentence of each motion.
 #[must_use]
 pub fn worded(mut report: MotionsReport) -> MotionsReport {
@@ -132,8 +135,6 @@ fn extremes(motion: &MotionReport) -> Section {
 
 /// Table of some rows of a motion.
 fn rows(motion: &MotionReport) -> Section {
-    /// Rows shown, but for the last.
-    const SHOWN: usize = 37;
     let (values, all) = (&motion.values, motion.sweep.rows);
     let every = values.len().saturating_sub(1).div_ceil(SHOWN).max(1);
     let last = values.len().saturating_sub(1);

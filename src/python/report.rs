@@ -15,7 +15,7 @@ use crate::mechanism::{Frame, Mechanism};
 use crate::output::complaint::{Complaint, unknown_frame};
 use crate::output::document::{Cell, Document};
 use crate::output::rounding::Prefaced;
-use crate::output::sweep::{row_columns, row_values, worded};
+use crate::output::sweep::{SHOWN, row_columns, row_values, worded};
 use crate::output::{JsonReport, Rows, html, json, markdown, text};
 use crate::solve::Watch;
 
@@ -194,8 +194,6 @@ fn motions(
     mechanism: &Mechanism,
     watch: &Watch,
 ) -> Result<(Report, Vec<Column>), Refused> {
-    /// Rows that the text shows.
-    const SHOWN: usize = 37;
     let all = asked.question.motions(&asked.settings.sweep, watch)?;
     let names = all.columns();
     let mut columns = Column::named(row_columns(&names));
