@@ -220,7 +220,7 @@ fn wrong_values_of_options_are_underlined() {
         &["--hold", "theta1=60 dge"],
         &["--hold", "theta1=lo + 1"],
         &["--hold", "theta1=1/0"],
-        &["--guess", "joint3=0"],
+        &["--guess", "joint4=0"],
         &["--free", "phi"],
     ] {
         said += &refusal(&[&["velocity", FOUR_BAR], options].concat());

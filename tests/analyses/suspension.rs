@@ -392,18 +392,16 @@ fn singularities_on_the_way_are_met_at_the_same_places() {
 #[test]
 fn the_upright_moves_at_the_same_rates_and_needs_the_same_torque() {
     let of = |mechanism: &Mechanism, _: &str| {
-        let question = Question::new(mechanism.clone()).rate("lower", 1.0).wrench(
-            "upright",
-            [100.0, 20.0, 3000.0],
-            [5.0, 0.0, 40.0],
-        );
-        let velocity = question.velocity(&Watch::none()).unwrap().closed().unwrap();
+        let question = Question::new(mechanism.clone());
+        let driven = question.clone().rate("lower", 1.0);
+        let velocity = driven.velocity(&Watch::none()).unwrap().closed().unwrap();
         let upright = velocity
             .frames
             .iter()
             .find(|f| f.name == "upright")
             .unwrap();
-        let statics = question.statics(&Watch::none()).unwrap().closed().unwrap();
+        let loaded = question.wrench("upright", [100.0, 20.0, 3000.0], [5.0, 0.0, 40.0]);
+        let statics = loaded.statics(&Watch::none()).unwrap().closed().unwrap();
         assert!(statics.balanced);
         let [torque] = &statics.actuators[..] else {
             panic!("{:?}", statics.actuators);

@@ -26,6 +26,8 @@ pub(crate) struct ParameterHomotopy<'f> {
     /// Factors by which the equations last factorised were multiplied.
     factors: Vec<f64>,
     course: Segment,
+    /// The least that [`reach`](Self::reach) is.
+    reach: f64,
 }
 
 impl<'f> ParameterHomotopy<'f> {
@@ -40,7 +42,10 @@ impl<'f> ParameterHomotopy<'f> {
             ..Segment::new(member, member)
         };
         let here = MemberEquations::between(family, &course, (from, to))?;
-        Some(ParameterHomotopy::new(family, here, course))
+        Some(ParameterHomotopy {
+            reach: 1e3,
+            ..ParameterHomotopy::new(family, here, course)
+        })
     }
 
     fn new(family: &'f Family, here: MemberEquations, course: Segment) -> Self {
@@ -51,6 +56,7 @@ impl<'f> ParameterHomotopy<'f> {
             residual: rows,
             here,
             course,
+            reach: 1.0,
         }
     }
 }
@@ -109,14 +115,15 @@ impl ParameterHomotopy<'_> {
             .fold(0.0, f64::max)
     }
 
-    /// The largest length held at the end, in characteristic lengths, and no less than 1.
+    /// The largest length held at the end, in characteristic lengths, and no less than 1, or than 1000 between systems,
+    /// where solutions of one are far out of the other.
     pub fn reach(&self) -> f64 {
         let (from, change) = (&self.course.from.inputs, &self.course.change.inputs);
         let end: Vec<C> = from.iter().zip(change).map(|(a, d)| a + d).collect();
         let lengths = self.family.lengths_among_inputs();
         let sizes = self.measured(&end).zip(lengths);
         sizes.fold(
-            1.0,
+            self.reach,
             |most, (size, length)| if length { size.max(most) } else { most },
         )
     }
