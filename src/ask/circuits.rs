@@ -71,9 +71,8 @@ impl Question {
         let cut = (self.mechanism()).with_point_on_a_plane(point.frame, point.offset);
         let length = cut.characteristic_length();
         let asked = Question {
-            mechanism: cut.into(),
             store: None,
-            ..self.clone()
+            ..self.about(cut.into())
         };
         let question = asked.released().ok()?;
         check_count(&question).ok()?;

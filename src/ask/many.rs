@@ -59,12 +59,7 @@ impl Question {
         let known = self.mechanism().clone();
         let more = (names.iter()).fold(known, |mechanism, name| with_joint(mechanism, name));
         if mechanism.joints().len() < more.joints().len() {
-            let asked = Question {
-                mechanism: more,
-                ready: Default::default(),
-                ..self.clone()
-            };
-            return asked.solve_many(names, values, watch);
+            return self.about(more).solve_many(names, values, watch);
         }
         let followers = names.iter().map(|name| mechanism.follower(name));
         let followers: Vec<_> = followers.collect();

@@ -12,7 +12,7 @@ use crate::system::{self, Driven};
 
 impl Question {
     /// The question about another mechanism with the same names.
-    pub(super) fn about(&self, mechanism: Arc<Mechanism>) -> Question {
+    pub(in crate::ask) fn about(&self, mechanism: Arc<Mechanism>) -> Question {
         Question {
             mechanism,
             ready: OnceLock::new(),

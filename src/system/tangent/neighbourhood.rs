@@ -183,6 +183,19 @@ impl<'a> Neighbourhood<'a> {
         rates.all(|rate| rate.abs() < STILL)
     }
 
+    /// The body on which that of a frame slides by rows put in front of a closure: it turns with it.
+    fn slides_on(&self, frame: Frame) -> Option<Body> {
+        let mechanism = self.mechanism;
+        match mechanism.body(frame) {
+            body @ Body::Link { chain, .. } if mechanism.is_added(body) => {
+                let rows = &mechanism.dimensions().chains[chain].rows;
+                let slides = rows.iter().all(|row| row.turn.0.is_empty());
+                slides.then(|| mechanism.body(mechanism.chains()[chain].on))
+            }
+            _ => None,
+        }
+    }
+
     /// The rates that vanish in local freedoms, as those of origins, platforms and driven joints, over the motions.
     fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<Rows> {
         let mechanism = self.mechanism;
@@ -214,7 +227,9 @@ impl<'a> Neighbourhood<'a> {
         // two points of a link at rest leave a turn about their line, also of one cut in two or sliding in itself
         let (of_links, bodies) = (&of_links, &bodies);
         let has_line = |place: usize, joined: [Frame; 2]| {
+            let carriers = joined.map(|frame| self.slides_on(frame));
             let joined = joined.map(|frame| mechanism.body(frame));
+            let joined: Vec<Body> = carriers.into_iter().flatten().chain(joined).collect();
             let mut others = of_links.iter().filter(|k| joined.contains(&bodies[**k]));
             others.any(|other| apart(place, *other))
         };
