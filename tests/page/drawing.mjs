@@ -26,6 +26,9 @@ const pixel = (page, [x, y]) => page.evaluate((at) => {
 
 const tool = (page, name) => page.click(`[data-tool=${name}]`);
 
+/** After a change of the text the board has no sketch until the solver has answered. */
+const sketched = (page) => page.waitForFunction(() => globalThis.desk.sketch);
+
 async function clicked(page, at) {
   await page.mouse.click(...(await pixel(page, at)));
   await drawn(page);
@@ -41,6 +44,13 @@ async function dragged(page, from, to) {
 }
 
 const text = (page) => page.evaluate(() => globalThis.linkwork.file.text);
+
+/** Undoes a change, and waits until the solver has answered about the text as it was. */
+async function undone(page) {
+  const before = await text(page);
+  await page.click("#undo");
+  await page.waitForFunction((before) => globalThis.linkwork.file.text !== before && globalThis.desk.sketch, {}, before);
+}
 const status = async (page) => {
   await rest(400);
   return page.$eval("#desk-count", (element) => element.textContent);
@@ -73,6 +83,8 @@ async function fourBar(page) {
   await dragged(page, [110, 70], [100, 0]);
   await tool(page, "Point");
   await dragged(page, [65, 50], [60, 90]);
+  // changes that follow at once are undone as one
+  await rest(400);
 }
 
 const tests = {
@@ -139,8 +151,7 @@ const tests = {
     const moved = (await places(page))[between("link2", "link3")];
     check(apart(moved, [120, 80]) < 3, `the pin is at ${moved}`);
     // and all of it is undone
-    for (let i = 0; i < 3; i++) await page.click("#undo");
-    await rest(100);
+    for (let i = 0; i < 6 && (await text(page)).includes("rocker"); i++) await undone(page);
     check(!(await text(page)).includes("rocker"), "undo does not reach the drawing");
     await page.close();
   },
@@ -158,7 +169,7 @@ const tests = {
     check((await text(page)).includes("Prismatic("), await text(page));
     await measured(page, "link2", 30);
     check(/Cannot be assembled/.test(await status(page)), `a rod that is too short: ${await status(page)}`);
-    await page.click("#undo");
+    await undone(page);
     check(/^1 freedom,/.test(await status(page)), `after undo: ${await status(page)}`);
     await page.close();
   },
@@ -166,23 +177,23 @@ const tests = {
   async "links are welded, split, geared, driven, attached and deleted, and rods are drawn"() {
     const page = await begun();
     await fourBar(page);
-    const names = () => page.evaluate(() => [...globalThis.desk.sketch.places.keys()].length);
-    const joints = () => page.evaluate(() => globalThis.desk.sketch.joints.map(({ name, spots }) => [name, spots[0].at.map((x) => 1000 * x), spots.map(({ body }) => body)]));
+    const names = async () => (await sketched(page), page.evaluate(() => [...globalThis.desk.sketch.places.keys()].length));
+    const joints = async () => (await sketched(page), page.evaluate(() => globalThis.desk.sketch.joints.map(({ name, spots }) => [name, spots[0].at.map((x) => 1000 * x), spots.map(({ body }) => body)])));
     const pin = async (a, b) => (await joints()).find(([, , bodies]) => bodies.includes(a) && bodies.includes(b))[1];
     check((await names()) === 4, `${await names()} bodies`);
     await tool(page, "Weld");
     await clicked(page, await pin("link2", "link3"));
     check((await names()) === 3 && /^0 freedoms/.test(await status(page)), `welded: ${await status(page)}`);
-    await page.click("#undo");
+    await undone(page);
     await tool(page, "Split");
     const [a, b] = [await pin("ground", "link3"), await pin("link2", "link3")];
     await clicked(page, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
     check((await names()) === 5 && /^2 freedoms/.test(await status(page)), `split: ${await status(page)}`);
-    await page.click("#undo");
+    await undone(page);
     await tool(page, "Drive");
     await clicked(page, await pin("ground", "link3"));
     check(new RegExp(`driven: ${(await joints()).find(([, , bodies]) => bodies.includes("ground") && bodies.includes("link3"))[0]}\\.`).test(await status(page)), `driven: ${await status(page)}`);
-    await page.click("#undo");
+    await undone(page);
     // a second wheel beside, geared to the crank, with a rod to the coupler point would bind: first the gear alone
     await tool(page, "Ground");
     await clicked(page, [-60, 0]);
@@ -193,7 +204,8 @@ const tests = {
     await dragged(page, [0, 0], [-60, 0]);
     check(/^1 freedom,/.test(await status(page)) && /value: "-ratio1\*A"/.test(await text(page)), `geared: ${await status(page)}`);
     check(await page.evaluate(() => globalThis.linkwork.frame.scene.wheels?.length === 2), "no wheels are shown");
-    await page.click("#undo");
+    await undone(page);
+    await sketched(page);
     await tool(page, "Rod");
     const free = await page.evaluate(() => globalThis.desk.sketch.tips.at(-1).spot.at.map((x) => 1000 * x));
     await dragged(page, free, await pin("link1", "link2"));

@@ -331,7 +331,7 @@ def test_a_notebook_shows_the_page_and_the_picture(four_bar):
 
 
 def test_progress_is_shown_and_an_error_in_it_ends_the_work():
-    hand = linkwork.load(SHIPPED / "stewart_gough_6sps.ron")
+    hand = linkwork.load(SHIPPED / "stewart_gough_6ups.ron")
     seen = []
 
     def progress(stage, done, of):
