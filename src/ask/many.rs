@@ -5,7 +5,8 @@ mod rows;
 use std::sync::atomic::AtomicUsize;
 use std::sync::{Mutex, PoisonError};
 
-use super::{AskError, Question, Role, with_joint};
+use super::preparation::with_joint;
+use super::{AskError, Question, Role};
 use crate::algebra::BATCH;
 use crate::analysis::solver::{Follower, Following};
 use crate::linear::DENSE_LIMIT;

@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use super::{Question, with_coordinate};
+use super::Question;
+use super::preparation::with_coordinate;
 use crate::analysis::sweep::Schedule;
 use crate::description::nearest;
 use crate::mechanism::Mechanism;
