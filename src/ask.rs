@@ -101,7 +101,7 @@ impl Question {
         }
     }
 
-    /// The mechanism. Coordinates of points that the question names ([`NamedPoint`]), such as `left+0.5,0.2.x`, are
+    /// The mechanism. Coordinates of points that the question names ([`NamedPoint`](crate::mechanism::NamedPoint)), such as `left+0.5,0.2.x`, are
     /// joints of it, and its characteristic length takes account of what is held.
     pub fn mechanism(&self) -> &Arc<Mechanism> {
         self.ready.get_or_init(|| self.prepared())
