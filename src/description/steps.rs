@@ -1,6 +1,7 @@
 //! Lists of displacements as they are written: put together, undone, and where they lead.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
 use super::{Displacement, Entry};
 use crate::algebra::{Expression, Function, Node};
@@ -159,34 +160,53 @@ fn turned(axis: Axis, angle: &Entry, vector: [Entry; 3]) -> [Entry; 3] {
     turned
 }
 
+fn call(function: Function, arguments: [&Entry; 2], span: &Range<usize>) -> Entry {
+    let arguments = arguments.map(|entry| entry.expression.clone());
+    Node::Call(function, arguments.to_vec())
+        .at(span.clone())
+        .into()
+}
+
+/// The angle of the point (x, y), as a number if these are numbers.
+fn angle(y: &Entry, x: &Entry, span: &Range<usize>) -> Entry {
+    let entry = match (y.expression.fixed_value(), x.expression.fixed_value()) {
+        (Some(y), Some(x)) => Entry::angle(real::atan2(y, x)),
+        _ => call(Function::Atan2, [y, x], span),
+    };
+    let span = span.clone();
+    Entry { span, ..entry }
+}
+
+/// The turn about z by which x, after rotations that turn z into one of two perpendicular directions, becomes first ×
+/// second.
+pub(crate) fn onto_normal(
+    steps: &[Displacement],
+    directions: &[[Entry; 3]; 2],
+    side: usize,
+) -> Vec<Displacement> {
+    let [x, y, z] = carried(&undone(steps), directions[1 - side].clone(), false);
+    let [sin, cos] = match side {
+        0 => [x, negated(&y)],
+        _ => [negated(&x), y],
+    };
+    doing_something([Displacement::Rotate(Axis::Z, angle(&sin, &cos, &z.span))])
+}
+
 /// Rotations that turn z into a direction: about one axis where that does.
 pub(crate) fn towards(direction: &[Entry; 3]) -> Vec<Displacement> {
     let [x, y, z] = direction;
-    let call = |function, arguments: [&Entry; 2]| {
-        let arguments = arguments.map(|entry| entry.expression.clone());
-        Entry::from(Node::Call(function, arguments.to_vec()).at(direction[2].span.clone()))
-    };
-    // an angle between numbers is a number
-    let angle = |y: &Entry, x: &Entry| {
-        let values = (y.expression.fixed_value(), x.expression.fixed_value());
-        let entry = match values {
-            (Some(y), Some(x)) => Entry::angle(real::atan2(y, x)),
-            _ => call(Function::Atan2, [y, x]),
-        };
-        let span = direction[2].span.clone();
-        Entry { span, ..entry }
-    };
+    let span = &direction[2].span;
     let steps = match (is_zero(x), is_zero(y)) {
-        (_, true) => vec![Displacement::Rotate(Axis::Y, angle(x, z))],
-        (true, false) => vec![Displacement::Rotate(Axis::X, angle(&negated(y), z))],
+        (_, true) => vec![Displacement::Rotate(Axis::Y, angle(x, z, span))],
+        (true, false) => vec![Displacement::Rotate(Axis::X, angle(&negated(y), z, span))],
         (false, false) => {
             let across = match (x.expression.fixed_value(), y.expression.fixed_value()) {
                 (Some(x), Some(y)) => Entry::length(real::hypot(x, y)),
-                _ => call(Function::Hypot, [x, y]),
+                _ => call(Function::Hypot, [x, y], span),
             };
             vec![
-                Displacement::Rotate(Axis::Z, angle(y, x)),
-                Displacement::Rotate(Axis::Y, angle(&across, z)),
+                Displacement::Rotate(Axis::Z, angle(y, x, span)),
+                Displacement::Rotate(Axis::Y, angle(&across, z, span)),
             ]
         }
     };

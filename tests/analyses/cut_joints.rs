@@ -1,7 +1,7 @@
 //! Joints at which loops are cut have values like all others.
 
 use linkwork::analysis::assembly::AssemblyReport;
-use linkwork::analysis::convert::{ConvertSettings, convert};
+use linkwork::analysis::convert::{ConvertSettings, convert, to_axes};
 use linkwork::analysis::sweep::SweepSettings;
 use linkwork::ask::{Question, Solved};
 use linkwork::description::Description;
@@ -321,4 +321,42 @@ fn a_link_has_an_angle_to_hold() {
     let question = Question::new(built(PINS)).free("O").guess("O", "50 deg");
     let report = solved(&question.hold("coupler.yaw", turned));
     assert_near(degrees(&report, "O"), 60.0, 1e-4);
+}
+
+/// A loop of seven freedoms; the axes of its universal joints are askew, one of them written with a parameter.
+const UNIVERSALS: &str = r#"Axes(version: 1, name: "two universals", parameters: { "c": 0.6 }, joints: {
+    "A": Revolute(point: (0, 0, 0), direction: (0, 0, 1), role: Actuated, between: ("ground", "crank")),
+    "U": Universal(point: (0.1, 0, 0), directions: ((0, "c", 0.8), (1, 0, 0)), between: ("crank", "rod")),
+    "V": Universal(point: (0.3, 0.4, 0.2), directions: ((0.36, 0.48, -0.8), (0.8, -0.6, 0)), between: ("rod", "slider")),
+    "P": Cylindrical(point: (0.6, 0.1, 0), direction: (0, 0.2, 1), between: ("ground", "slider")),
+})"#;
+
+#[test]
+fn a_universal_joint_has_the_values_of_its_drawing_wherever_the_loop_is_cut() {
+    let cut =
+        |joint: &str| UNIVERSALS.replace("joints: {", &format!("cut: [\"{joint}\"], joints: {{"));
+    let names = ["U_1", "U_2", "V_1", "V_2"];
+    let drawn = solved(&Question::new(built(&cut("U"))));
+    for name in names {
+        assert_near(degrees(&drawn, name), 0.0, 1e-9);
+    }
+    let at = |joint: &str| solved(&Question::new(built(&cut(joint))).hold("A", "25 deg"));
+    let whole = at("P");
+    for (cut, name) in ["U", "V"]
+        .iter()
+        .flat_map(|cut| names.map(|name| (cut, name)))
+    {
+        assert_near(degrees(&at(cut), name), degrees(&whole, name), 1e-7);
+    }
+    // tables, and coordinates made of these, measure it from the same zero
+    let tables = Description {
+        coordinates: None,
+        ..Description::read(&cut("U")).unwrap()
+    };
+    let (axes, _) = to_axes(&Mechanism::new(&tables).unwrap(), &tables).unwrap();
+    let again = Mechanism::new(&axes.tables().unwrap()).unwrap();
+    let again = solved(&Question::new(again).hold("A", "25 deg"));
+    for name in names {
+        assert_near(degrees(&again, name), degrees(&whole, name), 1e-7);
+    }
 }

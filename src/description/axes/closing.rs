@@ -4,7 +4,7 @@ use super::places::{difference, length};
 use super::tables::Tables;
 use super::{AxisKind, AxisPlace};
 use crate::algebra::Expression;
-use crate::description::steps::{between, signed_sum};
+use crate::description::steps::{between, onto_normal, signed_sum};
 use crate::description::{
     Axis, ChainDescription, ClosureDescription, ClosureKind, Displacement, Named, Row, Spanned,
     first_free, place_of,
@@ -62,7 +62,8 @@ impl Tables<'_> {
     }
 
     /// The name of the frame of a cut joint on one of its bodies, or of that which a row moves there. On the first it stands
-    /// back by the value in the drawing, so that frames that coincide mean a value of zero.
+    /// back by the value in the drawing, so that frames that coincide mean a value of zero. Of a universal joint, whose
+    /// values are zero in the drawing, both have x along the common normal of its axes.
     fn side(
         &mut self,
         joint: usize,
@@ -73,6 +74,13 @@ impl Tables<'_> {
         let body = self.graph.ends[joint][side];
         let mut steps = self.joint_frame(joint, side, side, otherwise);
         let described = &self.axes.joints[joint].value;
+        let place = match &described.second {
+            Some(second) if side == 1 => second,
+            _ => &described.place,
+        };
+        if let AxisPlace::Cross(_, directions) = place {
+            steps.extend(onto_normal(&steps, directions, side));
+        }
         if side == 0 && row.is_none() && described.kind.has_variable() {
             let back = signed_sum([(-1.0, &described.at_drawing())]);
             steps.push(match described.kind.is_length() {

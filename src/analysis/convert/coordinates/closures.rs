@@ -25,12 +25,18 @@ impl Drawing<'_> {
                 use AxisKind::{Cylindrical, Planar, Prismatic, Revolute, Spherical, Universal};
                 let steps = &at[side];
                 let along = |axis: Axis| axis_along(steps, axis, 1.0);
+                let across = |sense: f64| axis_along(steps, Axis::Y, sense);
                 match kind {
                     Spherical => AxisPlace::Centre(point_of(steps)),
-                    // the axis that the other body has is any perpendicular one
+                    // its values are zero where x is first × second
                     Universal => {
-                        let axes = [[Axis::Z, Axis::X], [Axis::X, Axis::Z]][side];
-                        AxisPlace::Cross(point_of(steps), axes.map(along))
+                        let (z, first) = (along(Axis::Z), side == 0);
+                        let axes = if first {
+                            [z, across(-1.0)]
+                        } else {
+                            [across(1.0), z]
+                        };
+                        AxisPlace::Cross(point_of(steps), axes)
                     }
                     Revolute | Cylindrical | Planar if !oblique => {
                         AxisPlace::Along(Some(point_of(steps)), along(Axis::Z))
