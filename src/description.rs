@@ -29,6 +29,7 @@ mod write;
 
 pub(crate) use axes::Graph;
 pub use axes::*;
+pub(crate) use closure_kind::FREE;
 pub use closure_kind::*;
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;

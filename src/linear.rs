@@ -26,6 +26,10 @@ mod sparse;
 mod svd;
 mod vectors;
 
+pub use crate::number::tolerance::{
+    BESIDE_A_CROSSING, CANCELLED, CURVED, ILL_CONDITIONED, INDEPENDENT, RANK_TOLERANCE,
+    SINGULAR_PLACE,
+};
 pub use aligned::axis_aligned;
 pub use block::{Block, DenseOnly, Filled, NoFactors, SparseStep};
 pub use bordered::Bordered;
@@ -42,37 +46,8 @@ pub use svd::Svd;
 pub use vectors::{add, complement, dot, norm, orthonormal, product, remove, without};
 pub(crate) use vectors::{orthogonalise, rotate};
 
-/// The one rank tolerance of the program: a singular value counts as zero when it is this small relative to the
-/// largest.
-///
-/// Jacobians are dimensionless, and at a double solution a closure residual of 1e-14 leaves the joints uncertain by its
-/// square root.
-pub const RANK_TOLERANCE: f64 = 1e-7;
-
-/// The other limits of rank decisions, all relative to the largest singular value or to the row itself.
-///
-/// Places of a curve are located to rounding, so a crossing of branches is distinguished from a regular
-/// place by less than [`RANK_TOLERANCE`].
-pub const SINGULAR_PLACE: f64 = 1e-9;
-
-/// Relative singular value below which, near a crossing, rounding no longer lets the tangent of a curve distinguish
-/// branches.
-pub const BESIDE_A_CROSSING: f64 = 1e-5;
-
-/// The part of a row that Gram–Schmidt must leave for it to be chosen as independent: stricter than the rank tolerance.
-pub const INDEPENDENT: f64 = 1e-6;
-
-/// A curvature counts as negative from this part of the largest on: it is taken by differences.
-pub const CURVED: f64 = 1e-6;
-
-/// A condition number beyond the inverse of this has no digit in double precision.
-pub const ILL_CONDITIONED: f64 = 1e-12;
-
 /// The most unknowns that are factorised as one dense matrix: of more, sparse factors are faster.
 pub const DENSE_LIMIT: usize = 30;
-
-/// Rounding left by a sum of numbers about 1 that cancel: entries of dimensionless matrices this small are zero.
-pub const CANCELLED: f64 = 1e-14;
 
 /// Number of singular values (largest first) above the rank tolerance; 0 if the largest is itself rounding.
 pub fn rank(singular_values: &[f64]) -> usize {

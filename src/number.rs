@@ -12,6 +12,7 @@ mod mark;
 pub(crate) mod real;
 pub(crate) mod sorting;
 mod taylor;
+pub mod tolerance;
 pub(crate) mod trigonometry;
 mod widest;
 

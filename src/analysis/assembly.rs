@@ -6,6 +6,7 @@ mod singular;
 use crate::algebra::SiUnit;
 use crate::geometry::Pose;
 use crate::mechanism::{Configuration, Frame, Mechanism, turn_near};
+use crate::number::tolerance::ROUNDING;
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{
     Attempt, Freedoms, Neighbourhood, Question, QuestionError, RESTARTS, Search, approach,
@@ -122,8 +123,6 @@ fn agreeing(
     watch: &Watch,
     free: &[String],
 ) -> Result<AssemblyReport, Option<(String, f64, SiUnit)>> {
-    /// As far as a held joint may be beyond its limits.
-    const ROUNDING: f64 = 1e-9;
     let mechanism = question.mechanism();
     let joints: Option<Vec<usize>> = free.iter().map(|name| mechanism.joint(name)).collect();
     let joints = joints.ok_or(None)?;

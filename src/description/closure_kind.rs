@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::algebra::words;
+use crate::geometry::Axis;
 
 words! {
     /// The kind of joint that a closure restores. Its axes are the z axes of the frames.
@@ -53,20 +54,130 @@ pub struct ClosureConditions {
     pub offsets: Range<usize>,
 }
 
+/// The variables of a joint that a choice makes of a closure: the end of the name of each, and true if it slides along the
+/// axis, not turns about it.
+type Variables = &'static [(&'static str, bool)];
+
+/// Motions along and about axes, one after another: the axis, and true for a slide.
+type Freedoms = &'static [(Axis, bool)];
+
+/// All six motions of a free body.
+pub(crate) const FREE: Freedoms = &[
+    (Axis::X, true),
+    (Axis::Y, true),
+    (Axis::Z, true),
+    (Axis::Z, false),
+    (Axis::Y, false),
+    (Axis::X, false),
+];
+
+/// The axes of a closure in a mechanism that moves parallel to a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxesInPlane {
+    /// Any: only points are joined, or nothing.
+    Any,
+    /// Along the normal of the plane.
+    Normal,
+    /// Across the normal.
+    Across,
+}
+
+/// All that tells one kind of closure from another: a further kind is a row of [`ClosureKind::row`], residuals if none of
+/// the conditions serve, and its forms in other programs' files.
+struct Row {
+    origins: bool,
+    axes: AxisCondition,
+    offsets: Range<usize>,
+    variables: Variables,
+    freedoms: Freedoms,
+    in_plane: Option<(AxesInPlane, usize)>,
+}
+
 impl ClosureKind {
-    /// The conditions that it consists of.
-    pub fn conditions(self) -> ClosureConditions {
+    #[inline(always)]
+    fn row(self) -> Row {
+        use AxesInPlane::{Across, Any, Normal};
         use AxisCondition::{Aligned, Free, Oriented, Perpendicular};
-        let (origins, axes, offsets) = match self {
-            Self::Spherical => (true, Free, 0..0),
-            Self::Revolute => (true, Aligned, 0..0),
-            Self::Prismatic => (false, Oriented, 0..2),
-            Self::Universal => (true, Perpendicular, 0..0),
-            Self::Cylindrical => (false, Aligned, 0..2),
-            Self::Planar => (false, Aligned, 2..3),
-            Self::Rigid => (true, Oriented, 0..0),
-            Self::Distance | Self::Coupling => (false, Free, 0..0),
+        const TURN: (Axis, bool) = (Axis::Z, false);
+        const SLIDE: (Axis, bool) = (Axis::Z, true);
+        let (origins, axes, offsets, variables, freedoms, in_plane): (
+            _,
+            _,
+            _,
+            Variables,
+            Freedoms,
+            _,
+        ) = match self {
+            Self::Spherical => (
+                true,
+                Free,
+                0..0,
+                &[],
+                &[TURN, (Axis::Y, false), (Axis::X, false)],
+                Some((Any, 2)),
+            ),
+            Self::Revolute => (
+                true,
+                Aligned,
+                0..0,
+                &[("", false)],
+                &[TURN],
+                Some((Normal, 2)),
+            ),
+            Self::Prismatic => (
+                false,
+                Oriented,
+                0..2,
+                &[("", true)],
+                &[SLIDE],
+                Some((Across, 2)),
+            ),
+            Self::Universal => (
+                true,
+                Perpendicular,
+                0..0,
+                &[("_1", false), ("_2", false)],
+                &[TURN, (Axis::Y, false)],
+                None,
+            ),
+            Self::Cylindrical => (
+                false,
+                Aligned,
+                0..2,
+                &[("_turn", false), ("_slide", true)],
+                &[TURN, SLIDE],
+                None,
+            ),
+            Self::Planar => (
+                false,
+                Aligned,
+                2..3,
+                &[],
+                &[(Axis::X, true), (Axis::Y, true), TURN],
+                Some((Normal, 0)),
+            ),
+            Self::Rigid => (true, Oriented, 0..0, &[], &[], Some((Any, 3))),
+            Self::Distance | Self::Coupling => (false, Free, 0..0, &[], FREE, Some((Any, 1))),
         };
+        Row {
+            origins,
+            axes,
+            offsets,
+            variables,
+            freedoms,
+            in_plane,
+        }
+    }
+
+    /// The conditions that it consists of.
+    #[inline(always)]
+    pub fn conditions(self) -> ClosureConditions {
+        let Row {
+            origins,
+            axes,
+            offsets,
+            ..
+        } = self.row();
         ClosureConditions {
             origins,
             axes,
@@ -74,17 +185,21 @@ impl ClosureKind {
         }
     }
 
-    /// The variables of such a joint, in the order in which its rows move the second frame against the first: the end of the
-    /// name of each, and whether it slides along the axis or turns about it. None where no numbers say how far a joint has
-    /// moved without a choice: those of balls and planes.
+    /// The variables of such a joint, in the order in which its rows move the second frame against the first. None where no
+    /// numbers say how far a joint has moved without a choice: those of balls and planes.
     pub fn variables(self) -> &'static [(&'static str, bool)] {
-        match self {
-            Self::Revolute => &[("", false)],
-            Self::Prismatic => &[("", true)],
-            Self::Cylindrical => &[("_turn", false), ("_slide", true)],
-            Self::Universal => &[("_1", false), ("_2", false)],
-            Self::Spherical | Self::Planar | Self::Rigid | Self::Distance | Self::Coupling => &[],
-        }
+        self.row().variables
+    }
+
+    /// The motions that it leaves the second frame in the first. Those of a universal joint are followed by a right angle
+    /// about x; of those of a distance one is determined by the others.
+    pub(crate) fn freedoms(self) -> &'static [(Axis, bool)] {
+        self.row().freedoms
+    }
+
+    /// Its axes and the number of its equations where everything moves parallel to a plane; none if it is spatial.
+    pub fn in_plane(self) -> Option<(AxesInPlane, usize)> {
+        self.row().in_plane
     }
 
     /// True if the z axes lie in one line.

@@ -6,6 +6,7 @@ use crate::algebra::EvaluationError;
 use crate::description::ProblemKind;
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
+use crate::number::tolerance::SOLVED;
 
 impl Mechanism {
     /// The dimensions for given values of the parameters about a centre that is near to the bases there: the one there is,
@@ -38,8 +39,6 @@ impl Mechanism {
     /// That it is so far from the origin of ground that positions there keep fewer digits of its size than equations are
     /// solved to.
     pub(super) fn far_away(&self) -> Option<ProblemKind> {
-        /// Equations are solved to this part of the characteristic length.
-        const SOLVED: f64 = 1e-12;
         let (distance, size) = (
             Vector3(self.dimensions.centre).norm(),
             self.characteristic_length(),

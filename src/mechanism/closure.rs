@@ -242,7 +242,6 @@ impl<T: Number> Closure<T> {
 
     /// Expression that, with the conditions, vanishes only where the axes point the same way: a·b − 1, or the trace −
     /// 3.
-    /// 3.
     pub(crate) fn alignment(&self, placement: &Placement<T>) -> Option<T> {
         let [a, b] = self.frames(placement);
         match self.kind.conditions().axes {
@@ -264,34 +263,24 @@ impl<T: Number> Closure<T> {
         let gap = b.position - a.position;
         let mut rows = self.no_rows(a, b);
         match self.kind {
-            ClosureKind::Spherical => rows.point(&gap),
-            ClosureKind::Revolute => {
-                rows.point(&gap);
-                rows.alignment(a, b);
-            }
-            ClosureKind::Universal => {
-                rows.point(&gap);
-                rows.perpendicular(a, b);
-            }
-            ClosureKind::Rigid => {
-                rows.point(&gap);
-                rows.orientation(a, b);
-            }
-            ClosureKind::Prismatic => {
-                rows.orientation(a, b);
-                rows.offsets(&gap, &a.rotation.0[..2]);
-            }
-            ClosureKind::Cylindrical => {
-                rows.alignment(a, b);
-                rows.offsets(&gap, &a.rotation.0[..2]);
-            }
-            ClosureKind::Planar => {
-                rows.alignment(a, b);
-                rows.offsets(&gap, &a.rotation.0[2..]);
-            }
             ClosureKind::Distance => rows.distance(&gap, self.length(&at.joints)),
             ClosureKind::Coupling => {
                 rows.relation(self.related(&at.joints).unwrap_or_else(T::zero));
+            }
+            kind => {
+                let conditions = kind.conditions();
+                if conditions.origins {
+                    rows.point(&gap);
+                }
+                match conditions.axes {
+                    AxisCondition::Free => {}
+                    AxisCondition::Perpendicular => rows.perpendicular(a, b),
+                    AxisCondition::Aligned => rows.alignment(a, b),
+                    AxisCondition::Oriented => rows.orientation(a, b),
+                }
+                if !conditions.offsets.is_empty() {
+                    rows.offsets(&gap, &a.rotation.0[conditions.offsets]);
+                }
             }
         }
         rows

@@ -92,6 +92,24 @@ impl<T> Configuration<T> {
     }
 }
 
+impl<T: Copy> Configuration<T> {
+    /// Its numbers in the order in which [`map`](Self::map) takes them: joints, then orientation and position of each
+    /// platform.
+    pub fn numbers(&self) -> impl Iterator<Item = T> {
+        let poses = self.platforms.iter();
+        let poses = poses.flat_map(|pose| pose.orientation.0.into_iter().chain(pose.position.0));
+        self.joints.iter().copied().chain(poses)
+    }
+
+    /// The same, to be changed.
+    pub fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        let poses = self.platforms.iter_mut();
+        let poses =
+            poses.flat_map(|pose| pose.orientation.0.iter_mut().chain(&mut pose.position.0));
+        self.joints.iter_mut().chain(poses)
+    }
+}
+
 impl<T: Number> Configuration<T> {
     /// The configuration over another number.
     pub fn map<U: Number>(&self, mut f: impl FnMut(T) -> U) -> Configuration<U> {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::algebra::{Affine, Expression, Measure, words};
 use crate::description::{ClosureKind, Convention, Displacement, MatrixEntry, Role};
 use crate::geometry::Pose;
+use crate::number::tolerance::ROUNDING;
 
 /// The meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -73,7 +74,6 @@ impl Joint {
     /// True if a value is within the limits, where there are any. An angle counts modulo a turn.
     pub fn allows(&self, value: f64) -> bool {
         // what a solver returns for a joint held at its limit may be off by rounding
-        const ROUNDING: f64 = 1e-9;
         let Some((low, high)) = self.limits else {
             return true;
         };

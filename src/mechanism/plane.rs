@@ -1,10 +1,9 @@
 //! Planar mechanisms: the plane of motion.
 
 use super::{ClosureKind, Convention, Frame, Mechanism};
+use crate::description::AxesInPlane;
 use crate::geometry::Vector3;
-
-/// Largest distance from 0 or 1 of the cosine between axes that count as perpendicular or parallel.
-const STRAIGHT: f64 = 1e-9;
+use crate::number::tolerance::ROUNDING;
 
 impl Mechanism {
     /// The unit normal of the plane parallel to which everything moves, in ground: all axes of revolute joints are
@@ -44,19 +43,15 @@ impl Mechanism {
         }
         for closure in self.closures() {
             let axes = closure.frames.map(axis);
-            match closure.kind {
-                ClosureKind::Revolute | ClosureKind::Planar => turning.extend(axes),
-                ClosureKind::Prismatic => sliding.extend(axes),
-                ClosureKind::Spherical
-                | ClosureKind::Rigid
-                | ClosureKind::Distance
-                | ClosureKind::Coupling => {}
-                ClosureKind::Universal | ClosureKind::Cylindrical => return None,
+            match closure.kind.in_plane()?.0 {
+                AxesInPlane::Normal => turning.extend(axes),
+                AxesInPlane::Across => sliding.extend(axes),
+                AxesInPlane::Any => {}
             }
         }
         let normal = *turning.first()?;
-        let parallel = |v: &Vector3<f64>| v.dot(&normal).abs() > 1.0 - STRAIGHT;
-        let perpendicular = |v: &Vector3<f64>| v.dot(&normal).abs() < STRAIGHT;
+        let parallel = |v: &Vector3<f64>| v.dot(&normal).abs() > 1.0 - ROUNDING;
+        let perpendicular = |v: &Vector3<f64>| v.dot(&normal).abs() < ROUNDING;
         (turning.iter().all(parallel) && sliding.iter().all(perpendicular)).then_some(normal)
     }
 }

@@ -9,7 +9,9 @@ use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
 use super::{ClosureKind, Frame, PoseCoordinate};
+use crate::description::FREE;
 use crate::geometry::{Axis, Pose, Vector3};
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, real};
 
 /// A mechanism without platforms.
@@ -40,20 +42,10 @@ pub(crate) struct Carried {
 
 impl Carried {
     /// The variables in order: displacements and turns of the guided frame in the carrying one.
-    pub fn freedoms(&self) -> &'static [PoseCoordinate] {
-        use PoseCoordinate::{Pitch, Roll, X, Y, Yaw, Z};
-        match self.kind {
-            Some(ClosureKind::Rigid) => &[],
-            Some(ClosureKind::Revolute) => &[Yaw],
-            Some(ClosureKind::Prismatic) => &[Z],
-            Some(ClosureKind::Cylindrical) => &[Yaw, Z],
-            Some(ClosureKind::Universal) => &[Yaw, Pitch],
-            Some(ClosureKind::Planar) => &[X, Y, Yaw],
-            Some(ClosureKind::Spherical) => &[Yaw, Pitch, Roll],
-            Some(ClosureKind::Distance | ClosureKind::Coupling) | None => {
-                &[X, Y, Z, Yaw, Pitch, Roll]
-            }
-        }
+    pub fn freedoms(&self) -> Vec<PoseCoordinate> {
+        let all = self.kind.map_or(FREE, ClosureKind::freedoms).iter();
+        all.map(|&(axis, slides)| PoseCoordinate::ALL[axis as usize + if slides { 0 } else { 3 }])
+            .collect()
     }
 
     /// True if the pitch covers half a turn only, because yaw and roll go all the way round.
@@ -188,7 +180,6 @@ impl<T: Number> Recut<T> {
     /// Replaces a platform on three or more balls by the distances between them, which leave it one pose: if they lie
     /// in a plane but not on a line.
     fn by_distances(&mut self, of: &Dimensions<T>, platform: usize) -> bool {
-        const FLAT: f64 = 1e-9;
         let on = |frame: &Frame| platform_of(*frame) == Some(platform);
         let closures = &self.dimensions.closures;
         let touching: Vec<usize> = (0..closures.len())
@@ -216,8 +207,11 @@ impl<T: Number> Recut<T> {
         let Some(normal) = widest else { return false };
         let length = self.dimensions.characteristic_length;
         let height = |arm: &Vector3<T>| arm.dot(&normal).real().abs();
-        if size(&normal) <= FLAT * length.powi(2)
-            || arms.iter().map(height).any(|h| h > FLAT * length.powi(3))
+        if size(&normal) <= ROUNDING * length.powi(2)
+            || arms
+                .iter()
+                .map(height)
+                .any(|h| h > ROUNDING * length.powi(3))
         {
             return false;
         }
@@ -274,11 +268,12 @@ impl<T: Number> Recut<T> {
             kind,
             first,
         };
-        let freedoms = carried.freedoms().iter().enumerate();
-        let rows = freedoms.map(|(i, &c)| row(c, first + i)).collect();
+        let freedoms = carried.freedoms();
+        let rows = (first..).zip(&freedoms).map(|(i, &c)| row(c, i)).collect();
         let length = self.dimensions.characteristic_length;
-        let scales = carried.freedoms().iter();
-        let scales = scales.map(|c| if c.is_angle() { 1.0 } else { length });
+        let scales = freedoms
+            .iter()
+            .map(|c| if c.is_angle() { 1.0 } else { length });
         self.dimensions.joint_scales.extend(scales);
         let tip = carried.last() * of.fixed(frames[1]).inverse();
         let frame = self.chain(frames[0], Pose::identity(), rows);

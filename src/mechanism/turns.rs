@@ -4,9 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::model::JointKind;
 use super::{Dimensions, Mechanism};
-
-/// As much as `Joint::allows`, in rad or m.
-const ROUNDING: f64 = 1e-9;
+use crate::number::tolerance::{ROUNDING, SOLVED};
 
 /// The equivalent of an angle that is nearest to another, in rad.
 #[inline]
@@ -142,14 +140,13 @@ impl Mechanism {
 pub(crate) fn turns_to_repeat(dimensions: &Dimensions<f64>, joint: usize) -> Option<f64> {
     /// Gears have some dozen teeth.
     const MOST: u32 = 120;
-    const ROUNDING: f64 = 1e-12;
     let mut relations = dimensions.closures.iter().flat_map(|c| &c.relation);
     if relations.any(|relation| relation.joints.contains(&joint)) {
         return None;
     }
     let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
     let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
-    let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();
+    let whole = |x: f64| (x - x.round()).abs() <= SOLVED * x.abs();
     let mut turns = (1..=MOST).map(f64::from);
     turns.find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
 }

@@ -10,7 +10,7 @@ use crate::analysis::overview::{
     JointOverview, LoopStep, MobilityCount, Overview, ParameterOverview, PlatformOverview,
     RowOverview,
 };
-use crate::description::{ClosureKind, Convention, count, listed, quoted};
+use crate::description::{AxisCondition, ClosureKind, Convention, count, listed, quoted};
 
 impl Report for Overview {
     fn document(&self) -> Document {
@@ -162,17 +162,33 @@ fn bodies(overview: &Overview) -> TableOf<&BodyOverview> {
 /// The equations of a closure in words; the axes are the z axes of the frames.
 fn equations(closure: &ClosureOverview) -> String {
     match (closure.kind, &closure.length) {
-        (ClosureKind::Distance, Some(length)) => format!("origins at distance {length} (1)"),
-        (ClosureKind::Distance, None) => "origins at a given distance (1)".into(),
-        (ClosureKind::Coupling, _) => "an expression of joints is zero (1)".into(),
-        (ClosureKind::Spherical, _) => "origins coincide (3)".into(),
-        (ClosureKind::Revolute, _) => "origins coincide (3), axes aligned (2)".into(),
-        (ClosureKind::Prismatic, _) => "orientations equal (3), origins on one axis (2)".into(),
-        (ClosureKind::Universal, _) => "origins coincide (3), axes perpendicular (1)".into(),
-        (ClosureKind::Cylindrical, _) => "axes aligned (2), origins on one axis (2)".into(),
-        (ClosureKind::Planar, _) => "axes aligned (2), origins in one plane (1)".into(),
-        (ClosureKind::Rigid, _) => "origins coincide (3), orientations equal (3)".into(),
+        (ClosureKind::Distance, Some(length)) => {
+            return format!("origins at distance {length} (1)");
+        }
+        (ClosureKind::Distance, None) => return "origins at a given distance (1)".into(),
+        (ClosureKind::Coupling, _) => return "an expression of joints is zero (1)".into(),
+        _ => {}
     }
+    let conditions = closure.kind.conditions();
+    let all = [
+        (conditions.origins, "origins coincide (3)"),
+        (
+            conditions.axes == AxisCondition::Perpendicular,
+            "axes perpendicular (1)",
+        ),
+        (
+            conditions.axes == AxisCondition::Aligned,
+            "axes aligned (2)",
+        ),
+        (
+            conditions.axes == AxisCondition::Oriented,
+            "orientations equal (3)",
+        ),
+        (conditions.offsets.len() == 2, "origins on one axis (2)"),
+        (conditions.offsets.len() == 1, "origins in one plane (1)"),
+    ];
+    let set = all.into_iter().filter(|(set, _)| *set);
+    set.map(|(_, words)| words).collect::<Vec<_>>().join(", ")
 }
 
 fn loops(overview: &Overview) -> Section {

@@ -4,6 +4,7 @@ use super::continuation::{Continuation, Place, SolutionCurve, back};
 use crate::linear::{
     BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, dot, norm, product,
 };
+use crate::number::tolerance::DIFFERENCE;
 use crate::number::{real, sorting::sort_by};
 
 /// A point where the Jacobian of a curve loses rank.
@@ -36,9 +37,6 @@ impl<P> BranchPoint<P> {
 
 /// Least cosine of the angle between the tangents of one branch on the two sides of a crossing.
 pub const ALIGNED: f64 = 0.98;
-
-/// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
-const STEP: f64 = 1e-5;
 
 impl Continuation {
     /// The branch point near a point, by Newton's method on the augmented system
@@ -207,9 +205,9 @@ fn bent<C: SolutionCurve>(curve: &mut C, at: &C::Point, v: &[f64]) -> Vec<f64> {
         let at = curve.displaced(at, &step);
         curve.linearise(&at).1
     };
-    let (after, before) = (side(STEP), side(-STEP));
+    let (after, before) = (side(DIFFERENCE), side(-DIFFERENCE));
     let both = after.iter().zip(&before);
-    both.map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
+    both.map(|(a, b)| (a - b) / (2.0 * DIFFERENCE)).collect()
 }
 
 /// The decomposition of a matrix given by its rows.

@@ -18,6 +18,7 @@
 
 mod place;
 
+use crate::number::tolerance::SOLVED;
 pub use place::Place;
 
 use crate::linear::{Decomposition, Rows, dot, norm};
@@ -70,7 +71,7 @@ pub struct Continuation {
 impl Default for Continuation {
     fn default() -> Self {
         Continuation {
-            tolerance: 1e-12,
+            tolerance: SOLVED,
             longest: 0.1,
             shortest: 1e-10,
             change: 0.25,
@@ -258,21 +259,10 @@ impl Continuation {
         to: &Place<C::Point>,
         f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
     ) -> Place<C::Point> {
-        if from.is_singular() {
-            let (from, to) = (to.clone().reversed(), from.clone().reversed());
-            return self.bracketed(curve, &from, &to, f).reversed();
-        }
-        self.bracketed(curve, from, to, f)
-    }
-
-    fn bracketed<C: SolutionCurve>(
-        &self,
-        curve: &mut C,
-        from: &Place<C::Point>,
-        to: &Place<C::Point>,
-        f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
-    ) -> Place<C::Point> {
         const EVALUATIONS: usize = 80;
+        let back = from.is_singular();
+        let turned = back.then(|| [to, from].map(|place| place.clone().reversed()));
+        let [from, to] = turned.as_ref().map_or([from, to], |[to, from]| [to, from]);
         // solutions of large equations are rounded more
         let (near, zero) = match from.decomposition.groups() {
             Some(_) => (1e-11, 1e-11),
@@ -320,7 +310,10 @@ impl Continuation {
             slow = if now > 0.5 * width { slow + 1 } else { 0 };
             width = now;
         }
-        best.1
+        match back {
+            true => best.1.reversed(),
+            false => best.1,
+        }
     }
 
     /// A length for the next step from that of the last and the change along it; of many unknowns the fastest counts.

@@ -1,5 +1,6 @@
 //! Nonlinear least squares under equations: Gauss–Newton and Levenberg–Marquardt.
 
+use crate::number::tolerance::SOLVED;
 use argmin::core::{Error, Executor, IterState, KV, Problem, Solver, State};
 use argmin::core::{TerminationReason, TerminationStatus};
 
@@ -61,7 +62,7 @@ impl Default for LevenbergMarquardt {
     fn default() -> Self {
         LevenbergMarquardt {
             damping: 1e-3,
-            tolerance: 1e-12,
+            tolerance: SOLVED,
             steps: 100,
         }
     }

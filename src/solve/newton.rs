@@ -1,4 +1,5 @@
 use super::{Equations, Size};
+use crate::number::tolerance::SOLVED;
 
 /// Newton's method from a guess that may be far off: Gauss–Newton steps, damped when they fail (Levenberg 1944,
 /// Marquardt 1963). Near a solution the damping is zero and convergence quadratic, redundant rows or not.
@@ -22,7 +23,7 @@ const LEAST_PROGRESS: f64 = 1e-9;
 impl Default for Newton {
     fn default() -> Self {
         Newton {
-            tolerance: 1e-12,
+            tolerance: SOLVED,
             max_steps: 100,
         }
     }

@@ -1,5 +1,7 @@
 //! The highest point of a function of one variable.
 
+use crate::number::tolerance::EXACT;
+
 /// The maximum between two places, and its height: by golden section, accurate to √ε, then by the zero of the slope
 /// (central differences of fourth order), accurate to about 10⁻¹⁰ of the interval, unless that is lower.
 ///
@@ -16,7 +18,7 @@ pub fn summit(
     if let Some(smooth) = stationary(rough, way, &mut height) {
         return Some(smooth);
     }
-    section.narrow(SHARP * way, &mut height)?;
+    section.narrow(EXACT * way, &mut height)?;
     Some(section.best())
 }
 
@@ -24,12 +26,9 @@ pub fn summit(
 /// located to rounding by golden section alone (Kiefer 1953).
 pub fn edge(from: f64, to: f64, mut height: impl FnMut(f64) -> Option<f64>) -> Option<(f64, f64)> {
     let mut section = Section::of(from, to, &mut height)?;
-    section.narrow(SHARP * (to - from).abs(), &mut height)?;
+    section.narrow(EXACT * (to - from).abs(), &mut height)?;
     Some(section.best())
 }
-
-/// The part of an interval to which an edge is located.
-const SHARP: f64 = 1e-15;
 
 /// A golden section: the maximum lies between the ends, and two heights between them are known.
 struct Section {

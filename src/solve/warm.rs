@@ -1,4 +1,5 @@
 use super::Equations;
+use crate::number::tolerance::SOLVED;
 
 /// Newton's method for following a motion: each point starts from the ones before it, by extrapolation ([`Trail`]).
 ///
@@ -15,7 +16,7 @@ pub struct Warm {
 impl Default for Warm {
     fn default() -> Self {
         Warm {
-            tolerance: 1e-12,
+            tolerance: SOLVED,
             extrapolation: ORDERS - 1,
         }
     }

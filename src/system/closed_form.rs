@@ -21,14 +21,12 @@ pub use evaluation::Branching;
 
 use crate::algebra::{Budget, EvaluationError, Expression, with_letters};
 use crate::mechanism::{Configuration, Formal, Letters, Mechanism};
+use crate::number::tolerance::ROUNDING;
 use crate::system::{HeldPlatform, Question};
 use derivation::Derivation;
 
 /// Products of two terms made at most.
 const MOST_PRODUCTS: usize = 50_000;
-
-/// Residuals below this are those of rounding, in characteristic lengths and rad.
-const CLOSED: f64 = 1e-9;
 
 /// Rule by which an unknown follows from known numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,7 +158,7 @@ impl ClosedSolution {
             let solved = derivation.run();
             let residual = solved.tried(question, at).residual;
             // equations that were too long are missing, and signs may depend on one another
-            let holds = !solved.is_complete() || residual < CLOSED;
+            let holds = !solved.is_complete() || residual < ROUNDING;
             Ok(if holds { solved } else { unsolved })
         })
     }

@@ -18,6 +18,7 @@ use super::equations::{System, Work};
 use crate::algebra::SiUnit;
 use crate::linear::Rows;
 use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
+use crate::number::tolerance::ROUNDING;
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
 use crate::system::{Coordinate, Held, HeldParts, HeldPlatform, Unknown};
 
@@ -195,11 +196,9 @@ impl Curve {
         &self,
         place: Place<Configuration<f64>>,
     ) -> (Place<Configuration<f64>>, bool) {
-        /// Slower than this they stand still.
-        const STILL: f64 = 1e-9;
         let rate = self.part_rate(&place.at, &place.tangent);
         let place = if rate < 0.0 { place.reversed() } else { place };
-        (place, rate.abs() < STILL)
+        (place, rate.abs() < ROUNDING)
     }
 
     /// Rate of the part of the segment that is gone, per unit step along a tangent; 0 without inputs.

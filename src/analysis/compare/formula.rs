@@ -4,6 +4,7 @@ use super::NEAR_SINGULAR;
 use crate::algebra::{EvaluationError, Node, Operator};
 use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Formula, MatrixEntry, Mechanism, Symbol};
+use crate::number::tolerance::SUMMED;
 use crate::number::{Dual, Number};
 
 /// Values of the names in a closed form at some joint values.
@@ -58,9 +59,6 @@ impl<T: Number> Values<T> {
     }
 }
 
-/// Rounding of a sum, relative to its terms.
-const ROUNDING: f64 = 1e-13;
-
 /// The value of a formula with the sizes that it is compared with.
 pub(super) struct Measured {
     pub value: f64,
@@ -78,7 +76,7 @@ impl Measured {
 
     /// True if it may be zero at the configuration that this one was solved for.
     pub fn is_zero(&self) -> bool {
-        self.value.abs() <= NEAR_SINGULAR * self.motion + ROUNDING * self.terms
+        self.value.abs() <= NEAR_SINGULAR * self.motion + SUMMED * self.terms
     }
 }
 

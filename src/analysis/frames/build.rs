@@ -63,8 +63,12 @@ impl<'a> Build<'a> {
         self.carried[0] = Some((GROUND.into(), Pose::identity()));
         self.grow(0);
         // what is held by cut joints only is a platform
-        while let Some(root) = self.next_platform() {
-            let joints = self.joints_of(root);
+        let (graph, cuts) = (self.graph, self.cuts);
+        let is_cut = |joint: usize| cuts.contains(&joint);
+        while let Some(root) =
+            graph.next_platform(is_cut, |body| self.carried[body].is_some(), |_| false)
+        {
+            let joints: Vec<usize> = graph.joints_of(root).collect();
             let points = joints.iter().map(|&j| self.values.lines[j].point);
             let sum = points.fold(Vector3::zero(), |sum, point| sum + point);
             let pose = Pose::translation(sum.times(1.0 / joints.len() as f64));
@@ -102,21 +106,6 @@ impl<'a> Build<'a> {
         }
     }
 
-    fn joints_of(&self, body: usize) -> Vec<usize> {
-        let all = 0..self.graph.ends.len();
-        all.filter(|&j| self.graph.ends[j].contains(&body))
-            .collect()
-    }
-
-    /// A body without a frame, of its part the one with the most joints.
-    fn next_platform(&self) -> Option<usize> {
-        let parts = self.graph.parts(|j| !self.cuts.contains(&j));
-        let first = self.carried.iter().position(Option::is_none)?;
-        let same = (0..parts.len()).filter(|&b| parts[b] == parts[first]);
-        // the first of those with the most
-        same.rev().max_by_key(|&b| self.joints_of(b).len())
-    }
-
     fn free_name(&self, wanted: &str, otherwise: &str) -> String {
         let possible = |name: &String| {
             let taken = place_of(&self.chains, name).or(place_of(&self.platforms, name));
@@ -129,7 +118,7 @@ impl<'a> Build<'a> {
 
     /// The joints that lead away from a body to bodies not carried yet, with those bodies.
     fn onward(&self, body: usize) -> Vec<(usize, usize)> {
-        let joints = self.joints_of(body).into_iter();
+        let joints = self.graph.joints_of(body);
         joints
             .filter(|j| !self.cuts.contains(j))
             .map(|j| {
@@ -201,7 +190,7 @@ impl<'a> Build<'a> {
             let side = side.unwrap_or(0);
             self.cuts.contains(joint) && self.cut_frames[*joint][side].is_none()
         };
-        let cut = self.joints_of(end).into_iter().find(open);
+        let cut = self.graph.joints_of(end).find(open);
         let variables: Vec<String> = (way.iter())
             .map(|&(joint, _)| self.axes.joints[joint].name.value.clone())
             .collect();

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector3;
 use crate::linear::{add, axis_aligned, orthonormal, without};
+use crate::number::tolerance::INDEPENDENT;
 use crate::system::{Neighbourhood, Tangent};
 
 /// Equations of a closure that follow from those of earlier closures and from one another.
@@ -30,9 +31,6 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
-/// Components of unit vectors below this are zero.
-const ALIGNED: f64 = 1e-6;
-
 pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundancy> {
     let mechanism = near.mechanism();
     // there are too many: they are only counted
@@ -56,7 +54,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
         let by_row: Vec<Vec<f64>> = (0..columns)
             .map(|i| parts.iter().map(|part| part[i]).collect())
             .collect();
-        let entering = orthonormal(&by_row, ALIGNED);
+        let entering = orthonormal(&by_row, INDEPENDENT);
         if entering.is_empty() {
             continue;
         }

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::description::ClosureKind;
 use crate::mechanism::Mechanism;
 
 /// The terms of M = 6·(N − 1) − Σ (6 − f) + (joint variables that are not driven row by row) − Σ equations.
@@ -85,14 +84,6 @@ pub(super) fn count(mechanism: &Mechanism) -> MobilityCount {
 fn planar_equations(mechanism: &Mechanism) -> Option<usize> {
     mechanism.plane_of_motion()?;
     let closures = mechanism.closures().iter();
-    let equations = closures.map(|closure| match closure.kind {
-        ClosureKind::Planar => 0,
-        ClosureKind::Distance | ClosureKind::Coupling => 1,
-        ClosureKind::Spherical | ClosureKind::Revolute | ClosureKind::Prismatic => 2,
-        ClosureKind::Rigid => 3,
-        ClosureKind::Universal | ClosureKind::Cylindrical => {
-            unreachable!("a mechanism with such a closure is spatial")
-        }
-    });
-    Some(equations.sum())
+    let equations = closures.map(|closure| Some(closure.kind.in_plane()?.1));
+    equations.sum()
 }

@@ -10,6 +10,7 @@ use super::poles::{change_of_sign, middle_of_gap, unbounded};
 use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
 use crate::mechanism::{Measured, Order, Quantity};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::{NOT_PRINTED, ROUNDING, SAME, SOLVED};
 use crate::solve::summit;
 use bounds::{Bounds, bounds};
 
@@ -37,8 +38,6 @@ fn extremum(
     (i, quantity): (usize, &Quantity),
     bounds: Bounds,
 ) -> Extremum {
-    /// Configurations are closed to so much of the characteristic length, and no value is known better beside the greatest.
-    const ROUNDING: f64 = 1e-12;
     let none = Extremum {
         name: quantity.name.clone(),
         unit: quantity.unit,
@@ -97,11 +96,9 @@ fn extremum(
         }
     }
     for (stretch, part) in suspects {
-        /// Places nearer than this are one.
-        const NEAR: f64 = 1e-9;
         /// Poles sought at most.
         const MOST: usize = 1000;
-        let again = |(of, at): &(usize, f64)| *of == stretch && (at - part).abs() < NEAR;
+        let again = |(of, at): &(usize, f64)| *of == stretch && (at - part).abs() < ROUNDING;
         if known.len() == MOST || known.iter().any(again) {
             continue;
         }
@@ -134,7 +131,7 @@ fn extremum(
         let (at, time) = course.at(found.stretch, found.part)?;
         let (at, time) = (at.clone(), time);
         Some(Extreme {
-            value: if found.value.abs() > ROUNDING * largest {
+            value: if found.value.abs() > SOLVED * largest {
                 found.value
             } else {
                 0.0
@@ -162,9 +159,6 @@ const BESIDE: f64 = 0.02;
 
 /// The part of a stretch on either side of a kink or a pole where it may be.
 const KINK: f64 = 1e-7;
-
-/// Distance from an end of a stretch within which a place is the end.
-const END: f64 = 1e-10;
 
 /// The best value so far, at a part of a stretch.
 #[derive(Clone, Copy)]
@@ -223,8 +217,8 @@ fn pole(
     let [from, to] = [part - KINK, part + KINK].map(|part| part.clamp(0.0, 1.0));
     let mut gap = None;
     let place = match part {
-        _ if part < END => 0.0,
-        _ if part > 1.0 - END => 1.0,
+        _ if part < NOT_PRINTED => 0.0,
+        _ if part > 1.0 - NOT_PRINTED => 1.0,
         _ => {
             let mut value = |part: f64| read(part).and_then(|(value, _)| value);
             let top = summit(from, to, |part| {
@@ -280,8 +274,6 @@ fn missing(quantity: &Quantity) -> Missing {
 
 /// Adds a pole to others; each is seen from either side.
 fn merge(poles: &mut Vec<Pole>, pole: Pole) {
-    /// Differences that count as none, in m and rad.
-    const SAME: f64 = 1e-6;
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME);
     let same =
         |known: &&mut Pole| near(&known.inputs, &pole.inputs) && near(&known.joints, &pole.joints);

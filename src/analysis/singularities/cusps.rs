@@ -1,6 +1,7 @@
 //! Cusps: configurations of a locus where three solutions meet.
 
 use crate::linear::{dot, norm};
+use crate::number::tolerance::{DOUBLE, ROUNDING};
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
@@ -15,10 +16,6 @@ type At = Place<Singular>;
 pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Singular>) -> Vec<At> {
     /// A bend below this is rounding: v leads on along a whole motion.
     const STILL: f64 = 1e-7;
-    /// Largest bend at a cusp.
-    const THERE: f64 = 1e-9;
-    /// Configurations this near are one; where loci cross three solutions meet as well.
-    const SAME: f64 = 1e-5;
     let bends: Vec<Vec<f64>> = (traced.places.iter())
         .map(|place| curve.bend(&place.at))
         .collect();
@@ -36,9 +33,10 @@ pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Sin
         let along = from.1.to_vec();
         let mut test = |curve: &mut LocusCurve, p: &At| dot(&curve.bend(&p.at), &along);
         let place = region.method.root(curve, &start, &end, &mut test);
-        let one = |curve: &LocusCurve, other: &At| norm(&curve.apart(&other.at, &place.at)) < SAME;
+        let one =
+            |curve: &LocusCurve, other: &At| norm(&curve.apart(&other.at, &place.at)) < DOUBLE;
         let known = found.iter().chain(&traced.crossings);
-        if norm(&curve.bend(&place.at)) < THERE && !known.into_iter().any(|at| one(curve, at)) {
+        if norm(&curve.bend(&place.at)) < ROUNDING && !known.into_iter().any(|at| one(curve, at)) {
             found.push(place);
         }
         true

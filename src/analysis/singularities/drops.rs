@@ -2,6 +2,7 @@
 
 use crate::linear::{Decomposition, RANK_TOLERANCE};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::SOLVED;
 use crate::solve::{Continuation, Place, edge};
 use crate::system::{Curve, Locked};
 
@@ -28,9 +29,7 @@ impl Sample {
 
     /// True if the last singular value is zero to rounding.
     fn vanishes(&self) -> bool {
-        /// Rounding of singular values, relative to the largest.
-        const ROUNDING: f64 = 1e-12;
-        self.least() <= ROUNDING * self.largest()
+        self.least() <= SOLVED * self.largest()
     }
 }
 

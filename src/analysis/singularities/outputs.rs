@@ -6,6 +6,7 @@ use super::SingularitiesSettings;
 use super::classify::Classifier;
 use crate::linear::{norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame, Mechanism, PoseCoordinate};
+use crate::number::tolerance::SAME;
 use crate::system::{
     Coordinate, Driven, Held, Lock, Locked, Mobility, default_outputs, platform_outputs,
 };
@@ -61,8 +62,6 @@ pub(super) fn coupled(
         let Lock::Frame(frame) = *output else {
             return None;
         };
-        /// Directions of unit twists this near are the same.
-        const SAME: f64 = 1e-6;
         let [near, far] = [&first, &second].map(|place| twists(mechanism, frame, place.at()));
         let beyond = far.into_iter().any(|mut twist| {
             remove(&mut twist, &near);

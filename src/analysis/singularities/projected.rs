@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::classify::Singularity;
 use crate::linear::norm;
+use crate::number::tolerance::SAME;
 use crate::number::{real, sorting::sort_by};
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
@@ -17,9 +18,6 @@ pub enum Shape {
     /// A single point: only coordinates outside the box move along it, or none does.
     Point,
 }
-
-/// Points of the box this near are the same: in rad and characteristic lengths.
-const SAME: f64 = 1e-6;
 
 /// A curve of configurations with its points in the box, in rad and characteristic lengths.
 pub(super) struct Projection<'t> {

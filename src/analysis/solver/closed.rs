@@ -5,10 +5,8 @@ use super::report::{ClosedProgram, Radicand};
 use crate::algebra::{Place, Recorded};
 use crate::mechanism::Configuration;
 use crate::number::Number;
+use crate::number::tolerance::ROUNDING;
 use crate::system::{Branching, ClosedSolution};
-
-/// A number is zero below this part of its value at the start.
-const SMALL: f64 = 1e-9;
 
 /// Writes down what must hold where formulas are evaluated.
 #[derive(Default)]
@@ -42,7 +40,7 @@ impl Branching<Recorded> for Recorder {
     }
 
     fn angle(&mut self, near: Recorded, sin: Recorded, cos: Recorded, norm: Recorded) -> Recorded {
-        self.divides(sin * sin + cos * cos, SMALL * SMALL);
+        self.divides(sin * sin + cos * cos, ROUNDING * ROUNDING);
         let turned = Recorded::angle(sin, cos, near);
         let inverse = Recorded::one() / norm;
         turned.turned(sin * inverse, cos * inverse);
@@ -50,7 +48,7 @@ impl Branching<Recorded> for Recorder {
     }
 
     fn quotient(&mut self, of: Recorded, over: Recorded) -> Recorded {
-        self.divides(over, SMALL);
+        self.divides(over, ROUNDING);
         of / over
     }
 }

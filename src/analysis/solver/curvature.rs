@@ -6,6 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::{Plan, Variable};
 use crate::algebra::{Operation, Place, SiUnit, evaluate};
 use crate::linear::{DENSE_LIMIT, norm, singular_values};
+use crate::number::tolerance::DIFFERENCE;
 
 /// The rate at which the Jacobian changes.
 #[derive(Clone, Debug, Default)]
@@ -31,8 +32,6 @@ impl Plan<'_> {
     ) -> Curvature {
         /// Configurations at which the change is computed.
         const SAMPLES: usize = 24;
-        /// A step of differences.
-        const STEP: f64 = 1e-5;
         let length = self.mechanism.characteristic_length();
         let last = jacobian.iter().flatten().max().map_or(0, |place| place + 1);
         let operations = &operations[..last as usize];
@@ -65,10 +64,10 @@ impl Plan<'_> {
                         at[i] += by;
                         entries(&at)
                     };
-                    let step = STEP / weights[i];
+                    let step = DIFFERENCE / weights[i];
                     let (low, high) = (side(-step), side(step));
                     let pairs = high.iter().zip(low);
-                    pairs.map(|(b, a)| (b - a) / (2.0 * STEP)).collect()
+                    pairs.map(|(b, a)| (b - a) / (2.0 * DIFFERENCE)).collect()
                 })
                 .collect();
             // of many the norm of the whole, which is larger

@@ -9,6 +9,7 @@ use crate::geometry::Vector3;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Placement, Variable};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::ROUNDING;
 use crate::solve::Continuation;
 use crate::system::{Curve, Event, FrameTwists, Segment};
 use crossings::double_points;
@@ -41,9 +42,6 @@ pub struct PathPoint {
     /// The numbers of the circuits that pass, from 1, in the same order.
     pub circuits: Vec<usize>,
 }
-
-/// Rates below this, in characteristic lengths for a step of 1 along the curve, are rounding.
-const STILL: f64 = 1e-9;
 
 /// A point whose path is searched for cusps and double points.
 pub(super) struct Tracer {
@@ -89,7 +87,7 @@ impl Tracer {
     /// there. It lies on the moving centrode then.
     fn cusp(&mut self, curve: &mut Curve, method: &Continuation, from: &At, to: &At) -> Option<At> {
         let [before, after] = [from, to].map(|place| self.velocity(place));
-        let place = if before.norm() < STILL {
+        let place = if before.norm() < ROUNDING {
             from.clone()
         } else if before.dot(&after) < 0.0 {
             let along = before - after;
@@ -99,7 +97,7 @@ impl Tracer {
             return None;
         };
         // one at the end of a step is met at the beginning of the next
-        let still = self.velocity(&place).norm() < STILL && after.norm() >= STILL;
+        let still = self.velocity(&place).norm() < ROUNDING && after.norm() >= ROUNDING;
         (still && !self.retraces(curve, method, &place)).then_some(place)
     }
 

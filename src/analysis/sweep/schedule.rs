@@ -6,6 +6,7 @@ use super::{
 };
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::{ROUNDING, SAME};
 use crate::solve::Watch;
 use crate::system::{Driven, Held};
 
@@ -132,8 +133,6 @@ impl Schedule {
         sink: &mut Sink,
         watch: &Watch,
     ) -> SweepReport {
-        /// Parts of the time this near are one.
-        const SAME: f64 = 1e-9;
         let alone = SweepSettings {
             steps: 1,
             continuation: settings.continuation.clone(),
@@ -150,8 +149,8 @@ impl Schedule {
         let (mut gone, mut row_ahead) = (0.0, 1);
         while row_ahead <= settings.steps {
             let time_of_row = row_ahead as f64 / settings.steps as f64;
-            while turns.next_if(|turn| *turn < gone + SAME).is_some() {}
-            let turn = turns.peek().filter(|turn| **turn < time_of_row - SAME);
+            while turns.next_if(|turn| *turn < gone + ROUNDING).is_some() {}
+            let turn = turns.peek().filter(|turn| **turn < time_of_row - ROUNDING);
             let (to, step) = match turn {
                 Some(turn) => (*turn, None),
                 None => (time_of_row, Some(row_ahead)),
@@ -240,8 +239,6 @@ fn halved([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
 /// Adds what was met on paths in one step; what was passed before is the same point. Paths that cross in different
 /// steps are not looked for.
 fn met_on_paths(all: &mut Vec<PathReport>, more: Vec<PathReport>) {
-    /// Differences of values that count as none, in m and rad.
-    const SAME: f64 = 1e-6;
     if all.is_empty() {
         *all = more;
         return;

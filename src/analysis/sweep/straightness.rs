@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{Svd, dot};
+use crate::number::tolerance::SUMMED;
 use crate::number::{real, sorting::sort_by};
 use crate::solve::summit;
 
@@ -33,8 +34,6 @@ impl Straightness {
     /// join these until none is farther than they are: an exchange after Remez, for a line with both offset and direction free.
     pub(crate) fn along(point: &str, mut known: Vec<(f64, [f64; 3])>, at: &mut At) -> Option<Self> {
         const ROUNDS: usize = 24;
-        /// Differences that count as none, in parts of the length.
-        const SAME: f64 = 1e-13;
         for _ in 0..ROUNDS {
             let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();
             let line = Straightness::of(point, &places)?;
@@ -60,7 +59,7 @@ impl Straightness {
                     }
                     let top = summit(from, to, |place| Some(beyond(&at(place)?)[k]));
                     if let Some((place, height)) = top
-                        && height > SAME * line.length
+                        && height > SUMMED * line.length
                         && let Some(found) = at(place)
                     {
                         more.push((place, found));

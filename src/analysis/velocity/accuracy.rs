@@ -3,6 +3,7 @@
 use super::{Accuracy, FirstOrderOnly};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
+use crate::number::tolerance::EXACT;
 use crate::system::{Drive, Motion, Neighbourhood, Places, Tangent};
 
 fn is_still(values: &[f64]) -> bool {
@@ -29,8 +30,6 @@ pub(super) fn of(
     rest: &Tangent,
     drive: &Drive,
 ) -> Accuracy {
-    /// Rounding of a dimensionless residual, also of one evaluated as zero.
-    const ROUNDING: f64 = 1e-15;
     let Some((_, direction)) = rest.decomposition.weakest() else {
         return Accuracy {
             smallest_singular_value: None,
@@ -40,7 +39,7 @@ pub(super) fn of(
         };
     };
     let smallest = rest.decomposition.smallest();
-    let off = held.residual(&rest.at).max(ROUNDING) / smallest;
+    let off = held.residual(&rest.at).max(EXACT) / smallest;
     let given = rates_or_all(drive);
     let changes = &drive.accelerations;
     let mut at = |place: &Configuration<f64>| {

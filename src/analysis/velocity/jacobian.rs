@@ -8,10 +8,8 @@ use crate::geometry::Vector3;
 use crate::linear::{CANCELLED, Factorable, RANK_TOLERANCE, rank, singular_values};
 use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
 use crate::number::Number;
+use crate::number::tolerance::ROUNDING;
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
-
-/// Along an axis of ground is the normal of a plane up to this (1 less the cosine of the angle between them).
-const ALONG: f64 = 1e-9;
 
 /// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane of ground it
 /// has no rows across that plane: a platform has two velocities and one angular velocity.
@@ -109,7 +107,7 @@ fn kept(output: Lock, normal: Option<usize>) -> Vec<bool> {
 /// For each row of some outputs true if the Jacobian has it.
 fn rows_kept(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<bool> {
     let plane = mechanism.plane_of_motion();
-    let normal = plane.and_then(|normal| (0..3).find(|&k| normal.0[k].abs() > 1.0 - ALONG));
+    let normal = plane.and_then(|normal| (0..3).find(|&k| normal.0[k].abs() > 1.0 - ROUNDING));
     let rows = outputs.iter().flat_map(|&output| kept(output, normal));
     rows.collect()
 }

@@ -2,9 +2,8 @@
 
 use crate::geometry::Vector3;
 use crate::linear::norm;
-
-/// Components below this are zero, relative to 1, dimensionless.
-pub(super) const ZERO: f64 = 1e-9;
+use crate::number::tolerance::ROUNDING;
+pub(super) use crate::number::tolerance::ROUNDING as ZERO;
 
 /// The two halves of a twist.
 pub(super) fn split(twist: &[f64; 6]) -> (Vector3<f64>, Vector3<f64>) {
@@ -19,14 +18,14 @@ pub(super) fn normal<'a>(
     let largest = twists.clone().map(|twist| norm(twist)).fold(0.0, f64::max);
     let turning = twists.clone().map(|twist| split(twist).0);
     let most = turning.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-    if most.norm() <= ZERO * largest {
+    if most.norm() <= ROUNDING * largest {
         return None;
     }
     let normal = most.times(1.0 / most.norm());
     let in_plane = |twist: &[f64; 6]| {
         let (omega, velocity) = split(twist);
         let across = omega.cross(&normal).norm();
-        across.max(velocity.dot(&normal).abs()) <= ZERO * largest
+        across.max(velocity.dot(&normal).abs()) <= ROUNDING * largest
     };
     let mut twists = twists;
     twists.all(in_plane).then_some(normal)

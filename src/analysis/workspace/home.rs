@@ -6,6 +6,7 @@ use super::flood::{Edge, Flood, Met, ModeSeeds, ReachedSet, Signs, Steps, Until,
 use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::ROUNDING;
 use crate::system::Coordinate;
 
 /// The home assembly, followed to nodes of the grid.
@@ -75,8 +76,6 @@ impl<'f> Home<'f> {
 
 /// A mapped coordinate of a configuration, in the box if whole turns bring it there.
 fn within(problem: &MapProblem, grid: &Grid, axis: usize, at: &Configuration<f64>) -> f64 {
-    /// Part of an edge that is rounding.
-    const ROUNDING: f64 = 1e-9;
     let coordinate = problem.axes[axis].coordinate;
     let value = coordinate.of(problem.mechanism, at);
     let low = grid.coordinate(axis, 0);

@@ -85,6 +85,26 @@ impl Graph {
         self.bodies.iter().position(|body| body.value == name)
     }
 
+    /// The joints of a body.
+    pub fn joints_of(&self, body: usize) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        (0..self.ends.len()).filter(move |&joint| self.ends[joint].contains(&body))
+    }
+
+    /// A body that nothing holds yet, which carries the others of its part: one that is `asked` for, or else with the most
+    /// joints; the first of those.
+    pub fn next_platform(
+        &self,
+        is_cut: impl Fn(usize) -> bool,
+        is_held: impl Fn(usize) -> bool,
+        is_asked: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
+        let parts = self.parts(|joint| !is_cut(joint));
+        let first = (0..parts.len()).find(|&body| !is_held(body))?;
+        let same = (0..parts.len()).filter(|&body| parts[body] == parts[first]);
+        same.rev()
+            .max_by_key(|&body| (is_asked(body), self.joints_of(body).count()))
+    }
+
     /// For each body the number of joints between it and the ground.
     fn depths(&self) -> Vec<usize> {
         let mut depths = vec![usize::MAX; self.bodies.len()];

@@ -161,7 +161,15 @@ impl Tables<'_> {
             platform: None,
         });
         self.grow(0);
-        while let Some(root) = self.next_platform() {
+        let (graph, axes, cuts) = (self.graph, self.axes, self.cuts);
+        let asked = |body: usize| {
+            let name = &graph.bodies[body].value;
+            axes.points
+                .iter()
+                .any(|point| point.value.body.value == *name)
+        };
+        let is_cut = |joint: usize| cuts.contains(&joint);
+        while let Some(root) = graph.next_platform(is_cut, |b| self.bodies[b].is_some(), asked) {
             let frame = self
                 .frame_given(root)
                 .unwrap_or_else(|| self.first_point(root));
@@ -177,10 +185,9 @@ impl Tables<'_> {
             self.made.platforms.push(Named { name, value });
             self.grow(root);
         }
-        for &joint in self.cuts {
+        for &joint in cuts {
             self.close(joint);
         }
-        let axes = self.axes;
         for point in &axes.points {
             let Some(body) = self.graph.body(&point.value.body.value) else {
                 continue;
@@ -258,8 +265,7 @@ impl Tables<'_> {
     }
 
     fn first_point(&self, body: usize) -> Vec<Displacement> {
-        let mut joints = (0..self.graph.ends.len()).filter(|&j| self.graph.ends[j].contains(&body));
-        let Some(joint) = joints.next() else {
+        let Some(joint) = self.graph.joints_of(body).next() else {
             return Vec::new();
         };
         let side = usize::from(self.graph.ends[joint][1] == body);
@@ -284,26 +290,5 @@ impl Tables<'_> {
             (AxisPlace::Frame(steps), AxisKind::Fixed) if steps.is_empty() => otherwise.to_vec(),
             _ => frame_of(place, axis, otherwise),
         }
-    }
-
-    /// A body that nothing holds yet, which carries the others of its part: the one with a point of interest, or else
-    /// with the most joints.
-    fn next_platform(&self) -> Option<usize> {
-        let parts = self.graph.parts(|j| !self.cuts.contains(&j));
-        let first = self.bodies.iter().position(Option::is_none)?;
-        let same = (0..parts.len()).filter(|&b| parts[b] == parts[first]);
-        let joints = |b: usize| {
-            self.graph
-                .ends
-                .iter()
-                .filter(move |e| e.contains(&b))
-                .count()
-        };
-        let asked = |b: usize| {
-            let name = &self.graph.bodies[b].value;
-            (self.axes.points.iter()).any(|point| point.value.body.value == *name)
-        };
-        // the first of those with the most
-        same.rev().max_by_key(|&b| (asked(b), joints(b)))
     }
 }

@@ -10,9 +10,7 @@ use crate::description::{
 };
 use crate::geometry::Vector3;
 use crate::number::real;
-
-/// Axes of a universal joint this near to a right angle are perpendicular, in rad.
-const PERPENDICULAR: f64 = 1e-9;
+use crate::number::tolerance::ROUNDING;
 
 impl Builder<'_> {
     /// Axes need a direction, those of universal joints a right angle between them.
@@ -83,7 +81,7 @@ fn fault(
         _ if ends.iter().flatten().any(|v| v.norm() == 0.0) => AxesProblem::NoDirection { joint },
         [Some(a), Some(b)] => {
             let angle = real::acos((a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0));
-            if (angle - FRAC_PI_2).abs() <= PERPENDICULAR {
+            if (angle - FRAC_PI_2).abs() <= ROUNDING {
                 return None;
             }
             AxesProblem::NotPerpendicular { joint, angle }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{ClosedSolution, Rule};
 use crate::algebra::{EvaluationError, Expression};
 use crate::mechanism::{Configuration, Letters, Mechanism};
+use crate::number::tolerance::SOLVED;
 use crate::number::{Number, real};
 use crate::solve::Equations;
 use crate::system::{Question, System, check_count};
@@ -120,7 +121,7 @@ impl ClosedSolution {
         let count = all.len();
         let determined = all.into_iter().filter_map(|(divisors, found)| {
             let mut pairs = divisors.iter().zip(&sizes);
-            let all = pairs.all(|(divisor, size)| *divisor > ROUNDING * size);
+            let all = pairs.all(|(divisor, size)| *divisor > SOLVED * size);
             all.then_some(found)
         });
         let determined: Vec<_> = determined.collect();
@@ -158,9 +159,6 @@ impl ClosedSolution {
     }
 }
 
-/// Radicands below this part of their size are negative, and divisors zero.
-const ROUNDING: f64 = 1e-12;
-
 struct Signed {
     /// The bits of the signs to come.
     signs: u64,
@@ -176,7 +174,7 @@ impl Branching<f64> for Signed {
     }
 
     fn root(&mut self, radicand: f64, size: f64) -> f64 {
-        self.real &= radicand >= -ROUNDING * size;
+        self.real &= radicand >= -SOLVED * size;
         radicand.max(0.0).sqrt()
     }
 

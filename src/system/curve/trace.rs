@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
+use crate::number::tolerance::{ROUNDING, SAME};
 use crate::solve::{Continuation, Place, Progress, SolutionCurve, Watch};
 use crate::system::{Coordinate, Held};
 
@@ -88,9 +89,6 @@ pub struct Region<'m> {
     pub now: Progress,
 }
 
-/// A curve that exceeds a bound by less than this, in rad or characteristic lengths, counts as running along it.
-const BESIDE: f64 = 1e-9;
-
 impl Region<'_> {
     /// A coordinate of the box at a configuration; angles of platforms near the middle of the box.
     pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
@@ -127,7 +125,9 @@ impl Region<'_> {
 
     /// True if a configuration is inside the box and the limits.
     pub fn inside(&self, at: &Configuration<f64>) -> bool {
-        self.margins(at).into_iter().all(|margin| margin >= -BESIDE)
+        self.margins(at)
+            .into_iter()
+            .all(|margin| margin >= -ROUNDING)
     }
 
     /// The whole curve through a place.
@@ -201,7 +201,7 @@ impl Region<'_> {
             );
             let left = (before.iter().zip(&after))
                 .enumerate()
-                .filter(|(_, (b, a))| **a < -BESIDE && **a < **b)
+                .filter(|(_, (b, a))| **a < -ROUNDING && **a < **b)
                 .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((i, _)) = left {
@@ -292,7 +292,6 @@ pub fn met_at<C: ConfigurationCurve>(
     place: &Place<C::Point>,
     method: &Continuation,
 ) -> Option<f64> {
-    const SAME: f64 = 1e-6;
     let goal = C::configuration(&place.at);
     let mut step = vec![0.0; curve.closed().unknowns()];
     let mut distance = |i: usize| {
@@ -367,7 +366,6 @@ pub(super) fn closed<C: ConfigurationCurve>(
     gone: f64,
     method: &Continuation,
 ) -> Option<Place<C::Point>> {
-    const SAME: f64 = 1e-6;
     let step = norm(&curve.apart(&from.at, &to.at));
     if gone <= 1.5 * step || norm(&curve.apart(&from.at, &start.at)) > 2.0 * step {
         return None;

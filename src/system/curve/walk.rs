@@ -7,6 +7,7 @@ use super::trace::closed;
 use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::NOT_PRINTED;
 use crate::number::{real, sorting::sort_by};
 use crate::solve::{ALIGNED, BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
 
@@ -215,11 +216,9 @@ impl<'m> Walk<'m> {
 
     /// The special points between two places.
     fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Segment {
-        /// Rates below this are those of joints that do not move.
-        const STILL: f64 = 1e-10;
         let method = &self.method.clone();
         let mut events: Vec<(At, Event)> = Vec::new();
-        let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > STILL;
+        let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > NOT_PRINTED;
         for &(joint, column) in &self.turning {
             if changes(from.tangent[column], to.tangent[column]) {
                 let place = method.root(curve, &from, &to, &mut |_, p| p.tangent[column]);

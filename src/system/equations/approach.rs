@@ -5,11 +5,11 @@ use std::cell::RefCell;
 use super::{System, Work};
 use crate::linear::CURVED;
 use crate::mechanism::Configuration;
+use crate::number::tolerance::NOT_PRINTED;
 use crate::solve::{Equations, walk_down};
 
 /// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic lengths).
 const WEIGHT: f64 = 10.0;
-const KEPT: f64 = 1e-10;
 /// A gradient this small relative to the gaps vanishes.
 const LEVEL: f64 = 1e-6;
 
@@ -29,7 +29,7 @@ pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configurat
         let mut work = work.borrow_mut();
         system.residual(&at, &mut work);
         let left = &system.residual_of(&work)[held.clone()];
-        if left.iter().all(|row| row.abs() <= KEPT) {
+        if left.iter().all(|row| row.abs() <= NOT_PRINTED) {
             break;
         }
         for (multiplier, row) in multipliers.iter_mut().zip(left) {

@@ -6,6 +6,7 @@ use crate::geometry::Rotation;
 use crate::linear::{CANCELLED, Factorable, Qr, RANK_TOLERANCE};
 use crate::mechanism::PoseCoordinate;
 use crate::mechanism::{Configuration, Side};
+use crate::number::tolerance::SUMMED;
 use crate::solve::Equations;
 
 impl<T: Factorable> System<T> {
@@ -154,8 +155,7 @@ impl<T: Factorable> System<T> {
     /// Factorises the Jacobian last evaluated where solutions are known to be isolated, however badly they are
     /// determined: only pivots that rounding loses are.
     pub fn factorise_isolated(&self, work: &mut Work<T>) {
-        const ROUNDING: f64 = 1e-13;
-        work.jacobian.trust(ROUNDING);
+        work.jacobian.trust(SUMMED);
         work.jacobian.factorise(&work.hold_rows, 0.0);
         work.jacobian.trust(RANK_TOLERANCE);
     }

@@ -3,6 +3,7 @@
 use super::{System, Work};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::{DOUBLE, EXACT};
 use crate::solve::{
     Equations, Newton, Report, Stage, Stop, Watch, deflating_step, step_off_saddle,
 };
@@ -16,8 +17,6 @@ pub fn solve(
     at: &mut Configuration<f64>,
     work: &mut Work<f64>,
 ) -> Report {
-    /// Largest residual for the search of such a solution: of second order in the distance to it.
-    const NEARLY: f64 = 1e-5;
     const SADDLE: f64 = 0.05;
     /// Farthest distance of a saddle from the end of Newton's method.
     const NEAR: f64 = 0.1;
@@ -69,7 +68,7 @@ pub fn solve(
             ..again
         };
     }
-    let nearly = report.stop != Stop::Solved && report.size.largest < NEARLY;
+    let nearly = report.stop != Stop::Solved && report.size.largest < DOUBLE;
     if nearly && found.is_none() {
         found = settle(system, work, at.clone(), REACH, None);
     }
@@ -121,16 +120,13 @@ fn levelled(
     at: &Configuration<f64>,
     left: f64,
 ) -> Option<Configuration<f64>> {
-    /// Slopes that are left where what is left of the equations is within Newton's tolerance.
-    const NEARLY: f64 = 1e-5;
-    const ROUNDING: f64 = 1e-15;
     let lost = |tolerance| system.nullity(tolerance, work);
-    if lost(NEARLY) == lost(RANK_TOLERANCE) {
+    if lost(DOUBLE) == lost(RANK_TOLERANCE) {
         return None;
     }
     let level = level(system, work, at.clone())?;
-    let near = norm(&system.difference(at, &level)) <= NEARLY;
-    (near && system.linearise(&level, work).largest <= left.max(ROUNDING)).then_some(level)
+    let near = norm(&system.difference(at, &level)) <= DOUBLE;
+    (near && system.linearise(&level, work).largest <= left.max(EXACT)).then_some(level)
 }
 
 /// The configuration beside a point where the slopes vanish that nearly do there, and of the equations no
@@ -177,8 +173,6 @@ pub fn settle(
     watch: Option<&Watch>,
 ) -> Option<Configuration<f64>> {
     const STEPS: usize = 60;
-    /// No further step improves the result once this is reached.
-    const CLOSED: f64 = 1e-15;
     let tolerance = Newton::default().tolerance;
     let start = at.clone();
     let mut best: Option<(f64, Configuration<f64>)> = None;
@@ -197,7 +191,7 @@ pub fn settle(
             stale += 1;
         }
         let least = best.as_ref().map_or(f64::INFINITY, |best| best.0);
-        if size == 0.0 || (stale > 2 && least <= tolerance) || (stale > 0 && least <= CLOSED) {
+        if size == 0.0 || (stale > 2 && least <= tolerance) || (stale > 0 && least <= EXACT) {
             break;
         }
         let decomposition = system.decomposition(work);

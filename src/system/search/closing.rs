@@ -7,6 +7,7 @@ use crate::algebra::SiUnit;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::real;
+use crate::number::tolerance::{EXACT, ROUNDING};
 use crate::solve::{Equations, Newton, Watch};
 use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
@@ -313,7 +314,6 @@ fn farthest(
     to: &Configuration<f64>,
     among: Option<[&[bool]; 2]>,
 ) -> Option<Moved> {
-    const ROUNDING: f64 = 1e-9;
     let mechanism = question.mechanism();
     let length = mechanism.characteristic_length();
     let moved = |name: &str, is_angle: bool, distance: f64| Moved {
@@ -368,9 +368,6 @@ fn is_exact(mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
     let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
     system.residual(at, &mut system.work()).largest <= EXACT
 }
-
-/// Dimensionless closure rows below this are rounding.
-const EXACT: f64 = 1e-15;
 
 fn widest(mechanism: &Mechanism, at: &Configuration<f64>) -> Option<WidestGap> {
     let gaps = Gap::of(mechanism, at);

@@ -6,6 +6,7 @@ use rand::Rng;
 use super::{Neighbourhood, Tangent};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::DOUBLE;
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
 /// wₖᵀ J = 0, which every finite motion starts along.
@@ -159,9 +160,6 @@ impl Cone {
         reach: f64,
         rng: &mut impl Rng,
     ) -> Option<FlatSet> {
-        /// Singular values below this part of the largest are zero: solutions at which equations only touch zero are
-        /// known to half their digits.
-        const HALF: f64 = 1e-5;
         let flat = Tangent {
             motions: self.flat()?,
             ..from.clone()
@@ -175,7 +173,7 @@ impl Cone {
         let as_low = |at: &Configuration<f64>| {
             let decomposition = near.tangent(at.clone()).decomposition;
             let values = decomposition.singular_values();
-            let counts = values.iter().filter(|v| **v > HALF * values[0]);
+            let counts = values.iter().filter(|v| **v > DOUBLE * values[0]);
             counts.count() <= from.decomposition.rank()
         };
         beside.iter().all(as_low).then_some(FlatSet {
@@ -192,8 +190,6 @@ impl Cone {
     /// A direction on the cone, by Gauss–Newton steps from a random one, if they converge.
     pub fn direction(&self, motions: &[Vec<f64>], rng: &mut impl Rng) -> Option<Vec<f64>> {
         const STEPS: usize = 40;
-        /// Double solutions are neared linearly only: the rest is left to the finite step.
-        const NEAR: f64 = 1e-5;
         let n = self.freedoms;
         let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
         let units: Vec<Vec<f64>> = (0..n).map(unit).collect();
@@ -219,7 +215,7 @@ impl Cone {
             v.iter_mut().for_each(|x| *x /= length);
         }
         let sum = |i: usize| motions.iter().zip(&v).map(|(m, v)| m[i] * v).sum();
-        (left < NEAR).then(|| (0..motions[0].len()).map(sum).collect())
+        (left < DOUBLE).then(|| (0..motions[0].len()).map(sum).collect())
     }
 
     /// The forms at v and their derivatives, column-major.

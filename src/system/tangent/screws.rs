@@ -12,6 +12,7 @@ use crate::linear::{Decomposition, axis_aligned, dot, norm, orthonormal, remove}
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::number::Number;
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::RANK_TOLERANCE;
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,9 +35,6 @@ pub struct Screw {
     /// Advance in m/rad: zero for a rotation, `None` for a translation, whose pitch is infinite.
     pub pitch: Option<f64>,
 }
-
-/// Components of a dimensionless twist below this are zero.
-const ZERO: f64 = 1e-7;
 
 /// The bodies whose motions are of interest: platforms, or else the links that closures join.
 fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
@@ -139,8 +137,8 @@ fn principal_screws(mechanism: &Mechanism, twists: &[Vec<f64>]) -> Vec<Screw> {
     // combinations without rotation
     let still: Vec<Vec<f64>> = turning.null_space().iter().map(velocity).collect();
     let translations = axis_aligned(&still);
-    let translation_basis = orthonormal(&translations, ZERO);
-    let rotation_basis = orthonormal(&rotations, ZERO);
+    let translation_basis = orthonormal(&translations, RANK_TOLERANCE);
+    let rotation_basis = orthonormal(&rotations, RANK_TOLERANCE);
     let velocities: Vec<Vec<f64>> = (rotation_basis.iter())
         .map(|omega| {
             let mut velocity = velocity(&turning.solve(omega));
@@ -176,7 +174,11 @@ fn rotations_of(
         let back = dot(&rotation_basis[j], &velocities[i]);
         let pitch = 0.5 * (ahead + back);
         // equal pitches must not turn the axes
-        if pitch.abs() < ZERO { 0.0 } else { pitch }
+        if pitch.abs() < RANK_TOLERANCE {
+            0.0
+        } else {
+            pitch
+        }
     });
     let eigen = pitches.symmetric_eigen();
     let mut screws: Vec<Screw> = (0..size)

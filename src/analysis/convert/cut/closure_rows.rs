@@ -36,11 +36,8 @@ impl ClosureRows {
     /// Number of variables that a closure becomes; `None` if it cannot become rows.
     pub fn variables(kind: ClosureKind) -> Option<usize> {
         match kind {
-            ClosureKind::Rigid => Some(0),
-            ClosureKind::Revolute | ClosureKind::Prismatic => Some(1),
-            ClosureKind::Universal | ClosureKind::Cylindrical => Some(2),
-            ClosureKind::Spherical => Some(3),
             ClosureKind::Planar | ClosureKind::Distance | ClosureKind::Coupling => None,
+            kind => Some(kind.freedoms().len()),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::walk::MOVED_ON_A_BRANCH;
 use super::{Branch, Part, STEP, Search, see};
 use crate::linear::dot;
+use crate::number::tolerance::ROUNDING;
 use crate::system::{FiniteStep, Tangent, combination};
 
 /// Directions of motion that are tried; all must be free for the mechanism to be regular.
@@ -82,8 +83,6 @@ impl Search<'_, '_> {
     /// The branch of a singular part where all motions but one are free whatever that one does. What is left of the
     /// equations is then a function of one variable, and if steps either way leave them open it vanishes nowhere nearby.
     pub(super) fn all_but_one(&mut self, tangent: &Tangent) -> Option<Part> {
-        /// A gap that no rounding makes.
-        const OPEN: f64 = 1e-9;
         if self.near.system().is_large() {
             return None;
         }
@@ -94,7 +93,7 @@ impl Search<'_, '_> {
         let is_open = [1.0, -1.0].into_iter().all(|sign| {
             let direction: Vec<f64> = one.iter().map(|x| sign * x).collect();
             let step = self.near.free_step(tangent, &direction, STEP);
-            matches!(step, Err(Some(gap)) if gap > OPEN)
+            matches!(step, Err(Some(gap)) if gap > ROUNDING)
         });
         let others = Tangent {
             motions: others,

@@ -3,9 +3,7 @@
 use super::SENSES;
 use crate::analysis::quantities::course::{Course, Sought};
 use crate::number::sorting::sort_by;
-
-/// Values nearer than this to the least or the greatest, relative to usual ones, are not distinguished from them.
-const SAME: f64 = 1e-10;
+use crate::number::tolerance::NOT_PRINTED;
 
 /// Bounds of a quantity over the whole curve.
 pub(super) struct Bounds {
@@ -26,7 +24,7 @@ pub(super) struct Bounds {
 impl Bounds {
     /// Distance beyond the best value within which values cannot be distinguished from it.
     pub fn slack(&self, best: f64) -> f64 {
-        SAME * (best.abs() + self.usual[0]) + 2.0 * self.usual[1]
+        NOT_PRINTED * (best.abs() + self.usual[0]) + 2.0 * self.usual[1]
     }
 
     /// Takes in a value.

@@ -5,6 +5,7 @@ use super::probe::Found;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Figure, Measured, Order, Point, PoseCoordinate};
 use crate::number::Number;
+use crate::number::tolerance::SOLVED;
 use crate::system::Coordinate;
 
 /// A configuration with the known rates and figures.
@@ -85,7 +86,6 @@ impl Meter<'_> {
 
     /// Uncertainty of the value of a name: configurations are closed to 1e-12.
     fn off<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize, value: T) -> T {
-        const ROUNDING: f64 = 1e-12;
         let [rate, change] = here.largest;
         let most = |order: Order| match order {
             Order::Value => T::one(),
@@ -116,7 +116,7 @@ impl Meter<'_> {
             Measured::Figure(_) if !value.is_finite() => T::zero(),
             Measured::Figure(_) => value.abs(),
         };
-        size.scale(ROUNDING)
+        size.scale(SOLVED)
     }
 
     fn known<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize) -> Option<T> {

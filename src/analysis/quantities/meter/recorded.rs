@@ -6,8 +6,7 @@ use super::found::Here;
 use super::probe::Probe;
 use super::programs::{estimated, is_clear, is_name};
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
-use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, PlatformPose};
+use crate::mechanism::Configuration;
 use crate::number::{Number, widest};
 
 /// The quantities as a program, which holds wherever all that was decided at one row is decided in the same way.
@@ -80,11 +79,7 @@ impl Meter<'_> {
             put(next, x);
             next += 1;
         };
-        at.joints.iter().for_each(|&x| put(x));
-        for pose in &at.platforms {
-            let parts = pose.orientation.0.iter().chain(&pose.position.0);
-            parts.for_each(|&x| put(x));
-        }
+        at.numbers().for_each(&mut put);
         match &self.of.schedule {
             None => put(time),
             Some(schedule) => {
@@ -135,15 +130,7 @@ impl Meter<'_> {
     fn written(&self, at: &Configuration<f64>) -> Option<Written> {
         let mut all = (0..).map(Recorded::input);
         let mut next = || all.next().expect("there is no last one");
-        let at = Configuration {
-            joints: at.joints.iter().map(|_| next()).collect(),
-            platforms: (at.platforms.iter())
-                .map(|_| PlatformPose {
-                    orientation: Quaternion([(); 4].map(|()| next())),
-                    position: Vector3([(); 3].map(|()| next())),
-                })
-                .collect(),
-        };
+        let at = at.map(|_| next());
         let mut driven = [(); 2].map(|()| vec![Recorded::zero(); self.ways.len()]);
         let pace = match self.of.schedule {
             None => self.of.pace.relative(next()),

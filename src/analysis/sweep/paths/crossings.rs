@@ -1,8 +1,9 @@
 //! Double points: crossings of paths with themselves and one another.
 
-use super::{At, PathPoint, STILL, Tracer};
+use super::{At, PathPoint, Tracer};
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
+use crate::number::tolerance::{ROUNDING, SOLVED};
 use crate::number::{real, sorting::sort_by};
 use crate::solve::Continuation;
 use crate::system::Curve;
@@ -37,7 +38,7 @@ pub(super) fn double_points(
         for (i, pair) in points.windows(2).enumerate() {
             let ends = [pair[0], pair[1]];
             let chord = (ends[1] - ends[0]).norm();
-            if chord < STILL * tracer.length {
+            if chord < ROUNDING * tracer.length {
                 continue;
             }
             let slack = BULGE * chord;
@@ -113,8 +114,6 @@ fn crossing(
     const STEPS: usize = 20;
     /// Sine of the least angle between the branches.
     const TANGENT: f64 = 1e-6;
-    /// Passages through one point are this near, over the characteristic length.
-    const MET: f64 = 1e-12;
     /// Parts of a step that a crossing may lie outside it.
     const BESIDE: f64 = 0.1;
     let from = pieces.map(|piece| &curves[piece.curve].0[piece.number]);
@@ -157,7 +156,7 @@ fn crossing(
                 (-BESIDE..=1.0 + BESIDE).contains(&part)
             });
             let apart = norm(&curve.difference_but_turns(&places[0].at, &places[1].at));
-            let met = inside && gap.norm() < MET && apart > 1e-6;
+            let met = inside && gap.norm() < SOLVED && apart > 1e-6;
             let [first, second]: [At; 2] = places.try_into().ok()?;
             return met.then_some([first, second]);
         }

@@ -7,6 +7,7 @@ use super::step::SURE;
 use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::norm;
 use crate::mechanism::{ConfigurationRef, Role, turn_near};
+use crate::number::tolerance::SAME;
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Curve, Held, Unknown};
 
@@ -45,9 +46,6 @@ pub(crate) struct Ahead<'a> {
     /// Largest distance of the solution from the prediction.
     miss: f64,
 }
-
-/// Configurations this near are the same.
-const SAME: f64 = 1e-6;
 
 impl Metric {
     pub fn new(problem: &MapProblem) -> Self {

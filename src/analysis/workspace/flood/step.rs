@@ -8,6 +8,7 @@ use crate::analysis::workspace::problem::{
 };
 use crate::linear::norm;
 use crate::mechanism::{Configuration, ConfigurationRef};
+use crate::number::tolerance::{ROUNDING, SOLVED};
 use crate::solve::Equations;
 use crate::system::{System, Work};
 use side_by_side::{End, SideBySide};
@@ -55,19 +56,14 @@ impl Reach {
 
     /// True if a correction is short enough; the next one must be shorter.
     pub fn allows(&mut self, size: f64) -> bool {
-        /// Corrections this small are rounding.
-        const SMALL: f64 = 1e-9;
         // what is not finite is rejected too
-        let sure = size.is_finite() && size <= self.0.max(SMALL);
+        let sure = size.is_finite() && size <= self.0.max(ROUNDING);
         if self.0.is_finite() {
             self.0 = SURE * size;
         }
         sure
     }
 }
-
-/// Rows this small are solved.
-const TOLERANCE: f64 = 1e-12;
 
 impl Steps {
     pub fn new(problem: &MapProblem) -> Self {
@@ -154,7 +150,7 @@ impl Steps {
             self.system.linearise(&self.point, &mut self.work);
             // a NaN is not small
             let mut rows = self.system.residual_of(&self.work).iter();
-            if rows.all(|row| row.abs() <= TOLERANCE) {
+            if rows.all(|row| row.abs() <= SOLVED) {
                 self.motions();
                 return true;
             }

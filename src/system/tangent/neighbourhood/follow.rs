@@ -4,6 +4,7 @@ use super::{Neighbourhood, Tangent};
 use crate::linear::{Svd, add, dot, norm};
 use crate::mechanism::Configuration;
 use crate::number::real;
+use crate::number::tolerance::{NOT_PRINTED, SOLVED};
 use crate::solve::Equations;
 use crate::system::equations::settle;
 
@@ -209,16 +210,12 @@ impl Neighbourhood<'_> {
         mut at: Configuration<f64>,
     ) -> Configuration<f64> {
         const STEPS: usize = 200;
-        /// A step that is shorter changes nothing that is printed.
-        const ARRIVED: f64 = 1e-10;
-        /// Distances that differ by less than this part of them are equal but for rounding.
-        const ROUNDED: f64 = 1e-12;
         let mut part = 1.0;
         let mut away = self.system.difference(point, &at);
         let mut along = self.along_motions(&at, &away);
         for _ in 0..STEPS {
             let size = part * norm(&along);
-            if size < ARRIVED {
+            if size < NOT_PRINTED {
                 break;
             }
             let back: Vec<f64> = along.iter().map(|x| -part * x).collect();
@@ -228,7 +225,7 @@ impl Neighbourhood<'_> {
                 let left = self.along_motions(&settled, &further);
                 let (before, after) = (norm(&away), norm(&further));
                 // a distance is flat where it is least: there its slope decides
-                let nearer = match (after - before).abs() <= ROUNDED * before {
+                let nearer = match (after - before).abs() <= SOLVED * before {
                     true => norm(&left) < norm(&along),
                     false => after < before,
                 };

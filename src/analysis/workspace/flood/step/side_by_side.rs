@@ -3,8 +3,7 @@
 use super::{Reach, TOLERANCE};
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
 use crate::analysis::workspace::problem::{MapProblem, Motions, Rates, Targets};
-use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, PlatformPose};
+use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::Equations;
 use crate::system::{HeldPlatform, System};
@@ -74,7 +73,7 @@ impl SideBySide {
         inputs.sort_by_key(|&number| !stands[number]);
         let known = asked + stands.iter().filter(|stands| **stands).count();
         let mut configuration = vec![0; stands.len()];
-        let given: Vec<f64> = numbers(at).collect();
+        let given: Vec<f64> = at.numbers().collect();
         for number in inputs {
             configuration[number] = sample.len();
             sample.push(given[number]);
@@ -127,7 +126,7 @@ impl SideBySide {
     /// Puts a place near where it is to arrive; the numbers that the equations hold come first.
     pub fn put(&mut self, place: usize, asked: impl Iterator<Item = f64>, at: &Configuration<f64>) {
         let registers = (0..self.asked).chain(self.configuration.iter().copied());
-        for (register, value) in registers.zip(asked.chain(numbers(at))) {
+        for (register, value) in registers.zip(asked.chain(at.numbers())) {
             self.registers.rows_mut(register)[place] = value;
         }
     }
@@ -187,18 +186,8 @@ impl SideBySide {
     /// Copies the solution of a place, with its motions.
     pub fn get(&self, place: usize, at: &mut Configuration<f64>, motions: &mut Motions<f64>) {
         let number = |register: &usize| self.registers.rows(*register)[place];
-        let (joints, platforms) = self.configuration.split_at(at.joints.len());
-        for (joint, register) in at.joints.iter_mut().zip(joints) {
-            *joint = number(register);
-        }
-        for (pose, registers) in at.platforms.iter_mut().zip(platforms.chunks_exact(7)) {
-            let numbers: [f64; 7] = std::array::from_fn(|k| number(&registers[k]));
-            let [w, x, y, z, position @ ..] = numbers;
-            *pose = PlatformPose {
-                orientation: Quaternion([w, x, y, z]),
-                position: Vector3(position),
-            };
-        }
+        let numbers = self.configuration.iter().map(number);
+        at.numbers_mut().zip(numbers).for_each(|(at, x)| *at = x);
         let fill = |to: &mut Vec<f64>, from: &[usize]| {
             to.clear();
             to.extend(from.iter().map(number));
@@ -239,7 +228,7 @@ fn written(
     system.step(&mut work);
     let step = system.step_of(&work).to_vec();
     let square = step.iter().fold(Recorded::zero(), |sum, &x| sum + x * x);
-    let moved: Vec<Recorded> = numbers(&system.displaced(at, &step)).collect();
+    let moved: Vec<Recorded> = system.displaced(at, &step).numbers().collect();
     let (motions, opening) = Default::default();
     let mut found = Motions { motions, opening };
     rates.motions(at, system, &mut work, &mut found);
@@ -258,13 +247,6 @@ fn written(
         },
         rows,
     })
-}
-
-/// The numbers of a configuration: joints, then orientations and positions of platforms.
-fn numbers<T: Copy>(at: &Configuration<T>) -> impl Iterator<Item = T> {
-    let poses = at.platforms.iter();
-    let poses = poses.flat_map(|pose| pose.orientation.0.into_iter().chain(pose.position.0));
-    at.joints.iter().copied().chain(poses)
 }
 
 #[cfg(test)]
@@ -321,7 +303,7 @@ mod tests {
                 continue;
             };
             arrived += 1;
-            let of = |at: Configuration<f64>| numbers(&at).collect::<Vec<f64>>();
+            let of = |at: Configuration<f64>| at.numbers().collect::<Vec<f64>>();
             let same = |a: &[f64], b: &[f64]| {
                 let off = a
                     .iter()
