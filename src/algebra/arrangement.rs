@@ -182,7 +182,7 @@ fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Pr
 
 /// A factor that several products may have.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Factor {
+enum SharedFactor {
     Letter(Atom, i32),
     Circular(Circular),
 }
@@ -200,27 +200,27 @@ impl Product {
         )
     }
 
-    fn factors(&self) -> impl Iterator<Item = Factor> {
+    fn factors(&self) -> impl Iterator<Item = SharedFactor> {
         let letters = self.powers.iter().filter(|(_, power)| *power > 0);
-        let letters = letters.map(|(atom, power)| Factor::Letter(atom.clone(), *power));
-        letters.chain(self.circular.iter().cloned().map(Factor::Circular))
+        let letters = letters.map(|(atom, power)| SharedFactor::Letter(atom.clone(), *power));
+        letters.chain(self.circular.iter().cloned().map(SharedFactor::Circular))
     }
 
-    fn has(&self, factor: &Factor) -> bool {
+    fn has(&self, factor: &SharedFactor) -> bool {
         self.factors().any(|own| own == *factor)
     }
 
-    fn without(&self, factor: &Factor) -> Product {
+    fn without(&self, factor: &SharedFactor) -> Product {
         let mut rest = self.clone();
         match factor {
-            Factor::Letter(atom, _) => rest.powers.retain(|(own, _)| own != atom),
-            Factor::Circular(circular) => rest.circular.retain(|own| own != circular),
+            SharedFactor::Letter(atom, _) => rest.powers.retain(|(own, _)| own != atom),
+            SharedFactor::Circular(circular) => rest.circular.retain(|own| own != circular),
         }
         rest
     }
 }
 
-type Name<'a> = &'a dyn Fn(u32) -> String;
+type LetterName<'a> = &'a dyn Fn(u32) -> String;
 
 /// A signed summand.
 struct Summand {
@@ -228,7 +228,7 @@ struct Summand {
     expression: Expression,
 }
 
-fn nested(products: Vec<Product>, name: Name) -> Expression {
+fn nested(products: Vec<Product>, name: LetterName) -> Expression {
     sum(summands(products, name))
 }
 
@@ -261,9 +261,9 @@ fn binary(operator: Operator, x: Expression, y: Expression) -> Expression {
     Node::binary(operator, x, y).at(0..0)
 }
 
-fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
+fn summands(mut products: Vec<Product>, name: LetterName) -> Vec<Summand> {
     sort_by_key(&mut products, Product::rank);
-    let mut counts: BTreeMap<Factor, usize> = BTreeMap::new();
+    let mut counts: BTreeMap<SharedFactor, usize> = BTreeMap::new();
     for factor in products.iter().flat_map(Product::factors) {
         *counts.entry(factor).or_default() += 1;
     }
@@ -293,7 +293,7 @@ fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
 }
 
 /// factor·(…)
-fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
+fn taken_out(factor: &SharedFactor, mut inside: Vec<Product>, name: LetterName) -> Summand {
     sort_by_key(&mut inside, Product::rank);
     // −s₁(c₂ − c₃) rather than s₁(−c₂ + c₃)
     let negative = inside[0].coefficient.is_negative();
@@ -318,8 +318,8 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
     }
     for factor in common {
         match factor {
-            Factor::Letter(atom, power) => outside.powers.push((atom, power)),
-            Factor::Circular(circular) => outside.circular.push(circular),
+            SharedFactor::Letter(atom, power) => outside.powers.push((atom, power)),
+            SharedFactor::Circular(circular) => outside.circular.push(circular),
         }
     }
     sort_by(&mut outside.powers, Ord::cmp);

@@ -9,7 +9,7 @@ use super::{Expression, Node, Operator};
 
 /// The precedence of the outermost operation of an expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Tightness {
+enum Precedence {
     Sum,
     Product,
     Sign,
@@ -31,33 +31,33 @@ impl Operator {
         }
     }
 
-    fn tightness(self) -> Tightness {
+    fn tightness(self) -> Precedence {
         match self {
-            Self::Add | Self::Subtract => Tightness::Sum,
-            Self::Multiply | Self::Divide => Tightness::Product,
-            Self::Power => Tightness::Power,
+            Self::Add | Self::Subtract => Precedence::Sum,
+            Self::Multiply | Self::Divide => Precedence::Product,
+            Self::Power => Precedence::Power,
         }
     }
 }
 
 impl<N> Expression<N> {
-    fn tightness(&self) -> Tightness {
+    fn tightness(&self) -> Precedence {
         match &self.node {
-            Node::Number(value) if value.is_sign_negative() => Tightness::Sign,
-            Node::Quantity(..) => Tightness::Quantity,
+            Node::Number(value) if value.is_sign_negative() => Precedence::Sign,
+            Node::Quantity(..) => Precedence::Quantity,
             Node::Number(_) | Node::Constant(_) | Node::Name(_) | Node::Call(..) => {
-                Tightness::Operand
+                Precedence::Operand
             }
-            Node::Negate(_) => Tightness::Sign,
+            Node::Negate(_) => Precedence::Sign,
             Node::Binary(operator, ..) => operator.tightness(),
         }
     }
 }
 
 /// A part of an expression, in parentheses unless its precedence is at least the given one.
-struct Part<'a, N>(&'a Expression<N>, Tightness);
+struct OperandPart<'a, N>(&'a Expression<N>, Precedence);
 
-impl<N: Display> Display for Part<'_, N> {
+impl<N: Display> Display for OperandPart<'_, N> {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self.0.tightness() >= self.1 {
             true => write!(f, "{}", self.0),
@@ -76,14 +76,16 @@ impl<N: Display> Display for Expression<N> {
             }
             Node::Constant(constant) => f.write_str(constant.word()),
             Node::Name(name) => write!(f, "{name}"),
-            Node::Negate(x) => write!(f, "-{}", Part(x, Tightness::Sign)),
+            Node::Negate(x) => write!(f, "-{}", OperandPart(x, Precedence::Sign)),
             Node::Binary(operator, x, y) => {
                 let (left, right) = match operator {
-                    Operator::Add | Operator::Subtract => (Tightness::Sum, Tightness::Product),
-                    Operator::Multiply | Operator::Divide => (Tightness::Product, Tightness::Sign),
-                    Operator::Power => (Tightness::Operand, Tightness::Sign),
+                    Operator::Add | Operator::Subtract => (Precedence::Sum, Precedence::Product),
+                    Operator::Multiply | Operator::Divide => {
+                        (Precedence::Product, Precedence::Sign)
+                    }
+                    Operator::Power => (Precedence::Operand, Precedence::Sign),
                 };
-                let (x, y) = (Part(x, left), Part(y, right));
+                let (x, y) = (OperandPart(x, left), OperandPart(y, right));
                 match operator {
                     Operator::Add | Operator::Subtract => {
                         write!(f, "{x} {} {y}", operator.symbol())
@@ -126,13 +128,13 @@ impl<'de> Deserialize<'de> for Expression {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
         #[serde(untagged, expecting = "expected a number or an expression")]
-        enum Written {
+        enum WrittenForm {
             Number(f64),
             Text(String),
         }
-        match Written::deserialize(deserializer)? {
-            Written::Number(value) => Ok(Expression::number(value)),
-            Written::Text(text) => Expression::parse_quantity(&text).map_err(Error::custom),
+        match WrittenForm::deserialize(deserializer)? {
+            WrittenForm::Number(value) => Ok(Expression::number(value)),
+            WrittenForm::Text(text) => Expression::parse_quantity(&text).map_err(Error::custom),
         }
     }
 }

@@ -23,7 +23,7 @@ pub use operation::Operation;
 /// Index of an operation in its list.
 pub type Place = u32;
 
-type Key = (std::mem::Discriminant<Operation>, u64, u64);
+type OperationKey = (std::mem::Discriminant<Operation>, u64, u64);
 
 /// A comparison with zero that was decided by its value at the sample: the number, and true if it is negative there.
 /// The program holds only for inputs at which it comes out as there.
@@ -38,7 +38,7 @@ pub struct Recorded(Place);
 struct List {
     operations: Vec<Operation>,
     values: Vec<f64>,
-    places: FxHashMap<Key, Place>,
+    places: FxHashMap<OperationKey, Place>,
     sample: Vec<f64>,
     /// Angles whose sine and cosine are known.
     turns: FxHashMap<Place, [Recorded; 2]>,

@@ -43,9 +43,9 @@ thread_local! {
 }
 
 /// Closes the arena, also when the work panics, and opens the one around it again.
-struct Closing(Option<Arena>);
+struct ArenaGuard(Option<Arena>);
 
-impl Drop for Closing {
+impl Drop for ArenaGuard {
     fn drop(&mut self) {
         OPEN.with(|open| *open.borrow_mut() = self.0.take());
     }
@@ -68,7 +68,7 @@ pub fn with_letters<R>(values: Vec<f64>, budget: Budget, work: impl FnOnce() -> 
     arena.keep(Trigonometric::zero());
     arena.keep(Trigonometric::one());
     let around = OPEN.with(|open| open.borrow_mut().replace(arena));
-    let _closing = Closing(around);
+    let _closing = ArenaGuard(around);
     work()
 }
 

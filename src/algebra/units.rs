@@ -6,7 +6,7 @@ use super::{
 
 /// Unit of a part of an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Known {
+enum KnownUnit {
     /// A number as it is written: it may have any unit in a sum, and has none in a product.
     Number,
     /// A known unit.
@@ -22,18 +22,18 @@ impl<N> Expression<N> {
     /// If parts of a sum have different units, or a function does not take the unit of its argument.
     pub fn unit(&self, of: &impl Fn(&N) -> Option<SiUnit>) -> Result<Option<SiUnit>, MeasureError> {
         Ok(match self.known(of)? {
-            Known::Unit(unit) => Some(unit.of_result()),
-            Known::Number | Known::Open => None,
+            KnownUnit::Unit(unit) => Some(unit.of_result()),
+            KnownUnit::Number | KnownUnit::Open => None,
         })
     }
 
-    fn known(&self, of: &impl Fn(&N) -> Option<SiUnit>) -> Result<Known, MeasureError> {
-        use Known::{Number, Open};
+    fn known(&self, of: &impl Fn(&N) -> Option<SiUnit>) -> Result<KnownUnit, MeasureError> {
+        use KnownUnit::{Number, Open};
         Ok(match &self.node {
             Node::Number(_) | Node::Constant(Constant::Pi) => Number,
-            Node::Constant(Constant::Degree | Constant::Radian) => Known::Unit(SiUnit::RADIAN),
-            Node::Quantity(_, unit) => unit.measure().si_unit().map_or(Open, Known::Unit),
-            Node::Name(name) => of(name).map_or(Open, Known::Unit),
+            Node::Constant(Constant::Degree | Constant::Radian) => KnownUnit::Unit(SiUnit::RADIAN),
+            Node::Quantity(_, unit) => unit.measure().si_unit().map_or(Open, KnownUnit::Unit),
+            Node::Name(name) => of(name).map_or(Open, KnownUnit::Unit),
             Node::Negate(x) => x.known(of)?,
             Node::Binary(operator, x, y) => {
                 let (left, right) = (x.known(of)?, y.known(of)?);
@@ -43,8 +43,8 @@ impl<N> Expression<N> {
                     Operator::Divide => product(left, right, -1),
                     Operator::Power => match (left, y.whole()) {
                         (Number, _) => Number,
-                        (Known::Unit(unit), Some(power)) => {
-                            unit.powi(power).map_or(Open, Known::Unit)
+                        (KnownUnit::Unit(unit), Some(power)) => {
+                            unit.powi(power).map_or(Open, KnownUnit::Unit)
                         }
                         _ => Open,
                     },
@@ -52,17 +52,17 @@ impl<N> Expression<N> {
             }
             Node::Call(function, arguments) => {
                 let known = arguments.iter().map(|argument| argument.known(of));
-                let known = known.collect::<Result<Vec<Known>, _>>()?;
+                let known = known.collect::<Result<Vec<KnownUnit>, _>>()?;
                 let all = || (known.iter()).try_fold(Number, |all, next| self.alike(all, *next));
                 match function {
                     Function::Abs | Function::Hypot | Function::Min | Function::Max => all()?,
-                    Function::Atan2 => all().map(|_| Known::Unit(SiUnit::RADIAN))?,
+                    Function::Atan2 => all().map(|_| KnownUnit::Unit(SiUnit::RADIAN))?,
                     Function::Sqrt => match known[0] {
-                        Known::Unit(unit) => unit.sqrt().map_or(Open, Known::Unit),
+                        KnownUnit::Unit(unit) => unit.sqrt().map_or(Open, KnownUnit::Unit),
                         other => other,
                     },
                     _ => {
-                        if let Known::Unit(unit) = known[0]
+                        if let KnownUnit::Unit(unit) = known[0]
                             && unit.without_angle() != SiUnit::ONE
                         {
                             let kind = MeasureErrorKind::Argument(*function, unit);
@@ -70,9 +70,9 @@ impl<N> Expression<N> {
                         }
                         match function {
                             Function::Asin | Function::Acos | Function::Atan => {
-                                Known::Unit(SiUnit::RADIAN)
+                                KnownUnit::Unit(SiUnit::RADIAN)
                             }
-                            _ => Known::Unit(SiUnit::ONE),
+                            _ => KnownUnit::Unit(SiUnit::ONE),
                         }
                     }
                 }
@@ -91,43 +91,43 @@ impl<N> Expression<N> {
     }
 
     /// The unit of two parts that must have the same.
-    fn alike(&self, left: Known, right: Known) -> Result<Known, MeasureError> {
+    fn alike(&self, left: KnownUnit, right: KnownUnit) -> Result<KnownUnit, MeasureError> {
         match (left, right) {
-            (Known::Unit(left), Known::Unit(right)) => {
+            (KnownUnit::Unit(left), KnownUnit::Unit(right)) => {
                 match left.without_angle() == right.without_angle() {
-                    true if left == right => Ok(Known::Unit(left)),
-                    true => Ok(Known::Unit(left.without_angle())),
+                    true if left == right => Ok(KnownUnit::Unit(left)),
+                    true => Ok(KnownUnit::Unit(left.without_angle())),
                     false => {
                         let kind = MeasureErrorKind::Units(left.of_result(), right.of_result());
                         Err(self.refused(kind))
                     }
                 }
             }
-            (unit @ Known::Unit(_), _) | (_, unit @ Known::Unit(_)) => Ok(unit),
-            (Known::Open, _) | (_, Known::Open) => Ok(Known::Open),
-            (Known::Number, Known::Number) => Ok(Known::Number),
+            (unit @ KnownUnit::Unit(_), _) | (_, unit @ KnownUnit::Unit(_)) => Ok(unit),
+            (KnownUnit::Open, _) | (_, KnownUnit::Open) => Ok(KnownUnit::Open),
+            (KnownUnit::Number, KnownUnit::Number) => Ok(KnownUnit::Number),
         }
     }
 }
 
 /// The unit of left · right^power.
-fn product(left: Known, right: Known, power: i32) -> Known {
-    let unit = |known: Known| match known {
-        Known::Number => Some(SiUnit::ONE),
-        Known::Unit(unit) => Some(unit),
-        Known::Open => None,
+fn product(left: KnownUnit, right: KnownUnit, power: i32) -> KnownUnit {
+    let unit = |known: KnownUnit| match known {
+        KnownUnit::Number => Some(SiUnit::ONE),
+        KnownUnit::Unit(unit) => Some(unit),
+        KnownUnit::Open => None,
     };
-    if (left, right) == (Known::Number, Known::Number) {
-        return Known::Number;
+    if (left, right) == (KnownUnit::Number, KnownUnit::Number) {
+        return KnownUnit::Number;
     }
     let (Some(left), Some(right)) = (unit(left), unit(right)) else {
-        return Known::Open;
+        return KnownUnit::Open;
     };
     // a sum of digits fits, one of nines is cut off here
     let right = right.powi(power);
     let all = right.and_then(|right| left.times(right).powi(1));
     // an arm times an angular velocity is a velocity, and over another one a plain number
-    all.map_or(Known::Open, |unit| Known::Unit(unit.of_result()))
+    all.map_or(KnownUnit::Open, |unit| KnownUnit::Unit(unit.of_result()))
 }
 
 #[cfg(test)]

@@ -17,11 +17,11 @@ use crate::algebra::EvaluationError;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{FormulaNames, Named};
-use conditions::Conditions;
 pub use conditions::Divisor;
-use formula::{Values, measured};
+use conditions::ProofConditions;
+use formula::{NamedValues, measured};
 pub use proof::{Difference, Proof, Reason};
-use samples::Samples;
+use samples::SampleStream;
 use variables::formulas;
 
 /// The relative difference that a proved identity may show at configurations solved to a residual of 1e-12: where the
@@ -174,7 +174,7 @@ pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch)
         .collect();
     let (mut closed, mut open): (Vec<&mut Checked>, Vec<&mut Checked>) =
         (forms.iter_mut()).partition(|checked| must_be_assembled(mechanism, checked.form));
-    let mut samples = Samples::new(mechanism, settings.samples, settings.seed);
+    let mut samples = SampleStream::new(mechanism, settings.samples, settings.seed);
     let passes = 1 + usize::from(!closed.is_empty());
     let total = settings.samples.saturating_add(1).saturating_mul(passes);
     let mut done = 0;
@@ -235,7 +235,7 @@ fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
 struct Checked<'a> {
     form: &'a ClosedForm,
     components: Vec<ComponentReport>,
-    conditions: Vec<Conditions>,
+    conditions: Vec<ProofConditions>,
 }
 
 impl<'a> Checked<'a> {
@@ -268,7 +268,8 @@ impl<'a> Checked<'a> {
             worst: None,
         };
         let formulas = formulas(form).into_iter().zip(&proofs);
-        let conditions = formulas.map(|(of, proof)| Conditions::new(mechanism, form, of, proof));
+        let conditions =
+            formulas.map(|(of, proof)| ProofConditions::new(mechanism, form, of, proof));
         Checked {
             form,
             conditions: conditions.collect(),
@@ -286,7 +287,7 @@ impl<'a> Checked<'a> {
                 relative_to,
                 entries,
             } => {
-                let values = Values::at(mechanism, form, joints);
+                let values = NamedValues::at(mechanism, form, joints);
                 let pose = mechanism.transform(*relative_to, *of, at);
                 let compared = entries.iter().map(|(entry, formula)| {
                     let given = values.of(formula)?;

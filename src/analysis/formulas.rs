@@ -46,7 +46,7 @@ pub fn formulas(
     mechanism: &Mechanism,
     settings: &FormulasSettings,
 ) -> Result<FormulasReport, EvaluationError> {
-    let mut writer = Writer {
+    let mut writer = FormulaWriter {
         mechanism,
         settings,
         used: Default::default(),
@@ -64,14 +64,14 @@ pub fn formulas(
     Ok(writer.finish())
 }
 
-struct Writer<'a> {
+struct FormulaWriter<'a> {
     mechanism: &'a Mechanism,
     settings: &'a FormulasSettings,
     used: std::collections::BTreeSet<u32>,
     report: FormulasReport,
 }
 
-impl Writer<'_> {
+impl FormulaWriter<'_> {
     /// Runs some work over letters, with a budget of its own.
     fn over_letters<R>(
         &mut self,

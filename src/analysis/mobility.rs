@@ -22,7 +22,7 @@ use crate::system::{
     Unknown, random_configuration,
 };
 
-use branches::{STEP, Search};
+use branches::{FiniteSearch, STEP};
 pub use loops::LoopCount;
 pub use redundancy::{Redundancy, Wrench};
 pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityReport};
@@ -70,7 +70,7 @@ pub fn mobility(
         locked,
         idle_beside,
     } = tangent.lasting(&mut near);
-    let mut search = Search {
+    let mut search = FiniteSearch {
         near: &mut near,
         watch,
         rng: Pcg64Mcg::seed_from_u64(settings.seed),
@@ -163,7 +163,7 @@ pub fn mobility(
         interrupted: false,
     };
     // always the same starts: whether the mobility depends on the assembly is a property of the mechanism
-    let search = Search {
+    let search = FiniteSearch {
         near: &mut near,
         watch,
         rng: Pcg64Mcg::seed_from_u64(1),
@@ -191,7 +191,7 @@ const ELSEWHERE_LIMIT: usize = 100;
 
 /// Regular assemblies of another mobility than `here`, one for each.
 fn elsewhere(
-    mut search: Search,
+    mut search: FiniteSearch,
     (held, locked_at): (&Held<f64>, &Configuration<f64>),
     here: &MobilityReport,
 ) -> Vec<Elsewhere> {

@@ -24,8 +24,8 @@ use crate::mechanism::{
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
 use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, System, Unknown};
-use iteration::{Iteration, Rows, negated, numbered, places};
-use variable::Variable;
+use iteration::{Iteration, OpenRows, negated, numbered, places};
+use variable::StateVariable;
 
 /// Reasons for which there is no solver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ pub fn solver(
     at: &Configuration<f64>,
     frames: &[(String, Frame)],
 ) -> Result<Solver, NoSolver> {
-    let plan = Plan::new(question);
+    let plan = VariablePlan::new(question);
     plan.check()?;
     let mechanism = question.mechanism();
     let (inputs, state) = plan.values(at);
@@ -69,14 +69,17 @@ pub fn solver(
         0.0,
     );
     // a platform to be found is not solved for in closed form
-    let joints = plan.state.iter().all(|of| matches!(of, Variable::Joint(_)));
+    let joints = plan
+        .state
+        .iter()
+        .all(|of| matches!(of, StateVariable::Joint(_)));
     let solution = joints
         .then(|| ClosedSolution::of(question, at).ok())
         .flatten();
     let solution = solution.filter(|solution| solution.solves(question, at));
     let (written, operations) = record(sample, || plan.write(solution.as_ref(), frames));
     let written = written?;
-    let components = |variables: &[Variable], values: &[f64]| -> Vec<Component> {
+    let components = |variables: &[StateVariable], values: &[f64]| -> Vec<Component> {
         let all = variables.iter().zip(values);
         all.map(|(variable, &value)| Component {
             name: variable.name(mechanism),
@@ -102,39 +105,39 @@ pub fn solver(
 
 /// The inputs and the state of a configuration.
 pub fn values(question: &Question, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
-    Plan::new(question).values(at)
+    VariablePlan::new(question).values(at)
 }
 
 /// The held and the unknown variables of a question.
 #[derive(Clone, Debug)]
-struct Plan<'a> {
+struct VariablePlan<'a> {
     mechanism: &'a Mechanism,
     held: Held<f64>,
-    inputs: Vec<Variable>,
-    state: Vec<Variable>,
+    inputs: Vec<StateVariable>,
+    state: Vec<StateVariable>,
 }
 
-impl<'a> Plan<'a> {
+impl<'a> VariablePlan<'a> {
     fn new(question: &Question<'a>) -> Self {
         let mechanism = question.mechanism();
         let held = question.held();
         let (mut inputs, mut state) = (Vec::new(), Vec::new());
         for (joint, held) in held.joints.iter().enumerate() {
             match held {
-                true => inputs.push(Variable::Held(Coordinate::Joint(joint))),
-                false => state.push(Variable::Joint(joint)),
+                true => inputs.push(StateVariable::Held(Coordinate::Joint(joint))),
+                false => state.push(StateVariable::Joint(joint)),
             }
         }
         for (platform, part) in held.platforms.iter().enumerate() {
             for (c, _) in question.held_values(platform) {
-                inputs.push(Variable::Held(Coordinate::Pose(platform, c)));
+                inputs.push(StateVariable::Held(Coordinate::Pose(platform, c)));
             }
             if *part != HeldPlatform::Pose {
-                state.extend((0..4).map(|i| Variable::Orientation(platform, i)));
-                state.extend((0..3).map(|i| Variable::Position(platform, i)));
+                state.extend((0..4).map(|i| StateVariable::Orientation(platform, i)));
+                state.extend((0..3).map(|i| StateVariable::Position(platform, i)));
             }
         }
-        Plan {
+        VariablePlan {
             mechanism,
             held,
             inputs,
@@ -151,7 +154,7 @@ impl<'a> Plan<'a> {
     }
 
     fn values(&self, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
-        let of = |variables: &[Variable]| {
+        let of = |variables: &[StateVariable]| {
             let values = variables.iter().map(|v| v.of(self.mechanism, at));
             values.collect()
         };
@@ -160,15 +163,15 @@ impl<'a> Plan<'a> {
 
     /// The held coordinates and the configuration for given inputs and state.
     fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (Held<T>, Configuration<T>) {
-        let value = |variable: Variable| {
-            let among = |of: &[Variable]| of.iter().position(|v| *v == variable);
+        let value = |variable: StateVariable| {
+            let among = |of: &[StateVariable]| of.iter().position(|v| *v == variable);
             match among(&self.inputs) {
                 Some(i) => inputs[i],
                 None => state[among(&self.state).expect("every variable is held or unknown")],
             }
         };
         let held = |platform: usize, c: PoseCoordinate| {
-            value(Variable::Held(Coordinate::Pose(platform, c)))
+            value(StateVariable::Held(Coordinate::Pose(platform, c)))
         };
         let angles = |platform: usize| RollPitchYaw {
             roll: held(platform, PoseCoordinate::Roll),
@@ -186,8 +189,8 @@ impl<'a> Plan<'a> {
         }
         let joints = self.held.joints.iter().enumerate();
         let joints = joints.map(|(joint, held)| match held {
-            true => value(Variable::Held(Coordinate::Joint(joint))),
-            false => value(Variable::Joint(joint)),
+            true => value(StateVariable::Held(Coordinate::Joint(joint))),
+            false => value(StateVariable::Joint(joint)),
         });
         let platforms = holding.platforms.iter().enumerate();
         let platforms = platforms.map(|(platform, part)| match part {
@@ -200,10 +203,12 @@ impl<'a> Plan<'a> {
                 }
             }
             _ => {
-                let q = [0, 1, 2, 3].map(|i| value(Variable::Orientation(platform, i)));
+                let q = [0, 1, 2, 3].map(|i| value(StateVariable::Orientation(platform, i)));
                 PlatformPose {
                     orientation: Quaternion(q),
-                    position: Vector3([0, 1, 2].map(|i| value(Variable::Position(platform, i)))),
+                    position: Vector3(
+                        [0, 1, 2].map(|i| value(StateVariable::Position(platform, i))),
+                    ),
                 }
             }
         });
@@ -230,7 +235,7 @@ impl<'a> Plan<'a> {
         let (held, at) = self.posed(&inputs, &state);
         let dimensions = self.dimensions();
         let system = System::new(&dimensions, &held);
-        let rows = Rows::of(&system, &at);
+        let rows = OpenRows::of(&system, &at);
         let unknowns = system.unknowns().len();
         let mut sides = vec![rows.residual.clone()];
         sides.extend((0..given).map(|input| rows.among(&self.slope(input, &inputs, &state))));
@@ -264,7 +269,8 @@ impl<'a> Plan<'a> {
             rates: (rates.iter().enumerate())
                 .map(|(input, rates)| {
                     let at = self.moving(input, &system, (&inputs, &state), rates);
-                    let rate = |variable: &Variable| variable.of(self.mechanism, &at).slope.place();
+                    let rate =
+                        |variable: &StateVariable| variable.of(self.mechanism, &at).slope.place();
                     self.state.iter().map(rate).collect()
                 })
                 .collect(),

@@ -30,9 +30,9 @@ use crate::mechanism::{Configuration, PlatformPose};
 use crate::solve::{Pool, Watch};
 use crate::system::{Driven, Question};
 use boundary::Boundary;
-use flood::{Flood, Metric, ModeSeeds, ReachedSet, Spread, Steps};
+use flood::{Flood, GrowingSet, Metric, ModeSeeds, ReachedSet, Steps};
 use home::Home;
-use map::Map;
+use map::WorkspaceMap;
 use problem::{Grid, MapProblem};
 
 /// Settings of a workspace map.
@@ -127,7 +127,7 @@ pub fn workspace(
     let seeds = (&mode_seeds, home.as_ref());
     let (reached_set, aspects, outside) =
         reached_set(&fill, seeds, (&probed, settings.seed), watch)?;
-    let map = Map::new(&problem, &grid, &reached_set, aspects);
+    let map = WorkspaceMap::new(&problem, &grid, &reached_set, aspects);
     let boundary = Boundary {
         fill: &fill,
         reached_set: &reached_set,
@@ -160,7 +160,7 @@ fn reached_set(
         steps = steps.recorded(fill.problem, at, &fill.grid.point(*node));
     }
     let steps = Pool::new(steps);
-    let mut reached = Spread::new(fill.grid);
+    let mut reached = GrowingSet::new(fill.grid);
     fill.spread(&mut reached, &steps, &mode_seeds.seeds, watch)?;
     let mut more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
     if let Some(home) = home {

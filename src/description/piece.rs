@@ -43,10 +43,10 @@ pub(super) enum Shape<'a> {
 /// A text and the position of each of its bytes in the file.
 pub(super) struct Literal<'a> {
     pub text: Cow<'a, str>,
-    places: Places,
+    places: BytePlaces,
 }
 
-enum Places {
+enum BytePlaces {
     /// The text is in the file as it is, from here on.
     Straight(usize),
     /// Place in the file of each byte, and of the end, of an escaped text.
@@ -143,12 +143,12 @@ impl<'a> Piece<'a> {
     }
 
     pub fn text(&self) -> Result<Literal<'a>, ron::Error> {
-        let Text(text) = Text::deserialize(&mut self.deserializer()?)?;
+        let LentText(text) = LentText::deserialize(&mut self.deserializer()?)?;
         let places = match &text {
-            Cow::Borrowed(text) => Places::Straight(self.place(text).start),
+            Cow::Borrowed(text) => BytePlaces::Straight(self.place(text).start),
             Cow::Owned(text) => escaped_places(self.text, self.start)
                 .filter(|places| places.len() == text.len() + 1)
-                .map_or_else(|| Places::Whole(self.span()), Places::Escaped),
+                .map_or_else(|| BytePlaces::Whole(self.span()), BytePlaces::Escaped),
         };
         Ok(Literal { text, places })
     }
@@ -184,12 +184,12 @@ impl Literal<'_> {
     /// The bytes of the file in which a range of the text is written.
     pub fn place(&self, range: Range<usize>) -> Range<usize> {
         match &self.places {
-            Places::Straight(start) => start + range.start..start + range.end,
-            Places::Escaped(places) => {
+            BytePlaces::Straight(start) => start + range.start..start + range.end,
+            BytePlaces::Escaped(places) => {
                 let last = places.len() - 1;
                 places[range.start.min(last)]..places[range.end.min(last)]
             }
-            Places::Whole(span) => span.clone(),
+            BytePlaces::Whole(span) => span.clone(),
         }
     }
 }
@@ -246,7 +246,7 @@ fn escaped_places(literal: &str, start: usize) -> Option<Vec<usize>> {
 /// A string, lent where it needs no unescaping.
 #[derive(Deserialize)]
 #[serde(transparent)]
-struct Text<'a>(#[serde(borrow)] Cow<'a, str>);
+struct LentText<'a>(#[serde(borrow)] Cow<'a, str>);
 
 struct WordVisitor;
 

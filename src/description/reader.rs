@@ -25,7 +25,7 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<St
             Err(problems) => (None, problems, HashSet::new()),
         };
     }
-    let (description, reader) = read_with(text, Reader::mechanism);
+    let (description, reader) = read_with(text, FileReader::mechanism);
     (description, reader.problems, reader.broken)
 }
 
@@ -47,7 +47,7 @@ pub fn is_mechanism(text: &str) -> bool {
 impl AxesDescription {
     /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, Reader { mut problems, .. }) = read_with(text, Reader::axes);
+        let (description, FileReader { mut problems, .. }) = read_with(text, FileReader::axes);
         if let Some(description) = &description {
             super::checks::check_axes(description, &mut problems);
         }
@@ -63,9 +63,9 @@ impl AxesDescription {
 
 fn read_with<'a, T>(
     text: &'a str,
-    read: impl Fn(&mut Reader, Piece<'a>) -> Option<T>,
-) -> (Option<T>, Reader) {
-    let mut reader = Reader::default();
+    read: impl Fn(&mut FileReader, Piece<'a>) -> Option<T>,
+) -> (Option<T>, FileReader) {
+    let mut reader = FileReader::default();
     // Some editors begin a file with a byte order mark.
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let description = match syntax::check(text, start) {
@@ -79,12 +79,12 @@ fn read_with<'a, T>(
 }
 
 #[derive(Default)]
-struct Reader {
+struct FileReader {
     problems: Vec<Problem>,
     broken: HashSet<String>,
 }
 
-impl Reader {
+impl FileReader {
     /// Records a problem.
     fn note(&mut self, kind: ProblemKind, span: Range<usize>) {
         self.problems.push(kind.at(span));

@@ -25,7 +25,7 @@ impl AxesDescription {
 }
 
 /// The value of a field, which is left out unless it is given.
-trait Field {
+trait WrittenField {
     fn is_given(&self) -> bool;
 
     fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
@@ -33,7 +33,7 @@ trait Field {
 
 macro_rules! field {
     ($($type:ty $(where $parameter:ident)?: |$value:ident| $given:expr, $written:expr;)+) => {$(
-        impl$(<$parameter: Serialize>)? Field for $type {
+        impl$(<$parameter: Serialize>)? WrittenField for $type {
             #[allow(unused_variables)]
             fn is_given(&self) -> bool {
                 let $value = self;
@@ -55,14 +55,14 @@ field! {
     Vec<Displacement>: |steps| !steps.is_empty(), steps;
     Vec<Row>: |rows| !rows.is_empty(), rows;
     Vec<Spanned<String>>: |names| !names.is_empty(), names;
-    Vec<(Spanned<MatrixEntry>, Entry)>: |entries| !entries.is_empty(), Entries(entries);
-    Vec<Named<T>> where T: |named| !named.is_empty(), Map(named);
+    Vec<(Spanned<MatrixEntry>, Entry)>: |entries| !entries.is_empty(), PoseEntries(entries);
+    Vec<Named<T>> where T: |named| !named.is_empty(), NamedMap(named);
     Option<T> where T: |value| value.is_some(), Bare(value);
 }
 
-struct Written<'a, F>(&'a F);
+struct AsWritten<'a, F>(&'a F);
 
-impl<F: Field> Serialize for Written<'_, F> {
+impl<F: WrittenField> Serialize for AsWritten<'_, F> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.0.write(serializer)
     }
@@ -85,7 +85,7 @@ macro_rules! written {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 let $of = self;
                 let mut fields = started!(serializer, $part $(, $word)?)?;
-                $(if $value.is_given() { fields.serialize_field($name, &Written(&$value))?; })+
+                $(if $value.is_given() { fields.serialize_field($name, &AsWritten(&$value))?; })+
                 fields.end()
             }
         }
@@ -111,23 +111,28 @@ written! {
     }
     AxesDescription |file| as "Axes", {
         "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
-        "tolerance": file.tolerance, "parameters": file.parameters, "joints": Some(Map(&file.joints)), "bodies": bodies(&file.bodies),
+        "tolerance": file.tolerance, "parameters": file.parameters, "joints": Some(NamedMap(&file.joints)), "bodies": bodies(&file.bodies),
         "points": file.points, "base": file.base, "tool": file.tool, "cut": file.cut,
         "closed_forms": file.closed_forms, "outputs": file.outputs,
     }
 }
 
-fn bodies(bodies: &[Named<AxisPlace>]) -> Vec<Named<Place<'_>>> {
+fn bodies(bodies: &[Named<AxisPlace>]) -> Vec<Named<WrittenPlace<'_>>> {
     let bodies = bodies.iter();
     bodies
-        .map(|body| Named::new(&body.name.value, Place("Body", "origin", &body.value)))
+        .map(|body| {
+            Named::new(
+                &body.name.value,
+                WrittenPlace("Body", "origin", &body.value),
+            )
+        })
         .collect()
 }
 
 /// A place with the words of its fields: the name of the whole and that of its point.
-struct Place<'a>(&'static str, &'static str, &'a AxisPlace);
+struct WrittenPlace<'a>(&'static str, &'static str, &'a AxisPlace);
 
-impl Serialize for Place<'_> {
+impl Serialize for WrittenPlace<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = serializer.serialize_struct(self.0, 1)?;
         for (name, value) in self.2.fields(self.1) {
@@ -151,7 +156,7 @@ impl Serialize for PointDescription {
 /// The value of a field that places something.
 #[derive(serde::Serialize)]
 #[serde(untagged)]
-enum Placed<'a> {
+enum PlacedField<'a> {
     Vector(&'a [Entry; 3]),
     Pair(&'a [Entry; 3], &'a [Entry; 3]),
     Frame(&'a [Displacement]),
@@ -159,19 +164,21 @@ enum Placed<'a> {
 
 impl AxisPlace {
     /// The fields that say it, in their order; that of a point has different names.
-    fn fields(&self, point_name: &'static str) -> Vec<(&'static str, Placed<'_>)> {
-        let at = |point| (point_name, Placed::Vector(point));
+    fn fields(&self, point_name: &'static str) -> Vec<(&'static str, PlacedField<'_>)> {
+        let at = |point| (point_name, PlacedField::Vector(point));
         match self {
             AxisPlace::Along(point, direction) => {
-                let direction = ("direction", Placed::Vector(direction));
+                let direction = ("direction", PlacedField::Vector(direction));
                 point.iter().map(at).chain([direction]).collect()
             }
-            AxisPlace::Through(first, second) => vec![("through", Placed::Pair(first, second))],
+            AxisPlace::Through(first, second) => {
+                vec![("through", PlacedField::Pair(first, second))]
+            }
             AxisPlace::Cross(point, [first, second]) => {
-                vec![at(point), ("directions", Placed::Pair(first, second))]
+                vec![at(point), ("directions", PlacedField::Pair(first, second))]
             }
             AxisPlace::Centre(point) => vec![at(point)],
-            AxisPlace::Frame(steps) => vec![("frame", Placed::Frame(steps))],
+            AxisPlace::Frame(steps) => vec![("frame", PlacedField::Frame(steps))],
         }
     }
 }
@@ -197,7 +204,7 @@ impl Serialize for AxisDescription {
         let second = self
             .second
             .as_ref()
-            .map(|place| Place("Place", "point", place));
+            .map(|place| WrittenPlace("WrittenPlace", "point", place));
         given!("second" => second, "pitch" => self.pitch, by => self.value, "home" => self.home);
         given!("drawn" => self.drawn, "limits" => self.limits, "role" => self.role, "between" => self.between);
         fields.end()
@@ -205,18 +212,18 @@ impl Serialize for AxisDescription {
 }
 
 /// A list of named things, as a map in the same order.
-struct Map<'a, T>(&'a [Named<T>]);
+struct NamedMap<'a, T>(&'a [Named<T>]);
 
-impl<T: Serialize> Serialize for Map<'_, T> {
+impl<T: Serialize> Serialize for NamedMap<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|named| (&named.name, &named.value)))
     }
 }
 
 /// Single entries of a pose, as a map in the same order.
-struct Entries<'a>(&'a [(Spanned<MatrixEntry>, Entry)]);
+struct PoseEntries<'a>(&'a [(Spanned<MatrixEntry>, Entry)]);
 
-impl Serialize for Entries<'_> {
+impl Serialize for PoseEntries<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let entries = self.0.iter();
         serializer.collect_map(entries.map(|(place, entry)| (place.value.to_string(), entry)))

@@ -12,11 +12,11 @@ pub struct Decomposition {
     rows: usize,
     columns: usize,
     rank: usize,
-    found: Found,
+    found: Factors,
 }
 
 #[derive(Clone, Debug)]
-enum Found {
+enum Factors {
     /// All singular values, with the vectors of those that count.
     Spectrum(Svd),
     Large(Arc<Large>),
@@ -58,7 +58,7 @@ impl Decomposition {
             rows,
             columns,
             rank: elimination.rank(),
-            found: Found::Large(Arc::new(Large {
+            found: Factors::Large(Arc::new(Large {
                 spectrum: OnceLock::new(),
                 elimination,
             })),
@@ -80,21 +80,21 @@ impl Decomposition {
             rows,
             columns,
             rank,
-            found: Found::Spectrum(svd),
+            found: Factors::Spectrum(svd),
         }
     }
 
     fn large(&self) -> Option<&Large> {
         match &self.found {
-            Found::Spectrum(_) => None,
-            Found::Large(large) => Some(large),
+            Factors::Spectrum(_) => None,
+            Factors::Large(large) => Some(large),
         }
     }
 
     fn spectrum(&self) -> &Svd {
         match &self.found {
-            Found::Spectrum(spectrum) => spectrum,
-            Found::Large(large) => large.spectrum.get_or_init(|| large.spectrum()),
+            Factors::Spectrum(spectrum) => spectrum,
+            Factors::Large(large) => large.spectrum.get_or_init(|| large.spectrum()),
         }
     }
 
@@ -106,8 +106,8 @@ impl Decomposition {
     /// Rank by the tolerance, also where the decomposition was cut at a known rank.
     pub fn whole_rank(&self) -> usize {
         match &self.found {
-            Found::Spectrum(spectrum) => rank(&spectrum.values),
-            Found::Large(_) => self.rank,
+            Factors::Spectrum(spectrum) => rank(&spectrum.values),
+            Factors::Large(_) => self.rank,
         }
     }
 
@@ -186,8 +186,8 @@ impl Decomposition {
     /// Orthonormal basis of the vectors with A x = 0.
     pub fn null_space(&self) -> Vec<Vec<f64>> {
         match &self.found {
-            Found::Spectrum(spectrum) => complement(&spectrum.right, self.columns),
-            Found::Large(large) => large.elimination.null_space(),
+            Factors::Spectrum(spectrum) => complement(&spectrum.right, self.columns),
+            Factors::Large(large) => large.elimination.null_space(),
         }
     }
 

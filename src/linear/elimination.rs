@@ -21,7 +21,7 @@ const CORRECTIONS: usize = 2;
 pub struct Elimination {
     groups: Vec<Rows>,
     columns: usize,
-    steps: Vec<Step>,
+    steps: Vec<EliminationStep>,
     free: Vec<usize>,
     /// An orthonormal basis of the vectors with A x = 0, each a row.
     null_space: Vec<Rows>,
@@ -31,7 +31,7 @@ pub struct Elimination {
 
 /// Rows of R.
 #[derive(Clone, Debug)]
-struct Step {
+struct EliminationStep {
     /// The unknowns that are eliminated, then the others of these rows.
     unknowns: Vec<usize>,
     rank: usize,
@@ -222,7 +222,7 @@ impl Elimination {
                 self.least_pivot = self.least_pivot.min(column[k].abs());
             }
             self.free.extend(&front.unknowns[rank..own]);
-            self.steps.push(Step {
+            self.steps.push(EliminationStep {
                 entries: front
                     .columns()
                     .flat_map(|(_, column)| &column[..rank])
@@ -257,7 +257,7 @@ fn iterated(size: usize, mut map: impl FnMut(&mut Vec<f64>)) -> (f64, Vec<f64>) 
     (factor.sqrt(), v)
 }
 
-impl Step {
+impl EliminationStep {
     fn column(&self, j: usize) -> &[f64] {
         &self.entries[j * self.rank..(j + 1) * self.rank]
     }

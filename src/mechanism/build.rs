@@ -51,7 +51,7 @@ impl ResolvedChain {
 }
 
 /// Collects problems while parts are resolved; a part with a problem is left out.
-pub(super) struct Builder<'a> {
+pub(super) struct ModelBuilder<'a> {
     pub names: Names<'a>,
     pub problems: Vec<Problem>,
     /// The values of the parameters; NaN where one is unknown.
@@ -129,7 +129,7 @@ impl Mechanism {
     }
 
     fn build(description: &Description, doubtful: &HashSet<String>) -> Result<Self, Vec<Problem>> {
-        let mut builder = Builder {
+        let mut builder = ModelBuilder {
             names: Names::new(description),
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
@@ -221,7 +221,7 @@ impl Mechanism {
     }
 }
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     fn joints(&mut self, description: &Description) -> (Vec<Joint>, Vec<JointHome>) {
         let mut joints = Vec::new();
         let mut written = Vec::new();

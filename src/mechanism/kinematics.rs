@@ -11,7 +11,7 @@ use super::dimensions::{Dimensions, LinearForm, RowDimensions};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 pub(crate) use course::Course;
-use step::{Column, Shape, Step, is_level};
+use step::{FixedShape, PlacedStep, RotationColumn, is_level};
 
 /// A place in a [`Placement`]: ground first, then the platforms, then everything that moves.
 pub(crate) type Slot = usize;
@@ -22,7 +22,7 @@ pub(crate) type Slot = usize;
 #[derive(Clone, Debug)]
 pub struct Kinematics<T> {
     platforms: usize,
-    steps: Vec<Step<T>>,
+    steps: Vec<PlacedStep<T>>,
     frames: BTreeMap<Frame, Slot>,
     /// Link frames that already have a slot, by (chain, row).
     moving: BTreeMap<(usize, usize), Slot>,
@@ -91,7 +91,7 @@ impl<T: Number> Kinematics<T> {
             let terms = form.0.iter().map(|&(joint, factor)| (joint, lift(factor)));
             LinearForm(terms.collect())
         };
-        let steps = self.steps.iter().map(|step| Step {
+        let steps = self.steps.iter().map(|step| PlacedStep {
             fixed: step.fixed.map(lift),
             turn: form(&step.turn),
             slide: form(&step.slide),
@@ -140,17 +140,17 @@ impl<T: Number> Kinematics<T> {
             None => (parent == 0).then(Pose::identity),
         };
         let (parent, fixed, shape) = match still_parent {
-            Some(pose) => (0, pose * fixed, Shape::Grounded),
-            None => (parent, fixed, Shape::of(&fixed)),
+            Some(pose) => (0, pose * fixed, FixedShape::Grounded),
+            None => (parent, fixed, FixedShape::of(&fixed)),
         };
         let carried = match parent.checked_sub(1 + self.platforms) {
             Some(step) => self.steps[step].level,
             None => parent == 0,
         };
-        self.steps.push(Step {
+        self.steps.push(PlacedStep {
             parent,
             shape,
-            columns: fixed.rotation.0.each_ref().map(Column::of),
+            columns: fixed.rotation.0.each_ref().map(RotationColumn::of),
             level: carried && is_level(&fixed.rotation),
             still: still_parent.is_some() && !moves,
             need: if moves { Need::Axis } else { Need::Position },
@@ -219,7 +219,7 @@ impl<T: Number> Kinematics<T> {
     pub fn placement(&self) -> Placement<T> {
         let mut poses = vec![Pose::identity(); 1 + self.platforms + self.steps.len()];
         for (i, step) in self.steps.iter().enumerate() {
-            if step.shape == Shape::Grounded {
+            if step.shape == FixedShape::Grounded {
                 poses[1 + self.platforms + i] = step.fixed;
             }
         }

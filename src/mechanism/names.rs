@@ -156,7 +156,7 @@ impl<'a> Names<'a> {
 
 /// Definitions in the order in which they can be evaluated, and those that never can.
 #[derive(Debug, PartialEq)]
-pub(super) struct Order {
+pub(super) struct DefinitionOrder {
     /// Each after those it uses; those in a cycle are left out.
     pub order: Vec<usize>,
     /// The cycles found, no two of which share a definition.
@@ -164,21 +164,21 @@ pub(super) struct Order {
 }
 
 /// Puts definitions in order; `uses[i]` are those that definition `i` uses.
-pub(super) fn definition_order(uses: &[Vec<usize>]) -> Order {
+pub(super) fn definition_order(uses: &[Vec<usize>]) -> DefinitionOrder {
     #[derive(Clone, Copy, PartialEq)]
-    enum Mark {
+    enum VisitMark {
         New,
         Open,
         Done,
     }
-    let mut marks = vec![Mark::New; uses.len()];
+    let mut marks = vec![VisitMark::New; uses.len()];
     let mut order = Vec::with_capacity(uses.len());
     let mut cycles = Vec::new();
     for start in 0..uses.len() {
         // depth first, with an explicit stack: a file may contain a chain of thousands of definitions
         let mut path: Vec<(usize, usize)> = Vec::new();
-        if marks[start] == Mark::New {
-            marks[start] = Mark::Open;
+        if marks[start] == VisitMark::New {
+            marks[start] = VisitMark::Open;
             path.push((start, 0));
         }
         while let Some((at, next)) = path.last_mut() {
@@ -186,36 +186,36 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Order {
                 Some(&used) => {
                     *next += 1;
                     match marks[used] {
-                        Mark::Done => {}
-                        Mark::New => {
-                            marks[used] = Mark::Open;
+                        VisitMark::Done => {}
+                        VisitMark::New => {
+                            marks[used] = VisitMark::Open;
                             path.push((used, 0));
                         }
-                        Mark::Open => {
+                        VisitMark::Open => {
                             // the search continues as if the cycle were removed
                             let first = path.iter().rposition(|&(d, _)| d == used).unwrap_or(0);
                             let cycle: Vec<usize> = path.drain(first..).map(|(d, _)| d).collect();
-                            cycle.iter().for_each(|&d| marks[d] = Mark::Done);
+                            cycle.iter().for_each(|&d| marks[d] = VisitMark::Done);
                             cycles.push(cycle);
                         }
                     }
                 }
                 None => {
-                    marks[*at] = Mark::Done;
+                    marks[*at] = VisitMark::Done;
                     order.push(*at);
                     path.pop();
                 }
             }
         }
     }
-    Order { order, cycles }
+    DefinitionOrder { order, cycles }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Order, definition_order};
+    use super::{DefinitionOrder, definition_order};
 
-    fn ordered(uses: &[&[usize]]) -> Order {
+    fn ordered(uses: &[&[usize]]) -> DefinitionOrder {
         definition_order(&uses.iter().map(|uses| uses.to_vec()).collect::<Vec<_>>())
     }
 

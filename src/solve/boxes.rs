@@ -252,7 +252,7 @@ fn lies_in(sides: &Sides, region: &Sides, periods: &[Option<Interval>]) -> bool 
         })
 }
 
-struct Step {
+struct BoxStep {
     sides: Sides,
     /// True if the box before holds at most one zero.
     unique: bool,
@@ -263,7 +263,7 @@ struct Step {
 }
 
 /// A box that holds all zeros of another; `None` if there are none.
-fn contracted<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) -> Option<Step> {
+fn contracted<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) -> Option<BoxStep> {
     let n = sides.len();
     conditions.evaluate(sides, true, work);
     let values = conditions.values(work);
@@ -277,7 +277,7 @@ fn contracted<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) 
     let reach = |x: &Interval| (x.high - x.real()).max(x.real() - x.low).next_up();
     let radii: Vec<f64> = sides.iter().map(reach).collect();
     let slopes = conditions.slopes(work).to_vec();
-    let mut step = Step {
+    let mut step = BoxStep {
         sides: sides.clone(),
         // nothing to choose
         unique: n == 0,
@@ -348,7 +348,7 @@ fn contracted<C: Conditions>(conditions: &C, sides: &Sides, work: &mut C::Work) 
     Some(step)
 }
 
-impl Step {
+impl BoxStep {
     /// Narrows a side by 0 ∈ f + Σ sⱼ dⱼ, where |sⱼ dⱼ| ≤ partⱼ; `None` if that is impossible.
     fn narrow(
         &mut self,

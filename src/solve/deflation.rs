@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::linear::Svd;
 
 /// Equations at a point, with the slopes set apart that vanish relative to the largest.
-struct Split {
+struct SplitSlopes {
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
     svd: Svd,
@@ -14,7 +14,7 @@ struct Split {
     free: DMatrix<f64>,
 }
 
-impl Split {
+impl SplitSlopes {
     /// Distance of the differences that give curvatures.
     const APART: f64 = 1e-4;
 
@@ -30,7 +30,7 @@ impl Split {
         let rank = svd.values.iter().take(rows).filter(counts).count();
         let matrix =
             |size: usize, of: &[Vec<f64>]| DMatrix::from_fn(size, of.len(), |i, j| of[j][i]);
-        Some(Split {
+        Some(SplitSlopes {
             range: matrix(rows, &svd.left[..rank]),
             free: matrix(columns, &svd.right[rank..]),
             residual: DVector::from_vec(residual),
@@ -76,7 +76,7 @@ pub fn deflating_step(
     const FLAT: f64 = 1e-3;
     const ROUNDED: f64 = 1e-6;
     const SWEEPS: usize = 1000;
-    let split = Split::of(columns, lost, linearised(&vec![0.0; columns]))?;
+    let split = SplitSlopes::of(columns, lost, linearised(&vec![0.0; columns]))?;
     let (range, free) = (&split.range, &split.free);
     let mut step = DVector::zeros(columns);
     let seen = range.transpose() * &split.residual;
@@ -113,7 +113,7 @@ pub fn step_off_saddle(
 ) -> Option<Vec<f64>> {
     /// Error of a curvature by differences, relative to slopes near 1.
     const ROUNDED: f64 = 1e-6;
-    let split = Split::of(columns, lost, linearised(&vec![0.0; columns]))?;
+    let split = SplitSlopes::of(columns, lost, linearised(&vec![0.0; columns]))?;
     let left = DMatrix::from_column_slice(split.residual.len(), 1, split.residual.as_slice());
     let gap = split.off(left).column(0).into_owned();
     let size = gap.norm();

@@ -52,7 +52,7 @@ pub struct LevenbergMarquardt {
 }
 
 /// A search under way, with its present λ; once it has ended, true if it converged.
-struct Search {
+struct DampedSearch {
     settings: LevenbergMarquardt,
     damping: f64,
     ended: Option<bool>,
@@ -91,7 +91,7 @@ impl LevenbergMarquardt {
     /// The point to which the search leads from a start.
     pub fn solve<E: LeastSquares>(&self, problem: &E, start: E::Point) -> Fitted<E::Point> {
         let first = start.clone();
-        let search = Search {
+        let search = DampedSearch {
             settings: self.clone(),
             damping: self.damping,
             ended: None,
@@ -120,7 +120,7 @@ impl LevenbergMarquardt {
 
 type Iterate<P> = IterState<P, (), (), (), (), f64>;
 
-impl<E: LeastSquares> Solver<&E, Iterate<E::Point>> for Search {
+impl<E: LeastSquares> Solver<&E, Iterate<E::Point>> for DampedSearch {
     fn name(&self) -> &str {
         "Levenberg–Marquardt"
     }

@@ -12,7 +12,7 @@ pub fn summit(
     mut height: impl FnMut(f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
     let way = (to - from).abs();
-    let mut section = Section::of(from, to, &mut height)?;
+    let mut section = GoldenSection::of(from, to, &mut height)?;
     section.narrow(1e-7 * way, &mut height)?;
     let rough = section.best();
     if let Some(smooth) = stationary(rough, way, &mut height) {
@@ -25,13 +25,13 @@ pub fn summit(
 /// The maximum between two places of a function that has an edge there, and its height: an edge, which has no slope, is
 /// located to rounding by golden section alone (Kiefer 1953).
 pub fn edge(from: f64, to: f64, mut height: impl FnMut(f64) -> Option<f64>) -> Option<(f64, f64)> {
-    let mut section = Section::of(from, to, &mut height)?;
+    let mut section = GoldenSection::of(from, to, &mut height)?;
     section.narrow(EXACT * (to - from).abs(), &mut height)?;
     Some(section.best())
 }
 
 /// A golden section: the maximum lies between the ends, and two heights between them are known.
-struct Section {
+struct GoldenSection {
     low: f64,
     high: f64,
     a: f64,
@@ -41,13 +41,13 @@ struct Section {
 
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-impl Section {
+impl GoldenSection {
     fn of(from: f64, to: f64, height: &mut impl FnMut(f64) -> Option<f64>) -> Option<Self> {
         let (low, high) = (from.min(to), from.max(to));
         let part = GOLDEN * (high - low);
         let (a, b) = (low + part, high - part);
         let heights = [height(a)?, height(b)?];
-        Some(Section {
+        Some(GoldenSection {
             low,
             high,
             a,

@@ -6,10 +6,10 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::super::trigonometric::{self, Atom, Powers, Trigonometric, Wave};
 use super::super::{Constant, Expression, Function, Node, Operator, Unit};
-use super::{Circular, Name, Product, Summand, arrange, binary, sum};
+use super::{Circular, LetterName, Product, Summand, arrange, binary, sum};
 
 /// A product, times a sum if there is one.
-pub(super) fn written(product: &Product, sum: Option<Expression>, name: Name) -> Summand {
+pub(super) fn written(product: &Product, sum: Option<Expression>, name: LetterName) -> Summand {
     let mut top: Vec<Expression> = Vec::new();
     let mut bottom: Vec<Expression> = Vec::new();
     for (atom, power) in &product.powers {
@@ -52,7 +52,7 @@ pub(super) fn written(product: &Product, sum: Option<Expression>, name: Name) ->
     }
 }
 
-fn letter(atom: &Atom, power: i32, name: Name) -> (Expression, i32) {
+fn letter(atom: &Atom, power: i32, name: LetterName) -> (Expression, i32) {
     let inner = |sum: &Trigonometric| arrange(&[sum], name).expressions.remove(0);
     match atom {
         Atom::Pi => (Node::Constant(Constant::Pi).at(0..0), power),
@@ -102,7 +102,7 @@ fn constant(q: &BigRational, root: u64) -> Expression {
 }
 
 /// Σ k m, the letters before the constant.
-fn angle_of(angle: &Wave, name: Name) -> Expression {
+fn angle_of(angle: &Wave, name: LetterName) -> Expression {
     let mut terms: Vec<Summand> = Vec::new();
     let is_constant = |powers: &Powers| powers.is_empty() || *powers == [(Atom::Pi, 1)];
     let (constants, letters): (Vec<_>, Vec<_>) =

@@ -12,7 +12,7 @@ use crate::algebra::evaluation::call;
 use crate::number::Number;
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
 use crate::number::widest;
-use instructions::{Assignment, Code, Instruction, last_uses, needed, written};
+use instructions::{Instruction, Opcode, RegisterAssignment, last_uses, needed, written};
 
 /// Rows that are run at once: enough that choosing the operation costs little, few enough that the registers stay in the
 /// first cache.
@@ -48,7 +48,7 @@ impl Batch {
         let needed = needed(operations, sections);
         let kept: Vec<Place> = sections.concat();
         let (written, constants, places) = written(operations, sections.len(), &needed, &kept);
-        let mut assignment = Assignment::new(inputs, constants.len(), places);
+        let mut assignment = RegisterAssignment::new(inputs, constants.len(), places);
         for (place, operation) in operations.iter().enumerate() {
             if let Operation::Input(input) = *operation {
                 assignment.register[place] = input;
@@ -141,7 +141,7 @@ widest! {
 }
 
 /// The numbers of a register.
-type Row<'a> = &'a [Cell<f64>; BATCH];
+type RegisterRow<'a> = &'a [Cell<f64>; BATCH];
 
 #[inline(always)]
 fn each(instructions: &[Instruction], registers: &mut [Register]) {
@@ -155,35 +155,35 @@ fn each(instructions: &[Instruction], registers: &mut [Register]) {
         let four = || [of(0), of(1), of(2), of(3)];
         let five = || [of(0), of(1), of(2), of(3), of(4)];
         match instruction.code {
-            Code::Add => set(to, two(), |[x, y]| x + y),
-            Code::Subtract => set(to, two(), |[x, y]| x - y),
-            Code::Multiply => set(to, two(), |[x, y]| x * y),
-            Code::AddProduct => set(to, three(), |[x, y, z]| z + x * y),
-            Code::SubtractProduct => set(to, three(), |[x, y, z]| z - x * y),
-            Code::SubtractFromProduct => set(to, three(), |[x, y, z]| x * y - z),
-            Code::AddedProducts => set(to, four(), |[x, y, z, u]| x * y + z * u),
-            Code::SubtractedProducts => set(to, four(), |[x, y, z, u]| x * y - z * u),
-            Code::AddProducts => set(to, five(), |[x, y, z, u, w]| (w + x * y) + z * u),
-            Code::SubtractProducts => set(to, five(), |[x, y, z, u, w]| (w - x * y) - z * u),
-            Code::SubtractFromAndProduct => {
+            Opcode::Add => set(to, two(), |[x, y]| x + y),
+            Opcode::Subtract => set(to, two(), |[x, y]| x - y),
+            Opcode::Multiply => set(to, two(), |[x, y]| x * y),
+            Opcode::AddProduct => set(to, three(), |[x, y, z]| z + x * y),
+            Opcode::SubtractProduct => set(to, three(), |[x, y, z]| z - x * y),
+            Opcode::SubtractFromProduct => set(to, three(), |[x, y, z]| x * y - z),
+            Opcode::AddedProducts => set(to, four(), |[x, y, z, u]| x * y + z * u),
+            Opcode::SubtractedProducts => set(to, four(), |[x, y, z, u]| x * y - z * u),
+            Opcode::AddProducts => set(to, five(), |[x, y, z, u, w]| (w + x * y) + z * u),
+            Opcode::SubtractProducts => set(to, five(), |[x, y, z, u, w]| (w - x * y) - z * u),
+            Opcode::SubtractFromAndProduct => {
                 set(to, five(), |[x, y, z, u, w]| (x * y - w) - z * u);
             }
-            Code::Divide => set(to, two(), |[x, y]| x / y),
-            Code::Negate => set(to, [of(0)], |[x]| -x),
-            Code::Root => set(to, [of(0)], |[x]| x.sqrt()),
-            Code::RootOrZero => set(to, [of(0)], |[x]| x.max(0.0).sqrt()),
-            Code::Near => set(to, two(), |[x, y]| {
+            Opcode::Divide => set(to, two(), |[x, y]| x / y),
+            Opcode::Negate => set(to, [of(0)], |[x]| -x),
+            Opcode::Root => set(to, [of(0)], |[x]| x.sqrt()),
+            Opcode::RootOrZero => set(to, [of(0)], |[x]| x.max(0.0).sqrt()),
+            Opcode::Near => set(to, two(), |[x, y]| {
                 x + TAU * ((y - x) / TAU).round_ties_even()
             }),
-            Code::Sign => set(to, [of(0)], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
-            Code::Larger => set(to, two(), |[x, y]| x.greater(y)),
-            Code::Call(f) => set(to, [of(0)], |[x]| call(f, x, x)),
-            Code::Angle => {
+            Opcode::Sign => set(to, [of(0)], |[x]| if x < 0.0 { -1.0 } else { 1.0 }),
+            Opcode::Larger => set(to, two(), |[x, y]| x.greater(y)),
+            Opcode::Call(f) => set(to, [of(0)], |[x]| call(f, x, x)),
+            Opcode::Angle => {
                 let [y, x] = two();
                 let angles = atan2_of_each(numbers(y), numbers(x));
                 (0..BATCH).for_each(|i| to[i].set(angles[i]));
             }
-            Code::SinCos => {
+            Opcode::SinCos => {
                 let [x, second] = two();
                 let (sin, cos) = sin_cos_of_each(numbers(x));
                 for i in 0..BATCH {
@@ -198,7 +198,7 @@ fn each(instructions: &[Instruction], registers: &mut [Register]) {
 /// Several registers are borrowed at once and one of them is set, in a loop that the compiler makes into vector
 /// instructions. With copies of parts of registers in place of cells it does not: a step took four times as long.
 #[inline(always)]
-fn row(register: &Cell<Register>) -> Row<'_> {
+fn row(register: &Cell<Register>) -> RegisterRow<'_> {
     let first: *const Cell<Register> = register;
     // SAFETY: a cell is laid out as what is in it, and a register begins with its numbers
     #[allow(unsafe_code)]
@@ -208,12 +208,12 @@ fn row(register: &Cell<Register>) -> Row<'_> {
 }
 
 #[inline(always)]
-fn numbers(row: Row) -> [f64; BATCH] {
+fn numbers(row: RegisterRow) -> [f64; BATCH] {
     std::array::from_fn(|i| row[i].get())
 }
 
 #[inline(always)]
-fn set<const N: usize>(to: Row, of: [Row; N], f: impl Fn([f64; N]) -> f64) {
+fn set<const N: usize>(to: RegisterRow, of: [RegisterRow; N], f: impl Fn([f64; N]) -> f64) {
     for i in 0..BATCH {
         to[i].set(f(of.map(|of| of[i].get())));
     }

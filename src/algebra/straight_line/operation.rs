@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Key, Place};
+use super::{OperationKey, Place};
 use crate::algebra::Function;
 use crate::algebra::evaluation::call;
 use crate::number::Number;
@@ -71,7 +71,7 @@ impl Operation {
     }
 
     /// Key of equal operations: kind and operands; constants by their bits.
-    pub(super) fn key(self) -> Key {
+    pub(super) fn key(self) -> OperationKey {
         let mut operands = self.operands().map(u64::from);
         let first = match self {
             Operation::Constant(x) => x.to_bits(),

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::formula::{Values, measured};
+use super::formula::{NamedValues, measured};
 use super::proof::{self, Proof, Reason};
 use super::{ComponentReport, Quantity};
 use crate::algebra::{Expression, Function, Node, Operator};
@@ -29,7 +29,7 @@ pub struct Divisor {
 }
 
 /// The formulas that decide at samples if a proof of one component counts.
-pub(super) struct Conditions {
+pub(super) struct ProofConditions {
     /// The divisors, with the number of samples at which they are zero.
     divisors: Vec<(Formula, usize)>,
     /// The difference between the form and the chains, in letters.
@@ -38,7 +38,7 @@ pub(super) struct Conditions {
     refuted: bool,
 }
 
-impl Conditions {
+impl ProofConditions {
     pub fn new(mechanism: &Mechanism, form: &ClosedForm, formula: &Formula, proof: &Proof) -> Self {
         let mut divisors: Vec<Formula> = Vec::new();
         visit(form, formula, &mut BTreeSet::new(), &mut |part| {
@@ -49,7 +49,7 @@ impl Conditions {
             Proof::Different(of) => resolved(mechanism, form, &of.difference),
             _ => None,
         };
-        Conditions {
+        ProofConditions {
             divisors: divisors.into_iter().map(|divisor| (divisor, 0)).collect(),
             difference,
             refuted: false,
@@ -161,7 +161,7 @@ fn is_never_zero(mechanism: &Mechanism, form: &ClosedForm, formula: &Formula) ->
     let parameters = mechanism.parameters().iter();
     let parameters = parameters.map(|parameter| Interval::point(parameter.value));
     let joints = vec![Interval::around(0.0, ANYWHERE); mechanism.joints().len()];
-    let range = Values::new(form, parameters.collect(), joints, &[]).of(formula);
+    let range = NamedValues::new(form, parameters.collect(), joints, &[]).of(formula);
     encloses && range.is_ok_and(|range| !range.contains(0.0))
 }
 

@@ -8,18 +8,18 @@ use crate::number::tolerance::SUMMED;
 use crate::number::{Dual, Number};
 
 /// Values of the names in a closed form at some joint values.
-pub(super) struct Values<T> {
+pub(super) struct NamedValues<T> {
     parameters: Vec<T>,
     joints: Vec<T>,
     locals: Vec<Result<T, EvaluationError>>,
 }
 
-impl<T: Number> Values<T> {
+impl<T: Number> NamedValues<T> {
     /// Values at joint values, with the parameters of the mechanism.
     pub fn at(mechanism: &Mechanism, form: &ClosedForm, joints: &[T]) -> Self {
         let parameters = mechanism.parameters().iter();
         let parameters = parameters.map(|p| T::from_f64(p.value)).collect();
-        Values::new(form, parameters, joints.to_vec(), &[])
+        NamedValues::new(form, parameters, joints.to_vec(), &[])
     }
 
     /// For given values of parameters and joints, and of some local names.
@@ -29,7 +29,7 @@ impl<T: Number> Values<T> {
         joints: Vec<T>,
         replaced: &[Option<T>],
     ) -> Self {
-        let mut values = Values {
+        let mut values = NamedValues {
             parameters,
             joints,
             locals: Vec::with_capacity(form.locals.len()),
@@ -60,7 +60,7 @@ impl<T: Number> Values<T> {
 }
 
 /// The value of a formula with the sizes that it is compared with.
-pub(super) struct Measured {
+pub(super) struct MeasuredFormula {
     pub value: f64,
     /// The absolute terms of its sum.
     terms: f64,
@@ -68,7 +68,7 @@ pub(super) struct Measured {
     motion: f64,
 }
 
-impl Measured {
+impl MeasuredFormula {
     /// The size relative to which the value of an identity is small.
     pub fn size(&self) -> f64 {
         self.terms + self.motion
@@ -86,8 +86,8 @@ pub(super) fn measured(
     form: &ClosedForm,
     formula: &Formula,
     joints: &[f64],
-) -> Result<Measured, EvaluationError> {
-    let values = Values::at(mechanism, form, joints);
+) -> Result<MeasuredFormula, EvaluationError> {
+    let values = NamedValues::at(mechanism, form, joints);
     let (value, terms) = (values.of(formula)?, terms(&values, formula)?);
     let mut motion = 0.0;
     let mut moving: Vec<Dual<f64>> = joints.iter().map(|&x| Dual::constant(x)).collect();
@@ -95,12 +95,12 @@ pub(super) fn measured(
     for (joint, scale) in scales.iter().enumerate() {
         moving[joint].slope = *scale;
         // a slope that is not finite says nothing
-        if let Ok(moved) = Values::at(mechanism, form, &moving).of(formula) {
+        if let Ok(moved) = NamedValues::at(mechanism, form, &moving).of(formula) {
             motion += moved.slope.abs();
         }
         moving[joint].slope = 0.0;
     }
-    Ok(Measured {
+    Ok(MeasuredFormula {
         value,
         terms,
         motion,
@@ -108,7 +108,7 @@ pub(super) fn measured(
 }
 
 /// The sum of the absolute values of the terms an expression adds up.
-fn terms(values: &Values<f64>, formula: &Formula) -> Result<f64, EvaluationError> {
+fn terms(values: &NamedValues<f64>, formula: &Formula) -> Result<f64, EvaluationError> {
     match &formula.node {
         Node::Binary(Operator::Add | Operator::Subtract, x, y) => {
             Ok(terms(values, x)? + terms(values, y)?)

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::formula::Values;
+use super::formula::NamedValues;
 use super::must_be_assembled;
 use super::variables::{formulas, own_variables};
 use crate::algebra::{Budget, Expression, Symbolic, Trigonometric, arrange, with_letters};
@@ -203,7 +203,7 @@ pub(super) struct Setting<'a> {
     form: &'a ClosedForm,
     pub letters: Letters<'a>,
     pub formal: Formal<'a>,
-    pub values: Values<Symbolic>,
+    pub values: NamedValues<Symbolic>,
 }
 
 impl<'a> Setting<'a> {
@@ -221,7 +221,7 @@ impl<'a> Setting<'a> {
         let parameters = mechanism.parameters_from(&independent).ok()?;
         let (joints, replaced) = own_variables(&letters, form, &parameters);
         let formal = Formal::new(mechanism, &parameters, joints.clone()).ok()?;
-        let values = Values::new(form, parameters, joints, &replaced);
+        let values = NamedValues::new(form, parameters, joints, &replaced);
         Some(Setting {
             form,
             letters,

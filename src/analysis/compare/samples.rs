@@ -15,7 +15,7 @@ use crate::system::{Held, HeldPlatform, System, Work};
 const REMEMBERED: usize = 1000;
 
 /// Configurations to compare at, made one after the other so that any number of them takes no memory.
-pub(super) struct Samples<'a> {
+pub(super) struct SampleStream<'a> {
     mechanism: &'a Mechanism,
     count: usize,
     rng: Pcg64Mcg,
@@ -28,7 +28,7 @@ pub(super) struct Samples<'a> {
     solved_home: Option<Configuration<f64>>,
 }
 
-impl<'a> Samples<'a> {
+impl<'a> SampleStream<'a> {
     pub fn new(mechanism: &'a Mechanism, count: usize, seed: u64) -> Self {
         let closed = !mechanism.closures().is_empty();
         let actuated = mechanism.joints().iter();
@@ -37,7 +37,7 @@ impl<'a> Samples<'a> {
         let joints = held.clone();
         let platforms = vec![HeldPlatform::Free; mechanism.platforms().len()];
         let system = System::new(mechanism.dimensions(), &Held { joints, platforms });
-        let mut samples = Samples {
+        let mut samples = SampleStream {
             mechanism,
             count,
             rng: Pcg64Mcg::seed_from_u64(seed),

@@ -26,7 +26,7 @@ use crate::description::{
 use crate::mechanism::{Body, Frame, Mechanism};
 use crate::number::real;
 
-type Steps = Vec<Displacement>;
+type Displacements = Vec<Displacement>;
 
 /// The joint coordinates of a mechanism, with notes on renamed frames.
 ///
@@ -88,7 +88,7 @@ struct Drawing<'a> {
     mechanism: &'a Mechanism,
     description: &'a Description,
     /// Ground from each frame in the drawing, and from the axis before each row.
-    places: BTreeMap<Frame, Steps>,
+    places: BTreeMap<Frame, Displacements>,
     bodies: BTreeMap<Body, String>,
     /// The drawing so far.
     axes: AxesDescription,
@@ -99,7 +99,12 @@ struct Drawing<'a> {
 }
 
 /// The joint of a row: where it is, counted with the constant parts of its entries.
-fn axis_of(before: &[Displacement], row: &Row, convention: Convention, fixed: [Entry; 2]) -> Steps {
+fn axis_of(
+    before: &[Displacement],
+    row: &Row,
+    convention: Convention,
+    fixed: [Entry; 2],
+) -> Displacements {
     let [d, theta] = fixed;
     let link = [
         Displacement::Rotate(Axis::X, row.alpha.clone()),

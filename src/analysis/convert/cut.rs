@@ -28,7 +28,7 @@ use closure_rows::ClosureRows;
 pub use error::CutError;
 
 /// Place of the joint in its chain.
-struct Place {
+struct RowPlace {
     joint: usize,
     chain: usize,
     /// Index of its row, from 0.
@@ -67,7 +67,11 @@ pub(super) fn cut(
     ))
 }
 
-fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<Place, CutError> {
+fn find(
+    mechanism: &Mechanism,
+    description: &Description,
+    name: &str,
+) -> Result<RowPlace, CutError> {
     let joint = || name.to_owned();
     let Some(index) = mechanism.joint(name) else {
         if place_of(&description.closures, name).is_some() {
@@ -102,7 +106,7 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
             Err(CutError::AlreadyCut(joint()))
         }
         ([], _) => Err(CutError::NoRow(joint())),
-        (&[(chain, row, 1, factor)], false) => Ok(Place {
+        (&[(chain, row, 1, factor)], false) => Ok(RowPlace {
             joint: index,
             chain,
             row,
@@ -118,7 +122,11 @@ fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<
 }
 
 /// The closure that shall hold the links behind the joint, and which of its frames is there.
-fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, usize), CutError> {
+fn closing(
+    mechanism: &Mechanism,
+    place: &RowPlace,
+    joint: &str,
+) -> Result<(usize, usize), CutError> {
     let rows = mechanism.chains()[place.chain].rows.len();
     let behind = |frame: Frame| mechanism.joints_below(frame).contains(&place.joint);
     let ends = |frame: Frame| match frame {
@@ -184,7 +192,7 @@ fn constant(e: &Entry, description: &Description) -> Entry {
 fn rebuild(
     mechanism: &Mechanism,
     description: &Description,
-    place: &Place,
+    place: &RowPlace,
     (closure, side): (usize, usize),
     motion: ClosureRows,
 ) -> Conversion {

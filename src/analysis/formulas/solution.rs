@@ -26,7 +26,7 @@ pub fn solution(
 ) -> Result<FormulasReport, EvaluationError> {
     let mechanism = question.mechanism();
     let form = ClosedSolution::of(question, at)?;
-    let names = Names::of(mechanism);
+    let names = FreeNames::of(mechanism);
     let mut sign = 0;
     let steps = form.steps.iter().enumerate();
     let steps = steps.map(|(i, step)| written(mechanism, step, i + 1, &names, &mut sign));
@@ -92,12 +92,12 @@ fn check(
 }
 
 /// Names that no joint and no parameter has.
-struct Names {
+struct FreeNames {
     coefficients: [&'static str; 3],
     sign: &'static str,
 }
 
-impl Names {
+impl FreeNames {
     fn of(mechanism: &Mechanism) -> Self {
         let joints = mechanism.joints().iter().map(|joint| &*joint.name);
         let parameters = mechanism.parameters().iter();
@@ -105,7 +105,7 @@ impl Names {
         let free = |stem: &str| all.iter().all(|name| !name.starts_with(stem));
         let mut letters = [["A", "B", "C"], ["P", "Q", "R"], ["U", "V", "W"]].into_iter();
         let letters = letters.find(|three| three.iter().all(|letter| free(letter)));
-        Names {
+        FreeNames {
             coefficients: letters.unwrap_or(["coefA_", "coefB_", "coefC_"]),
             sign: if free("sigma") { "sigma" } else { "sign_" },
         }
@@ -125,7 +125,7 @@ fn written(
     mechanism: &Mechanism,
     step: &Step,
     number: usize,
-    names: &Names,
+    names: &FreeNames,
     sign: &mut usize,
 ) -> StepFormula {
     let named = names.coefficients.map(|letter| format!("{letter}{number}"));

@@ -40,7 +40,7 @@ pub enum AxesError {
 }
 
 /// A joint with the bodies it connects.
-struct Joint {
+struct AxisJoint {
     name: String,
     kind: AxisKind,
     point: Vector3<f64>,
@@ -51,7 +51,7 @@ struct Joint {
     bodies: [String; 2],
 }
 
-impl Joint {
+impl AxisJoint {
     fn described(self, closed: bool) -> Named<AxisDescription> {
         let vector = |v: Vector3<f64>| v.0.map(Entry::length);
         let value = |x: f64| match self.kind {
@@ -98,13 +98,13 @@ pub fn joint_axes(
             }
         }
     }
-    let follows = |pair: &[Joint]| pair[0].bodies[1] == pair[1].bodies[0];
+    let follows = |pair: &[AxisJoint]| pair[0].bodies[1] == pair[1].bodies[0];
     let chains = mechanism.chains().iter().enumerate();
     let moving: Vec<usize> = chains
         .filter(|(_, c)| !c.rows.is_empty())
         .map(|(i, _)| i)
         .collect();
-    let inside = |joint: &Joint| joint.kind != AxisKind::Spherical && joint.bodies[1] != GROUND;
+    let inside = |joint: &AxisJoint| joint.kind != AxisKind::Spherical && joint.bodies[1] != GROUND;
     let serial = moving.len() == 1
         && joints[0].bodies[0] == GROUND
         && joints.windows(2).all(follows)
@@ -139,8 +139,8 @@ fn plain_name(mechanism: &Mechanism, body: Body) -> String {
     name + &"_".repeat(alike)
 }
 
-fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<Joint>, AxesError> {
-    let mut joints: Vec<Joint> = Vec::new();
+fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<AxisJoint>, AxesError> {
+    let mut joints: Vec<AxisJoint> = Vec::new();
     for (chain, part) in mechanism.dimensions().chains.iter().enumerate() {
         for (k, dims) in part.rows.iter().enumerate().filter(|(_, row)| row.moves()) {
             let refused = || AxesError::Row {
@@ -168,7 +168,7 @@ fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<Joint>, Ax
                 if known || factor.abs() != 1.0 {
                     return Err(refused());
                 }
-                joints.push(Joint {
+                joints.push(AxisJoint {
                     name: variable.name.clone(),
                     kind,
                     point: before.position,
@@ -189,7 +189,7 @@ fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<Joint>, Ax
 fn closures(
     mechanism: &Mechanism,
     at: &Configuration<f64>,
-    joints: &mut Vec<Joint>,
+    joints: &mut Vec<AxisJoint>,
 ) -> Result<Vec<(String, String)>, AxesError> {
     let mut rigid = Vec::new();
     for (index, closure) in mechanism.closures().iter().enumerate() {
@@ -200,7 +200,7 @@ fn closures(
         let joint = |suffix: &str, kind, pose: &Pose<f64>, bodies: [String; 2]| {
             let wanted = format!("{}{suffix}", closure.name);
             let free = |name: &str| mechanism.joint(name).is_none();
-            Joint {
+            AxisJoint {
                 name: free_variable(&wanted, free),
                 kind,
                 point: pose.position,
@@ -235,7 +235,7 @@ fn closures(
                 let bodies = ["sliding", "between"].map(|word| format!("{} {word}", closure.name));
                 let [slid, between] = bodies;
                 let [x, y, _] = poses[0].rotation.0;
-                let slide = |suffix, direction, bodies| Joint {
+                let slide = |suffix, direction, bodies| AxisJoint {
                     direction,
                     ..joint(suffix, Prismatic, &poses[0], bodies)
                 };
@@ -270,8 +270,8 @@ fn length_of(
     mechanism: &Mechanism,
     at: &Configuration<f64>,
     index: usize,
-    known: &[Joint],
-) -> Result<Option<Joint>, AxesError> {
+    known: &[AxisJoint],
+) -> Result<Option<AxisJoint>, AxesError> {
     let closure = &mechanism.closures()[index];
     let poses = mechanism.poses(closure.frames, at);
     let [first, second] = poses.map(|pose| pose.position);
@@ -289,7 +289,7 @@ fn length_of(
     if known.iter().any(|known| known.name == variable.name) {
         return Err(refused());
     }
-    Ok(Some(Joint {
+    Ok(Some(AxisJoint {
         name: variable.name.clone(),
         kind: AxisKind::Prismatic,
         point: first,

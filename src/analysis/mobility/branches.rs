@@ -12,7 +12,7 @@ use crate::linear::orthonormal;
 use crate::number::sorting::sort_by_key;
 use crate::solve::{Stage, Watch};
 use crate::system::{Cone, Neighbourhood, Tangent, independent_parts};
-use walk::{Directions, MOVED_ON_A_BRANCH, Seen, Walk, contains, same};
+use walk::{BranchWalk, Directions, MOVED_ON_A_BRANCH, Seen, contains, same};
 
 /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
 /// motion that is only infinitesimal to second order leaves a gap of about its square.
@@ -34,7 +34,7 @@ const LISTED: usize = 256;
 pub(super) struct Finite {
     pub freedoms: usize,
     pub character: Character,
-    pub branches: Vec<Branch>,
+    pub branches: Vec<LocalBranch>,
     /// Number of branches, of which no more than [`LISTED`] are listed.
     pub count: usize,
     /// True if there are certainly no others.
@@ -47,7 +47,7 @@ pub(super) struct Finite {
 
 /// A branch through a singular configuration.
 #[derive(Clone, Default)]
-pub(super) struct Branch {
+pub(super) struct LocalBranch {
     pub freedoms: usize,
     /// Basis of its motions at the configuration.
     pub motions: Vec<Vec<f64>>,
@@ -58,7 +58,7 @@ pub(super) struct Branch {
     pub moved: Vec<bool>,
 }
 
-impl Branch {
+impl LocalBranch {
     /// Branches in this order do not depend on random directions: the largest first, then by what the projection onto
     /// their motions, which is the same for every basis, makes of a fixed direction.
     fn order(&self) -> (Reverse<usize>, Vec<Reverse<i64>>) {
@@ -77,20 +77,20 @@ impl Branch {
 }
 
 /// The branches of one independent part of a mechanism.
-struct Part {
-    branches: Vec<Branch>,
+struct IndependentPart {
+    branches: Vec<LocalBranch>,
     regular: bool,
     complete: bool,
 }
 
 /// The search for the finite motions through configurations of a mechanism.
-pub(super) struct Search<'s, 'm> {
+pub(super) struct FiniteSearch<'s, 'm> {
     pub near: &'s mut Neighbourhood<'m>,
     pub watch: &'s Watch<'s>,
     pub rng: Pcg64Mcg,
 }
 
-impl Search<'_, '_> {
+impl FiniteSearch<'_, '_> {
     pub fn find(&mut self, tangent: &Tangent) -> Finite {
         let freedoms = tangent.motions.len();
         let whole = self.finite(&vec![true; tangent.columns()], tangent);
@@ -117,10 +117,10 @@ impl Search<'_, '_> {
             let tangent = tangent.within(own);
             (!tangent.motions.is_empty()).then(|| self.part(own, &tangent, one))
         });
-        let parts: Vec<Part> = parts.collect();
-        let gains = |branch: &Branch| branch.freedoms;
-        let most = |part: &Part| part.branches.iter().map(gains).max().unwrap_or(0);
-        let least = |part: &Part| part.branches.iter().map(gains).min().unwrap_or(0);
+        let parts: Vec<IndependentPart> = parts.collect();
+        let gains = |branch: &LocalBranch| branch.freedoms;
+        let most = |part: &IndependentPart| part.branches.iter().map(gains).max().unwrap_or(0);
+        let least = |part: &IndependentPart| part.branches.iter().map(gains).min().unwrap_or(0);
         let count = (parts.iter()).fold(1usize, |product, part| {
             product.saturating_mul(part.branches.len().max(1))
         });
@@ -155,15 +155,15 @@ impl Search<'_, '_> {
     }
 
     /// The branches of an independent part, which is known to be singular if it is the `only` one.
-    fn part(&mut self, own: &[bool], tangent: &Tangent, only: bool) -> Part {
+    fn part(&mut self, own: &[bool], tangent: &Tangent, only: bool) -> IndependentPart {
         if !only && let Ok((moved, _)) = self.finite(own, tangent) {
-            let branch = Branch {
+            let branch = LocalBranch {
                 freedoms: tangent.motions.len(),
                 motions: tangent.motions.clone(),
                 moved,
-                ..Branch::default()
+                ..LocalBranch::default()
             };
-            return Part {
+            return IndependentPart {
                 branches: vec![branch],
                 regular: true,
                 complete: true,
@@ -173,7 +173,7 @@ impl Search<'_, '_> {
     }
 
     /// The branches of a singular part that small steps settle on: until these find nothing new.
-    fn singular(&mut self, own: &[bool], tangent: &Tangent) -> Part {
+    fn singular(&mut self, own: &[bool], tangent: &Tangent) -> IndependentPart {
         /// Most steps, per infinitesimal freedom and [`BRANCH_TRIALS`].
         const LONGEST: usize = 12;
         if let Some(part) = self.all_but_one(tangent) {
@@ -188,20 +188,20 @@ impl Search<'_, '_> {
                 let way = self.near.system().difference(&tangent.at, at);
                 see(&mut moved, &way, MOVED_ON_A_BRANCH * BRANCH_STEP);
             }
-            let branch = Branch {
+            let branch = LocalBranch {
                 freedoms: set.motions.len(),
                 motions: set.motions,
                 moved,
-                ..Branch::default()
+                ..LocalBranch::default()
             };
             let finite = Some(branch).filter(|branch| branch.freedoms > 0);
-            return Part {
+            return IndependentPart {
                 branches: finite.into_iter().collect(),
                 regular: false,
                 complete: true,
             };
         }
-        let mut walk = Walk {
+        let mut walk = BranchWalk {
             search: self,
             own,
             from: tangent,
@@ -262,7 +262,7 @@ impl Search<'_, '_> {
         // what has more freedoms than there are infinitesimal ones here does not pass through here
         branches.retain(|branch| branch.freedoms <= n);
         let single = matches!(&branches[..], [one] if one.freedoms == n && !one.cone);
-        Part {
+        IndependentPart {
             regular: branches.len() < seen && single,
             // a function of one variable that vanishes nowhere nearby has no zero there
             complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
@@ -285,7 +285,7 @@ struct Limit {
 }
 
 /// True if the tangent of a branch at the meeting point is a curved cone: steps leave its span.
-fn is_curved(walk: &mut Walk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
+fn is_curved(walk: &mut BranchWalk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
     const STEP: f64 = 0.02;
     if !cone.is_all() {
         return !cone.contains_all(motions);
@@ -302,10 +302,10 @@ fn is_curved(walk: &mut Walk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
 /// The reduction of Lyapunov and Schmidt leaves k equations with independent quadratic parts. If each branch has n − k
 /// freedoms, the tangent cone is a complete intersection of k quadrics, whose components have degrees that add up to 2ᵏ at
 /// most (Bézout): 1 for a linear space, 2 for a single curved quadric.
-fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Branch>, f64) {
-    let mut branches: Vec<(bool, Branch)> = Vec::new();
+fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<LocalBranch>, f64) {
+    let mut branches: Vec<(bool, LocalBranch)> = Vec::new();
     for (seen, Limit { motions, curved }) in seen.iter().zip(limits) {
-        let one = |known: &&mut (bool, Branch)| match *curved {
+        let one = |known: &&mut (bool, LocalBranch)| match *curved {
             true => known.1.cone && known.1.freedoms == motions.len(),
             false => !known.1.cone && same(&known.1.motions, motions, SAME_THERE),
         };
@@ -318,7 +318,7 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
             }
             continue;
         }
-        let branch = Branch {
+        let branch = LocalBranch {
             freedoms: motions.len(),
             motions: motions.clone(),
             cone: *curved,
@@ -339,9 +339,9 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
     };
     let parts: Vec<bool> = (0..branches.len()).map(within).collect();
     let whole = branches.into_iter().zip(parts).filter(|(_, part)| !part);
-    let branches: Vec<Branch> = whole.map(|((_, branch), _)| branch).collect();
+    let branches: Vec<LocalBranch> = whole.map(|((_, branch), _)| branch).collect();
     let forms = cone.forms();
-    let degree = |branch: &Branch| 1 + usize::from(branch.cone);
+    let degree = |branch: &LocalBranch| 1 + usize::from(branch.cone);
     let degrees: usize = branches.iter().map(degree).sum();
     let even = branches.iter().all(|b| b.freedoms + forms == n);
     let single = forms == 1 || branches.iter().all(|branch| !branch.cone);
@@ -352,14 +352,14 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
 }
 
 /// The branches of the whole: each part is on one of its own. The first of them.
-fn products(parts: &[Part], tangent: &Tangent) -> Vec<Branch> {
-    let mut products: Vec<Branch> = vec![Branch {
+fn products(parts: &[IndependentPart], tangent: &Tangent) -> Vec<LocalBranch> {
+    let mut products: Vec<LocalBranch> = vec![LocalBranch {
         moved: vec![false; tangent.columns()],
-        ..Branch::default()
+        ..LocalBranch::default()
     }];
     for part in parts.iter().filter(|part| !part.branches.is_empty()) {
         let all = products.iter().flat_map(|known| {
-            part.branches.iter().map(|branch| Branch {
+            part.branches.iter().map(|branch| LocalBranch {
                 freedoms: known.freedoms + branch.freedoms,
                 motions: [&known.motions[..], &branch.motions].concat(),
                 cone: known.cone || branch.cone,
@@ -372,6 +372,6 @@ fn products(parts: &[Part], tangent: &Tangent) -> Vec<Branch> {
         products = all.take(LISTED).collect();
     }
     products.retain(|branch| branch.freedoms > 0);
-    sort_by_key(&mut products, Branch::order);
+    sort_by_key(&mut products, LocalBranch::order);
     products
 }

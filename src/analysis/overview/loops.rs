@@ -30,7 +30,7 @@ pub enum LoopStep {
 
 /// Link between two bodies.
 #[derive(Clone, Copy, PartialEq)]
-enum Link {
+enum LoopLink {
     /// The moving row of a chain of that index.
     Chain(usize),
     /// The closure of that index.
@@ -42,26 +42,26 @@ enum Link {
 pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
     let bodies = mechanism.bodies();
     let index = |frame: Frame| bodies.binary_search(&mechanism.body(frame)).unwrap_or(0);
-    let mut links: Vec<([usize; 2], Link)> = Vec::new();
+    let mut links: Vec<([usize; 2], LoopLink)> = Vec::new();
     for (chain, part) in mechanism.chains().iter().enumerate() {
         let mut below = index(part.on);
         for (i, row) in part.rows.iter().enumerate() {
             if !row.joints().is_empty() {
                 let body = index(Frame::Link { chain, row: i + 1 });
-                links.push(([below, body], Link::Chain(chain)));
+                links.push(([below, body], LoopLink::Chain(chain)));
                 below = body;
             }
         }
     }
     let closures = mechanism.closures().iter().enumerate();
     let closures = closures.filter(|(_, closure)| closure.kind != ClosureKind::Coupling);
-    links.extend(closures.map(|(i, closure)| (closure.frames.map(index), Link::Closure(i))));
-    let mut trees: Vec<Vec<(usize, Link)>> = vec![Vec::new(); bodies.len()];
+    links.extend(closures.map(|(i, closure)| (closure.frames.map(index), LoopLink::Closure(i))));
+    let mut trees: Vec<Vec<(usize, LoopLink)>> = vec![Vec::new(); bodies.len()];
     let mut roots: Vec<usize> = (0..bodies.len()).collect();
     let mut closing = Vec::new();
     for ([a, b], link) in links {
         match (link, root(&mut roots, a) == root(&mut roots, b)) {
-            (Link::Closure(closure), true) => closing.push((closure, [a, b])),
+            (LoopLink::Closure(closure), true) => closing.push((closure, [a, b])),
             _ => {
                 trees[a].push((b, link));
                 trees[b].push((a, link));
@@ -71,7 +71,7 @@ pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
     }
     let loops = closing.into_iter().map(|(closure, [from, to])| {
         let mut around = way(&trees, from, to);
-        around.push((to, Link::Closure(closure)));
+        around.push((to, LoopLink::Closure(closure)));
         Loop {
             closed_by: mechanism.closures()[closure].name.clone(),
             steps: named(mechanism, &bodies, around),
@@ -81,9 +81,9 @@ pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
 }
 
 /// The way from one body to another of the same tree: each body with what leads on from it.
-fn way(trees: &[Vec<(usize, Link)>], from: usize, to: usize) -> Vec<(usize, Link)> {
+fn way(trees: &[Vec<(usize, LoopLink)>], from: usize, to: usize) -> Vec<(usize, LoopLink)> {
     // for each body the next one on the way to the end
-    let mut ahead: Vec<Option<(usize, Link)>> = vec![None; trees.len()];
+    let mut ahead: Vec<Option<(usize, LoopLink)>> = vec![None; trees.len()];
     let mut waiting = vec![to];
     while let Some(at) = waiting.pop() {
         for &(next, link) in &trees[at] {
@@ -102,7 +102,11 @@ fn way(trees: &[Vec<(usize, Link)>], from: usize, to: usize) -> Vec<(usize, Link
 
 /// The names along a loop of bodies with what leads on from them; links between joints of one chain
 /// have none. Begins at ground or a platform if the loop passes there.
-fn named(mechanism: &Mechanism, bodies: &[Body], mut around: Vec<(usize, Link)>) -> Vec<LoopStep> {
+fn named(
+    mechanism: &Mechanism,
+    bodies: &[Body],
+    mut around: Vec<(usize, LoopLink)>,
+) -> Vec<LoopStep> {
     // ground sorts first, platforms next
     let first = (0..around.len()).min_by_key(|&i| around[i].0).unwrap_or(0);
     around.rotate_left(first);
@@ -115,8 +119,8 @@ fn named(mechanism: &Mechanism, bodies: &[Body], mut around: Vec<(usize, Link)>)
     for &(body, link) in &around {
         steps.extend(body_step(body));
         let step = match link {
-            Link::Chain(i) => LoopStep::Chain(mechanism.chains()[i].name.clone()),
-            Link::Closure(i) => LoopStep::Closure(mechanism.closures()[i].name.clone()),
+            LoopLink::Chain(i) => LoopStep::Chain(mechanism.chains()[i].name.clone()),
+            LoopLink::Closure(i) => LoopStep::Closure(mechanism.closures()[i].name.clone()),
         };
         if steps.last() != Some(&step) {
             steps.push(step);

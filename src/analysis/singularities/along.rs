@@ -201,7 +201,7 @@ pub fn along(
 /// Parts of the segment in reports of progress.
 const PARTS: u16 = 1000;
 
-struct Met {
+struct MetPlace {
     place: At,
     fold: bool,
     branches: bool,
@@ -221,8 +221,8 @@ struct Tests<'m> {
 
 impl Tests<'_> {
     /// Events in a step, in order; those at one place are one.
-    fn met(&mut self, curve: &mut Curve, step: &Segment, method: &Continuation) -> Vec<Met> {
-        let mut found: Vec<Met> = Vec::new();
+    fn met(&mut self, curve: &mut Curve, step: &Segment, method: &Continuation) -> Vec<MetPlace> {
+        let mut found: Vec<MetPlace> = Vec::new();
         for (place, event) in &step.events {
             let ends = match event {
                 // a turn of what is moved closes the curve and is not the end of the motion
@@ -234,7 +234,7 @@ impl Tests<'_> {
                 matches!(event, Event::Branches(_)),
             );
             if ends || fold || branches {
-                found.push(Met {
+                found.push(MetPlace {
                     place: place.clone(),
                     fold,
                     branches,
@@ -244,12 +244,12 @@ impl Tests<'_> {
             }
         }
         for place in self.vanishing(curve, step, method) {
-            let near = |met: &&mut Met| {
+            let near = |met: &&mut MetPlace| {
                 met.end.is_none() && norm(&curve.difference(&met.place.at, &place.at)) < SAME
             };
             match found.iter_mut().find(near) {
                 Some(met) => met.vanishes = true,
-                None => found.push(Met {
+                None => found.push(MetPlace {
                     place,
                     fold: false,
                     branches: false,
@@ -258,7 +258,7 @@ impl Tests<'_> {
                 }),
             }
         }
-        let along = |met: &Met| norm(&curve.difference(&step.from.at, &met.place.at));
+        let along = |met: &MetPlace| norm(&curve.difference(&step.from.at, &met.place.at));
         sort_by(&mut found, |a, b| along(a).total_cmp(&along(b)));
         found
     }

@@ -8,13 +8,13 @@ use crate::system::{Curve, Locked};
 
 type At = Place<Configuration<f64>>;
 
-struct Sample {
+struct RankSample {
     place: At,
     matrix: Vec<f64>,
     decomposition: Decomposition,
 }
 
-impl Sample {
+impl RankSample {
     fn largest(&self) -> f64 {
         let values = self.decomposition.singular_values();
         values.first().copied().unwrap_or(0.0)
@@ -57,10 +57,10 @@ impl Drops<'_> {
         found
     }
 
-    fn sample(&mut self, place: At) -> Sample {
+    fn sample(&mut self, place: At) -> RankSample {
         let matrix = self.locked.jacobian(&place.at);
         let (rows, columns) = (self.locked.rows(), self.locked.columns());
-        Sample {
+        RankSample {
             decomposition: Decomposition::of_rank(rows, columns, &matrix, self.rank),
             place,
             matrix,
@@ -68,12 +68,12 @@ impl Drops<'_> {
     }
 
     /// Sample at a distance along the tangent of a place.
-    fn ahead(&mut self, of: &Sample, along: f64) -> Option<Sample> {
+    fn ahead(&mut self, of: &RankSample, along: f64) -> Option<RankSample> {
         let place = self.method.across(self.curve, &of.place, along)?;
         Some(self.sample(place))
     }
 
-    fn search(&mut self, a: &Sample, b: &Sample, depth: usize, found: &mut Vec<At>) {
+    fn search(&mut self, a: &RankSample, b: &RankSample, depth: usize, found: &mut Vec<At>) {
         /// Stretches are not halved more often: 1/32 of a step is short.
         const DEPTH: usize = 5;
         let moved = a.matrix.iter().zip(&b.matrix);
@@ -93,7 +93,7 @@ impl Drops<'_> {
     }
 
     /// The place on a short stretch.
-    fn last(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
+    fn last(&mut self, a: &RankSample, b: &RankSample, length: f64) -> Option<At> {
         match (a.vanishes(), b.vanishes()) {
             // found on the stretch before, or at the start
             (true, _) => return None,
@@ -104,7 +104,7 @@ impl Drops<'_> {
             true => &a.decomposition,
             false => &b.decomposition,
         };
-        let turned = |sample: &Sample| near.determinant_beside(&sample.matrix) < 0.0;
+        let turned = |sample: &RankSample| near.determinant_beside(&sample.matrix) < 0.0;
         let place = if turned(a) != turned(b) {
             let locked = &mut *self.locked;
             let mut test = |_: &mut Curve, place: &At| locked.orientation(near, &place.at);
@@ -119,7 +119,7 @@ impl Drops<'_> {
 
     /// The place between two where σ is least, if it falls from both ends. Where two singular
     /// values vanish at once each does so linearly, and golden sections find the place to rounding.
-    fn lowest(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
+    fn lowest(&mut self, a: &RankSample, b: &RankSample, length: f64) -> Option<At> {
         for (end, part) in [(a, 1e-3), (b, 1.0 - 1e-3)] {
             if self.ahead(a, part * length)?.least() >= end.least() {
                 return None;

@@ -6,7 +6,7 @@ use super::classify::{Classifier, Kind, Singularity};
 use super::cusps::cusps;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{Projection, Shape, groups};
-use super::starts::{Found, Search};
+use super::starts::{FoundCurves, LocusSearch};
 use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Variable};
 use crate::number::sorting::sort_by;
@@ -131,7 +131,7 @@ pub fn loci(
         return Err(spins);
     }
     let method = Continuation::default();
-    let mut search = Search {
+    let mut search = LocusSearch {
         region: Region {
             mechanism,
             held,
@@ -173,7 +173,7 @@ pub fn loci(
     let inputs = inputs.iter().copied().map(Lock::Coordinate);
     let direct: Vec<Lock> = inputs.chain(joints.iter().copied()).collect();
     let inverse = [&outputs[..], &joints].concat();
-    let mut found: Vec<Found> = Vec::new();
+    let mut found: Vec<FoundCurves> = Vec::new();
     let kinds = [(Kind::Direct, &direct), (Kind::Inverse, &inverse)];
     for (i, (kind, locks)) in kinds.into_iter().enumerate() {
         // outputs that leave some motion undetermined everywhere have no such locus
@@ -182,7 +182,8 @@ pub fn loci(
         }
         found.push(search.of(kind, locks));
     }
-    let crossings: Vec<Vec<Configuration<f64>>> = found.iter().map(Found::crossings).collect();
+    let crossings: Vec<Vec<Configuration<f64>>> =
+        found.iter().map(FoundCurves::crossings).collect();
     for (number, found) in found.iter_mut().enumerate() {
         let others = crossings.iter().enumerate();
         for (_, at) in others.filter(|(other, _)| *other != number) {
@@ -203,9 +204,9 @@ pub fn loci(
     Ok(report)
 }
 
-impl Search<'_> {
+impl LocusSearch<'_> {
     /// The loci that curves of configurations are in the box, sorted by where they begin.
-    fn loci(&mut self, found: Found) -> Vec<Locus> {
+    fn loci(&mut self, found: FoundCurves) -> Vec<Locus> {
         let (kind, mut curve) = (found.kind, found.curve);
         let kinds: Vec<Singularity> = (found.known.iter())
             .map(|(traced, _)| {

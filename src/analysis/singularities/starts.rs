@@ -15,7 +15,7 @@ use crate::system::{
 /// Factor by which more starts than those of the settings are made at most, while more curves are likely.
 const MORE: usize = 10;
 
-pub(super) struct Search<'m> {
+pub(super) struct LocusSearch<'m> {
     pub region: Region<'m>,
     pub start: Configuration<f64>,
     pub inputs: Vec<Coordinate>,
@@ -26,7 +26,7 @@ pub(super) struct Search<'m> {
 }
 
 /// Curves found from starts.
-pub(super) struct Found {
+pub(super) struct FoundCurves {
     pub kind: Kind,
     pub curve: LocusCurve,
     /// Curves, and isolated points as curves of one place, each with how many random starts met it.
@@ -39,24 +39,24 @@ pub(super) struct Found {
 }
 
 /// True if more starts are likely to lead to new curves, by the share of curves met once (Good 1953).
-fn more_is_likely(found: &Found) -> bool {
+fn more_is_likely(found: &FoundCurves) -> bool {
     /// Number of arrivals below which the share is no evidence.
     const ARRIVALS: usize = 20;
     let once = |(traced, met): &(Traced<Singular>, usize)| *met == 1 && traced.places.len() > 1;
     found.arrived > 0 && (found.arrived < ARRIVALS || found.known.iter().any(once))
 }
 
-impl Found {
+impl FoundCurves {
     pub fn crossings(&self) -> Vec<Configuration<f64>> {
         let crossings = self.known.iter().flat_map(|(traced, _)| &traced.crossings);
         crossings.map(|place| place.at.at.clone()).collect()
     }
 }
 
-impl Search<'_> {
+impl LocusSearch<'_> {
     /// Curves found from random starts.
-    pub fn of(&mut self, kind: Kind, locks: &[Lock]) -> Found {
-        let mut found = Found {
+    pub fn of(&mut self, kind: Kind, locks: &[Lock]) -> FoundCurves {
+        let mut found = FoundCurves {
             kind,
             curve: LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks),
             known: Vec::new(),
@@ -102,7 +102,7 @@ impl Search<'_> {
     }
 
     /// Starts where loci of the other kind cross, if the configuration is singular of this kind too.
-    pub fn at_crossing(&mut self, found: &mut Found, at: &Configuration<f64>) {
+    pub fn at_crossing(&mut self, found: &mut FoundCurves, at: &Configuration<f64>) {
         if !found.kind.is_of(&self.classifier.at(at)) {
             return;
         }
@@ -155,7 +155,7 @@ impl Search<'_> {
     /// The number of the known locus through a place, which is known from now on.
     fn locus_through(
         &self,
-        found: &mut Found,
+        found: &mut FoundCurves,
         (place, isolated): (Place<Singular>, bool),
     ) -> Option<usize> {
         let method = self.region.method;

@@ -1,6 +1,6 @@
 //! The state in closed form, where the closures can be solved one after another.
 
-use super::Plan;
+use super::VariablePlan;
 use super::report::{ClosedProgram, Radicand};
 use crate::algebra::{Place, Recorded};
 use crate::mechanism::Configuration;
@@ -53,7 +53,7 @@ impl Branching<Recorded> for Recorder {
     }
 }
 
-impl Plan<'_> {
+impl VariablePlan<'_> {
     /// The state in closed form, near the given one.
     pub(super) fn closed(
         &self,

@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::{Plan, Variable};
+use super::{StateVariable, VariablePlan};
 use crate::algebra::{Operation, Place, SiUnit, evaluate};
 use crate::linear::{DENSE_LIMIT, norm, singular_values};
 use crate::number::tolerance::DIFFERENCE;
@@ -18,7 +18,7 @@ pub(super) struct Curvature {
     pub largest: f64,
 }
 
-impl Plan<'_> {
+impl VariablePlan<'_> {
     /// Curvature of a Jacobian in these places, from the values of `variables`, the inputs of the operations, at the
     /// start. It is
     /// looked at there and at random configurations: all angles and orientations, lengths within half the size of the
@@ -27,7 +27,7 @@ impl Plan<'_> {
         &self,
         operations: &[Operation],
         jacobian: &[Vec<Place>],
-        variables: &[Variable],
+        variables: &[StateVariable],
         start: &[f64],
     ) -> Curvature {
         /// Configurations at which the change is computed.
@@ -36,8 +36,8 @@ impl Plan<'_> {
         let last = jacobian.iter().flatten().max().map_or(0, |place| place + 1);
         let operations = &operations[..last as usize];
         let used = used(operations, jacobian, variables.len());
-        let weight = |variable: &Variable| match *variable {
-            Variable::Orientation(..) => 2.0,
+        let weight = |variable: &StateVariable| match *variable {
+            StateVariable::Orientation(..) => 2.0,
             of if self.is_length(of) => 1.0 / length,
             _ => 1.0,
         };
@@ -85,23 +85,29 @@ impl Plan<'_> {
     }
 
     /// Random values about a start.
-    fn scatter(&self, variables: &[Variable], at: &mut [f64], length: f64, rng: &mut Pcg64Mcg) {
+    fn scatter(
+        &self,
+        variables: &[StateVariable],
+        at: &mut [f64],
+        length: f64,
+        rng: &mut Pcg64Mcg,
+    ) {
         let mut number = |size: f64| size * (2.0 * rng.random::<f64>() - 1.0);
         for (i, variable) in variables.iter().enumerate() {
             match *variable {
-                Variable::Orientation(_, 0) => {
+                StateVariable::Orientation(_, 0) => {
                     let q = [0, 1, 2, 3].map(|_| number(1.0));
                     let unit = 1.0 / norm(&q).max(0.1);
                     at[i..i + 4].copy_from_slice(&q.map(|x| x * unit));
                 }
-                Variable::Orientation(..) => {}
+                StateVariable::Orientation(..) => {}
                 of if self.is_length(of) => at[i] += number(0.5 * length),
                 _ => at[i] += number(std::f64::consts::PI),
             }
         }
     }
 
-    fn is_length(&self, variable: Variable) -> bool {
+    fn is_length(&self, variable: StateVariable) -> bool {
         variable.unit(self.mechanism) == SiUnit::METRE
     }
 }

@@ -8,7 +8,7 @@ mod past;
 mod recording;
 
 use super::curvature::Curvature;
-use super::{NoSolver, Plan, Variable};
+use super::{NoSolver, StateVariable, VariablePlan};
 use crate::algebra::{BATCH, Batch, Place, Registers, record};
 use crate::mechanism::Configuration;
 use crate::number::widest;
@@ -41,7 +41,7 @@ impl Default for Following {
 /// Follows motions of one question, of which each changes some held coordinates from solution to solution.
 #[derive(Clone, Debug)]
 pub struct Follower<'a> {
-    plan: Plan<'a>,
+    plan: VariablePlan<'a>,
     settings: Following,
     /// Indices of the changing coordinates among the inputs.
     changing: Vec<usize>,
@@ -58,7 +58,7 @@ pub struct Follower<'a> {
 
 /// The sections of the program, after the one for what depends on held values alone.
 #[derive(Clone, Copy, Debug)]
-enum Section {
+enum FollowerSection {
     /// The sum of the squares of all rows.
     Rows = 1,
     /// The step, and the state moved by it.
@@ -113,9 +113,13 @@ impl<'a> Follower<'a> {
         changing: &[Coordinate],
         settings: Following,
     ) -> Result<Self, NoSolver> {
-        let plan = Plan::new(question);
+        let plan = VariablePlan::new(question);
         plan.check()?;
-        let place = |&of: &Coordinate| plan.inputs.iter().position(|v| *v == Variable::Held(of));
+        let place = |&of: &Coordinate| {
+            plan.inputs
+                .iter()
+                .position(|v| *v == StateVariable::Held(of))
+        };
         let changing = changing.iter().map(place);
         let changing: Vec<usize> = changing
             .map(|place| place.expect("what changes is held"))
@@ -135,8 +139,8 @@ impl<'a> Follower<'a> {
             Vec::new(),
             [written.jacobian.concat(), written.inverse.concat()].concat(),
         ];
-        sections[Section::Step as usize].push(written.doubt);
-        let reached = &mut sections[Section::Reached as usize];
+        sections[FollowerSection::Step as usize].push(written.doubt);
+        let reached = &mut sections[FollowerSection::Reached as usize];
         reached.push(written.placing);
         reached.extend(written.placed.iter().map(|(_, place)| *place));
         reached.extend(&written.columns);
@@ -144,7 +148,7 @@ impl<'a> Follower<'a> {
         sections[0] = Batch::known(&operations, changing.len(), &sections.concat());
         let program = Batch::new(&operations, count, &sections);
         let inputs_of = changing.iter().map(|&i| plan.inputs[i]);
-        let variables: Vec<Variable> = inputs_of.chain(plan.state.iter().copied()).collect();
+        let variables: Vec<StateVariable> = inputs_of.chain(plan.state.iter().copied()).collect();
         let curvature = plan.curvature(&operations, &written.jacobian, &variables, &sample);
         let at = |place: Place| program.result(place);
         let all = |of: &[Vec<Place>]| -> Vec<Vec<usize>> {
@@ -200,8 +204,9 @@ impl<'a> Follower<'a> {
             registers, certain, ..
         } = motions;
         self.program.run(0, registers);
-        self.program.run(Section::Rows as usize, registers);
-        self.program.run(Section::Jacobian as usize, registers);
+        self.program.run(FollowerSection::Rows as usize, registers);
+        self.program
+            .run(FollowerSection::Jacobian as usize, registers);
         let now = self.jacobians(registers);
         certain.keep(which, &now, self.curvature.largest, registers);
     }
@@ -264,23 +269,25 @@ impl<'a> Follower<'a> {
         predict(past, &open, registers);
         let mut last = [f64::INFINITY; BATCH];
         for step in 0..=self.settings.most_steps {
-            self.program.run(Section::Rows as usize, registers);
+            self.program.run(FollowerSection::Rows as usize, registers);
             let size = registers.rows(*size);
             settle(&mut open, &mut solved, size, &mut last, square);
             if step == self.settings.most_steps || open == [0; BATCH] {
                 break;
             }
-            self.program.run(Section::Step as usize, registers);
+            self.program.run(FollowerSection::Step as usize, registers);
             trust(&mut open, registers.rows(*doubt));
             let free = self.free.iter().map(|i| self.changing.len() + i);
             free.zip(moved)
                 .for_each(|(to, &from)| assign(to, from, &open, registers));
         }
-        self.program.run(Section::Reached as usize, registers);
+        self.program
+            .run(FollowerSection::Reached as usize, registers);
         // after that section: what it needs is no longer kept for the next
         let far = certain.beyond(&solved, past, registers);
         if far != [0; BATCH] {
-            self.program.run(Section::Jacobian as usize, registers);
+            self.program
+                .run(FollowerSection::Jacobian as usize, registers);
             let now = self.jacobians(registers);
             let sure = certain.sure(&far, &now, self.curvature.largest, registers);
             certain.keep(&sure, &now, self.curvature.largest, registers);

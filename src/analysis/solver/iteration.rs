@@ -1,7 +1,7 @@
 //! Equations of Newton's method: all closure equations, or fewer where platforms leave.
 
 use super::placing::placings;
-use super::{NoSolver, Plan, Variable};
+use super::{NoSolver, StateVariable, VariablePlan};
 use crate::algebra::{Pivot, eliminate};
 use crate::algebra::{Place, Recorded};
 use crate::mechanism::{Configuration, Dimensions};
@@ -26,7 +26,7 @@ pub(super) struct Iteration {
 
 impl Iteration {
     /// Iteration on all rows, with the step that follows from them by these pivots.
-    pub fn of(rows: &Rows, step: Vec<Recorded>, pivots: Vec<Pivot>) -> Self {
+    pub fn of(rows: &OpenRows, step: Vec<Recorded>, pivots: Vec<Pivot>) -> Self {
         Iteration {
             rows: rows.residual.iter().map(|&row| (row, 1.0)).collect(),
             jacobian: rows.jacobian.clone(),
@@ -39,13 +39,13 @@ impl Iteration {
 }
 
 /// Rows that do not vanish whatever the unknowns are, which would say nothing.
-pub(super) struct Rows {
+pub(super) struct OpenRows {
     pub open: Vec<usize>,
     pub residual: Vec<Recorded>,
     pub jacobian: Vec<Vec<Recorded>>,
 }
 
-impl Rows {
+impl OpenRows {
     pub fn of(system: &System<Recorded>, at: &Configuration<Recorded>) -> Self {
         let mut work = system.work();
         system.linearise(at, &mut work);
@@ -55,7 +55,7 @@ impl Rows {
         let open = (0..rows).filter(|&row| residual[row].constant() != Some(0.0));
         let open: Vec<usize> = open.collect();
         let row = |&row: &usize| (0..unknowns).map(|c| jacobian[c * rows + row]).collect();
-        Rows {
+        OpenRows {
             residual: open.iter().map(|&row| residual[row]).collect(),
             jacobian: open.iter().map(row).collect(),
             open,
@@ -80,14 +80,14 @@ pub(super) fn numbered(of: &[(usize, Recorded)]) -> Vec<(usize, Place)> {
     of.iter().map(|(i, number)| (*i, number.place())).collect()
 }
 
-impl Plan<'_> {
+impl VariablePlan<'_> {
     /// The iteration on all closure rows.
     pub(super) fn on_all(
         &self,
         system: &System<Recorded>,
         at: &Configuration<Recorded>,
     ) -> Result<Iteration, NoSolver> {
-        let (rows, unknowns) = (Rows::of(system, at), system.unknowns().len());
+        let (rows, unknowns) = (OpenRows::of(system, at), system.unknowns().len());
         let sides = vec![rows.residual.clone()];
         let (mut solutions, pivots) = eliminate(rows.jacobian.clone(), sides, unknowns)
             .map_err(|rank| NoSolver::Singular { rank, unknowns })?;
@@ -117,7 +117,7 @@ impl Plan<'_> {
             return None;
         }
         let few = System::new(&few, &held);
-        let rows = Rows::of(&few, at);
+        let rows = OpenRows::of(&few, at);
         let closure = |row: usize| few.closure_rows().position(|rows| rows.contains(&row));
         let factor = |row: usize| {
             let mut own = placings.iter();
@@ -134,9 +134,10 @@ impl Plan<'_> {
             .iter()
             .enumerate()
             .filter_map(|(i, variable)| match variable {
-                Variable::Orientation(platform, _) | Variable::Position(platform, _) => own
-                    .contains(platform)
-                    .then(|| (i, variable.of(self.mechanism, &reached))),
+                StateVariable::Orientation(platform, _) | StateVariable::Position(platform, _) => {
+                    own.contains(platform)
+                        .then(|| (i, variable.of(self.mechanism, &reached)))
+                }
                 _ => None,
             });
         Some(Iteration {

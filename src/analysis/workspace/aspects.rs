@@ -10,20 +10,20 @@ use super::problem::Grid;
 use crate::solve::each;
 
 /// A set of nodes.
-pub(super) struct Region {
+pub(super) struct NodeSet {
     inside: Vec<bool>,
     /// The first node and the one behind the last.
     ends: [usize; 2],
 }
 
-impl Region {
+impl NodeSet {
     pub fn new(grid: &Grid, nodes: impl Iterator<Item = usize>) -> Self {
         let (mut inside, mut ends) = (vec![false; grid.len()], [grid.len(), 0]);
         for node in nodes {
             inside[node] = true;
             ends = [ends[0].min(node), ends[1].max(node + 1)];
         }
-        Region { inside, ends }
+        NodeSet { inside, ends }
     }
 
     pub fn count(&self) -> usize {
@@ -43,7 +43,7 @@ impl Region {
 /// neighbour in a direction that is not in it.
 pub(super) fn size(
     grid: &Grid,
-    region: &Region,
+    region: &NodeSet,
     cut: &(dyn Fn(usize, usize) -> f64 + Sync),
 ) -> f64 {
     let inside = &region.inside;
@@ -77,7 +77,7 @@ pub(super) fn size(
 fn slice(
     grid: &Grid,
     first: usize,
-    region: &Region,
+    region: &NodeSet,
     cut: &(dyn Fn(usize, usize) -> f64 + Sync),
 ) -> f64 {
     let n = grid.count(0);

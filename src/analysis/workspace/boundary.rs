@@ -4,15 +4,15 @@ mod curves;
 mod kinds;
 
 pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
-pub(super) use kinds::{Crossing, named};
+pub(super) use kinds::{EdgeCrossing, named};
 
-use super::flood::{Edge, Flood, Link, Met, ReachedSet, Until};
+use super::flood::{Edge, EdgeEvent, EdgeLink, Flood, ReachedSet, Until};
 use super::problem::MapProblem;
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Progress, Stage, Watch, each};
 use crate::system::{Coordinate, Curve, Driven, Lock, LocusCurve, Region, Singular, settled};
-use curves::Tracer;
-use kinds::Kind;
+use curves::BoundaryTracer;
+use kinds::KindByNumber;
 
 pub(super) struct Boundary<'a> {
     pub fill: &'a Flood<'a>,
@@ -23,29 +23,29 @@ pub(super) struct Boundary<'a> {
 
 impl Boundary<'_> {
     /// Points on edges of the grid at which solutions within limits end or a determinant changes sign.
-    pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
+    pub fn crossings(&self, watch: &Watch) -> Vec<EdgeCrossing> {
         let Flood { problem, grid, .. } = *self.fill;
         let inputs = problem.locks(&problem.inputs);
         let outputs = problem.locks(&problem.outputs);
         let joints = problem.mechanism.joints();
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
-        let mut found: Vec<Crossing> = Vec::new();
+        let mut found: Vec<EdgeCrossing> = Vec::new();
         let mut at_nodes = std::collections::HashSet::new();
         let solutions = self.reached_set.solutions();
         for (s, solution) in solutions.filter(|(_, solution)| solution.within) {
             let links = solution.links[..2 * grid.dimensions()].iter();
             for (d, link) in links.enumerate() {
                 match *link {
-                    Link::Fold if limited => wanted.push((s, d, Until::Limit)),
-                    Link::Fold => wanted.push((s, d, Until::End)),
-                    Link::To(t) if !self.reached_set.solution(t as usize).within => {
+                    EdgeLink::Fold if limited => wanted.push((s, d, Until::Limit)),
+                    EdgeLink::Fold => wanted.push((s, d, Until::End)),
+                    EdgeLink::To(t) if !self.reached_set.solution(t as usize).within => {
                         wanted.push((s, d, Until::Limit));
                     }
-                    Link::To(t) if d % 2 == 1 => {
+                    EdgeLink::To(t) if d % 2 == 1 => {
                         let t = t as usize;
                         let [a, b] = [s, t].map(|s| &self.reached_set.solution(s).indicators);
-                        let mut parted = |x: f64, y: f64, kind: Kind, until| {
+                        let mut parted = |x: f64, y: f64, kind: KindByNumber, until| {
                             // the end of the edge that is singular, if one is
                             let (singular, part) = match (x, y) {
                                 (0.0, 0.0) => return,
@@ -54,7 +54,7 @@ impl Boundary<'_> {
                                 _ if (x < 0.0) == (y < 0.0) => return,
                                 _ => return wanted.push((s, d, until)),
                             };
-                            found.push(Crossing {
+                            found.push(EdgeCrossing {
                                 solution: s,
                                 direction: d,
                                 kind,
@@ -64,9 +64,9 @@ impl Boundary<'_> {
                             });
                         };
                         let until = Until::Singular(&inputs);
-                        parted(a.direct, b.direct, Kind::Direct, until);
+                        parted(a.direct, b.direct, KindByNumber::Direct, until);
                         let until = Until::Singular(&outputs);
-                        parted(a.inverse, b.inverse, Kind::Inverse, until);
+                        parted(a.inverse, b.inverse, KindByNumber::Inverse, until);
                     }
                     _ => {}
                 }
@@ -89,16 +89,20 @@ impl Boundary<'_> {
             };
             let met = self.fill.walk(&edge, &at, until);
             let kind = |locks: &[Lock]| match locks == &inputs[..] {
-                true => Kind::Direct,
-                false => Kind::Inverse,
+                true => KindByNumber::Direct,
+                false => KindByNumber::Inverse,
             };
             let (kind, at, part) = match (met, until) {
-                (Met::Limit(at, part, joint, upper), _) => (Kind::Limit(joint, upper), at, part),
-                (Met::Fold(at, part), Until::Limit | Until::End) => (Kind::Fold, at, part),
-                (Met::Singular(at, part), Until::Singular(locks)) => (kind(locks), at, part),
+                (EdgeEvent::Limit(at, part, joint, upper), _) => {
+                    (KindByNumber::Limit(joint, upper), at, part)
+                }
+                (EdgeEvent::Fold(at, part), Until::Limit | Until::End) => {
+                    (KindByNumber::Fold, at, part)
+                }
+                (EdgeEvent::Singular(at, part), Until::Singular(locks)) => (kind(locks), at, part),
                 _ => return None,
             };
-            Some(Crossing {
+            Some(EdgeCrossing {
                 solution: s,
                 direction: d,
                 kind,
@@ -112,7 +116,7 @@ impl Boundary<'_> {
     }
 
     /// The curves through crossings, of the slices of the first two coordinates one after another.
-    pub fn curves(&self, crossings: &[Crossing], watch: &Watch) -> Vec<BoundaryCurve> {
+    pub fn curves(&self, crossings: &[EdgeCrossing], watch: &Watch) -> Vec<BoundaryCurve> {
         let slices = match self.fill.grid.dimensions() {
             2 => 1,
             3 => self.fill.grid.count(2),
@@ -125,7 +129,7 @@ impl Boundary<'_> {
         traced.into_iter().flatten().collect()
     }
 
-    fn slice(&self, crossings: &[Crossing], slice: usize, watch: &Watch) -> Vec<BoundaryCurve> {
+    fn slice(&self, crossings: &[EdgeCrossing], slice: usize, watch: &Watch) -> Vec<BoundaryCurve> {
         let Flood { problem, grid, .. } = *self.fill;
         let third = (grid.dimensions() == 3).then(|| grid.coordinate(2, slice));
         let question = match third {
@@ -136,12 +140,12 @@ impl Boundary<'_> {
             None => problem.question.clone(),
         };
         let problem = MapProblem::new(&question, &problem.axes[..2]);
-        let here = |crossing: &&Crossing| {
+        let here = |crossing: &&EdgeCrossing| {
             let node = self.reached_set.solution(crossing.solution).node;
             crossing.direction < 4 && (third.is_none() || grid.place(node, 2) == slice)
         };
-        let here: Vec<&Crossing> = crossings.iter().filter(here).collect();
-        let mut kinds: Vec<Kind> = Vec::new();
+        let here: Vec<&EdgeCrossing> = crossings.iter().filter(here).collect();
+        let mut kinds: Vec<KindByNumber> = Vec::new();
         for crossing in &here {
             if !kinds.contains(&crossing.kind) {
                 kinds.push(crossing.kind);
@@ -157,7 +161,7 @@ impl Boundary<'_> {
             if watch.at(now).is_break() {
                 break;
             }
-            let of: Vec<&Crossing> = (here.iter().copied())
+            let of: Vec<&EdgeCrossing> = (here.iter().copied())
                 .filter(|crossing| crossing.kind == kind)
                 .collect();
             curves.extend(self.of_kind(&problem, kind, &of, third, (watch, now)));
@@ -168,8 +172,8 @@ impl Boundary<'_> {
     fn of_kind(
         &self,
         problem: &MapProblem,
-        kind: Kind,
-        crossings: &[&Crossing],
+        kind: KindByNumber,
+        crossings: &[&EdgeCrossing],
         third: Option<f64>,
         watched: (&Watch, Progress),
     ) -> Vec<BoundaryCurve> {
@@ -178,7 +182,7 @@ impl Boundary<'_> {
         let still = mapped.fold(problem.question.clone(), |q, axis| {
             q.without(axis.coordinate)
         });
-        let tracer = Tracer {
+        let tracer = BoundaryTracer {
             mode: self.mode,
             problem,
             kind,
@@ -193,7 +197,7 @@ impl Boundary<'_> {
             watch: watched.0,
             now: watched.1,
         };
-        if let Kind::Limit(joint, upper) = kind {
+        if let KindByNumber::Limit(joint, upper) = kind {
             let limits = mechanism.joints()[joint].limits;
             let Some(limit) = limits.map(|(low, high)| if upper { high } else { low }) else {
                 return Vec::new();
@@ -213,8 +217,8 @@ impl Boundary<'_> {
         }
         let held = still.held();
         let locks = match kind {
-            Kind::Direct => problem.locks(&problem.inputs),
-            Kind::Inverse => problem.locks(&problem.outputs),
+            KindByNumber::Direct => problem.locks(&problem.inputs),
+            KindByNumber::Inverse => problem.locks(&problem.outputs),
             _ => problem.locks(&problem.held),
         };
         let mut curve = LocusCurve::new(mechanism, &held, &problem.inputs, &locks);

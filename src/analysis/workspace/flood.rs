@@ -12,10 +12,10 @@ mod seeds;
 mod spread;
 mod step;
 
-pub(super) use edge::{Edge, Met, Until};
+pub(super) use edge::{Edge, EdgeEvent, Until};
 pub(super) use metric::Metric;
 pub(super) use neighbour::Flood;
-pub(super) use reached::{Link, ReachedSet, Signs, signs, signs_of};
+pub(super) use reached::{EdgeLink, ReachedSet, Signs, signs, signs_of};
 pub(super) use seeds::{ModeSeeds, PROBES, probe, search_modes};
-pub(super) use spread::Spread;
+pub(super) use spread::GrowingSet;
 pub(super) use step::Steps;

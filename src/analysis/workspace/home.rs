@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::flood::{Edge, Flood, Met, ModeSeeds, ReachedSet, Signs, Steps, Until, signs_of};
+use super::flood::{Edge, EdgeEvent, Flood, ModeSeeds, ReachedSet, Signs, Steps, Until, signs_of};
 use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
 use crate::number::sorting::sort_by;
@@ -139,7 +139,7 @@ fn along(
             to: to[axis],
         };
         match fill.walk(&edge, &at, Until::End) {
-            Met::Neighbour(there) => at = there,
+            EdgeEvent::Neighbour(there) => at = there,
             _ => return None,
         }
         values[axis] = to[axis];

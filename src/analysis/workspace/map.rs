@@ -12,9 +12,9 @@ pub use report::{
 
 use std::collections::HashMap;
 
-use super::aspects::{self, Region};
-use super::boundary::{Crossing, named};
-use super::flood::{Link, ReachedSet};
+use super::aspects::{self, NodeSet};
+use super::boundary::{EdgeCrossing, named};
+use super::flood::{EdgeLink, ReachedSet};
 use super::home::Home;
 use super::problem::{Grid, MapProblem};
 use crate::algebra::SiUnit;
@@ -24,7 +24,7 @@ use crate::solve::each;
 use crate::system::Coordinate;
 
 /// Solutions with their modes and aspects.
-pub(super) struct Map<'a> {
+pub(super) struct WorkspaceMap<'a> {
     pub problem: &'a MapProblem<'a>,
     pub grid: &'a Grid,
     pub reached_set: &'a ReachedSet,
@@ -38,7 +38,7 @@ pub(super) struct Map<'a> {
 /// Part of an edge over which a solution belongs to its region in a direction; half if not known.
 type Cuts = HashMap<(usize, usize), f64>;
 
-impl<'a> Map<'a> {
+impl<'a> WorkspaceMap<'a> {
     pub fn new(
         problem: &'a MapProblem<'a>,
         grid: &'a Grid,
@@ -79,7 +79,7 @@ impl<'a> Map<'a> {
         for (number, (root, _)) in roots.iter().enumerate() {
             numbers[*root] = Some(number);
         }
-        Map {
+        WorkspaceMap {
             mode: reached_set
                 .roots
                 .iter()
@@ -93,7 +93,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    pub fn report(&self, crossings: &[Crossing], home: Option<&Home>) -> WorkspaceReport {
+    pub fn report(&self, crossings: &[EdgeCrossing], home: Option<&Home>) -> WorkspaceReport {
         let mechanism = self.problem.mechanism;
         let unit = |of: Coordinate| SiUnit::of_coordinate(of.is_angle(mechanism));
         let name = |of: &Coordinate| of.name(mechanism);
@@ -103,7 +103,7 @@ impl<'a> Map<'a> {
         for crossing in crossings {
             cuts.insert((crossing.solution, crossing.direction), crossing.part);
             let link = self.reached_set.solution(crossing.solution).links[crossing.direction];
-            if let Link::To(other) = link {
+            if let EdgeLink::To(other) = link {
                 let other = (other as usize, crossing.direction ^ 1);
                 cuts.insert(other, 1.0 - crossing.part);
             }
@@ -118,10 +118,10 @@ impl<'a> Map<'a> {
         let whole = |s: &usize| self.reached_set.solution(*s).within;
         let of_mode = |mode: usize| move |s: &usize| self.mode[*s] == Some(mode) && whole(s);
         let all = (0..self.reached_set.len()).filter(whole);
-        let reached = Region::new(self.grid, all.map(|s| node(&s)));
+        let reached = NodeSet::new(self.grid, all.map(|s| node(&s)));
         let inside = self.reached_set.solutions().filter(|(_, of)| of.within);
         let links = inside.flat_map(|(_, solution)| &solution.links);
-        let unsure = links.filter(|link| **link == Link::Stuck).count();
+        let unsure = links.filter(|link| **link == EdgeLink::Stuck).count();
         let (aspects, numbers) = self.aspects(&cuts);
         let home_report = |home: &Home| {
             let [known, within] = home.solutions(self.reached_set, &self.mode);
@@ -169,9 +169,9 @@ impl<'a> Map<'a> {
             reached_size: self.size(&reached, &whole, &cuts),
             modes: each(self.modes, &(), |(), mode| {
                 let of = &of_modes[mode];
-                let nodes = Region::new(self.grid, of.iter().map(node)).count();
+                let nodes = NodeSet::new(self.grid, of.iter().map(node)).count();
                 let within = of.iter().filter(|s| whole(s));
-                let within = Region::new(self.grid, within.map(node));
+                let within = NodeSet::new(self.grid, within.map(node));
                 let first = of.first().map(node);
                 let at_first = of.iter().take_while(|s| Some(node(s)) == first);
                 let joints = at_first.map(|s| {
@@ -252,7 +252,12 @@ impl<'a> Map<'a> {
     }
 
     /// Size of the part of a region in which a solution satisfies `belongs`, in the units of the mapped coordinates.
-    fn size(&self, region: &Region, belongs: &(dyn Fn(&usize) -> bool + Sync), cuts: &Cuts) -> f64 {
+    fn size(
+        &self,
+        region: &NodeSet,
+        belongs: &(dyn Fn(&usize) -> bool + Sync),
+        cuts: &Cuts,
+    ) -> f64 {
         let reach = |node: usize, direction: usize| {
             let solutions = self.reached_set.at(node).filter(belongs);
             let cut = |s: usize| cuts.get(&(s, direction)).copied().unwrap_or(0.5);
@@ -283,7 +288,7 @@ impl<'a> Map<'a> {
         let mut all: Vec<(usize, AspectReport)> = each(of.len(), &(), |(), i| {
             let (first, ref solutions) = of[i];
             let belongs = |s: &usize| self.aspect[*s] == Some(first);
-            let region = Region::new(
+            let region = NodeSet::new(
                 self.grid,
                 solutions.iter().map(|s| self.reached_set.solution(*s).node),
             );

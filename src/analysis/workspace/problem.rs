@@ -7,4 +7,4 @@ mod rates;
 
 pub(super) use grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
 pub(super) use map_problem::{MapProblem, Targets};
-pub(super) use rates::{Indicators, Motions, Rates};
+pub(super) use rates::{HeldMotions, Indicators, Rates};

@@ -4,7 +4,7 @@ use super::{AxesDescription, AxisDescription, AxisKind, AxisPlace};
 use crate::description::{Entry, GROUND, Named, Spanned, place_of};
 
 /// A ball at which a body ends: the joint, the other body, the centre.
-type Ball = (usize, Spanned<String>, [Entry; 3]);
+type BallEnd = (usize, Spanned<String>, [Entry; 3]);
 
 impl AxesDescription {
     /// The description with rods in place of bodies that have nothing but two balls, for their spin moves nothing; and
@@ -55,8 +55,8 @@ impl AxesDescription {
     }
 
     /// The joints of a body, if these are two balls drawn in place.
-    fn balls(&self, body: &str) -> Option<[Ball; 2]> {
-        let mut balls: Vec<Option<Ball>> = Vec::new();
+    fn balls(&self, body: &str) -> Option<[BallEnd; 2]> {
+        let mut balls: Vec<Option<BallEnd>> = Vec::new();
         for (index, Named { value, .. }) in self.joints.iter().enumerate() {
             let Some(ends) = &value.between else { continue };
             let Some(end) = ends.iter().position(|end| end.value == body) else {
@@ -70,7 +70,7 @@ impl AxesDescription {
                 _ => None,
             });
         }
-        let balls: Option<Vec<Ball>> = balls.into_iter().collect();
+        let balls: Option<Vec<BallEnd>> = balls.into_iter().collect();
         balls?.try_into().ok()
     }
 }

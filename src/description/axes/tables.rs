@@ -40,7 +40,7 @@ pub struct Coordinates {
 
 /// A body with its frame: how that is called, and where it is in the drawing.
 #[derive(Clone)]
-pub(super) struct Placed {
+pub(super) struct PlacedBody {
     pub name: String,
     pub frame: Vec<Displacement>,
     pub platform: Option<usize>,
@@ -53,7 +53,7 @@ pub(super) struct Tables<'a> {
     /// For each joint the change of its value against the drawing, over variables.
     pub moved: Vec<Entry>,
     cuts: &'a BTreeSet<usize>,
-    pub bodies: Vec<Option<Placed>>,
+    pub bodies: Vec<Option<PlacedBody>>,
     pub taken: Vec<String>,
     pub made: Description,
 }
@@ -155,7 +155,7 @@ impl Tables<'_> {
         let points = names_of(&self.axes.points).map(str::to_owned);
         self.taken = bodies.chain(points).collect();
         self.variables();
-        self.bodies[0] = Some(Placed {
+        self.bodies[0] = Some(PlacedBody {
             name: GROUND.into(),
             frame: self.frame_given(0).unwrap_or_default(),
             platform: None,
@@ -174,7 +174,7 @@ impl Tables<'_> {
                 .frame_given(root)
                 .unwrap_or_else(|| self.first_point(root));
             let name = self.graph.bodies[root].clone();
-            self.bodies[root] = Some(Placed {
+            self.bodies[root] = Some(PlacedBody {
                 name: name.value.clone(),
                 frame: frame.clone(),
                 platform: Some(self.made.platforms.len()),

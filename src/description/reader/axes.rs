@@ -5,7 +5,7 @@ use crate::description::axes::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, PointDescription,
 };
 
-impl Reader {
+impl FileReader {
     pub(super) fn axes(&mut self, piece: Piece) -> Option<AxesDescription> {
         let mut fields = self.fields(piece, Structure::Axes)?;
         if !self.known_version(&mut fields) {

@@ -2,7 +2,7 @@
 
 use super::*;
 
-impl Reader {
+impl FileReader {
     pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
         let mut fields = self.fields(piece, Structure::ClosedForm)?;
         // reading takes the fields out, so the kind of formula is decided first

@@ -3,7 +3,7 @@
 use super::*;
 use crate::algebra::{Expression, ParseError};
 
-impl Reader {
+impl FileReader {
     pub(super) fn text(&mut self, piece: Piece, expected: Expected) -> Option<Spanned<String>> {
         let Shape::Text = piece.shape() else {
             self.wrong_type(piece, expected);

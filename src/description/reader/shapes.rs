@@ -34,7 +34,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-impl Reader {
+impl FileReader {
     /// The contents of the parentheses after a word.
     pub(super) fn content<'a, const N: usize>(
         &mut self,

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use super::super::model::{ClosedForm, Formula, Given, Symbol};
-use super::{Builder, Frame};
+use super::{Frame, ModelBuilder};
 use crate::description::{self, Description, Entry, MatrixEntry, Named, Noun, Scope, names_of};
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     pub(super) fn closed_forms(&mut self, description: &Description) -> Vec<ClosedForm> {
         let mut forms = Vec::new();
         for Named { name, value } in &description.closed_forms {

@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use super::super::model::{Closure, Row};
 use super::super::relation::joints_of;
 use super::super::{Body, Frame};
-use super::{Builder, ResolvedChain};
+use super::{ModelBuilder, ResolvedChain};
 use crate::algebra::Measure;
 use crate::description::{
     ClosureDescription, ClosureKind, Description, Named, ProblemKind, Scope, Spanned,
 };
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     pub(super) fn closures(
         &mut self,
         description: &Description,

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::super::Mechanism;
-use super::Builder;
+use super::ModelBuilder;
 use crate::algebra::Measure;
 use crate::description::{
     AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, Problem, ProblemKind,
@@ -12,7 +12,7 @@ use crate::geometry::Vector3;
 use crate::number::real;
 use crate::number::tolerance::ROUNDING;
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     /// Axes need a direction, those of universal joints a right angle between them.
     pub(super) fn check_coordinates(&mut self, coordinates: &Coordinates) {
         for joint in &coordinates.axes.joints {

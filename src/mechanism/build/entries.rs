@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::super::model::{Formula, Joint, Symbol};
-use super::Builder;
+use super::ModelBuilder;
 use crate::algebra::{Affine, Measure, MeasureErrorKind};
 use crate::description::{Description, Entry, Named, Problem, ProblemKind, Scope};
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     /// Records a problem.
     pub(super) fn refuse(&mut self, kind: ProblemKind, span: &Range<usize>) {
         self.problems.push(kind.at(span.clone()));

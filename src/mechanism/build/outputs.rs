@@ -1,10 +1,10 @@
 //! The quantities that a file names.
 
 use super::super::{Measured, Mechanism, PointError, Quantity, QuantityError};
-use super::Builder;
+use super::ModelBuilder;
 use crate::description::{Description, Expected, Named, ProblemKind, Scope};
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     /// The outputs of a file whose other parts are right.
     pub(super) fn outputs(
         &mut self,

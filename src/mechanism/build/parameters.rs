@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use super::super::model::{Formula, Parameter};
 use super::super::names::definition_order;
-use super::Builder;
+use super::ModelBuilder;
 use crate::description::{Description, Entry, Named, Note, Noun, ProblemKind, Scope};
 
-impl Builder<'_> {
+impl ModelBuilder<'_> {
     /// The parameters that are well defined, with their values where these are known.
     pub(super) fn parameters(&mut self, description: &Description) -> Vec<Parameter> {
         let entries = &description.parameters;

@@ -1,6 +1,6 @@
 //! Chains while their fixed displacements change.
 
-use super::step::{Column, Shape, Step};
+use super::step::{FixedShape, PlacedStep, RotationColumn};
 use super::{Kinematics, Placement};
 use crate::geometry::{Quaternion, Vector3};
 use crate::number::Number;
@@ -22,22 +22,22 @@ impl<T: Number> Course<T> {
     }
 }
 
-impl<T: Number> Step<T> {
+impl<T: Number> PlacedStep<T> {
     /// With products left out only if they are for the other too; `None` if more than the fixed displacement differs.
     fn beside(&self, other: &Self) -> Option<Self> {
         let alike = self.parent == other.parent
             && self.still == other.still
             && self.need == other.need
-            && (self.shape == Shape::Grounded) == (other.shape == Shape::Grounded)
+            && (self.shape == FixedShape::Grounded) == (other.shape == FixedShape::Grounded)
             && (&self.turn, &self.slide) == (&other.turn, &other.slide);
         let columns = self.columns.iter().zip(other.columns);
-        let mut columns = columns.map(|(a, b)| if *a == b { b } else { Column::Any });
-        alike.then(|| Step {
+        let mut columns = columns.map(|(a, b)| if *a == b { b } else { RotationColumn::Any });
+        alike.then(|| PlacedStep {
             shape: match self.shape == other.shape {
                 true => self.shape,
-                false => Shape::General,
+                false => FixedShape::General,
             },
-            columns: std::array::from_fn(|_| columns.next().unwrap_or(Column::Any)),
+            columns: std::array::from_fn(|_| columns.next().unwrap_or(RotationColumn::Any)),
             level: self.level && other.level,
             ..self.clone()
         })
@@ -51,7 +51,7 @@ impl<T: Number> Kinematics<T> {
         let alike = self.frames == other.frames && self.steps.len() == other.steps.len();
         let pairs = || self.steps.iter().zip(&other.steps).filter(|_| alike);
         let steps = pairs().map(|(from, to)| from.beside(to));
-        let steps: Vec<Step<T>> = steps.collect::<Option<_>>().filter(|_| alike)?;
+        let steps: Vec<PlacedStep<T>> = steps.collect::<Option<_>>().filter(|_| alike)?;
         let (mut shifts, mut turns) = (Vec::new(), Vec::new());
         for (i, (from, to)) in pairs().enumerate() {
             let (from, to) = (&from.fixed, &to.fixed);
@@ -131,7 +131,7 @@ impl<T: Number> Kinematics<T> {
     }
 
     fn ground(&self, step: usize, placement: &mut Placement<T>) {
-        if self.steps[step].shape == Shape::Grounded {
+        if self.steps[step].shape == FixedShape::Grounded {
             placement.0[1 + self.platforms + step] = self.steps[step].fixed;
         }
     }

@@ -6,11 +6,11 @@ use crate::mechanism::dimensions::LinearForm;
 use crate::number::Number;
 
 #[derive(Clone, Debug)]
-pub(super) struct Step<T> {
+pub(super) struct PlacedStep<T> {
     pub parent: Slot,
     pub fixed: Pose<T>,
-    pub shape: Shape,
-    pub columns: [Column; 3],
+    pub shape: FixedShape,
+    pub columns: [RotationColumn; 3],
     /// Fixed to ground.
     pub still: bool,
     /// Turned about the z axis of ground only, as all of a planar linkage is.
@@ -22,7 +22,7 @@ pub(super) struct Step<T> {
 
 /// Structure of a fixed displacement, by which products with ones and zeros are left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(super) enum FixedShape {
     /// The parent is ground, and the displacement is the pose.
     Grounded,
     /// Any rotation, but no translation.
@@ -35,29 +35,29 @@ pub(super) enum Shape {
 /// A column of a fixed rotation. After twists of 90° it is a coordinate axis or the reverse of one: then products are
 /// left out, and 0 is added instead, which leaves no −0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Column {
+pub(super) enum RotationColumn {
     Axis(usize, bool),
     Any,
 }
 
-impl<T: Number> Step<T> {
+impl<T: Number> PlacedStep<T> {
     #[inline(always)]
     pub fn place(&self, parent: &Pose<T>, pose: &mut Pose<T>, joints: &[T]) {
         let fixed = &self.fixed;
         let column = |i: usize| match (self.shape, self.columns[i]) {
-            (Shape::Grounded, _) => fixed.rotation.0[i],
-            (_, Column::Axis(number, false)) => parent.rotation.0[number] + Vector3::zero(),
-            (_, Column::Axis(number, true)) => Vector3::zero() - parent.rotation.0[number],
-            (_, Column::Any) => parent.rotation * fixed.rotation.0[i],
+            (FixedShape::Grounded, _) => fixed.rotation.0[i],
+            (_, RotationColumn::Axis(number, false)) => parent.rotation.0[number] + Vector3::zero(),
+            (_, RotationColumn::Axis(number, true)) => Vector3::zero() - parent.rotation.0[number],
+            (_, RotationColumn::Any) => parent.rotation * fixed.rotation.0[i],
         };
         match self.shape {
-            Shape::Grounded => pose.position = fixed.position,
-            Shape::Turned => pose.position = parent.position,
-            Shape::Along => {
+            FixedShape::Grounded => pose.position = fixed.position,
+            FixedShape::Turned => pose.position = parent.position,
+            FixedShape::Along => {
                 let shift = parent.rotation.0[0].times(fixed.position.0[0]);
                 pose.position = shift + parent.position;
             }
-            Shape::General => pose.position = *parent * fixed.position,
+            FixedShape::General => pose.position = *parent * fixed.position,
         }
         if self.need > Need::Position {
             pose.rotation.0[2] = column(2);
@@ -87,17 +87,17 @@ impl<T: Number> Step<T> {
         let turned = |(c, s): (T, T), (cos, sin): (T, T)| (c * cos - s * sin, s * cos + c * sin);
         let mut x = direction(&fixed.rotation);
         let mut from = fixed.position;
-        if self.shape != Shape::Grounded {
+        if self.shape != FixedShape::Grounded {
             let (c, s) = direction(&parent.rotation);
             let ([a, b, d], [o, p, q]) = (from.0, parent.position.0);
             from = match self.shape {
-                Shape::Turned => parent.position,
-                Shape::Along => Vector3([c * a + o, s * a + p, q]),
+                FixedShape::Turned => parent.position,
+                FixedShape::Along => Vector3([c * a + o, s * a + p, q]),
                 _ => Vector3([(c * a - s * b) + o, (s * a + c * b) + p, d + q]),
             };
             pose.position = from;
             x = match self.columns[0] {
-                Column::Axis(0, false) => (c, s),
+                RotationColumn::Axis(0, false) => (c, s),
                 _ => turned((c, s), x),
             };
         }
@@ -108,7 +108,7 @@ impl<T: Number> Step<T> {
             if !self.turn.0.is_empty() {
                 let (sin, cos) = self.turn.at(joints).sin_cos();
                 x = match (self.shape, self.columns[0]) {
-                    (Shape::Grounded, Column::Axis(0, false)) => (cos, sin),
+                    (FixedShape::Grounded, RotationColumn::Axis(0, false)) => (cos, sin),
                     _ => turned(x, (cos, sin)),
                 };
             }
@@ -119,29 +119,29 @@ impl<T: Number> Step<T> {
     }
 }
 
-impl Shape {
+impl FixedShape {
     pub fn of<T: Number>(pose: &Pose<T>) -> Self {
         if pose.position == Vector3::zero() {
-            Shape::Turned
+            FixedShape::Turned
         } else if pose.position.0[1..] == [T::zero(); 2] {
-            Shape::Along
+            FixedShape::Along
         } else {
-            Shape::General
+            FixedShape::General
         }
     }
 }
 
-impl Column {
+impl RotationColumn {
     pub fn of<T: Number>(column: &Vector3<T>) -> Self {
         for number in 0..3 {
             for reversed in [false, true] {
                 let axis = Vector3::unit(number);
                 if *column == (if reversed { -axis } else { axis }) {
-                    return Column::Axis(number, reversed);
+                    return RotationColumn::Axis(number, reversed);
                 }
             }
         }
-        Column::Any
+        RotationColumn::Any
     }
 }
 

@@ -21,7 +21,7 @@ pub struct Count {
 }
 
 /// Configurations at which a mechanism is examined.
-enum Place {
+enum ExaminedPlace {
     Start,
     Assembly,
     Home,
@@ -39,16 +39,24 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     let start = question.start();
     check_locked(question, &start)?;
     let system = || System::new(mechanism.dimensions(), &question.held());
-    let place = |place: Place| match place {
-        Place::Start => Some(start.clone()),
-        Place::Assembly => system().solved(&Newton::default(), &start),
-        Place::Home => Some(mechanism.home()),
+    let place = |place: ExaminedPlace| match place {
+        ExaminedPlace::Start => Some(start.clone()),
+        ExaminedPlace::Assembly => system().solved(&Newton::default(), &start),
+        ExaminedPlace::Home => Some(mechanism.home()),
     };
     let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
     let places = match unknowns > SPECTRUM_LIMIT {
         // steps of least norm with nothing held converge slowly where there are many loops
-        true => [Place::Assembly, Place::Start, Place::Home],
-        false => [Place::Start, Place::Assembly, Place::Home],
+        true => [
+            ExaminedPlace::Assembly,
+            ExaminedPlace::Start,
+            ExaminedPlace::Home,
+        ],
+        false => [
+            ExaminedPlace::Start,
+            ExaminedPlace::Assembly,
+            ExaminedPlace::Home,
+        ],
     };
     let mut refused = None;
     for at in places.into_iter().filter_map(place) {

@@ -22,13 +22,13 @@ pub struct Drive {
     /// True if a rate or acceleration was given.
     pub given: bool,
     /// Platforms that are turned by rates of roll, pitch and yaw.
-    angles: Vec<Angles>,
+    angles: Vec<GivenAngles>,
     /// Platforms that are turned about the axes of ground.
     turned: Vec<usize>,
 }
 
 /// A platform with the rates and the accelerations of its roll, pitch and yaw.
-type Angles = (usize, [[f64; 3]; 2]);
+type GivenAngles = (usize, [[f64; 3]; 2]);
 
 /// Derivative given to a coordinate.
 #[derive(Clone, Copy)]

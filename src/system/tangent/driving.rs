@@ -14,14 +14,14 @@ use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 /// characteristic lengths.
 #[derive(Clone, Debug)]
 pub struct Driving {
-    entries: Vec<Entry>,
+    entries: Vec<RateEntry>,
     /// For each unknown of the system its place among all.
     places: Vec<usize>,
 }
 
 /// Entrance of the rate of a held coordinate into the equations.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct RateEntry {
     at: Entrance,
     /// An angle of a platform, the other two of which are at rest: its angular velocity enters in place of the rate.
     turning: Option<(usize, PoseCoordinate)>,
@@ -76,7 +76,7 @@ impl Driving {
                     None => (orientation(p), Some((p, c))),
                 },
             };
-            Entry { at, turning }
+            RateEntry { at, turning }
         };
         Driving {
             entries: coordinates.iter().map(entry).collect(),

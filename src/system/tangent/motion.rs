@@ -32,7 +32,7 @@ pub struct Motion<T: Factorable = f64> {
     held: Held<f64>,
     system: System<T>,
     work: Work<T>,
-    changing: Changing<T>,
+    changing: ChangingSystem<T>,
     length: f64,
     scales: Vec<f64>,
     unknowns: Vec<Unknown>,
@@ -45,7 +45,7 @@ pub struct Motion<T: Factorable = f64> {
 
 /// The equations along a path.
 #[derive(Clone, Debug)]
-struct Changing<T: Factorable> {
+struct ChangingSystem<T: Factorable> {
     system: System<Dual<T>>,
     work: Work<Dual<T>>,
     /// For each row of the real equations that of these, which may be ordered otherwise.
@@ -56,7 +56,7 @@ struct Changing<T: Factorable> {
     placed: bool,
 }
 
-impl<T: Factorable> Changing<T> {
+impl<T: Factorable> ChangingSystem<T> {
     fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
@@ -74,7 +74,7 @@ impl<T: Factorable> Changing<T> {
             here.zip(there).for_each(|(h, t)| rows[h] = t);
         }
         (next..real.rows()).for_each(|row| rows[row] = row);
-        Changing {
+        ChangingSystem {
             work: system.work(),
             rates: vec![constant(0.0); unknowns.len()],
             path: home.map(Dual::constant),
@@ -117,7 +117,7 @@ impl<T: Factorable> Motion<T> {
             units: coordinates.iter().map(unit).collect(),
             coordinates: coordinates.to_vec(),
             work: system.work(),
-            changing: Changing::new(mechanism, &held, frames, (&system, &unknowns, &home)),
+            changing: ChangingSystem::new(mechanism, &held, frames, (&system, &unknowns, &home)),
             given: [(); 2].map(|()| vec![T::zero(); coordinates.len()]),
             rates: vec![T::zero(); unknowns.len()],
             accelerations: vec![T::zero(); unknowns.len()],
@@ -220,7 +220,7 @@ impl<T: Factorable> Motion<T> {
 
     /// The latest rates and [accelerations](Self::accelerations), with frames placed along the path of these rates.
     pub fn changes(&self) -> (&[Dual<T>], &Placement<Dual<T>>) {
-        let Changing {
+        let ChangingSystem {
             system,
             work,
             rates,
@@ -241,7 +241,7 @@ impl<T: Factorable> Motion<T> {
 
     /// Places the frames along the path x ⊕ t ẋ.
     fn follow(&mut self) {
-        let Changing {
+        let ChangingSystem {
             system,
             work,
             path,
@@ -277,7 +277,7 @@ impl<T: Factorable> Motion<T> {
     /// The accelerations of all rows for the rates and accelerations of all unknowns and those given.
     fn row_changes(&mut self) -> &[T] {
         self.follow();
-        let Changing {
+        let ChangingSystem {
             system,
             work,
             rows,

@@ -32,12 +32,12 @@ impl Twist<f64> {
 #[derive(Clone, Debug)]
 pub struct FrameTwists<T> {
     kinematics: Kinematics<T>,
-    plans: Vec<Plan<T>>,
+    plans: Vec<TwistPlan<T>>,
     length: f64,
 }
 
 #[derive(Clone, Debug)]
-struct Plan<T> {
+struct TwistPlan<T> {
     point: Point,
     slot: usize,
     /// Joints on the way with the columns of their rates.
@@ -76,7 +76,7 @@ impl<T: Number> FrameTwists<T> {
                 .slot(point.frame)
                 .expect("the plan was made for it");
             let (movers, platform) = kinematics.movers(slot, &dimensions.joint_scales);
-            Plan {
+            TwistPlan {
                 point,
                 slot,
                 movers: (movers.into_iter())
@@ -150,7 +150,7 @@ impl<T: Number> FrameTwists<T> {
 
     /// The twist at point `i`. Nothing allocates.
     pub fn twist(&self, i: usize, placement: &Placement<T>, rates: &[T]) -> Twist<T> {
-        let Plan {
+        let TwistPlan {
             movers, platform, ..
         } = &self.plans[i];
         let point = self.origin(i, placement);

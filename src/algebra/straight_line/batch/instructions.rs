@@ -7,7 +7,7 @@ use crate::algebra::straight_line::{Operation, Place};
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instruction {
-    pub code: Code,
+    pub code: Opcode,
     pub to: u32,
     /// As many as the code takes; the others stand for nothing.
     pub of: [u32; OPERANDS],
@@ -17,7 +17,7 @@ pub(super) struct Instruction {
 const OPERANDS: usize = 5;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Code {
+pub(super) enum Opcode {
     Add,
     Subtract,
     Multiply,
@@ -100,25 +100,25 @@ pub(super) fn written(
             O::Input(_) => continue,
             O::Multiply(..) if fused[place] => continue,
             O::Add(x, y) => match (product(x), product(y)) {
-                (Some((a, b)), _) => (Code::AddProduct, &[a, b, y]),
-                (None, Some((a, b))) => (Code::AddProduct, &[a, b, x]),
-                (None, None) => (Code::Add, &[x, y]),
+                (Some((a, b)), _) => (Opcode::AddProduct, &[a, b, y]),
+                (None, Some((a, b))) => (Opcode::AddProduct, &[a, b, x]),
+                (None, None) => (Opcode::Add, &[x, y]),
             },
             O::Subtract(x, y) => match (product(x), product(y)) {
-                (_, Some((a, b))) => (Code::SubtractProduct, &[a, b, x]),
-                (Some((a, b)), None) => (Code::SubtractFromProduct, &[a, b, y]),
-                (None, None) => (Code::Subtract, &[x, y]),
+                (_, Some((a, b))) => (Opcode::SubtractProduct, &[a, b, x]),
+                (Some((a, b)), None) => (Opcode::SubtractFromProduct, &[a, b, y]),
+                (None, None) => (Opcode::Subtract, &[x, y]),
             },
-            O::Multiply(x, y) => (Code::Multiply, &[x, y]),
-            O::Divide(x, y) => (Code::Divide, &[x, y]),
-            O::Negate(x) => (Code::Negate, &[x]),
-            O::Root(x) => (Code::Root, &[x]),
-            O::RootOrZero(x) => (Code::RootOrZero, &[x]),
-            O::Angle(y, x) => (Code::Angle, &[y, x]),
-            O::Near(x, y) => (Code::Near, &[x, y]),
-            O::Sign(x) => (Code::Sign, &[x]),
-            O::Larger(x, y) => (Code::Larger, &[x, y]),
-            O::Call(function, x) => (Code::Call(function), &[x]),
+            O::Multiply(x, y) => (Opcode::Multiply, &[x, y]),
+            O::Divide(x, y) => (Opcode::Divide, &[x, y]),
+            O::Negate(x) => (Opcode::Negate, &[x]),
+            O::Root(x) => (Opcode::Root, &[x]),
+            O::RootOrZero(x) => (Opcode::RootOrZero, &[x]),
+            O::Angle(y, x) => (Opcode::Angle, &[y, x]),
+            O::Near(x, y) => (Opcode::Near, &[x, y]),
+            O::Sign(x) => (Opcode::Sign, &[x]),
+            O::Larger(x, y) => (Opcode::Larger, &[x, y]),
+            O::Call(function, x) => (Opcode::Call(function), &[x]),
             O::Sin(x) | O::Cos(x) => {
                 let section: &mut Vec<Instruction> = &mut written[section];
                 let both = angles.entry((needed[place].unwrap_or(0), x));
@@ -126,7 +126,7 @@ pub(super) fn written(
                     // the one that is not needed has a place of its own
                     let [sin, cos] = [places as u32, places as u32 + 1];
                     places += 2;
-                    section.push(Instruction::new(Code::SinCos, sin, &[x, cos]));
+                    section.push(Instruction::new(Opcode::SinCos, sin, &[x, cos]));
                     section.len() - 1
                 });
                 match operation {
@@ -203,9 +203,9 @@ pub(super) fn last_uses(
     last
 }
 
-impl Code {
+impl Opcode {
     fn operands(self) -> usize {
-        use Code as C;
+        use Opcode as C;
         match self {
             C::Negate | C::Root | C::SinCos | C::RootOrZero | C::Sign | C::Call(_) => 1,
             C::Add | C::Subtract | C::Multiply | C::Divide | C::Angle | C::Near | C::Larger => 2,
@@ -217,7 +217,7 @@ impl Code {
 }
 
 impl Instruction {
-    fn new(code: Code, to: u32, operands: &[u32]) -> Self {
+    fn new(code: Opcode, to: u32, operands: &[u32]) -> Self {
         let mut of = [0; OPERANDS];
         of[..operands.len()].copy_from_slice(operands);
         Instruction { code, to, of }
@@ -238,17 +238,19 @@ impl Instruction {
             return None;
         }
         let (code, of): (_, &[u32]) = match (inner.code, self.code) {
-            (Code::Multiply, Code::AddProduct) => (Code::AddedProducts, &[u, v, x, y]),
-            (Code::Multiply, Code::SubtractProduct) => (Code::SubtractedProducts, &[u, v, x, y]),
-            (Code::Multiply, Code::SubtractFromProduct) => {
-                (Code::SubtractedProducts, &[x, y, u, v])
+            (Opcode::Multiply, Opcode::AddProduct) => (Opcode::AddedProducts, &[u, v, x, y]),
+            (Opcode::Multiply, Opcode::SubtractProduct) => {
+                (Opcode::SubtractedProducts, &[u, v, x, y])
             }
-            (Code::AddProduct, Code::AddProduct) => (Code::AddProducts, &[u, v, x, y, w]),
-            (Code::SubtractProduct, Code::SubtractProduct) => {
-                (Code::SubtractProducts, &[u, v, x, y, w])
+            (Opcode::Multiply, Opcode::SubtractFromProduct) => {
+                (Opcode::SubtractedProducts, &[x, y, u, v])
             }
-            (Code::SubtractFromProduct, Code::SubtractProduct) => {
-                (Code::SubtractFromAndProduct, &[u, v, x, y, w])
+            (Opcode::AddProduct, Opcode::AddProduct) => (Opcode::AddProducts, &[u, v, x, y, w]),
+            (Opcode::SubtractProduct, Opcode::SubtractProduct) => {
+                (Opcode::SubtractProducts, &[u, v, x, y, w])
+            }
+            (Opcode::SubtractFromProduct, Opcode::SubtractProduct) => {
+                (Opcode::SubtractFromAndProduct, &[u, v, x, y, w])
             }
             _ => return None,
         };
@@ -285,7 +287,7 @@ fn merged(sections: &mut [Vec<Instruction>], kept: &[Place], places: usize) {
 }
 
 /// Registers are given to places, and again to others when they are no longer used.
-pub(super) struct Assignment {
+pub(super) struct RegisterAssignment {
     pub register: Vec<u32>,
     /// Number of registers that are never given again: inputs and constants.
     fixed: u32,
@@ -293,10 +295,10 @@ pub(super) struct Assignment {
     pub registers: u32,
 }
 
-impl Assignment {
+impl RegisterAssignment {
     /// With registers for inputs alone.
     pub fn new(inputs: usize, constants: usize, places: usize) -> Self {
-        Assignment {
+        RegisterAssignment {
             register: vec![u32::MAX; places],
             fixed: (inputs + constants) as u32,
             free: Vec::new(),
@@ -320,7 +322,7 @@ impl Assignment {
         for place in &mut instruction.of[..instruction.code.operands()] {
             *place = self.register[*place as usize];
         }
-        if matches!(instruction.code, Code::SinCos) {
+        if matches!(instruction.code, Opcode::SinCos) {
             places.push(second);
             instruction.of[1] = self.fresh(second);
         }

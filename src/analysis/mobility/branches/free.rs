@@ -1,7 +1,7 @@
 //! Free directions of motion: those along which a finite step is possible.
 
 use super::walk::MOVED_ON_A_BRANCH;
-use super::{Branch, Part, STEP, Search, see};
+use super::{FiniteSearch, IndependentPart, LocalBranch, STEP, see};
 use crate::linear::dot;
 use crate::number::tolerance::ROUNDING;
 use crate::system::{FiniteStep, Tangent, combination};
@@ -16,7 +16,7 @@ const MOVED: f64 = 1e-7;
 /// the gap of a step that leaves the closures open.
 type Free = Result<(Vec<bool>, Option<f64>), Option<f64>>;
 
-impl Search<'_, '_> {
+impl FiniteSearch<'_, '_> {
     /// A regular configuration beside one in gimbal lock, where nothing is locked: of three the one with the fewest
     /// motions. Angles that turn without moving anything make branches that are none of the bodies.
     pub fn regular_beside(&mut self, at: &Tangent) -> Option<Tangent> {
@@ -82,7 +82,7 @@ impl Search<'_, '_> {
 
     /// The branch of a singular part where all motions but one are free whatever that one does. What is left of the
     /// equations is then a function of one variable, and if steps either way leave them open it vanishes nowhere nearby.
-    pub(super) fn all_but_one(&mut self, tangent: &Tangent) -> Option<Part> {
+    pub(super) fn all_but_one(&mut self, tangent: &Tangent) -> Option<IndependentPart> {
         if self.near.system().is_large() {
             return None;
         }
@@ -105,13 +105,13 @@ impl Search<'_, '_> {
             for motion in &others.motions {
                 see(&mut moved, motion, MOVED_ON_A_BRANCH);
             }
-            let branch = Branch {
+            let branch = LocalBranch {
                 freedoms: others.motions.len(),
                 motions: others.motions,
                 moved,
-                ..Branch::default()
+                ..LocalBranch::default()
             };
-            Part {
+            IndependentPart {
                 branches: Some(branch)
                     .filter(|branch| branch.freedoms > 0)
                     .into_iter()

@@ -2,7 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
-use super::{BRANCH_STEP, BRANCH_TRIALS, Search, see};
+use super::{BRANCH_STEP, BRANCH_TRIALS, FiniteSearch, see};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
 use crate::system::{Cone, Tangent, combination};
@@ -109,8 +109,8 @@ fn within(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
 }
 
 /// The search for the branches of an independent part of a mechanism through a singular configuration.
-pub(super) struct Walk<'w, 's, 'm> {
-    pub search: &'w mut Search<'s, 'm>,
+pub(super) struct BranchWalk<'w, 's, 'm> {
+    pub search: &'w mut FiniteSearch<'s, 'm>,
     /// The unknowns of the part.
     pub own: &'w [bool],
     /// The singular configuration.
@@ -118,7 +118,7 @@ pub(super) struct Walk<'w, 's, 'm> {
     pub seen: Vec<Seen>,
 }
 
-impl Walk<'_, '_, '_> {
+impl BranchWalk<'_, '_, '_> {
     /// Adds the branch that a small step along a direction settles on, if it does.
     pub fn explore(&mut self, direction: &[f64]) {
         let reach = BRANCH_STEP;
@@ -192,7 +192,7 @@ impl Walk<'_, '_, '_> {
 
     /// True if steps in the span of the motions arrive where they aim; false where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
-        let Search { near, rng, .. } = &mut *self.search;
+        let FiniteSearch { near, rng, .. } = &mut *self.search;
         at.motions.len() == 1 || near.follows(at, step, rng).is_some()
     }
 

@@ -7,7 +7,7 @@ use crate::mechanism::{Configuration, Point};
 use crate::system::{Coordinate, Lock, wrench_screws};
 
 /// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the point.
-struct Part {
+struct OutputWrenches {
     point: Point,
     name: String,
     wrenches: Vec<[f64; 6]>,
@@ -47,7 +47,7 @@ impl Classifier<'_> {
         let within = orthonormal(&within.collect::<Vec<_>>(), 1e-3);
         let mechanism = self.near.mechanism();
         let length = mechanism.characteristic_length();
-        let mut parts: Vec<Part> = Vec::new();
+        let mut parts: Vec<OutputWrenches> = Vec::new();
         let mut row = 0;
         for &output in &self.outputs {
             let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
@@ -68,7 +68,7 @@ impl Classifier<'_> {
                     .iter()
                     .position(|part| of_platform && part.point == point);
                 let place = known.unwrap_or_else(|| {
-                    parts.push(Part {
+                    parts.push(OutputWrenches {
                         point,
                         name: match of_platform {
                             true => mechanism.frame_name(point.frame),

@@ -1,6 +1,6 @@
 //! A test that motions keep to their branches.
 
-use super::past::{Mask, Past, Row};
+use super::past::{Lanes, Mask, Past};
 use crate::algebra::{BATCH, Registers};
 use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
 
@@ -11,11 +11,11 @@ use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
 #[derive(Clone, Debug)]
 pub(super) struct Certain {
     /// The numbers that the Jacobian depends on, with their weights.
-    known: Vec<(usize, f64, Row)>,
+    known: Vec<(usize, f64, Lanes)>,
     /// The Jacobian, row by row.
-    jacobian: Vec<Row>,
+    jacobian: Vec<Lanes>,
     /// The square of the distance.
-    reach: Row,
+    reach: Lanes,
 }
 
 /// Jacobians and their left inverses, by the registers in which they are.
@@ -27,8 +27,8 @@ pub(super) struct Jacobians<'r> {
 
 impl Jacobians<'_> {
     /// For each motion (βK)², infinite where there is no inverse.
-    fn sizes(&self, curvature: f64) -> Row {
-        let mut size = Row::ZERO;
+    fn sizes(&self, curvature: f64) -> Lanes {
+        let mut size = Lanes::ZERO;
         for &register in self.inverse.iter().flatten() {
             let entries = self.registers.rows(register);
             (0..BATCH).for_each(|i| size.0[i] += entries[i] * entries[i]);
@@ -54,15 +54,15 @@ impl Certain {
     ) -> Self {
         let known = numbers.filter(|(_, weight)| **weight > 0.0);
         Certain {
-            known: known.map(|(i, weight)| (i, *weight, Row::ZERO)).collect(),
-            jacobian: vec![Row::ZERO; jacobian.iter().map(Vec::len).sum()],
-            reach: Row::ZERO,
+            known: known.map(|(i, weight)| (i, *weight, Lanes::ZERO)).collect(),
+            jacobian: vec![Lanes::ZERO; jacobian.iter().map(Vec::len).sum()],
+            reach: Lanes::ZERO,
         }
     }
 
     /// The squares of the distances to the present solutions.
-    fn apart(&self, registers: &Registers) -> Row {
-        let mut apart = Row::ZERO;
+    fn apart(&self, registers: &Registers) -> Lanes {
+        let mut apart = Lanes::ZERO;
         for (register, weight, from) in &self.known {
             let to = registers.rows(*register);
             (0..BATCH).for_each(|i| {
@@ -88,17 +88,17 @@ impl Certain {
     pub fn sure(&self, of: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) -> Mask {
         let (size, apart) = (now.sizes(curvature), self.apart(registers));
         let width = now.jacobian.first().map_or(0, Vec::len);
-        let changes: Vec<Row> = (now.jacobian.iter().flatten())
+        let changes: Vec<Lanes> = (now.jacobian.iter().flatten())
             .zip(&self.jacobian)
             .map(|(&register, before)| {
                 let now = registers.rows(register);
-                Row(std::array::from_fn(|i| before.0[i] - now[i]))
+                Lanes(std::array::from_fn(|i| before.0[i] - now[i]))
             })
             .collect();
-        let mut squares = Row::ZERO;
+        let mut squares = Lanes::ZERO;
         for row in now.inverse {
             for c in 0..width {
-                let mut sum = Row::ZERO;
+                let mut sum = Lanes::ZERO;
                 for (k, &register) in row.iter().enumerate() {
                     let inverse = registers.rows(register);
                     let change = &changes[k * width + c];
@@ -121,7 +121,7 @@ impl Certain {
     /// Takes the present solutions of some motions.
     pub fn keep(&mut self, which: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) {
         let size = now.sizes(curvature);
-        let mut reach = Row::ZERO;
+        let mut reach = Lanes::ZERO;
         (0..BATCH).for_each(|i| reach.0[i] = 0.64 / (size.0[i] + 1e-30));
         self.reach.choose(&reach.0, which);
         for (register, _, from) in &mut self.known {

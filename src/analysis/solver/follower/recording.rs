@@ -3,12 +3,12 @@
 use super::Results;
 use crate::algebra::{LEAST_PIVOT, Place, Recorded, eliminate};
 use crate::analysis::solver::iteration::{Iteration, numbered, places};
-use crate::analysis::solver::{NoSolver, Plan};
+use crate::analysis::solver::{NoSolver, VariablePlan};
 use crate::linear::DENSE_LIMIT;
 use crate::number::Number;
 use crate::system::{Coordinate, System};
 
-impl Plan<'_> {
+impl VariablePlan<'_> {
     /// Records the iteration and the numbers that follow from it. The inputs are the held values that change, then the
     /// state.
     pub(super) fn recorded(

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, signs};
+use crate::analysis::workspace::flood::{Flood, GrowingSet, ReachedSet, Steps, signs};
 use crate::analysis::workspace::problem::Grid;
 use crate::linear::{join, root};
 use crate::solve::{Pool, Stage, Watch, each};
@@ -119,7 +119,7 @@ fn reached(
             )
         })
         .collect();
-    let mut found = Spread::new(&fine);
+    let mut found = GrowingSet::new(&fine);
     if (finer.spread(&mut found, steps, &seeds, &Watch::none())).is_err() {
         return Vec::new();
     }

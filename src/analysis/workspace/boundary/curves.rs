@@ -1,6 +1,6 @@
 //! Boundary curves through the points found on edges, cut where the mode changes.
 
-use super::kinds::{BoundaryCurve, Crossing, Kind, Piece, named};
+use super::kinds::{BoundaryCurve, EdgeCrossing, KindByNumber, Piece, named};
 use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::dot;
 use crate::mechanism::Configuration;
@@ -9,7 +9,7 @@ use crate::solve::Place;
 use crate::system::{ConfigurationCurve, Curve, Held, Locked, LocusEnd, Region, Traced, met_at};
 
 /// A curve with the places along it where modes meet it.
-struct Known<P> {
+struct KnownCurve<P> {
     traced: Traced<P>,
     /// The mapped coordinates of its places.
     points: Vec<[f64; 2]>,
@@ -19,23 +19,23 @@ struct Known<P> {
 }
 
 /// Curves of one kind.
-pub(crate) struct Tracer<'a> {
+pub(crate) struct BoundaryTracer<'a> {
     /// For each solution the number of its mode, from 0; none if it is not listed.
     pub mode: &'a [Option<usize>],
     pub problem: &'a MapProblem<'a>,
-    pub kind: Kind,
+    pub kind: KindByNumber,
     pub third: Option<f64>,
 }
 
-impl Tracer<'_> {
+impl BoundaryTracer<'_> {
     pub fn all<C: ConfigurationCurve>(
         &self,
         curve: &mut C,
         region: &Region,
-        crossings: &[&Crossing],
+        crossings: &[&EdgeCrossing],
         place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
     ) -> Vec<BoundaryCurve> {
-        let mut known: Vec<Known<C::Point>> = Vec::new();
+        let mut known: Vec<KnownCurve<C::Point>> = Vec::new();
         let scale = [0, 1].map(|i| {
             let coordinate = self.problem.axes[i].coordinate;
             coordinate.scale(self.problem.mechanism)
@@ -51,7 +51,7 @@ impl Tracer<'_> {
                 continue;
             };
             let point = self.point(region, &at);
-            let near = |known: &Known<C::Point>| {
+            let near = |known: &KnownCurve<C::Point>| {
                 let to = |i: usize| {
                     all.difference_but_turns(C::configuration(&known.traced.places[i].at), &at)
                 };
@@ -87,7 +87,7 @@ impl Tracer<'_> {
                         traced.places = traced.places.into_iter().map(Place::thinned).collect();
                         let places = traced.places.iter();
                         let at: Vec<_> = places.map(|p| C::configuration(&p.at)).collect();
-                        known.push(Known {
+                        known.push(KnownCurve {
                             points: at.iter().map(|at| self.point(region, at)).collect(),
                             chords: (at.windows(2))
                                 .map(|pair| all.difference_but_turns(pair[0], pair[1]))
@@ -146,7 +146,7 @@ impl Tracer<'_> {
 
     /// Points of a curve at which the mode changes: solutions meet there, and on a fold the curve turns back.
     fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
-        if self.kind == Kind::Fold {
+        if self.kind == KindByNumber::Fold {
             let way = |i: usize| [0, 1].map(|k| points[i + 1][k] - points[i][k]);
             let turns = (1..points.len().saturating_sub(1)).filter(|&i| {
                 let (a, b) = (way(i - 1), way(i));
@@ -171,7 +171,7 @@ impl Tracer<'_> {
 /// The tangent turns by less than a quarter of a radian from one place to the next, so that the curve
 /// is off the chord by less than a thirtieth of its length.
 fn beside<P>(
-    known: &Known<P>,
+    known: &KnownCurve<P>,
     mapped: impl Fn(usize, usize) -> f64,
     step: impl Fn(usize) -> Vec<f64>,
 ) -> Option<Option<f64>> {
@@ -208,15 +208,15 @@ fn beside<P>(
 }
 
 /// A part of a curve: where it is along the curve, and its points.
-type Part = (Vec<std::ops::RangeInclusive<f64>>, Vec<[f64; 2]>);
+type CurvePart = (Vec<std::ops::RangeInclusive<f64>>, Vec<[f64; 2]>);
 
 /// The parts of a curve between cuts, which are at points or just before them.
-fn parts(points: &[[f64; 2]], cuts: &[usize], closed: bool) -> Vec<Part> {
+fn parts(points: &[[f64; 2]], cuts: &[usize], closed: bool) -> Vec<CurvePart> {
     let last = points.len() - 1;
     let mut bounds = vec![0];
     bounds.extend(cuts.iter().copied().filter(|cut| *cut > 0 && *cut < last));
     bounds.push(last);
-    let mut parts: Vec<Part> = (bounds.windows(2))
+    let mut parts: Vec<CurvePart> = (bounds.windows(2))
         .map(|pair| {
             let range = pair[0] as f64..=pair[1] as f64;
             (vec![range], points[pair[0]..=pair[1]].to_vec())

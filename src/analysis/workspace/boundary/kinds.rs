@@ -27,10 +27,10 @@ pub enum BoundaryKind {
 
 /// A boundary point on an edge of the grid, located to rounding.
 #[derive(Clone, Debug)]
-pub(crate) struct Crossing {
+pub(crate) struct EdgeCrossing {
     pub solution: usize,
     pub direction: usize,
-    pub kind: Kind,
+    pub kind: KindByNumber,
     pub at: Configuration<f64>,
     /// The part of the way from the solution to its neighbour.
     pub part: f64,
@@ -40,17 +40,17 @@ pub(crate) struct Crossing {
 
 /// A kind by numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Kind {
+pub(crate) enum KindByNumber {
     Fold,
     Direct,
     Inverse,
     Limit(usize, bool),
 }
 
-impl Kind {
+impl KindByNumber {
     /// True if modes end there; false if it only divides aspects.
     pub fn ends_reach(self) -> bool {
-        matches!(self, Kind::Fold | Kind::Limit(..))
+        matches!(self, KindByNumber::Fold | KindByNumber::Limit(..))
     }
 }
 
@@ -83,18 +83,18 @@ pub struct Piece {
 }
 
 /// A kind by name.
-pub(crate) fn named(problem: &MapProblem, kind: Kind) -> BoundaryKind {
+pub(crate) fn named(problem: &MapProblem, kind: KindByNumber) -> BoundaryKind {
     let of_platforms = problem
         .held
         .iter()
         .all(|h| !matches!(h, Coordinate::Joint(_)));
     match kind {
-        Kind::Direct => BoundaryKind::Direct,
-        Kind::Inverse => BoundaryKind::Inverse,
-        Kind::Fold if of_platforms => BoundaryKind::Inverse,
-        Kind::Fold if problem.holds(&problem.inputs) => BoundaryKind::Direct,
-        Kind::Fold => BoundaryKind::Fold,
-        Kind::Limit(joint, upper) => BoundaryKind::Limit {
+        KindByNumber::Direct => BoundaryKind::Direct,
+        KindByNumber::Inverse => BoundaryKind::Inverse,
+        KindByNumber::Fold if of_platforms => BoundaryKind::Inverse,
+        KindByNumber::Fold if problem.holds(&problem.inputs) => BoundaryKind::Direct,
+        KindByNumber::Fold => BoundaryKind::Fold,
+        KindByNumber::Limit(joint, upper) => BoundaryKind::Limit {
             joint: problem.mechanism.joints()[joint].name.clone(),
             upper,
         },

@@ -6,7 +6,7 @@ use crate::mechanism::{Configuration, ConfigurationRef};
 
 /// A solution with its tangent motions, borrowed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moving<'a> {
+pub(crate) struct TangentSolutionRef<'a> {
     pub at: ConfigurationRef<'a, f64>,
     /// For unit rates of the held coordinates one by one, the mapped ones first, dimensionless.
     pub motions: &'a [f64],
@@ -15,15 +15,15 @@ pub(crate) struct Moving<'a> {
 
 /// A solution with its tangent motions, owned.
 #[derive(Clone, Debug)]
-pub(crate) struct Arrival {
+pub(crate) struct TangentSolution {
     pub at: Configuration<f64>,
     pub motions: Vec<f64>,
     pub indicators: Indicators,
 }
 
-impl Arrival {
-    pub fn moving(&self) -> Moving<'_> {
-        Moving {
+impl TangentSolution {
+    pub fn moving(&self) -> TangentSolutionRef<'_> {
+        TangentSolutionRef {
             at: self.at.view(),
             motions: &self.motions,
             indicators: &self.indicators,
@@ -31,9 +31,9 @@ impl Arrival {
     }
 }
 
-impl Moving<'_> {
-    pub fn arrival(&self) -> Arrival {
-        Arrival {
+impl TangentSolutionRef<'_> {
+    pub fn arrival(&self) -> TangentSolution {
+        TangentSolution {
             at: self.at.owned(),
             motions: self.motions.to_vec(),
             indicators: self.indicators.clone(),
@@ -79,9 +79,9 @@ impl Arrivals {
         self.arrived[step] = false;
     }
 
-    pub fn get(&self, step: usize) -> Option<Moving<'_>> {
+    pub fn get(&self, step: usize) -> Option<TangentSolutionRef<'_>> {
         let length = self.motions.len() / self.arrived.len().max(1);
-        self.arrived[step].then(|| Moving {
+        self.arrived[step].then(|| TangentSolutionRef {
             at: self.at.get(step),
             motions: &self.motions[step * length..][..length],
             indicators: &self.indicators[step],
@@ -89,7 +89,7 @@ impl Arrivals {
     }
 
     /// The solutions of all steps, in their order; `None` where a step did not arrive.
-    pub fn iter(&self) -> impl Iterator<Item = Option<Moving<'_>>> {
+    pub fn iter(&self) -> impl Iterator<Item = Option<TangentSolutionRef<'_>>> {
         (0..self.arrived.len()).map(|step| self.get(step))
     }
 }

@@ -9,7 +9,7 @@ use crate::system::{Coordinate, Curve, Driven, Event, Lock, Locked, Monitor, Wal
 
 /// First event on an edge.
 #[derive(Clone, Debug)]
-pub(crate) enum Met {
+pub(crate) enum EdgeEvent {
     Neighbour(Configuration<f64>),
     /// The mapped coordinate turns back: the mode ends.
     Fold(Configuration<f64>, f64),
@@ -51,7 +51,7 @@ pub(crate) enum Until<'l> {
 
 impl Flood<'_> {
     /// The first event on an edge, located to rounding.
-    pub(crate) fn walk(&self, edge: &Edge, from: &Configuration<f64>, until: Until) -> Met {
+    pub(crate) fn walk(&self, edge: &Edge, from: &Configuration<f64>, until: Until) -> EdgeEvent {
         const LEGS: usize = 500;
         let problem = self.problem;
         let mechanism = problem.mechanism;
@@ -64,14 +64,14 @@ impl Flood<'_> {
             mechanism.turn_to_limits(&mut start.joints);
         }
         let Ok(place) = method.settle(&mut curve, start) else {
-            return Met::Nothing;
+            return EdgeEvent::Nothing;
         };
         if place.is_beside_a_crossing() || !self.metric.same(place.at.view(), from.view()) {
-            return Met::Nothing;
+            return EdgeEvent::Nothing;
         }
         let (place, turns_back) = curve.towards_end(place);
         if turns_back {
-            return Met::Fold(place.at, 0.0);
+            return EdgeEvent::Fold(place.at, 0.0);
         }
         let monitors: Vec<Monitor> = match until {
             Until::Singular(locks) => {
@@ -87,7 +87,7 @@ impl Flood<'_> {
         let mut walk = Walk::new(mechanism, &curve, place, method).watching(monitors);
         for _ in 0..LEGS {
             let Ok(leg) = walk.advance(&mut curve) else {
-                return Met::Nothing;
+                return EdgeEvent::Nothing;
             };
             for (place, event) in leg.events {
                 let part = curve.part(&place.at).clamp(0.0, 1.0);
@@ -97,18 +97,18 @@ impl Flood<'_> {
                         if let Coordinate::Joint(joint) = moved.coordinate {
                             at.joints[joint] = moved.to;
                         }
-                        return Met::Neighbour(at);
+                        return EdgeEvent::Neighbour(at);
                     }
-                    Event::Fold => return Met::Fold(place.at, part),
+                    Event::Fold => return EdgeEvent::Fold(place.at, part),
                     Event::Limit { joint, upper, .. } if until == Until::Limit => {
-                        return Met::Limit(place.at, part, joint, upper);
+                        return EdgeEvent::Limit(place.at, part, joint, upper);
                     }
-                    Event::Root(_) => return Met::Singular(place.at, part),
-                    Event::End(false) | Event::Branches(_) => return Met::Nothing,
+                    Event::Root(_) => return EdgeEvent::Singular(place.at, part),
+                    Event::End(false) | Event::Branches(_) => return EdgeEvent::Nothing,
                     _ => {}
                 }
             }
         }
-        Met::Nothing
+        EdgeEvent::Nothing
     }
 }

@@ -3,12 +3,12 @@
 use rustc_hash::FxHashSet;
 
 use super::super::TooManyNodes;
-use super::arrivals::{Arrivals, Moving};
-use super::edge::{Edge, Met, Until};
-use super::neighbour::{Flood, Step, in_packs};
-use super::pace::End;
-use super::reached::Link;
-use super::spread::{Spread, Task};
+use super::arrivals::{Arrivals, TangentSolutionRef};
+use super::edge::{Edge, EdgeEvent, Until};
+use super::neighbour::{EdgeStep, Flood, in_packs};
+use super::pace::EdgeEnd;
+use super::reached::EdgeLink;
+use super::spread::{GrowingSet, Task};
 use super::step::{Start, Steps};
 use crate::mechanism::Configuration;
 use crate::solve::{Pool, Stage, Watch, each};
@@ -24,7 +24,7 @@ impl Flood<'_> {
     /// If more is reached than may be kept.
     pub fn spread(
         &self,
-        spread: &mut Spread,
+        spread: &mut GrowingSet,
         steps: &Pool<Steps>,
         seeds: &[(usize, Configuration<f64>)],
         watch: &Watch,
@@ -51,9 +51,9 @@ impl Flood<'_> {
             spread.unsure = later;
             for (task, end) in now.iter().zip(self.ends(spread, steps, &now, watch)) {
                 match end {
-                    End::Arrived(arrival) => self.arrive(spread, *task, arrival.moving()),
-                    End::Fold => *spread.link_mut(task.0, task.1) = Link::Fold,
-                    End::Stuck => *spread.link_mut(task.0, task.1) = Link::Stuck,
+                    EdgeEnd::Arrived(arrival) => self.arrive(spread, *task, arrival.moving()),
+                    EdgeEnd::Fold => *spread.link_mut(task.0, task.1) = EdgeLink::Fold,
+                    EdgeEnd::Stuck => *spread.link_mut(task.0, task.1) = EdgeLink::Stuck,
                 }
             }
         }
@@ -62,7 +62,7 @@ impl Flood<'_> {
     /// Spreads as far as single steps are certain not to change branch.
     fn grow(
         &self,
-        spread: &mut Spread,
+        spread: &mut GrowingSet,
         steps: &Pool<Steps>,
         watch: &Watch,
     ) -> Result<(), TooManyNodes> {
@@ -94,7 +94,7 @@ impl Flood<'_> {
 
     /// Links steps to known solutions, then chooses one step to each node from each mode; the others
     /// wait for the solution found.
-    fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
+    fn chosen(&self, spread: &mut GrowingSet, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
         let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {
             let near = jobs[i].iter().map(|&task| {
@@ -107,7 +107,7 @@ impl Flood<'_> {
         let mut left = Vec::new();
         for (&(from, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
             match found {
-                _ if spread.solution(from).links[d] != Link::Open => {}
+                _ if spread.solution(from).links[d] != EdgeLink::Open => {}
                 Some(to) => spread.link(from, d, to),
                 None => left.push((from, d)),
             }
@@ -118,10 +118,10 @@ impl Flood<'_> {
     }
 
     /// Single steps, where they are sure.
-    fn steps(&self, spread: &Spread, steps: &Pool<Steps>, tasks: &[Task]) -> Vec<Arrivals> {
+    fn steps(&self, spread: &GrowingSet, steps: &Pool<Steps>, tasks: &[Task]) -> Vec<Arrivals> {
         in_packs(steps, tasks, |steps, pack| {
             let planned = pack.iter().map(|task| spread.step(self.grid, *task));
-            let planned: Vec<Step> = planned.collect();
+            let planned: Vec<EdgeStep> = planned.collect();
             let starts: Vec<Start> = (planned.iter())
                 .map(|step| self.towards(step.from, step.axis, step.change, step.to))
                 .collect();
@@ -141,18 +141,18 @@ impl Flood<'_> {
     /// Ends of edges for which a single step is too long: by shorter steps, then along the curve, which is far slower.
     fn ends(
         &self,
-        spread: &Spread,
+        spread: &GrowingSet,
         steps: &Pool<Steps>,
         tasks: &[Task],
         watch: &Watch,
-    ) -> Vec<End> {
+    ) -> Vec<EdgeEnd> {
         let mut ends = self.paced(steps, spread, tasks);
         let open = tasks.iter().zip(&ends);
-        let open = open.filter(|(_, end)| matches!(end, End::Stuck));
+        let open = open.filter(|(_, end)| matches!(end, EdgeEnd::Stuck));
         let unsure: Vec<Task> = open.map(|(task, _)| *task).collect();
         let met = each(unsure.len(), &(), |(), i| {
             if watch.stops(Stage::Reached, spread.len(), None) {
-                return Met::Nothing;
+                return EdgeEvent::Nothing;
             }
             let step = spread.step(self.grid, unsure[i]);
             let edge = Edge {
@@ -164,26 +164,26 @@ impl Flood<'_> {
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
             .filter_map(|(&task, met)| match met {
-                Met::Neighbour(at) => Some(self.here(spread.ahead(self.grid, task)?, at)),
+                EdgeEvent::Neighbour(at) => Some(self.here(spread.ahead(self.grid, task)?, at)),
                 _ => None,
             })
             .collect();
         let again = self.settled(steps, &again);
         let mut again = again.iter().flat_map(Arrivals::iter);
         let found = met.iter().map(|met| match met {
-            Met::Neighbour(_) => match again.next().flatten() {
-                Some(arrival) => End::Arrived(arrival.arrival()),
-                None => End::Stuck,
+            EdgeEvent::Neighbour(_) => match again.next().flatten() {
+                Some(arrival) => EdgeEnd::Arrived(arrival.arrival()),
+                None => EdgeEnd::Stuck,
             },
-            Met::Fold(..) => End::Fold,
-            _ => End::Stuck,
+            EdgeEvent::Fold(..) => EdgeEnd::Fold,
+            _ => EdgeEnd::Stuck,
         });
-        let stuck = ends.iter_mut().filter(|end| matches!(end, End::Stuck));
+        let stuck = ends.iter_mut().filter(|end| matches!(end, EdgeEnd::Stuck));
         stuck.zip(found).for_each(|(end, found)| *end = found);
         ends
     }
 
-    fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Moving) {
+    fn arrive(&self, spread: &mut GrowingSet, (from, d): Task, arrival: TangentSolutionRef) {
         let Some(node) = spread.ahead(self.grid, (from, d)) else {
             return;
         };

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::arrivals::Moving;
+use super::arrivals::TangentSolutionRef;
 use super::step::SURE;
 use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::norm;
@@ -36,8 +36,8 @@ struct SeenJoint {
 
 /// Tangent prediction from one configuration for a step along an axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ahead<'a> {
-    from: Moving<'a>,
+pub(crate) struct Prediction<'a> {
+    from: TangentSolutionRef<'a>,
     axis: usize,
     change: f64,
     motion: &'a [f64],
@@ -103,7 +103,7 @@ impl Metric {
     /// True if two configurations of one node are equal in all unknowns that distinguish modes and belong to one mode.
     /// Two modes may meet there by chance, as the lengths of cylinders are equal for an arm bent to the one and to the
     /// other side: from there they go on in different ways.
-    pub fn meets(&self, a: Moving, b: Moving) -> bool {
+    pub fn meets(&self, a: TangentSolutionRef, b: TangentSolutionRef) -> bool {
         /// Relative difference of the motions of one mode, from conditioning.
         const ALIKE: f64 = 1e-4;
         if !self.same(a.at, b.at) {
@@ -134,17 +134,27 @@ impl Metric {
     }
 
     /// The motion for a unit rate of a mapped coordinate, and how far a change leads along it.
-    pub fn motion<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> (&'a [f64], f64) {
+    pub fn motion<'a>(
+        &self,
+        from: TangentSolutionRef<'a>,
+        axis: usize,
+        change: f64,
+    ) -> (&'a [f64], f64) {
         let unknowns = self.free.unknowns();
         let motion = &from.motions[axis * unknowns..][..unknowns];
         (motion, change / self.units[axis])
     }
 
     /// The tangent prediction for a change of a mapped coordinate.
-    pub fn ahead<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> Ahead<'a> {
+    pub fn ahead<'a>(
+        &self,
+        from: TangentSolutionRef<'a>,
+        axis: usize,
+        change: f64,
+    ) -> Prediction<'a> {
         let (motion, factor) = self.motion(from, axis, change);
         let length = self.seen_length(motion.iter().map(|x| x * factor));
-        Ahead {
+        Prediction {
             from,
             axis,
             change,
@@ -160,7 +170,12 @@ impl Metric {
     /// All joints must lie there, also those that do not distinguish modes: what does may be near
     /// by chance, as the lengths of two cylinders are about the same on both sides of the arm that
     /// they move. Where legs are folded otherwise, a step decides.
-    pub fn linked(&self, ahead: &Ahead, to: Moving, storage: &mut Vec<f64>) -> bool {
+    pub fn linked(
+        &self,
+        ahead: &Prediction,
+        to: TangentSolutionRef,
+        storage: &mut Vec<f64>,
+    ) -> bool {
         let from = ahead.from;
         // most that lie elsewhere are recognised by one joint
         let mut joints = self.joints.iter();
@@ -174,7 +189,7 @@ impl Metric {
         storage.resize(self.free.unknowns(), 0.0);
         let step = &mut storage[..];
         self.free.difference_but_turns_into(from.at, to.at, step);
-        let near = |ahead: &Ahead| {
+        let near = |ahead: &Prediction| {
             let (mut seen, mut all) = (0.0, 0.0);
             for ((x, d), of_modes) in ahead.motion.iter().zip(&*step).zip(&self.seen) {
                 let squared = (d - x * ahead.factor).powi(2);
@@ -198,7 +213,13 @@ impl Metric {
     /// one leg folds, as one of length ρ = 0, that may be seen in one passive joint only: it turns
     /// by dθ = ds/ρ to one side before and to the other after, so that over a step s from −ρ₀ to ρ₁
     /// the difference of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
-    pub fn alike(&self, a: Moving, b: Moving, length: f64, storage: &mut Vec<f64>) -> bool {
+    pub fn alike(
+        &self,
+        a: TangentSolutionRef,
+        b: TangentSolutionRef,
+        length: f64,
+        storage: &mut Vec<f64>,
+    ) -> bool {
         const CHANGE: f64 = 0.6;
         const SWING: f64 = 1.0;
         let unknowns = self.free.unknowns();

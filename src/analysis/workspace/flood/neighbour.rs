@@ -1,6 +1,6 @@
 //! Steps from the nodes of a grid to their neighbours, and the test for sure ones.
 
-use super::arrivals::{Arrivals, Moving};
+use super::arrivals::{Arrivals, TangentSolutionRef};
 use super::metric::Metric;
 use super::reached::{NodeSolution, Signs, signs};
 use super::step::{SURE, Start, Steps};
@@ -23,8 +23,8 @@ pub(crate) struct Flood<'a> {
 
 /// An edge of the grid that is to be gone along.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Step<'a> {
-    pub from: Moving<'a>,
+pub(crate) struct EdgeStep<'a> {
+    pub from: TangentSolutionRef<'a>,
     pub axis: usize,
     /// The mapped coordinates at its end, and zeros.
     pub to: [f64; MOST_AXES],
@@ -58,8 +58,8 @@ impl Flood<'_> {
     /// The solution at the neighbour that both tangent predictions agree on.
     pub(crate) fn near<'s>(
         &self,
-        step: &Step,
-        there: impl Iterator<Item = (usize, Moving<'s>)>,
+        step: &EdgeStep,
+        there: impl Iterator<Item = (usize, TangentSolutionRef<'s>)>,
         storage: &mut Vec<f64>,
     ) -> Option<usize> {
         let ahead = (self.metric).ahead(step.from, step.axis, step.change);
@@ -72,7 +72,7 @@ impl Flood<'_> {
     /// A start for a change of one mapped coordinate, which leads to these values.
     pub(crate) fn towards<'f>(
         &self,
-        from: Moving<'f>,
+        from: TangentSolutionRef<'f>,
         axis: usize,
         change: f64,
         values: [f64; MOST_AXES],

@@ -1,17 +1,17 @@
 //! Edges in shorter steps, many edges side by side.
 
-use super::arrivals::{Arrival, Arrivals, Moving};
+use super::arrivals::{Arrivals, TangentSolution, TangentSolutionRef};
 use super::neighbour::Flood;
-use super::spread::{Spread, Task};
+use super::spread::{GrowingSet, Task};
 use super::step::{Start, Steps};
 use crate::analysis::workspace::problem::MOST_AXES;
 use crate::linear::norm;
 use crate::solve::Pool;
 
 /// End of the way along an edge.
-pub(crate) enum End {
+pub(crate) enum EdgeEnd {
     /// At the neighbour.
-    Arrived(Arrival),
+    Arrived(TangentSolution),
     /// At a fold of the mode, before the neighbour.
     Fold,
     /// At a point from which no step is certain.
@@ -20,7 +20,7 @@ pub(crate) enum End {
 
 /// Progress along an edge.
 struct PacedStep {
-    at: Arrival,
+    at: TangentSolution,
     axis: usize,
     /// The mapped coordinates at the neighbour.
     end: [f64; MOST_AXES],
@@ -43,7 +43,7 @@ impl PacedStep {
     /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in
     /// proportion to x* − x. Towards a place where a leg merely turns fast it falls with the square
     /// instead, and the straight line through two points leads to another place each time.
-    fn on(&mut self, at: Arrival, slowness: f64) -> bool {
+    fn on(&mut self, at: TangentSolution, slowness: f64) -> bool {
         /// Two estimates of the fold may differ by this fraction of the distance to it.
         const AGREED: f64 = 0.05;
         /// The next step as a part of the way to the fold.
@@ -66,15 +66,20 @@ impl PacedStep {
 
 impl Flood<'_> {
     /// Halves steps until they are certain, then continues.
-    pub(crate) fn paced(&self, steps: &Pool<Steps>, spread: &Spread, tasks: &[Task]) -> Vec<End> {
+    pub(crate) fn paced(
+        &self,
+        steps: &Pool<Steps>,
+        spread: &GrowingSet,
+        tasks: &[Task],
+    ) -> Vec<EdgeEnd> {
         const ROUNDS: usize = 30;
         /// The shortest step as a part of an edge.
         const SHORTEST: f64 = 1.0 / 256.0;
-        let slowness = |at: Moving, axis: usize| {
+        let slowness = |at: TangentSolutionRef, axis: usize| {
             let (motion, _) = self.metric.motion(at, axis, 1.0);
             norm(motion).powi(-2)
         };
-        let mut ends: Vec<End> = tasks.iter().map(|_| End::Stuck).collect();
+        let mut ends: Vec<EdgeEnd> = tasks.iter().map(|_| EdgeEnd::Stuck).collect();
         let mut ways: Vec<(usize, PacedStep)> = (tasks.iter().enumerate())
             .map(|(i, task)| {
                 let edge = spread.step(self.grid, *task);
@@ -105,12 +110,12 @@ impl Flood<'_> {
                 let sure = arrival.filter(|to| self.metric.alike(from, *to, length, &mut storage));
                 match sure {
                     Some(arrival) if way.step == way.rest() => {
-                        ends[i] = End::Arrived(arrival.arrival());
+                        ends[i] = EdgeEnd::Arrived(arrival.arrival());
                     }
                     Some(arrival) => {
                         let slowness = slowness(arrival, way.axis);
                         match way.on(arrival.arrival(), slowness) {
-                            true => ends[i] = End::Fold,
+                            true => ends[i] = EdgeEnd::Fold,
                             false => left.push((i, way)),
                         }
                     }
@@ -155,8 +160,8 @@ mod tests {
         }
     }
 
-    fn arrival() -> Arrival {
-        Arrival {
+    fn arrival() -> TangentSolution {
+        TangentSolution {
             at: Configuration {
                 joints: Vec::new(),
                 platforms: Vec::new(),

@@ -16,19 +16,19 @@ pub(crate) struct NodeSolution {
     /// True if all joints are within their limits.
     pub within: bool,
     /// For each direction of the grid.
-    pub links: [Link; MOST_DIRECTIONS],
+    pub links: [EdgeLink; MOST_DIRECTIONS],
 }
 
 /// The number of a solution; as many as do not fit in it do not fit in memory.
-pub(crate) type Number = u32;
+pub(crate) type SolutionNumber = u32;
 
 /// Connection of a solution with a neighbouring node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Link {
+pub(crate) enum EdgeLink {
     /// Not examined yet, or outside the box.
     Open,
     /// To this solution there, by regular motion.
-    To(Number),
+    To(SolutionNumber),
     /// The mode folds back before the neighbour.
     Fold,
     /// No step that is certain not to change branch leads on.
@@ -65,8 +65,8 @@ impl ReachedSet {
         let mut order = vec![0; numbers.len()];
         (numbers.iter().enumerate()).for_each(|(i, number)| order[*number] = i);
         for link in solutions.iter_mut().flat_map(|of| &mut of.links) {
-            if let Link::To(other) = link {
-                *other = numbers[*other as usize] as Number;
+            if let EdgeLink::To(other) = link {
+                *other = numbers[*other as usize] as SolutionNumber;
             }
         }
         let mut ordered = Configurations::default();
@@ -93,7 +93,7 @@ impl ReachedSet {
         let mut roots: Vec<usize> = (0..self.len()).collect();
         for (s, solution) in self.solutions().filter(|(s, _)| kinds[*s].is_some()) {
             for link in &solution.links {
-                if let Link::To(other) = *link
+                if let EdgeLink::To(other) = *link
                     && kinds[s] == kinds[other as usize]
                 {
                     join(&mut roots, s, other as usize);

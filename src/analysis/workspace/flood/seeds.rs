@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::arrivals::Arrivals;
 use super::metric::Metric;
 use super::neighbour::Flood;
-use super::spread::Spread;
+use super::spread::GrowingSet;
 use super::step::{Start, Steps};
 use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
 use crate::mechanism::{Configuration, turn_near};
@@ -166,7 +166,7 @@ pub(crate) const PROBES: usize = 8;
 /// Seeds in small regions not reached yet: from a few random starts at each of many nodes.
 pub(crate) fn probe(
     fill: &Flood,
-    reached: &Spread,
+    reached: &GrowingSet,
     steps: &Pool<Steps>,
     (nodes, seed): (&[usize], u64),
     watch: &Watch,

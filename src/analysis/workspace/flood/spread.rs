@@ -1,9 +1,9 @@
 //! Solutions reached so far, in the order of discovery.
 
-use super::arrivals::Moving;
+use super::arrivals::TangentSolutionRef;
 use super::configurations::Configurations;
-use super::neighbour::{Flood, Step};
-use super::reached::{Link, NodeSolution, Number, ReachedSet};
+use super::neighbour::{EdgeStep, Flood};
+use super::reached::{EdgeLink, NodeSolution, ReachedSet, SolutionNumber};
 use crate::analysis::workspace::problem::{Grid, MOST_DIRECTIONS};
 use crate::linear::{join, root};
 use crate::mechanism::ConfigurationRef;
@@ -12,14 +12,14 @@ use crate::mechanism::ConfigurationRef;
 pub(crate) type Task = (usize, usize);
 
 /// Solutions reached so far, and the steps that remain.
-pub(crate) struct Spread {
+pub(crate) struct GrowingSet {
     solutions: Vec<NodeSolution>,
     at: Configurations,
     /// The motions of all solutions, one after another.
     motions: Vec<f64>,
     /// For each node the last solution there, and for each solution the one before it.
-    last: Vec<Option<Number>>,
-    before: Vec<Option<Number>>,
+    last: Vec<Option<SolutionNumber>>,
+    before: Vec<Option<SolutionNumber>>,
     /// For each solution the first known of those connected with it.
     roots: Vec<usize>,
     /// Solutions that no steps were made from yet.
@@ -28,9 +28,9 @@ pub(crate) struct Spread {
     pub unsure: Vec<Task>,
 }
 
-impl Spread {
+impl GrowingSet {
     pub fn new(grid: &Grid) -> Self {
-        Spread {
+        GrowingSet {
             solutions: Vec::new(),
             at: Configurations::default(),
             motions: Vec::new(),
@@ -50,15 +50,15 @@ impl Spread {
         &self.solutions[number]
     }
 
-    pub fn link_mut(&mut self, number: usize, direction: usize) -> &mut Link {
+    pub fn link_mut(&mut self, number: usize, direction: usize) -> &mut EdgeLink {
         &mut self.solutions[number].links[direction]
     }
 
     pub fn link(&mut self, from: usize, direction: usize, to: usize) {
-        *self.link_mut(from, direction) = Link::To(short(to));
+        *self.link_mut(from, direction) = EdgeLink::To(short(to));
         let back = self.link_mut(to, direction ^ 1);
-        if *back == Link::Open {
-            *back = Link::To(short(from));
+        if *back == EdgeLink::Open {
+            *back = EdgeLink::To(short(from));
         }
         join(&mut self.roots, from, to);
     }
@@ -69,9 +69,9 @@ impl Spread {
     }
 
     /// A solution with its motions.
-    fn moving(&self, number: usize) -> Moving<'_> {
+    fn moving(&self, number: usize) -> TangentSolutionRef<'_> {
         let length = self.motions.len() / self.solutions.len();
-        Moving {
+        TangentSolutionRef {
             at: self.at.get(number),
             motions: &self.motions[number * length..][..length],
             indicators: &self.solutions[number].indicators,
@@ -79,14 +79,14 @@ impl Spread {
     }
 
     /// The solutions at a node with their configurations and motions.
-    pub fn moving_at(&self, node: usize) -> impl Iterator<Item = (usize, Moving<'_>)> {
-        let before = |number: &Number| self.before[*number as usize];
+    pub fn moving_at(&self, node: usize) -> impl Iterator<Item = (usize, TangentSolutionRef<'_>)> {
+        let before = |number: &SolutionNumber| self.before[*number as usize];
         let numbers = std::iter::successors(self.last[node], before);
         numbers.map(|number| (number as usize, self.moving(number as usize)))
     }
 
     /// The solution of a node with this configuration.
-    pub fn known(&self, fill: &Flood, node: usize, at: Moving) -> Option<usize> {
+    pub fn known(&self, fill: &Flood, node: usize, at: TangentSolutionRef) -> Option<usize> {
         let mut solutions = self.moving_at(node);
         let known = solutions.find(|(_, known)| fill.metric.meets(*known, at));
         known.map(|(number, _)| number)
@@ -104,12 +104,12 @@ impl Spread {
     }
 
     /// The way from a solution to its neighbour, of zero length if there is none.
-    pub fn step(&self, grid: &Grid, (from, direction): Task) -> Step<'_> {
+    pub fn step(&self, grid: &Grid, (from, direction): Task) -> EdgeStep<'_> {
         let (node, axis) = (self.solutions[from].node, direction / 2);
         let next = grid.neighbour(node, direction).unwrap_or(node);
         let to = grid.point(next);
         let here = grid.coordinate(axis, grid.place(node, axis));
-        Step {
+        EdgeStep {
             from: self.moving(from),
             axis,
             to,
@@ -118,13 +118,13 @@ impl Spread {
     }
 
     /// Adds an arrival if it is new.
-    pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> usize {
+    pub fn add(&mut self, fill: &Flood, node: usize, arrival: TangentSolutionRef) -> usize {
         let new = self.solutions.len();
         let solution = NodeSolution {
             node,
             within: fill.problem.allows(arrival.at.joints),
             indicators: arrival.indicators.clone(),
-            links: [Link::Open; MOST_DIRECTIONS],
+            links: [EdgeLink::Open; MOST_DIRECTIONS],
         };
         if fill.goes_on_from(&solution) {
             self.front.push(new);
@@ -156,6 +156,6 @@ impl Spread {
     }
 }
 
-fn short(number: usize) -> Number {
-    Number::try_from(number).expect("as many do not fit in memory")
+fn short(number: usize) -> SolutionNumber {
+    SolutionNumber::try_from(number).expect("as many do not fit in memory")
 }

@@ -4,14 +4,14 @@ mod side_by_side;
 
 use super::arrivals::Arrivals;
 use crate::analysis::workspace::problem::{
-    Indicators, MOST_AXES, MapProblem, Motions, Rates, Targets,
+    HeldMotions, Indicators, MOST_AXES, MapProblem, Rates, Targets,
 };
 use crate::linear::norm;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::tolerance::{ROUNDING, SOLVED};
 use crate::solve::Equations;
 use crate::system::{System, Work};
-use side_by_side::{End, SideBySide};
+use side_by_side::{SideBySide, StepEnd};
 
 /// Start of a step.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ pub(crate) struct Steps {
     /// Tangent of a step to its predicted end.
     ahead: Vec<f64>,
     rates: Rates,
-    found: Motions<f64>,
+    found: HeldMotions<f64>,
     together: Option<SideBySide>,
 }
 
@@ -45,11 +45,11 @@ pub(crate) const SURE: f64 = 0.3;
 
 /// Longest correction allowed.
 #[derive(Clone, Copy, Debug)]
-struct Reach(f64);
+struct LongestCorrection(f64);
 
-impl Reach {
+impl LongestCorrection {
     /// Corrections at most: more if the solution may be anywhere.
-    pub fn most(reaches: impl IntoIterator<Item = Reach>) -> usize {
+    pub fn most(reaches: impl IntoIterator<Item = LongestCorrection>) -> usize {
         let far = reaches.into_iter().any(|reach| reach.0.is_infinite());
         if far { 20 } else { 8 }
     }
@@ -75,7 +75,7 @@ impl Steps {
             spare: problem.question.start(),
             ahead: Vec::new(),
             rates: Rates::new(problem, &system),
-            found: Motions::default(),
+            found: HeldMotions::default(),
             together: None,
             system,
         }
@@ -114,17 +114,17 @@ impl Steps {
                 let numbers = self.targets.numbers(&start.values);
                 together.put(i, numbers, &self.point);
             }
-            together.solve(starts.iter().map(|start| Reach(start.reach)))
+            together.solve(starts.iter().map(|start| LongestCorrection(start.reach)))
         });
         for (i, start) in starts.iter().enumerate() {
             let arrives = match (&together, &ends) {
                 (Some(together), Some(ends)) => match ends[i] {
-                    End::Arrived => {
+                    StepEnd::Arrived => {
                         together.get(i, &mut self.point, &mut self.found);
                         true
                     }
-                    End::Lost => false,
-                    End::Open => self.solve(start),
+                    StepEnd::Lost => false,
+                    StepEnd::Open => self.solve(start),
                 },
                 _ => self.solve(start),
             };
@@ -144,8 +144,8 @@ impl Steps {
     fn solve(&mut self, start: &Start) -> bool {
         self.begin(start);
         (self.targets).set(&mut self.system, self.targets.numbers(&start.values));
-        let mut reach = Reach(start.reach);
-        let most = Reach::most([reach]);
+        let mut reach = LongestCorrection(start.reach);
+        let most = LongestCorrection::most([reach]);
         for step in 0..=most {
             self.system.linearise(&self.point, &mut self.work);
             // a NaN is not small

@@ -29,12 +29,12 @@ pub struct Cells {
     pub columns: Vec<Variable>,
     /// Mapped coordinates, joints and coordinates that follow in a row.
     pub(crate) widths: [usize; 3],
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<TablePart>,
 }
 
 /// Some rows of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Part {
+pub(crate) struct TablePart {
     /// The node of each row.
     pub nodes: Vec<usize>,
     /// The values of one row after another; infinite where one is missing, so that equal tables are equal.
@@ -105,7 +105,7 @@ impl<'de> Deserialize<'de> for Cells {
         if values.iter().any(|row| row.len() != columns.len()) {
             return Err(D::Error::custom("a row has too few or too many values"));
         }
-        let part = Part {
+        let part = TablePart {
             nodes: vec![0; values.len()],
             values: (values.into_iter().flatten())
                 .map(|value| value.unwrap_or(f64::INFINITY))

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::cells::{Cells, INDICATORS, Part};
-use super::{Map, bring};
+use super::cells::{Cells, INDICATORS, TablePart};
+use super::{WorkspaceMap, bring};
 use crate::algebra::SiUnit;
 use crate::mechanism::{PoseCoordinate, Variable};
 use crate::number::sorting::sort_by_key;
@@ -13,7 +13,7 @@ use crate::system::Coordinate;
 /// Nodes whose rows one thread writes at once.
 const NODES: usize = 4096;
 
-impl Map<'_> {
+impl WorkspaceMap<'_> {
     /// The table, given for the first solution of each aspect its number.
     pub fn cells(&self, numbers: &[Option<usize>]) -> Cells {
         let following: Vec<(usize, PoseCoordinate)> = self.following().collect();
@@ -28,7 +28,7 @@ impl Map<'_> {
             let last = (bands[i] + NODES).min(nodes) - 1;
             let [first, last] = [bands[i], last].map(|node| self.reached_set.at(node));
             let rows = self.rows(first.start..last.end);
-            let mut part = Part {
+            let mut part = TablePart {
                 nodes: vec![0; rows.len()],
                 values: vec![0.0; rows.len() * width],
             };

@@ -9,11 +9,11 @@ pub(crate) const MOST_DIRECTIONS: usize = 2 * MOST_AXES;
 /// Nodes at equal distances in a box, the first coordinate running fastest.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
-    axes: Vec<Axis>,
+    axes: Vec<GridAxis>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Axis {
+struct GridAxis {
     from: f64,
     to: f64,
     nodes: usize,
@@ -27,7 +27,7 @@ impl Grid {
         let axes = axes.iter().zip(counts).map(|(axis, &nodes)| {
             let before = stride;
             stride *= nodes;
-            Axis {
+            GridAxis {
                 from: axis.from,
                 to: axis.to,
                 nodes,
@@ -54,7 +54,7 @@ impl Grid {
 
     /// Distance of neighbours along an axis, rad or m.
     pub fn spacing(&self, axis: usize) -> f64 {
-        let Axis {
+        let GridAxis {
             from, to, nodes, ..
         } = self.axes[axis];
         (to - from) / (nodes - 1) as f64
@@ -62,13 +62,13 @@ impl Grid {
 
     /// The place of a node along an axis.
     pub fn place(&self, node: usize, axis: usize) -> usize {
-        let Axis { nodes, stride, .. } = self.axes[axis];
+        let GridAxis { nodes, stride, .. } = self.axes[axis];
         node / stride % nodes
     }
 
     /// A coordinate; the ends themselves without rounding.
     pub fn coordinate(&self, axis: usize, place: usize) -> f64 {
-        let Axis {
+        let GridAxis {
             from, to, nodes, ..
         } = self.axes[axis];
         match place {
@@ -93,7 +93,7 @@ impl Grid {
     /// The neighbour in a direction: axis 0 back and forth, then axis 1 and so on.
     pub fn neighbour(&self, node: usize, direction: usize) -> Option<usize> {
         let axis = direction / 2;
-        let Axis { nodes, stride, .. } = self.axes[axis];
+        let GridAxis { nodes, stride, .. } = self.axes[axis];
         let place = self.place(node, axis);
         match direction % 2 {
             0 => (place > 0).then(|| node - stride),
@@ -114,7 +114,7 @@ impl Grid {
         }
         let root = real::pow(most as f64, 1.0 / self.dimensions() as f64).floor();
         let each = (root as usize).max(1);
-        let mut nodes = self.nodes_at(self.axes.iter().map(|&Axis { nodes: n, .. }| {
+        let mut nodes = self.nodes_at(self.axes.iter().map(|&GridAxis { nodes: n, .. }| {
             let each = each.min(n);
             (0..each).map(|k| (2 * k + 1) * n / (2 * each)).collect()
         }));

@@ -19,9 +19,9 @@ pub(crate) struct Rates {
     /// The closures with nothing held, which have all unknowns.
     free: System<f64>,
     driving: Driving,
-    held: Vec<Row>,
-    inputs: Vec<Row>,
-    outputs: Vec<Row>,
+    held: Vec<CoordinateRow>,
+    inputs: Vec<CoordinateRow>,
+    outputs: Vec<CoordinateRow>,
     /// True if outputs are other coordinates than those held.
     tells_inverse: bool,
     /// Unknowns whose rates stand for outputs where there are none.
@@ -32,14 +32,14 @@ pub(crate) struct Rates {
 
 /// The columns of N one after another, and the rates at which the rows of the closures open in each.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Motions<T> {
+pub(crate) struct HeldMotions<T> {
     pub motions: Vec<T>,
     pub opening: Vec<T>,
 }
 
 /// A coordinate and the first of the unknowns it depends on.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+struct CoordinateRow {
     of: Coordinate,
     first: usize,
 }
@@ -63,7 +63,7 @@ impl Rates {
         let nothing = Held::nothing(mechanism);
         let free = System::reduced(mechanism, mechanism.dimensions(), &nothing);
         let place = |unknown: Unknown| (free.place_of(unknown)).expect("nothing is held");
-        let row = |of: &Coordinate| Row {
+        let row = |of: &Coordinate| CoordinateRow {
             of: *of,
             first: match *of {
                 Coordinate::Joint(joint) => place(Unknown::Joint(joint)),
@@ -72,7 +72,7 @@ impl Rates {
                 }
             },
         };
-        let rows = |of: &[Coordinate]| of.iter().map(row).collect::<Vec<Row>>();
+        let rows = |of: &[Coordinate]| of.iter().map(row).collect::<Vec<CoordinateRow>>();
         let whole = mechanism.platforms().is_empty();
         let unknowns = free.unknowns().iter().enumerate();
         let moved = unknowns.filter(|(_, unknown)| match **unknown {
@@ -106,7 +106,7 @@ impl Rates {
         at: &Configuration<T>,
         system: &System<T>,
         work: &mut Work<T>,
-        found: &mut Motions<T>,
+        found: &mut HeldMotions<T>,
     ) {
         let (n, unknowns) = (self.held.len(), self.unknowns());
         let closures = 0..system.hold_rows().start;
@@ -124,7 +124,7 @@ impl Rates {
     }
 
     /// The determinants and the condition number of the motions.
-    pub fn indicators(&mut self, at: &Configuration<f64>, found: &Motions<f64>) -> Indicators {
+    pub fn indicators(&mut self, at: &Configuration<f64>, found: &HeldMotions<f64>) -> Indicators {
         let (n, unknowns) = (self.held.len(), self.unknowns());
         let motions = &found.motions;
         // unit rates come out again if the held coordinates are independent
@@ -183,7 +183,7 @@ impl Rates {
     /// The rates of coordinates, a column for each held one.
     fn matrix(
         &self,
-        rows: &[Row],
+        rows: &[CoordinateRow],
         at: &Configuration<f64>,
         motions: &[f64],
         matrix: &mut Vec<f64>,

@@ -1,6 +1,6 @@
 //! Bodies hung on one another by joints that are not cut.
 
-use super::{Placed, Tables};
+use super::{PlacedBody, Tables};
 use crate::description::axes::places::{along, at, origin};
 use crate::description::axes::{AxisKind, AxisPlace};
 use crate::description::steps::{between, joined, signed_sum, zero};
@@ -91,7 +91,7 @@ impl Tables<'_> {
             }
         };
         let name = self.graph.bodies[body].clone();
-        self.bodies[body] = Some(Placed {
+        self.bodies[body] = Some(PlacedBody {
             name: name.value.clone(),
             frame: frame.clone(),
             platform: None,

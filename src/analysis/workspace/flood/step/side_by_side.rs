@@ -1,10 +1,11 @@
 //! Many steps side by side, by operations recorded once.
 
-use super::{Reach, TOLERANCE};
+use super::LongestCorrection;
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
-use crate::analysis::workspace::problem::{MapProblem, Motions, Rates, Targets};
+use crate::analysis::workspace::problem::{HeldMotions, MapProblem, Rates, Targets};
 use crate::mechanism::Configuration;
 use crate::number::Number;
+use crate::number::tolerance::SOLVED;
 use crate::solve::Equations;
 use crate::system::{HeldPlatform, System};
 
@@ -26,12 +27,12 @@ pub(super) struct SideBySide {
     square: usize,
     /// Registers of the numbers of a configuration that steps move, each with that of its new value.
     moved: Vec<(usize, usize)>,
-    motions: Motions<usize>,
+    motions: HeldMotions<usize>,
 }
 
 /// Outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
+pub(super) enum StepEnd {
     Arrived,
     /// A correction was too long, or there were too many.
     Lost,
@@ -41,7 +42,7 @@ pub(super) enum End {
 
 /// The sections of the program, after the one for what held values determine.
 #[derive(Clone, Copy, Debug)]
-enum Section {
+enum StepSection {
     /// The rows, and the decisions of elimination.
     Rows = 1,
     Step = 2,
@@ -86,7 +87,7 @@ impl SideBySide {
             targets.set(&mut system, (0..asked).map(Recorded::input));
             written(&system, rates, &at)
         });
-        let Written {
+        let WrittenStep {
             rows,
             decisions,
             square,
@@ -112,7 +113,7 @@ impl SideBySide {
                 .collect(),
             square: program.result(square),
             moved: moved.filter(|(from, to)| from != to).collect(),
-            motions: Motions {
+            motions: HeldMotions {
                 motions: results(&motions.motions),
                 opening: results(&motions.opening),
             },
@@ -132,14 +133,14 @@ impl SideBySide {
     }
 
     /// Leads the first places on, as far as corrections may be.
-    pub fn solve(&mut self, reaches: impl Iterator<Item = Reach>) -> Vec<End> {
+    pub fn solve(&mut self, reaches: impl Iterator<Item = LongestCorrection>) -> Vec<StepEnd> {
         let registers = &mut self.registers;
-        let mut reaches: Vec<Reach> = reaches.collect();
-        let most = Reach::most(reaches.iter().copied());
-        let mut ends: Vec<Option<End>> = vec![None; reaches.len()];
+        let mut reaches: Vec<LongestCorrection> = reaches.collect();
+        let most = LongestCorrection::most(reaches.iter().copied());
+        let mut ends: Vec<Option<StepEnd>> = vec![None; reaches.len()];
         self.program.run(0, registers);
         for step in 0..=most {
-            self.program.run(Section::Rows as usize, registers);
+            self.program.run(StepSection::Rows as usize, registers);
             let (mut holds, mut solved) = ([true; BATCH], [true; BATCH]);
             for &(register, negative) in &self.decided {
                 let rows = holds.iter_mut().zip(registers.rows(register));
@@ -148,26 +149,26 @@ impl SideBySide {
             for &register in &self.rows {
                 let rows = solved.iter_mut().zip(registers.rows(register));
                 // a NaN is not small
-                rows.for_each(|(solved, x)| *solved &= x.abs() <= TOLERANCE);
+                rows.for_each(|(solved, x)| *solved &= x.abs() <= SOLVED);
             }
             for (i, end) in ends.iter_mut().enumerate().filter(|(_, end)| end.is_none()) {
                 *end = match (holds[i], solved[i]) {
-                    (false, _) => Some(End::Open),
-                    (_, true) => Some(End::Arrived),
+                    (false, _) => Some(StepEnd::Open),
+                    (_, true) => Some(StepEnd::Arrived),
                     _ => None,
                 };
             }
             if step == most || ends.iter().all(Option::is_some) {
                 break;
             }
-            self.program.run(Section::Step as usize, registers);
+            self.program.run(StepSection::Step as usize, registers);
             let squares = *registers.rows(self.square);
             for (i, end) in ends.iter_mut().enumerate().filter(|(_, end)| end.is_none()) {
                 *end = match reaches[i].allows(squares[i].sqrt()) {
                     true => None,
                     // the pivots of elimination may be worse than those of a factorisation
-                    false if !squares[i].is_finite() => Some(End::Open),
-                    false => Some(End::Lost),
+                    false if !squares[i].is_finite() => Some(StepEnd::Open),
+                    false => Some(StepEnd::Lost),
                 };
             }
             for &(to, from) in &self.moved {
@@ -178,13 +179,13 @@ impl SideBySide {
                 }
             }
         }
-        self.program.run(Section::Motions as usize, registers);
+        self.program.run(StepSection::Motions as usize, registers);
         let ends = ends.into_iter();
-        ends.map(|end| end.unwrap_or(End::Lost)).collect()
+        ends.map(|end| end.unwrap_or(StepEnd::Lost)).collect()
     }
 
     /// Copies the solution of a place, with its motions.
-    pub fn get(&self, place: usize, at: &mut Configuration<f64>, motions: &mut Motions<f64>) {
+    pub fn get(&self, place: usize, at: &mut Configuration<f64>, motions: &mut HeldMotions<f64>) {
         let number = |register: &usize| self.registers.rows(*register)[place];
         let numbers = self.configuration.iter().map(number);
         at.numbers_mut().zip(numbers).for_each(|(at, x)| *at = x);
@@ -198,13 +199,13 @@ impl SideBySide {
 }
 
 /// The places of the program's results.
-struct Written {
+struct WrittenStep {
     rows: Vec<Place>,
     decisions: Vec<Decision>,
     square: Place,
     /// Places of the numbers of a configuration after a step.
     moved: Vec<Place>,
-    motions: Motions<Place>,
+    motions: HeldMotions<Place>,
 }
 
 /// Writes everything; none where the equations are singular.
@@ -212,7 +213,7 @@ fn written(
     system: &System<Recorded>,
     rates: &Rates,
     at: &Configuration<Recorded>,
-) -> Option<Written> {
+) -> Option<WrittenStep> {
     let places = |of: &[Recorded]| of.iter().map(|x| x.place()).collect::<Vec<Place>>();
     let mut work = system.work();
     system.linearise(at, &mut work);
@@ -230,15 +231,15 @@ fn written(
     let square = step.iter().fold(Recorded::zero(), |sum, &x| sum + x * x);
     let moved: Vec<Recorded> = system.displaced(at, &step).numbers().collect();
     let (motions, opening) = Default::default();
-    let mut found = Motions { motions, opening };
+    let mut found = HeldMotions { motions, opening };
     rates.motions(at, system, &mut work, &mut found);
     // as many rows as unknowns stay closed by the elimination itself
     let redundant = rows.len() > step.len();
-    Some(Written {
+    Some(WrittenStep {
         decisions: Recorded::decisions(),
         square: square.place(),
         moved: places(&moved),
-        motions: Motions {
+        motions: HeldMotions {
             motions: places(&found.motions),
             opening: match redundant {
                 true => places(&found.opening),
