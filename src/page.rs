@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 use crate::algebra::Measure;
 use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::rounding::posed;
-use crate::analysis::sweep::{MetKind, Row, SweepSettings};
+use crate::analysis::sweep::{MetKind, MotionReport, Row, SweepEnd, SweepSettings};
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
@@ -29,7 +29,6 @@ use crate::output::JsonReport;
 use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
 use crate::output::json::render;
 use crate::output::rounding::Prefaced;
-use crate::output::sweep::worded;
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
@@ -290,7 +289,13 @@ impl Page {
                 points: row.points.to_vec(),
             });
         };
-        let report = words::swept(worded(motions.report(usize::MAX, &mut keep, watch)));
+        let report = motions.report(usize::MAX, &mut keep, watch);
+        let begins = |motion: &MotionReport| motion.sweep.ending != SweepEnd::SingularStart;
+        if !report.motions.iter().all(begins) {
+            return Err(nothing(
+                "The motion begins where branches meet. Move the mechanism a little first, so that it is on one of them.",
+            ));
+        }
         Ok(answered(mechanism, &report, &states))
     }
 

@@ -25,7 +25,8 @@ pub use bundle::{Arrow, Bundle, Bundled, Target, TargetError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
     Bound, ComplexCurve, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor,
-    MotionTracker, NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
+    MotionTracker, NoStart, Region, Segment, Singular, SweepEnd, Traced, Walk, met_at, neared,
+    settled,
 };
 pub(crate) use enclosure::Enclosure;
 pub use equations::{

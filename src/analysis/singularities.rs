@@ -15,7 +15,7 @@ mod projected;
 mod starts;
 
 pub use crate::system::{Bound, LocusEnd, default_outputs, inputs_of};
-pub use along::{AlongEnd, AlongReport, Crossing, along};
+pub use along::{AlongReport, Crossing, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
 pub use locus::{Cusp, Locus, LocusReport, loci};
 pub use outputs::Coupled;

@@ -28,13 +28,16 @@ use iteration::{Iteration, OpenRows, negated, numbered, places};
 use variable::StateVariable;
 
 /// Reasons for which there is no solver.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoSolver {
     /// Nothing is unknown: the held coordinates determine every frame.
+    #[error("there is nothing to solve: the held coordinates determine every frame")]
     NothingUnknown,
     /// Nothing is held, so that there is one configuration only.
+    #[error("the mechanism cannot move, so that a solver would have no inputs")]
     NothingHeld,
     /// The configuration is singular, so that no order of elimination can be chosen there.
+    #[error("the configuration is singular: {rank} of {unknowns} unknowns are determined there")]
     Singular {
         /// Unknowns that could be eliminated.
         rank: usize,

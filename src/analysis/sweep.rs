@@ -44,6 +44,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Place, Progress, Stage, Watch};
+pub use crate::system::SweepEnd;
 use crate::system::{Bound, Curve, Driven, Event, Held, Walk};
 use begin::{MOST_STEPS, beginning};
 use met::Record;
@@ -135,44 +136,6 @@ pub type Sink<'s> = dyn FnMut(&Row) + 's;
 
 /// Receiver inside a sweep, which may end the motion.
 type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
-
-/// End of a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SweepEnd {
-    /// The inputs went through their whole segment.
-    Complete,
-    /// The inputs came back to where they began, on another branch, having gone round a fold.
-    Returned,
-    /// The curve closed.
-    Closed,
-    /// Both ends of the curve were reached: limits.
-    Limits,
-    /// The branch ends: the inputs would have to turn back.
-    Fold,
-    /// A joint is at its limit.
-    Limit,
-    /// Branches cross, and which to take is not for the sweep to choose.
-    Crossing,
-    /// The start is singular: branches cross there or more than one freedom is left.
-    SingularStart,
-    /// A joint is outside its limits at the start.
-    OutsideLimits,
-    /// The curve ends in a point that no sure step leads to.
-    Lost,
-    /// It was stopped, or took too many steps.
-    Stopped,
-}
-
-impl SweepEnd {
-    /// True if the motion ended as asked.
-    pub fn is_whole(self) -> bool {
-        matches!(
-            self,
-            SweepEnd::Complete | SweepEnd::Returned | SweepEnd::Closed | SweepEnd::Limits
-        )
-    }
-}
 
 /// Outcome of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

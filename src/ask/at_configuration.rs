@@ -1,7 +1,6 @@
 //! Analyses of one assembled configuration, and those that need none.
 
 use super::{AskError, Mode, Question, Role, Value};
-use crate::algebra::EvaluationError;
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
@@ -9,20 +8,17 @@ use crate::analysis::statics::{StaticsReport, statics};
 use crate::analysis::velocity::{VelocityReport, velocity};
 use crate::mechanism::{Body, NamedPoint, Point, PoseCoordinate};
 use crate::solve::Watch;
-use crate::system::{
-    self, Analysed, Closed, Closing, Coordinate, Drive, Load, NotClosed, check_angle, close,
-};
+use crate::system::{self, Analysed, Closed, Closing, Coordinate, Drive, Load, check_angle};
 
 impl Question {
     /// The mechanism closed near the start, as all analyses of one configuration close it.
     ///
     /// # Errors
     /// If a name or a value is wrong.
-    pub fn closed(&self, watch: &Watch) -> Result<Result<Closed, NotClosed>, AskError> {
+    pub fn closed(&self, watch: &Watch) -> Result<Analysed<Closed>, AskError> {
         let question = self.resolved()?;
         let closing = Closing::seeded(self.seed);
-        let starts = (closing.restarts, closing.seed);
-        Ok(close(&question, &closing.newton, starts, watch))
+        Ok((closing.start(&question, watch)).map_or_else(|open| open, Analysed::Closed))
     }
 
     /// The freedoms of the assembled mechanism, with the locked coordinates of the question at rest.
@@ -114,7 +110,7 @@ impl Question {
         };
         let mut angles = locked.iter().filter(single).peekable();
         if angles.peek().is_some()
-            && let Ok(closed) = self.closed(watch)?
+            && let Some(closed) = self.closed(watch)?.closed()
         {
             for &angle in angles {
                 let checked = check_angle(self.mechanism(), &closed.configuration, angle);
@@ -138,22 +134,19 @@ impl Question {
     ///
     /// # Errors
     /// If an expression of the file has no value in letters.
-    pub fn formulas(&self, settings: &FormulasSettings) -> Result<FormulasReport, EvaluationError> {
-        formulas(self.mechanism(), settings)
+    pub fn formulas(&self, settings: &FormulasSettings) -> Result<FormulasReport, AskError> {
+        formulas(self.mechanism(), settings).map_err(AskError::Formula)
     }
 
     /// The unknowns in closed form, as far as they have one: solved in the assembly near the start, or that of the mode
     /// asked for, which decides what vanishes.
     ///
     /// # Errors
-    /// If the question is wrong or nothing assembles.
-    pub fn solution(
-        &self,
-        watch: &Watch,
-    ) -> Result<Result<FormulasReport, EvaluationError>, AskError> {
+    /// If the question is wrong, nothing assembles, or an expression of the file has no value in letters.
+    pub fn solution(&self, watch: &Watch) -> Result<FormulasReport, AskError> {
         let question = self.resolved()?.with_spins_still();
         let at = self.start(&question, watch)?;
-        Ok(solution(&question, &at, self.seed))
+        solution(&question, &at, self.seed).map_err(AskError::Formula)
     }
 
     pub(super) fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {

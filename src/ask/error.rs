@@ -3,7 +3,9 @@
 use thiserror::Error;
 
 use super::study_error::StudyError;
+use crate::algebra::EvaluationError;
 use crate::analysis::assemblies::AssembliesError;
+use crate::analysis::solver::NoSolver;
 use crate::description::{count, listed};
 use crate::mechanism::QuantityError;
 use crate::system::{DriveError, ForceError, PointError, QuestionError};
@@ -266,6 +268,12 @@ pub enum AskError {
     /// There is no such study.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// An expression of the file has no value in letters.
+    #[error("{0}")]
+    Formula(EvaluationError),
+    /// The question has no solver of its own.
+    #[error("{0}")]
+    NoSolver(NoSolver),
     /// The work was stopped before its first result.
     #[error("interrupted before the first result")]
     Interrupted,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{AskError, Mode, Question};
-use crate::analysis::solver::{NoSolver, Solver, solver, values};
+use crate::analysis::solver::{Solver, solver, values};
 use crate::mechanism::{Configuration, Frame};
 use crate::number::real;
 use crate::solve::{Newton, Stop, Watch};
@@ -17,14 +17,15 @@ impl Question {
     /// of frames.
     ///
     /// # Errors
-    /// If the question is wrong, holds more or less than the mechanism has freedoms, or nothing assembles.
+    /// If the question is wrong, holds more or less than the mechanism has freedoms, nothing assembles, or the assembly is
+    /// singular.
     pub fn solver_program(
         &self,
         frames: &[(String, Frame)],
         watch: &Watch,
-    ) -> Result<Result<Solver, NoSolver>, AskError> {
+    ) -> Result<Solver, AskError> {
         let (question, start) = self.posed(watch)?;
-        Ok(solver(&question, &start, frames))
+        solver(&question, &start, frames).map_err(AskError::NoSolver)
     }
 
     /// Configurations along a closed curve of the inputs through the start, each near the one before it; fewer if the

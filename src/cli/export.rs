@@ -6,8 +6,9 @@ use clap::{Args, ValueEnum};
 use linkwork::ask::Question;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_sdf, write_urdf};
 use linkwork::output::{Report, closing, text};
+use linkwork::system::{Analysed, Closed};
 
-use super::asked::Asked;
+use super::asked::{Asked, Posed};
 use super::source::Source;
 use super::written::{fits, written};
 use super::{Answer, Refusal, lines};
@@ -57,18 +58,23 @@ impl Export {
             .map_or(Ok(()), |path| fits(path, endings))
             .map_err(Refusal::error)?;
         let posed = self.asked.pose(&self.source)?;
-        let mechanism = &posed.loaded.mechanism;
-        let closed = match posed.ask(Question::closed)? {
-            Ok(closed) => closed,
-            Err(open) => {
-                let open = text::render(&open.document());
-                return Ok(Answer {
-                    data: String::new(),
-                    remarks: posed.loaded.warnings() + &open + "Nothing is written.\n",
-                    yes: false,
-                });
-            }
+        let found = posed.ask(Question::closed)?;
+        let open: &dyn Report = match &found {
+            Analysed::Closed(closed) => return self.write(&posed, closed),
+            Analysed::NotClosed(open) => open,
+            Analysed::TooLarge(large) => large,
         };
+        Ok(Answer {
+            data: String::new(),
+            remarks: posed.loaded.warnings()
+                + &text::render(&open.document())
+                + "Nothing is written.\n",
+            yes: false,
+        })
+    }
+
+    fn write(&self, posed: &Posed, closed: &Closed) -> Result<Answer, Refusal> {
+        let mechanism = &posed.loaded.mechanism;
         let (tree, mut said) = tree_of(mechanism, &closed.configuration);
         let (text, more): (String, Vec<Remark>) = match self.to {
             To::Mjcf => write_mjcf(&tree, &said),
@@ -78,7 +84,7 @@ impl Export {
         said.extend(more);
         let outside = closing::outside_limits(&closed.outside_limits(mechanism));
         let said = lines("warning", outside) + &remarks(&said);
-        let data = written(text, output)?;
+        let data = written(text, self.output.as_deref())?;
         Ok(Answer::yes(data, posed.loaded.warnings() + &said))
     }
 }

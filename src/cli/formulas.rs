@@ -3,7 +3,7 @@
 use clap::Args;
 use linkwork::algebra::EvaluationError;
 use linkwork::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
-use linkwork::ask::Question;
+use linkwork::ask::AskError;
 use linkwork::description::quoted;
 use linkwork::mechanism::Frame;
 use linkwork::output::complaint::Complaint;
@@ -12,6 +12,7 @@ use linkwork::output::formulas as output;
 use super::asked::{self, Asked};
 use super::format::{Format, readable};
 use super::source::{Loaded, Source};
+use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
 /// Write out transforms, closure equations and screw Jacobians in closed form.
@@ -89,8 +90,11 @@ impl Formulas {
 
     fn solved(&self) -> Result<Answer, Refusal> {
         let posed = self.asked.pose(&self.source)?;
-        let report = posed.ask(Question::solution)?;
-        let report = report.map_err(|error| too_long(&posed.loaded, &error))?;
+        // what is too long stands in the file
+        let report = match watched(|watch| posed.question.solution(watch)) {
+            Err(AskError::Formula(error)) => Err(too_long(&posed.loaded, &error)),
+            report => posed.ask(|_, _| report),
+        }?;
         self.written(&posed.loaded, &report)
     }
 

@@ -13,6 +13,7 @@ use linkwork::description::{
 use linkwork::mechanism::Mechanism;
 use linkwork::output::frames as output;
 use linkwork::output::rounding::{Prefaced, sentence};
+use linkwork::system::Analysed;
 
 use super::format::{Format, with_file};
 use super::watched::watched;
@@ -99,7 +100,7 @@ impl Frames {
         let mechanism = Arc::new(mechanism);
         let question = Question::new(mechanism.clone());
         let (at, gap) = match watched(|watch| question.closed(watch)) {
-            Ok(Ok(closed)) => (closed.configuration, false),
+            Ok(Analysed::Closed(closed)) => (closed.configuration, false),
             _ => (mechanism.home(), true),
         };
         let axes = joint_axes(&mechanism, &at).map_err(|error| output::no_axes(&error))?;

@@ -3,8 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::solver::NoSolver;
-use linkwork::output::complaint::Complaint;
 use linkwork::output::solver::{Code, Language, Precision};
 
 use super::asked::{self, Asked};
@@ -64,7 +62,6 @@ impl Generate {
         let frames = self.frame.iter().map(named);
         let frames: Vec<_> = frames.collect::<Result<_, Refusal>>()?;
         let solver = posed.ask(|question, watch| question.solver_program(&frames, watch))?;
-        let solver = solver.map_err(|none| Refusal::from(complaint(&none)))?;
         let code = Code {
             language: self.lang,
             precision: self.precision,
@@ -89,22 +86,5 @@ fn identifier(path: &std::path::Path) -> String {
     match name.starts_with(|c: char| c.is_ascii_lowercase()) {
         true => name,
         false => format!("solver_{name}"),
-    }
-}
-
-fn complaint(none: &NoSolver) -> Complaint {
-    match none {
-        NoSolver::NothingUnknown => {
-            Complaint::new("there is nothing to solve: the held coordinates determine every frame")
-                .help("`linkwork formulas --rust` writes the frames as functions")
-        }
-        NoSolver::NothingHeld => {
-            Complaint::new("the mechanism cannot move, so that a solver would have no inputs")
-                .help("`linkwork solve` prints its configuration")
-        }
-        NoSolver::Singular { rank, unknowns } => Complaint::new(format!(
-            "the configuration is singular: {rank} of {unknowns} unknowns are determined there"
-        ))
-        .help("choose another one with --hold, --guess or --mode"),
     }
 }

@@ -12,7 +12,7 @@ use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
 use linkwork::output::drawing::{DrawingSettings, View, frames};
 use linkwork::output::glb::glb;
-use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, worded};
+use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, sentence};
 
 use super::asked::{Asked, Forces, Posed};
 use super::format::{Format, with_rows};
@@ -213,10 +213,10 @@ impl Sweep {
             },
             straightness: self.straight,
             certify: self.certify,
+            between: self.is_drawn(),
             ..SweepSettings::default()
         };
         let all = posed.ask(|question, watch| question.motions(&settings, watch))?;
-        let all = all.smooth(self.is_drawn());
         let (mechanism, columns) = (&**posed.question.mechanism(), all.columns());
         let quantities = all.quantities();
         let mut picture = Picture::new(mechanism, all.inputs(), all.points(), &quantities);
@@ -236,15 +236,15 @@ impl Sweep {
             Format::Csv => 2,
             _ => SHOWN,
         };
-        let report = worded(watched(|watch| all.report(kept, &mut sink, watch)));
+        let report = watched(|watch| all.report(kept, &mut sink, watch));
         csv.finish().map_err(unwritten)?.finish()?;
         picture.completed(mechanism, &report);
         self.keep(posed, &picture)?;
         let unfinished = report.motions.iter().filter(|m| !m.sweep.ending.is_whole());
         let unfinished = unfinished.filter(|_| self.format == Format::Csv);
         let unfinished = unfinished.map(|motion| match motion.mode {
-            Some(mode) => format!("mode {mode}: {}", motion.sentence),
-            None => motion.sentence.clone(),
+            Some(mode) => format!("mode {mode}: {}", sentence(&motion.sweep)),
+            None => sentence(&motion.sweep),
         });
         let rows_alone = report.motions.iter().filter(|_| self.format == Format::Csv);
         let certified = rows_alone.flat_map(|motion| certified(&motion.sweep));

@@ -97,21 +97,3 @@ impl Displacement {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_written_as_they_would_be_by_hand() {
-        let angle = |x: f64| Entry::angle(x).expression.to_string();
-        assert_eq!(angle(std::f64::consts::FRAC_PI_2), "90 deg");
-        assert_eq!(angle(-std::f64::consts::PI / 3.0), "-60 deg");
-        assert_eq!(angle(22.5_f64.to_radians()), "22.5 deg");
-        assert_eq!(angle(0.1), "0.1");
-        let length = |x: f64| Entry::length(x).expression.to_string();
-        assert_eq!(length(0.1 + 0.2), "0.3");
-        assert_eq!(length(1.0 / 3.0), "0.3333333333333333");
-        assert_eq!(length(-0.0), "0");
-    }
-}

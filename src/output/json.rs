@@ -86,16 +86,3 @@ fn unsign_zeros(value: &mut Value) {
         _ => {}
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn zeros_have_no_sign_however_deep() {
-        let report = serde_json::json!({ "a": [-0.0, [-1.5, { "b": -0.0 }]], "c": -0.0 });
-        let written: Value = serde_json::from_str(&written(&report)).unwrap();
-        assert_eq!(written["a"].to_string(), "[0.0,[-1.5,{\"b\":0.0}]]");
-        assert_eq!(written["c"].to_string(), "0.0");
-    }
-}

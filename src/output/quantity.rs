@@ -139,25 +139,3 @@ pub(super) fn coarse(value: f64) -> String {
         false => format!("{value:.0e}"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_as_short_as_six_decimals_allow() {
-        assert_eq!(number(0.5), "0.5");
-        assert_eq!(number(-1e-17), "0");
-        assert_eq!(number(2.0 / 3.0), "0.666667");
-        assert_eq!(number(0.000_012_5), "1.2500e-5");
-        assert_eq!(number(120.0), "120");
-        assert_eq!(degrees(std::f64::consts::FRAC_PI_2), "90°");
-        assert_eq!(degrees(3e-14), "0°");
-        assert_eq!(degrees(3e-12), "1.7189e-10°");
-        assert_eq!(
-            [1.23e-16, 0.0, 31.66, 2.5e7].map(size),
-            ["1.2e-16", "0", "31.7", "2.5e7"]
-        );
-        assert_eq!(quantity(-0.25, SiUnit::METRE), "-0.25 m");
-    }
-}

@@ -9,6 +9,8 @@ mod words;
 pub use picture::Picture;
 pub use words::{certified, sentence};
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::quantity;
@@ -61,13 +63,31 @@ impl Report for MotionsReport {
 /// Rows of a motion that text shows at most; more are thinned evenly.
 pub const SHOWN: usize = 37;
 
-/// The report with the sentence of each motion.
-#[must_use]
-pub fn worded(mut report: MotionsReport) -> MotionsReport {
-    for motion in &mut report.motions {
-        motion.sentence = sentence(&motion.sweep);
+/// In JSON a motion says in words too how it ended.
+impl Serialize for MotionReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Told<'m> {
+            mode: Option<usize>,
+            sentence: String,
+            #[serde(flatten, serialize_with = "MotionReport::serialize")]
+            motion: &'m MotionReport,
+        }
+        let (mode, sentence) = (self.mode, sentence(&self.sweep));
+        let motion = self;
+        let told = Told {
+            mode,
+            sentence,
+            motion,
+        };
+        told.serialize(serializer)
     }
-    report
+}
+
+impl<'de> Deserialize<'de> for MotionReport {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        MotionReport::deserialize(from)
+    }
 }
 
 fn mode(motion: &MotionReport) -> String {

@@ -70,36 +70,3 @@ fn indented(text: &str) -> String {
         .map(|line| format!("  {line}").trim_end().to_owned() + "\n");
     lines.collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::output::document::tests::sample;
-
-    #[test]
-    fn sections_are_indented_and_numbers_end_at_the_same_place() {
-        let wanted = r#"4-bar <1>
-It moves: `a<b` drives *it*.
-  near a limit
-
-Forces
-  in ground
-  on|<b>    Fx (N)      angle
-  a|b         -0.5  28.64789°
-  <script>     10*
-
-More
-  output   l1 (m/s)
-  x (m/s)         2
-  a: "```",
-    <b>
-  Inner
-    - one
-    two
-
-How it was found
-  3 steps
-"#;
-        assert_eq!(render(&sample()), wanted);
-    }
-}

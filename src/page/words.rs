@@ -2,7 +2,7 @@
 //! in place of options.
 
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{MetKind, MotionsReport, SweepEnd, SweepReport};
+use crate::analysis::sweep::{MetKind, SweepEnd, SweepReport};
 use crate::ask::{AskError, Demand, Question, Remedy, Role, Steering};
 use crate::description::listed;
 use crate::output::complaint::{Door, Ranged, Wording};
@@ -46,18 +46,6 @@ pub fn pulled(report: &SweepReport) -> Option<String> {
         SweepEnd::Fold => None,
         _ => stopped(report),
     }
-}
-
-/// The motions with what is said of them where they cannot begin.
-pub fn swept(mut report: MotionsReport) -> MotionsReport {
-    for motion in &mut report.motions {
-        if motion.sweep.ending == SweepEnd::SingularStart {
-            motion.sentence = "The motion begins where branches meet. Move the mechanism a little \
-                               first, so that it is on one of them."
-                .into();
-        }
-    }
-    report
 }
 
 /// The joints that are at a limit, with words for it.

@@ -12,10 +12,10 @@ use crate::analysis::overview::overview;
 use crate::analysis::sweep::Row;
 use crate::ask::Solved;
 use crate::mechanism::{Frame, Mechanism};
-use crate::output::complaint::{Complaint, unknown_frame};
+use crate::output::complaint::unknown_frame;
 use crate::output::document::{Cell, Document};
 use crate::output::rounding::Prefaced;
-use crate::output::sweep::{SHOWN, row_columns, row_values, worded};
+use crate::output::sweep::{SHOWN, row_columns, row_values};
 use crate::output::{JsonReport, Rows, html, json, markdown, text};
 use crate::solve::Watch;
 
@@ -176,11 +176,7 @@ pub fn answer(
                 transform: of.map(|of| (of, relative_to.unwrap_or(Frame::Ground))),
                 ..FormulasSettings::default()
             };
-            let formulas = question.formulas(&settings);
-            prefaced(
-                mechanism,
-                formulas.map_err(|error| Refused::Said(Complaint::new(error.to_string())))?,
-            )
+            prefaced(mechanism, question.formulas(&settings)?)
         }
         "circuits" => prefaced(mechanism, question.circuits(watch)?),
         "sweep" => return motions(asked, mechanism, watch),
@@ -200,7 +196,7 @@ fn motions(
     let mut sink = |mode: Option<usize>, row: &Row| {
         Column::row(&mut columns, row_values(&names, mode, row));
     };
-    let report = worded(all.report(SHOWN, &mut sink, watch));
+    let report = all.report(SHOWN, &mut sink, watch);
     let report = Prefaced::new(mechanism, report);
     Ok((Report(Box::new(report)), columns))
 }

@@ -34,14 +34,14 @@ pub fn load(name: &str) -> Question {
 }
 
 fn solved(question: &Question) -> SolutionFormula {
-    let report: FormulasReport = question.solution(&Watch::none()).unwrap().unwrap();
+    let report: FormulasReport = question.solution(&Watch::none()).unwrap();
     report.solution.unwrap()
 }
 
 /// With the only platform held where the mechanism closes near home, and the actuated joints free.
 pub fn inverse(name: &str) -> Question {
     let question = load(name);
-    let closed = question.closed(&Watch::none()).unwrap().unwrap();
+    let closed = question.closed(&Watch::none()).unwrap().closed().unwrap();
     let pose = closed.configuration.platforms[0].pose();
     let platform = question.mechanism().platforms()[0].name.clone();
     let names = ["x", "y", "z", "roll", "pitch", "yaw"].into_iter();

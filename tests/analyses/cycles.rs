@@ -189,7 +189,7 @@ fn a_table_that_is_wrong_is_refused_at_its_place() {
 fn a_coordinate_of_a_point_is_held_as_a_joint_is() {
     let at = |degrees: f64| {
         let question = Question::new(load("four_bar")).hold("theta1", degrees.to_radians());
-        let closed = question.closed(&Watch::none()).unwrap().unwrap();
+        let closed = question.closed(&Watch::none()).unwrap().closed().unwrap();
         let mechanism = question.mechanism();
         let point = Point::read(mechanism, "left.2+1.2,0.8").unwrap();
         point.at(mechanism, &closed.configuration).0
@@ -199,7 +199,7 @@ fn a_coordinate_of_a_point_is_held_as_a_joint_is() {
         .free("theta1")
         .hold("left.2+1.2,0.8.y", wanted[1])
         .guess("theta1", "65 deg");
-    let found = question.closed(&Watch::none()).unwrap().unwrap();
+    let found = question.closed(&Watch::none()).unwrap().closed().unwrap();
     let theta = question.mechanism().joint("theta1").unwrap();
     assert!((found.configuration.joints[theta].to_degrees() - 72.0).abs() < 1e-9);
     // the coordinates of the point are joints beside those of the file
@@ -235,7 +235,7 @@ fn a_coordinate_of_a_point_is_held_as_a_joint_is() {
     let far = Question::new(load("four_bar"))
         .free("theta1")
         .hold("left.2+1.2,0.8.y", 4.0);
-    assert!(far.closed(&Watch::none()).unwrap().is_err());
+    assert!(far.closed(&Watch::none()).unwrap().closed().is_none());
     // and with the crank held too it is one too many
     let both = Question::new(load("four_bar")).hold("left.2+1.2,0.8.y", wanted[1]);
     assert!(matches!(both.count(), Err(AskError::Question(_))));
@@ -671,7 +671,7 @@ fn cognates_trace_the_same_coupler_curve() {
         let home = other.joints()[other.joint("theta").unwrap()].home;
         for i in 0..x.len() {
             let question = Question::new(other.clone()).hold("theta", home + turn[i] - turn[0]);
-            let closed = question.closed(&Watch::none()).unwrap().unwrap();
+            let closed = question.closed(&Watch::none()).unwrap().closed().unwrap();
             let place = traced.at(&other, &closed.configuration).0;
             let apart = (place[0] - x[i]).hypot(place[1] - y[i]);
             assert!(apart < 1e-9, "{number} {i} {apart}");
@@ -683,7 +683,7 @@ fn cognates_trace_the_same_coupler_curve() {
         }
         // nor does a crank turned otherwise meet it there
         let question = Question::new(other.clone()).hold("theta", home + turn[7] - turn[0] + 0.01);
-        let closed = question.closed(&Watch::none()).unwrap().unwrap();
+        let closed = question.closed(&Watch::none()).unwrap().closed().unwrap();
         let place = traced.at(&other, &closed.configuration).0;
         assert!((place[0] - x[7]).hypot(place[1] - y[7]) > 1e-3);
     }

@@ -74,6 +74,7 @@ fn tilted(name: &str, digits: i32, moved: impl Fn(usize, &mut Vector)) -> Descri
     let at = Question::new(mechanism.clone())
         .closed(&Watch::none())
         .unwrap()
+        .closed()
         .unwrap();
     let mut axes = joint_axes(&mechanism, &at.configuration).unwrap();
     let turn = |[x, y, z]: Vector| {
@@ -193,7 +194,7 @@ fn a_four_bar_with_pins_to_a_micrometre_moves_by_the_law_of_cosines() {
     let at = Question::new(mechanism)
         .hold("crank", "20 deg")
         .closed(&Watch::none());
-    let joints = at.unwrap().unwrap().configuration.joints;
+    let joints = at.unwrap().closed().unwrap().configuration.joints;
     for (found, known) in joints[1..].iter().zip([-25.7712_f64, 2.0643]) {
         assert!((found.to_degrees() - known).abs() < 0.01, "{joints:?}");
     }

@@ -4,15 +4,15 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use linkwork::analysis::singularities::{
-    AlongEnd, AlongReport, Kind, LocusEnd, LocusReport, Shape, SingularitiesReport,
-    SingularitiesSettings, Zlatanov, along, inputs_of, loci, singularities,
+    AlongReport, Kind, LocusEnd, LocusReport, Shape, SingularitiesReport, SingularitiesSettings,
+    Zlatanov, along, inputs_of, loci, singularities,
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::{self, Report};
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
-use linkwork::system::{Driven, Lock, Question, Search};
+use linkwork::system::{Driven, Lock, Question, Search, SweepEnd};
 use nalgebra::{DMatrix, Matrix3, Matrix4, Vector3};
 
 fn mechanism(name: &str, parameters: &[(&str, &str)]) -> Mechanism {
@@ -153,7 +153,7 @@ fn the_crank_of_a_double_rocker_folds_where_coupler_and_rocker_are_in_line() {
     let settings = SingularitiesSettings::default();
     for (to, exact) in [(PI, limit(l2 + l3)), (0.0, limit(l2 - l3))] {
         let report = moved(&mechanism, "theta1", 0.9, to, &settings);
-        assert_eq!(report.ending, AlongEnd::Fold);
+        assert_eq!(report.ending, SweepEnd::Fold);
         let last = report.crossings.last().unwrap();
         assert!((last.moved[0] - exact).abs() < 1e-10, "{report:?} {exact}");
         assert!(last.fold && last.singularity.gain == 1);
@@ -176,7 +176,7 @@ fn the_rocker_of_a_crank_rocker_is_dead_where_crank_and_coupler_are_in_line() {
     let mechanism = mechanism("four_bar", &[]);
     let settings = SingularitiesSettings::default();
     let report = moved(&mechanism, "theta1", 0.2, 0.2 + 2.0 * PI, &settings);
-    assert_eq!(report.ending, AlongEnd::Complete);
+    assert_eq!(report.ending, SweepEnd::Complete);
     let published = data("change_points")["answer"]["dead_points_of_crank_rocker_5_1_3_4"].clone();
     let published: Vec<f64> = match published {
         serde_json::Value::Array(points) => points
@@ -276,7 +276,7 @@ fn legs_that_stretch_together_are_found_though_no_determinant_changes_sign() {
     let stretched = (0.5 * g / (r + c)).acos();
     let (from, to) = (75f64.to_radians(), 100f64.to_radians());
     let report = cranks([from, PI - from], [to, PI - to]);
-    assert_eq!(report.ending, AlongEnd::Complete);
+    assert_eq!(report.ending, SweepEnd::Complete);
     let [crossing] = &report.crossings[..] else {
         panic!("{report:#?}");
     };
@@ -628,7 +628,7 @@ fn fichters_quarter_turn_is_singular_and_no_other_yaw_of_the_table() {
         &settings,
         &Watch::none(),
     );
-    assert_eq!(report.ending, AlongEnd::Complete);
+    assert_eq!(report.ending, SweepEnd::Complete);
     let [crossing] = &report.crossings[..] else {
         panic!("{report:?}")
     };
@@ -747,7 +747,7 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
         assert!(!at(q).is_singular());
     }
     let report = moved(&mechanism, "q3", -2.0, 2.0, &settings);
-    assert_eq!(report.ending, AlongEnd::Complete);
+    assert_eq!(report.ending, SweepEnd::Complete);
     // with q1 = q2 = 0: as many changes of sign as crossings, each at a zero
     let det = |k: i32| determinant([0.0, 0.0, f64::from(k) / 500.0]);
     let changes = (-1000..1000).filter(|&k| (det(k) < 0.0) != (det(k + 1) < 0.0));

@@ -109,7 +109,7 @@ fn a_platform_kilometres_from_the_origin_has_the_assemblies_it_has_there() {
             assert!((of - x.parse::<f64>().unwrap()).abs() < 3.0, "{of}");
         }
         // it closes at home, and its frames are in ground
-        let closed = question.closed(&Watch::none()).unwrap().unwrap();
+        let closed = question.closed(&Watch::none()).unwrap().closed().unwrap();
         let pose = mechanism.pose("top.B0", &closed.configuration).unwrap();
         assert!((pose.position.0[0] - x.parse::<f64>().unwrap()).abs() < 3.0);
     }

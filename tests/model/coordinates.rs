@@ -163,7 +163,7 @@ fn the_same_questions_have_the_same_answers() {
         let names: Vec<String> = mechanism.joints().iter().map(|j| j.name.clone()).collect();
         let answers = [mechanism, made].map(|mechanism| {
             let question = Question::new(mechanism);
-            let closed = question.closed(&Watch::none()).unwrap().unwrap();
+            let closed = question.closed(&Watch::none()).unwrap().closed().unwrap();
             let at_home: Vec<(String, f64)> = (question.mechanism().joints().iter())
                 .map(|joint| joint.name.clone())
                 .zip(closed.configuration.joints.iter().copied())
@@ -278,6 +278,7 @@ pub fn solved(mechanism: &Mechanism, hold: &[(&str, f64)]) -> Configuration<f64>
     question
         .closed(&Watch::none())
         .unwrap()
+        .closed()
         .unwrap()
         .configuration
 }

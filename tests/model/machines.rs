@@ -61,7 +61,8 @@ fn every_file_closes_as_drawn_and_agrees_with_its_closed_forms() {
         let closed = Question::new(mechanism.clone()).closed(&Watch::none());
         let at = closed
             .unwrap()
-            .unwrap_or_else(|_| panic!("{path:?} does not close"));
+            .closed()
+            .unwrap_or_else(|| panic!("{path:?} does not close"));
         let home = mechanism.home();
         for (now, drawn) in at.configuration.joints.iter().zip(&home.joints) {
             assert!((now - drawn).abs() < 1e-9, "{path:?}: {now} {drawn}");

@@ -12,5 +12,7 @@ mod mechanisms;
 mod negative_lengths;
 mod numbers;
 mod pictures;
+#[cfg(feature = "cli")]
+mod rendered;
 mod scene;
 mod units;

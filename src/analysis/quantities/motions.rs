@@ -62,13 +62,6 @@ impl Motions<'_> {
         time.into_iter().chain(quantities).collect()
     }
 
-    /// Adds rows between those asked for, so near to one another that a line through them looks smooth.
-    #[must_use]
-    pub fn smooth(mut self, smooth: bool) -> Self {
-        self.settings.between = smooth;
-        self
-    }
-
     /// Moves from every start and keeps no more than `most` rows of each motion. All rows go to `sink` as they are
     /// found, with the number of their mode.
     pub fn report(
@@ -93,7 +86,6 @@ impl Motions<'_> {
             let interrupted = sweep.interrupted;
             motions.push(MotionReport {
                 mode: *mode,
-                sentence: String::new(),
                 sweep,
                 pace: (!self.metered.inputs.is_empty()).then_some(self.settings.pace),
                 table: self.settings.schedule.as_ref().map(Schedule::rows),

@@ -12,7 +12,7 @@ use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::sorting::sort_by;
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
-use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, Walk};
+use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, SweepEnd, Walk};
 
 type At = Place<Configuration<f64>>;
 
@@ -32,7 +32,7 @@ pub struct AlongReport {
     /// The driven coordinates, with their values at the start and at the end.
     pub moved: Vec<Bound>,
     /// End of the motion.
-    pub ending: AlongEnd,
+    pub ending: SweepEnd,
     /// The joint whose limit was reached, if one was.
     pub limit: Option<String>,
     /// The part of the segment that was gone at the end.
@@ -65,32 +65,6 @@ pub struct Crossing {
     pub singularity: Singularity,
 }
 
-/// End of a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AlongEnd {
-    /// The whole segment was gone through.
-    Complete,
-    /// It came back to where it began, on another branch, round a fold.
-    Returned,
-    /// The curve closed.
-    Closed,
-    /// The branch ends: the driven coordinates would have to turn back.
-    Fold,
-    /// Branches cross, and which to take is not clear.
-    Branches,
-    /// A joint is at its limit.
-    Limit,
-    /// A joint is outside its limits at the start.
-    OutsideLimits,
-    /// The start is singular.
-    SingularStart,
-    /// No step is short enough to be sure.
-    Lost,
-    /// It was stopped.
-    Stopped,
-}
-
 /// Moves the inputs along their segment from `start` and locates every singularity to rounding.
 ///
 /// `held` holds the coordinates at rest, none of the driven ones; singularities refer to `inputs`.
@@ -113,7 +87,7 @@ pub fn along(
         moved: (moved.iter())
             .map(|input| Bound::new(mechanism, input))
             .collect(),
-        ending: AlongEnd::Lost,
+        ending: SweepEnd::Lost,
         limit: None,
         part: 0.0,
         crossings: Vec::new(),
@@ -127,7 +101,7 @@ pub fn along(
     let begun = curve.begin(mechanism, &mut start, method);
     if let Err(NoStart::OutsideLimits(joint)) = begun {
         report.limit = Some(mechanism.joints()[joint].name.clone());
-        report.ending = AlongEnd::OutsideLimits;
+        report.ending = SweepEnd::OutsideLimits;
         return report;
     }
     let mut search = Tests {
@@ -141,7 +115,7 @@ pub fn along(
         Err(_) => {
             let found = search.crossing(&curve, &start, false, true);
             report.crossings.extend(found);
-            report.ending = AlongEnd::SingularStart;
+            report.ending = SweepEnd::SingularStart;
             return report;
         }
     };
@@ -149,7 +123,7 @@ pub fn along(
     let first = search.crossing(&curve, &place.at, turns_back, false);
     report.crossings.extend(first);
     if turns_back {
-        report.ending = AlongEnd::Fold;
+        report.ending = SweepEnd::Fold;
         return report;
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
@@ -157,7 +131,7 @@ pub fn along(
         let done = report.part.clamp(0.0, 1.0) * f64::from(PARTS);
         if watch.stops(Stage::Motion, done as usize, Some(PARTS as usize)) {
             report.interrupted = true;
-            return ControlFlow::Break(AlongEnd::Stopped);
+            return ControlFlow::Break(SweepEnd::Stopped);
         }
         report.sure_steps += 1;
         report.part = curve.part(&step.to.at);
@@ -174,15 +148,15 @@ pub fn along(
                 report.crossings.extend(found);
             }
             let ending = match met.end {
-                Some(Event::End(true)) => Some(AlongEnd::Complete),
-                Some(Event::End(false)) => Some(AlongEnd::Returned),
-                Some(Event::Closed) => Some(AlongEnd::Closed),
+                Some(Event::End(true)) => Some(SweepEnd::Complete),
+                Some(Event::End(false)) => Some(SweepEnd::Returned),
+                Some(Event::Closed) => Some(SweepEnd::Closed),
                 Some(Event::Limit { joint, .. }) => {
                     report.limit = Some(mechanism.joints()[joint].name.clone());
-                    Some(AlongEnd::Limit)
+                    Some(SweepEnd::Limit)
                 }
-                _ if met.fold && !settings.follow => Some(AlongEnd::Fold),
-                _ if met.branches && !settings.follow => Some(AlongEnd::Branches),
+                _ if met.fold && !settings.follow => Some(SweepEnd::Fold),
+                _ if met.branches && !settings.follow => Some(SweepEnd::Crossing),
                 _ => None,
             };
             if let Some(ending) = ending {
@@ -193,7 +167,7 @@ pub fn along(
     });
     report.ending = ending.unwrap_or_else(|_| {
         report.part = curve.part(&walk.place().at);
-        AlongEnd::Lost
+        SweepEnd::Lost
     });
     report
 }

@@ -22,11 +22,11 @@ pub struct MotionsReport {
 
 /// A motion with its mode and the rows that are kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct MotionReport {
     /// The number of the mode, if it was asked for.
+    #[serde(skip_serializing)]
     pub mode: Option<usize>,
-    /// End of the motion in words; the output fills it in.
-    pub sentence: String,
     /// The sweep.
     #[serde(flatten)]
     pub sweep: SweepReport,

@@ -4,6 +4,7 @@
 use super::door::{Ranged, Wording};
 use super::question::{frame_names, meant, no_point, no_quantity};
 use super::{Complaint, Part};
+use crate::analysis::solver::NoSolver;
 use crate::ask::{AskError, Demand, Question, Remedy, Role, Unmeasured, Value};
 use crate::description::{self, count, listed};
 use crate::mechanism::{Joint, Mechanism};
@@ -216,6 +217,16 @@ impl Wording<'_> {
                 self.setting("grid", None)
             )),
             AskError::TooLarge { .. } => said.help("analyse a part of it"),
+            AskError::NoSolver(none) => said.help(match none {
+                NoSolver::NothingUnknown => "`linkwork formulas --rust` writes the frames as functions".into(),
+                NoSolver::NothingHeld => format!("{} prints its configuration", self.analysis("solve")),
+                NoSolver::Singular { .. } => format!(
+                    "choose another one with {}, {} or {}",
+                    self.role(Role::Hold),
+                    self.role(Role::Guess),
+                    self.setting("mode", None)
+                ),
+            }),
             _ => said,
         }
     }

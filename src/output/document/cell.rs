@@ -91,21 +91,3 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
         cell.map_or(Cell::Empty, Into::into)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cells_are_shown_with_their_units() {
-        let angle = std::f64::consts::FRAC_PI_3;
-        assert_eq!(Cell::quantity(angle, SiUnit::RADIAN).shown(), "60°");
-        assert_eq!(
-            Cell::quantity(0.25, SiUnit::RADIAN.per_second()).shown(),
-            "0.25 rad/s"
-        );
-        assert_eq!(Cell::size(1e9).shown(), "1.0e9");
-        assert_eq!(Cell::size(f64::INFINITY).shown(), "infinite");
-        assert_eq!(Cell::from(None::<f64>).shown(), "");
-    }
-}

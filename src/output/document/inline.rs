@@ -28,16 +28,3 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
 pub fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quoted_pieces_need_two_back_quotes() {
-        use Piece::{Plain, Quoted};
-        assert_eq!(pieces("a `b` c"), [Plain("a "), Quoted("b"), Plain(" c")]);
-        assert_eq!(pieces("`b` and `c"), [Quoted("b"), Plain(" and `c")]);
-        assert_eq!(pieces("``"), [Plain("``")]);
-    }
-}

@@ -1,7 +1,7 @@
 //! Singularities along a motion.
 
 use super::{details, note, words};
-use crate::analysis::singularities::{AlongEnd, AlongReport};
+use crate::analysis::singularities::AlongReport;
 use crate::mechanism::Variable;
 use crate::output::document::{Cell, Document, Section, cells};
 use crate::output::report::{Remarks, Report, Rows};
@@ -14,9 +14,8 @@ impl Report for AlongReport {
             let details = details(&crossing.singularity).into_iter();
             details.fold(Section::new(title).text(text), Section::section)
         });
-        use AlongEnd::{Closed, Complete, Returned};
         Document::new(&self.mechanism, words::ending(self))
-            .yes_if(matches!(self.ending, Complete | Returned | Closed))
+            .yes_if(self.ending.is_whole())
             .remarks(Remarks::note(&note(&self.coupled)))
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))

@@ -2,11 +2,12 @@
 
 use super::names;
 use crate::analysis::singularities::{
-    AlongEnd, AlongReport, Crossing, Kind, Locus, LocusEnd, LocusReport, Movement, Shape,
-    Singularity, Zlatanov,
+    AlongReport, Crossing, Kind, Locus, LocusEnd, LocusReport, Movement, Shape, Singularity,
+    Zlatanov,
 };
 use crate::description::{count, listed};
 use crate::output::quantity::{are, at, clause, form, range};
+use crate::system::SweepEnd;
 
 pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
     let input = form(inputs.len(), "Input", "Inputs");
@@ -137,27 +138,27 @@ pub(super) fn ending(report: &AlongReport) -> String {
     let here = place(report, &here);
     let joint = report.limit.as_deref().unwrap_or_default();
     match report.ending {
-        AlongEnd::Complete => format!("{way}: complete, {found}."),
-        AlongEnd::Returned => format!(
+        SweepEnd::Complete => format!("{way}: complete, {found}."),
+        SweepEnd::Returned => format!(
             "{way}: the end is not reached: the inputs come back to where they began, in another configuration; {found}."
         ),
-        AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
-        AlongEnd::Fold => format!(
+        SweepEnd::Closed | SweepEnd::Limits => format!("{way}: the curve closes, {found}."),
+        SweepEnd::Fold => format!(
             "{way}: it locks at {here}, where this branch ends; {found}. Following \
              the curve leads around the fold, back on the other branch."
         ),
-        AlongEnd::Branches => format!(
+        SweepEnd::Crossing => format!(
             "{way}: branches cross at {here}; {found}. Following the curve continues straight through."
         ),
-        AlongEnd::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
-        AlongEnd::OutsideLimits => format!(
+        SweepEnd::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
+        SweepEnd::OutsideLimits => format!(
             "{way}: {joint} is outside its limits at the start. Begin elsewhere, or in another mode."
         ),
-        AlongEnd::SingularStart => format!(
+        SweepEnd::SingularStart => format!(
             "{way}: the start is singular, so the branch is not unique. Begin slightly away from it."
         ),
-        AlongEnd::Stopped => format!("{way}: interrupted at {here}; {found} before."),
-        AlongEnd::Lost => format!(
+        SweepEnd::Stopped => format!("{way}: interrupted at {here}; {found} before."),
+        SweepEnd::Lost => format!(
             "{way}: the curve could not be followed reliably beyond {here}; {found} before."
         ),
     }
