@@ -7,7 +7,7 @@
 //! Load, ask, answer:
 //!
 //! ```
-//! use linkwork::{ask::Question, mechanism::Mechanism, solve::Watch};
+//! use linkwork::{Mechanism, Question, Watch};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mechanism = Mechanism::load("mechanisms/three_rps.ron")?;
@@ -21,49 +21,120 @@
 //! # }
 //! ```
 //!
-//! The [guide] explains the file, every question, and the conventions. The modules, each of which uses only those above
-//! it:
-//!
-//! | Module | Contents |
-//! |---|---|
-//! | [`number`] | real, complex, dual and interval numbers |
-//! | [`linear`] | small dense and sparse linear algebra for least-squares steps |
-//! | [`algebra`] | expressions and trigonometric polynomials |
-//! | [`geometry`] | vectors, rotations, poses, lines |
-//! | [`solve`] | Newton's method, continuation, homotopy |
-//! | [`description`] | the mechanism file, read and written |
-//! | [`mechanism`] | the valid, immutable mechanism and its kinematics over any number |
-//! | [`interchange`] | URDF, MJCF and SDF |
-//! | [`system`] | equations, Jacobians and curves of one question about a mechanism |
-//! | [`analysis`] | the analyses: a mechanism, a question and settings in, a report out |
-//! | [`ask`] | questions that own their mechanism, and every analysis as a method of them |
-//! | [`scene`] | a configuration as named shapes |
-//! | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
-//! | `page` | the interface of the page of `linkwork view`; with the feature `page` |
-//! | `python` | the interface of the Python package; with the feature `python` |
+//! A [`Question`] has a method for each analysis, which takes the settings of that analysis and returns its report. Reports
+//! are plain data and implement [`Report`], by which they become text, Markdown, HTML or JSON. The [guide] explains the
+//! file, every question, and the conventions. The module [`kernel`] has everything beneath: numbers, linear algebra,
+//! kinematics over any number, equations, continuation, and the analyses themselves.
 
 // answers are the same bytes on every machine
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+#[doc(hidden)]
 pub mod algebra;
+#[doc(hidden)]
 pub mod analysis;
+#[doc(hidden)]
 pub mod ask;
+#[doc(hidden)]
 pub mod description;
+#[doc(hidden)]
 pub mod geometry;
 pub mod guide;
 #[cfg(feature = "interchange")]
+#[doc(hidden)]
 pub mod interchange;
+#[doc(hidden)]
 pub mod linear;
+#[doc(hidden)]
 pub mod mechanism;
+#[doc(hidden)]
 pub mod number;
+#[doc(hidden)]
 pub mod output;
 #[cfg(feature = "page")]
+#[doc(hidden)]
 pub mod page;
 #[cfg(feature = "python")]
 mod python;
+#[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
 pub mod solve;
+#[doc(hidden)]
 pub mod system;
+
+#[doc(inline)]
+pub use analysis::{
+    assemblies::{AssembliesReport, Assembly, ComplexAssembly, LostMode, Proof, Wanted},
+    assembly::{AssemblyReport, AssemblySettings, Outcome},
+    compare::{CompareReport, FormReport},
+    convert::{Conversion, ConvertError, ConvertSettings, convert},
+    formulas::{FormulasReport, FormulasSettings},
+    frames::{FramesReport, FramesSettings, frames},
+    mobility::{BranchReport, Character, MobilityReport},
+    overview::{Overview, overview},
+    quantities::Motions,
+    singularities::{
+        AlongReport, Crossing, Locus, LocusReport, SingularitiesReport, SingularitiesSettings,
+        Singularity,
+    },
+    solver::{NoSolver, Solver},
+    statics::{Reaction, StaticsReport},
+    sweep::{
+        Circuit, CircuitsReport, Extremum, Law, MotionReport, MotionsReport, Pace, PathReport, Row,
+        SweepReport, SweepSettings,
+    },
+    velocity::VelocityReport,
+    workspace::{AspectReport, ModeReport, WorkspaceReport, WorkspaceSettings},
+};
+#[doc(inline)]
+pub use ask::{
+    AskError, Demand, Item, Many, Mode, Points, Question, Remedy, Role, Solved, Steering, Store,
+    Study, StudyError, StudyRows, TableError, Value,
+};
+#[doc(inline)]
+pub use description::{Description, FileError, LoadError, Problem, ProblemKind};
+#[doc(inline)]
+pub use mechanism::{Configuration, Frame, Mechanism, Point, Quantity};
+#[doc(inline)]
+pub use output::{JsonReport, Report};
+#[doc(inline)]
+pub use solve::{Progress, Pruning, Stage, Watch};
+#[doc(inline)]
+pub use system::{Analysed, QuestionError, SweepEnd};
+
+/// The modules beneath, for programs that build on them. Each uses only those above it.
+///
+/// | Module | Contents |
+/// |---|---|
+/// | [`number`] | real, complex, dual and interval numbers |
+/// | [`linear`] | small dense and sparse linear algebra for least-squares steps |
+/// | [`algebra`] | expressions and trigonometric polynomials |
+/// | [`geometry`] | vectors, rotations, poses, lines |
+/// | [`solve`] | Newton's method, continuation, homotopy |
+/// | [`description`] | the mechanism file, read and written |
+/// | [`mechanism`] | the valid, immutable mechanism and its kinematics over any number |
+/// | `interchange` | URDF, MJCF and SDF; with the feature `interchange` |
+/// | [`system`] | equations, Jacobians and curves of one question about a mechanism |
+/// | [`analysis`] | the analyses: a mechanism, a question and settings in, a report out |
+/// | [`ask`] | questions that own their mechanism, and every analysis as a method of them |
+/// | [`scene`] | a configuration as named shapes |
+/// | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
+/// | `page` | the interface of the page of `linkwork view`; with the feature `page` |
+/// | `python` | the interface of the Python package; with the feature `python` |
+pub mod kernel {
+    #[cfg(feature = "interchange")]
+    #[doc(inline)]
+    pub use crate::interchange;
+    #[cfg(feature = "page")]
+    #[doc(inline)]
+    pub use crate::page;
+    #[doc(inline)]
+    pub use crate::{
+        algebra, analysis, ask, description, geometry, linear, mechanism, number, output, scene,
+        solve, system,
+    };
+}
 
 // the Python module brings the command line with it, which sees the library as other programs do
 #[cfg(feature = "python")]

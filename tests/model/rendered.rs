@@ -65,9 +65,6 @@ fn a_document_is_read_back_as_written() {
     );
 }
 
-use super::*;
-use crate::output::document::tests::sample;
-
 #[test]
 fn sections_are_indented_and_numbers_end_at_the_same_place() {
     let wanted = r#"4-bar <1>
@@ -94,9 +91,6 @@ How it was found
 "#;
     assert_eq!(text::render(&sample()), wanted);
 }
-
-use super::*;
-use crate::output::document::tests::sample;
 
 #[test]
 fn names_have_no_meaning_in_markdown() {
