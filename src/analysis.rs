@@ -1,6 +1,6 @@
 //! Analyses: each one function, one settings struct and one report. They print nothing.
 //!
-//! All are independent of one another but `quantities`, which reads what `velocity` and `singularities` make of a
+//! All are independent of one another but `quantities`, which reads what `velocity`, `singularities` and `statics` make of a
 //! configuration over the motions of `sweep`.
 
 pub mod assemblies;

@@ -232,6 +232,11 @@ impl Question {
         self.put(Role::Load, joint, [value.into()])
     }
 
+    /// Leaves out what the file says acts: `weight`, `inertia`, `springs`, `forces`, `friction`, or one of them by its name.
+    pub fn without(self, name: impl Into<String>) -> Self {
+        self.put(Role::Without, name, [])
+    }
+
     /// Varies a parameter or a coordinate of a [`Study`] over a range.
     pub fn vary(
         self,

@@ -13,6 +13,7 @@ mod inspect;
 mod kinematics;
 mod letters;
 mod lift;
+mod loads;
 mod model;
 mod names;
 mod parameters;
@@ -38,10 +39,11 @@ pub use follower::Follower;
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
+pub use loads::{Along, Friction, GivenEffort, GivenForce, GivenValue, Loads, Mass, Spring};
 pub use point::{NamedPoint, Point, PointError};
 pub use relation::Relation;
 
-pub use quantity::{Figure, Measured, Order, Quantity, QuantityError};
+pub use quantity::{Carrier, Effort, Energy, Figure, Measured, Order, Quantity, QuantityError};
 pub use rounded::{NumberChange, Rounded, Rounding};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;
@@ -56,7 +58,7 @@ pub use model::{
 
 use std::sync::{Arc, OnceLock};
 
-use crate::description::{Coordinates, Problem};
+use crate::description::{Coordinates, LoadsDescription, Problem};
 
 pub(crate) use closing::joint_values;
 pub(crate) use closure::{Closure, EVERY_ROW, Kept, Side, needs};
@@ -80,6 +82,9 @@ pub struct Mechanism {
     closed_forms: Arc<Vec<ClosedForm>>,
     outputs: Arc<Vec<Quantity>>,
     homes: Arc<model::Homes>,
+    loads: Arc<Loads>,
+    /// The same as the file has it.
+    loads_file: Arc<LoadsDescription>,
     /// The variables of closures that are not among the joints.
     closing: Arc<[ClosingJoint]>,
     /// How many chains and closures the file has; those that make points, frames and closures joints come after them.

@@ -6,13 +6,17 @@
 //! [`question`](Question) holds coordinates, [`search`](Search) assembles, and [`curve`](Curve)
 //! follows one-parameter curves of configurations; [`bundle`](Bundle) solves for many configurations that share dimensions.
 
+mod balance;
+mod bearing;
 mod branch;
 mod bundle;
 mod closed_form;
 mod curve;
 mod enclosure;
 mod equations;
+mod equilibrium;
 mod joint_space;
+mod loaded;
 mod question;
 mod record;
 mod search;
@@ -20,6 +24,8 @@ mod sets;
 mod tangent;
 
 pub use crate::mechanism::{PointError, Value, ValueError};
+pub use balance::{Balance, Instant};
+pub use bearing::{Bearings, Carried};
 pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
 pub use bundle::{Arrow, Bundle, Bundled, Target, TargetError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
@@ -34,13 +40,14 @@ pub use equations::{
     System, Unknown, Work, approach, independent_parts,
 };
 pub(crate) use equations::{Course, solve};
+pub use equilibrium::Equilibrium;
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
+pub use loaded::{Acting, Loaded, Moving};
 pub use question::{
-    Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Loaded, Question,
-    QuestionError, Role, Still, actuated, check_angle, check_angles, check_count,
-    coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
-    redundant_motors, with_coordinates,
+    Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Role, Still,
+    actuated, check_angle, check_angles, check_count, coordinate_outputs, default_outputs,
+    free_outputs, inputs_of, platform_outputs, redundant_motors, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub(crate) use record::{is_origin, uncut};

@@ -128,7 +128,10 @@ fn every_module_has_its_place_in_the_order() {
 }
 
 /// Analyses that use others, each with those. All others use none.
-const ANALYSES: [(&str, &[&str]); 1] = [("quantities", &["velocity", "singularities", "sweep"])];
+const ANALYSES: [(&str, &[&str]); 1] = [(
+    "quantities",
+    &["velocity", "singularities", "statics", "sweep"],
+)];
 
 #[test]
 fn an_analysis_uses_only_those_that_it_is_made_of() {

@@ -85,6 +85,9 @@ impl<N: Display> Display for Expression<N> {
                     }
                     Operator::Power => (Precedence::Operand, Precedence::Sign),
                 };
+                if let Some(unit) = joined_unit(*operator, x, y) {
+                    return write!(f, "{x}{}{unit}", operator.symbol());
+                }
                 let (x, y) = (OperandPart(x, left), OperandPart(y, right));
                 match operator {
                     Operator::Add | Operator::Subtract => {
@@ -102,6 +105,34 @@ impl<N: Display> Display for Expression<N> {
                 f.write_str(")")
             }
         }
+    }
+}
+
+/// The unit, with its power, that a number with a unit is multiplied with or divided by: `N/mm`, `m/s^2`.
+fn joined_unit<N>(operator: Operator, x: &Expression<N>, y: &Expression<N>) -> Option<String> {
+    let one = |of: &Expression<N>| match of.node {
+        Node::Quantity(1.0, unit) => Some(unit.word()),
+        _ => None,
+    };
+    fn begins_with_unit<N>(of: &Expression<N>) -> bool {
+        match &of.node {
+            Node::Quantity(..) => true,
+            Node::Binary(operator, x, y) => {
+                joined_unit(*operator, x, y).is_some() && begins_with_unit(x)
+            }
+            _ => false,
+        }
+    }
+    if !matches!(operator, Operator::Multiply | Operator::Divide) || !begins_with_unit(x) {
+        return None;
+    }
+    match &y.node {
+        Node::Binary(Operator::Power, base, power) => {
+            let power = power.as_number();
+            let power = power.filter(|n| n.fract() == 0.0 && (0.0..256.0).contains(n))?;
+            Some(format!("{}^{power}", one(base)?))
+        }
+        _ => one(y).map(str::to_owned),
     }
 }
 

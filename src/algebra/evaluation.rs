@@ -76,6 +76,17 @@ impl<N> Expression<N> {
         value_of: &impl Fn(&N) -> T,
     ) -> Result<T, EvaluationError> {
         let x = arguments[0].evaluate(value_of)?;
+        if function == Function::If {
+            let [holds, fails] = [1, 2].map(|i| arguments[i].evaluate(value_of));
+            return match (holds, fails) {
+                (Ok(holds), Ok(fails)) => Ok(T::zero().if_less(x, holds, fails)),
+                // a value that is not taken need not exist
+                (holds, fails) => match T::zero().less(x) {
+                    true => holds,
+                    false => fails,
+                },
+            };
+        }
         let y = arguments.get(1).map_or(Ok(x), |y| y.evaluate(value_of))?;
         self.finite(call(function, x, y), || fault_of_call(function, x.real()))
     }
@@ -131,6 +142,8 @@ pub(super) fn call<T: Number>(function: Function, x: T, y: T) -> T {
         Function::Hypot => (x * x + y * y).sqrt(),
         Function::Min => x.lesser(y),
         Function::Max => x.greater(y),
+        // what it gives depends on a third argument
+        Function::If => T::from_f64(f64::NAN),
     }
 }
 

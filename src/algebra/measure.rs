@@ -13,10 +13,12 @@ pub enum Measure {
     Angle,
     /// A length.
     Length,
-    /// A force; it has no unit that can be written.
+    /// A force.
     Force,
-    /// A moment; it has no unit that can be written.
+    /// A moment; it has no unit that is one word.
     Moment,
+    /// What has another unit: a mass, a time, a pressure.
+    Other(SiUnit),
     /// Not determined by units.
     Open,
 }
@@ -34,6 +36,9 @@ pub enum MeasureErrorKind {
     Mixed,
     #[error("{} and {} are mixed", named(*_0), named(*_1))]
     Units(SiUnit, SiUnit),
+    /// A unit instead of the one that is wanted.
+    #[error("expected {}, found {}", named(*_0), named(*_1))]
+    Instead(SiUnit, SiUnit),
     #[error("`{}` takes {}, not {}", _0.word(), if _0.takes_angle() { "an angle" } else { "a plain number" }, named(*_1))]
     Argument(Function, SiUnit),
     #[error("`{}` takes an angle, not a length", _0.word())]
@@ -66,6 +71,7 @@ impl Measure {
             Measure::Length => Some(SiUnit::METRE),
             Measure::Force => Some(SiUnit::NEWTON),
             Measure::Moment => Some(SiUnit::NEWTON_METRE),
+            Measure::Other(unit) => Some(unit),
         }
     }
 
@@ -77,6 +83,11 @@ impl Measure {
             Measure::Length => "a length",
             Measure::Force => "a force",
             Measure::Moment => "a moment",
+            Measure::Other(SiUnit::KILOGRAM) => "a mass",
+            Measure::Other(SiUnit::SECOND) => "a time",
+            Measure::Other(SiUnit::PASCAL) => "a pressure",
+            Measure::Other(SiUnit::PER_SECOND) => "a speed of rotation",
+            Measure::Other(_) => "another quantity",
         }
     }
 }
@@ -87,6 +98,11 @@ impl Unit {
         match self {
             Self::Degree | Self::Radian => Measure::Angle,
             Self::Millimetre | Self::Centimetre | Self::Metre | Self::Inch => Measure::Length,
+            Self::Newton | Self::Kilonewton | Self::PoundForce => Measure::Force,
+            Self::Kilogram | Self::Gram | Self::Pound => Measure::Other(SiUnit::KILOGRAM),
+            Self::Second | Self::Millisecond => Measure::Other(SiUnit::SECOND),
+            Self::Pascal | Self::Megapascal | Self::Bar => Measure::Other(SiUnit::PASCAL),
+            Self::TurnPerMinute => Measure::Other(SiUnit::PER_SECOND),
         }
     }
 }
@@ -155,6 +171,7 @@ impl<N> Expression<N> {
                         return Err(self.refused(MeasureErrorKind::LengthAsAngle(*function)));
                     }
                     Function::Abs | Function::Hypot | Function::Min | Function::Max => all?,
+                    Function::If => self.same(measures[1], measures[2])?,
                     Function::Atan2 => all.map(|_| Open)?,
                     Function::Sin | Function::Cos | Function::Tan => Number,
                     _ => Open,

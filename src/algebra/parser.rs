@@ -44,7 +44,7 @@ pub enum ParseErrorKind {
     #[error(
         "`{}` takes {}, found {found}",
         function.word(),
-        ["1 argument", "2 arguments"][function.arity() - 1]
+        ["1 argument", "2 arguments", "a condition and 2 values"][function.arity() - 1]
     )]
     WrongArgumentCount { function: Function, found: usize },
     /// A power such as `5 mm^2`.
@@ -290,7 +290,45 @@ impl Parser<'_> {
         }
         let unit = unit.ok_or_else(|| ParseErrorKind::UnknownUnit(word).at(place.clone()))?;
         span.end = place.end;
-        Ok((Node::Quantity(value, unit).at(span), 1))
+        Ok(self.compound(Node::Quantity(value, unit).at(span)))
+    }
+
+    /// A number with the units that follow its first without a space, as in `5 N/mm` or `2 kg*m^2`.
+    fn compound(&mut self, first: Expression) -> Tall {
+        let (mut all, mut height) = (first, 1);
+        loop {
+            let rest = &self.text[all.span.end..];
+            let operator = match rest.chars().next() {
+                Some('/') => Operator::Divide,
+                Some('*' | '·') => Operator::Multiply,
+                _ => return (all, height),
+            };
+            let sign = rest.chars().next().map_or(0, char::len_utf8);
+            let after = &rest[sign..];
+            let end = after.find(|c| !continues_name(c)).unwrap_or(after.len());
+            // a call or a name with a dot is no unit
+            let joins = after[end..].starts_with(['(', '.', ':', '[']);
+            let Some(unit) = Unit::from_word(&after[..end]).filter(|_| !joins) else {
+                return (all, height);
+            };
+            let start = all.span.end + sign;
+            let mut part = Node::Quantity(1.0, unit).at(start..start + end);
+            let digits = after[end..].strip_prefix('^').map_or("", |power| {
+                let end = power.find(|c: char| !c.is_ascii_digit());
+                &power[..end.unwrap_or(power.len())]
+            });
+            if let Ok(power) = digits.parse::<u8>() {
+                let span = part.span.end + 1..part.span.end + 1 + digits.len();
+                let whole = start..span.end;
+                let power = Node::Number(power.into()).at(span);
+                part = Node::binary(Operator::Power, part, power).at(whole);
+            }
+            let span = all.span.start..part.span.end;
+            self.position = span.end;
+            all = Node::binary(operator, all, part).at(span);
+            height += 1;
+            self.skip_space();
+        }
     }
 
     fn name(&mut self) -> Result<Tall, ParseError> {
@@ -317,9 +355,12 @@ impl Parser<'_> {
     fn call(&mut self, function: Function, name: Range<usize>) -> Result<Tall, ParseError> {
         let open = self.advance(1);
         let mut arguments = Vec::new();
-        let mut height = 0;
+        let (mut height, mut swapped) = (0, false);
         while self.peek() != Some(')') || !arguments.is_empty() {
-            let (argument, tall) = self.deeper(0)?;
+            let (mut argument, mut tall) = self.deeper(0)?;
+            if function == Function::If && arguments.is_empty() {
+                (argument, tall, swapped) = self.condition(argument, tall)?;
+            }
             arguments.push(argument);
             height = height.max(tall);
             if self.peek() != Some(',') {
@@ -333,7 +374,31 @@ impl Parser<'_> {
             let found = arguments.len();
             return Err(ParseErrorKind::WrongArgumentCount { function, found }.at(span));
         }
+        if swapped {
+            arguments.swap(1, 2);
+        }
         Ok((Node::Call(function, arguments).at(span), height + 1))
+    }
+
+    /// A comparison as a difference that is positive where it holds, or where it does not: then the values are swapped.
+    fn condition(
+        &mut self,
+        left: Expression,
+        tall: usize,
+    ) -> Result<(Expression, usize, bool), ParseError> {
+        let Some(sign @ ('<' | '>')) = self.peek() else {
+            return Ok((left, tall, false));
+        };
+        let or_equal = self.rest()[1..].starts_with('=');
+        self.advance(1 + usize::from(or_equal));
+        let (right, other) = self.deeper(0)?;
+        let span = left.span.start..right.span.end;
+        let (greater, less) = match (sign == '>') != or_equal {
+            true => (left, right),
+            false => (right, left),
+        };
+        let difference = Node::binary(Operator::Subtract, greater, less).at(span);
+        Ok((difference, tall.max(other) + 1, or_equal))
     }
 }
 

@@ -42,6 +42,15 @@ impl SiUnit {
     /// A moment.
     pub const NEWTON_METRE: Self = SiUnit([0, 1, 1, 0]);
 
+    /// A mass: N·s²/m.
+    pub const KILOGRAM: Self = SiUnit([0, 1, -1, 2]);
+    /// A pressure: N/m².
+    pub const PASCAL: Self = SiUnit([0, 1, -2, 0]);
+    /// An angular velocity.
+    pub const PER_SECOND: Self = SiUnit([1, 0, 0, -1]);
+    /// A power.
+    pub const WATT: Self = SiUnit([0, 1, 1, -1]);
+
     /// The unit of a coordinate: rad for an angle, m for a length.
     pub fn of_coordinate(is_angle: bool) -> Self {
         if is_angle { Self::RADIAN } else { Self::METRE }
@@ -99,8 +108,21 @@ impl SiUnit {
     }
 }
 
+/// Units of mechanics in which kg is shorter than N·s².
+const IN_KILOGRAMS: [(SiUnit, &str); 3] = [
+    (SiUnit::KILOGRAM, "kg"),
+    (SiUnit([0, 1, 0, 2]), "kg·m"),
+    (SiUnit([0, 1, 1, 2]), "kg·m²"),
+];
+
 impl Display for SiUnit {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        if let Some((_, text)) = IN_KILOGRAMS.iter().find(|(unit, _)| unit == self) {
+            return f.pad(text);
+        }
+        if *self == SiUnit::WATT {
+            return f.pad("W");
+        }
         let side = |sign: i8| {
             let powers = BASE.into_iter().zip(self.0);
             let parts = powers.filter(|(_, power)| sign * power > 0);
@@ -125,8 +147,12 @@ impl FromStr for SiUnit {
     fn from_str(text: &str) -> Result<Self, SiUnitError> {
         let wrong = || SiUnitError { text: text.into() };
         let mut unit = SiUnit::ONE;
-        if text.is_empty() {
-            return Ok(unit);
+        let named = IN_KILOGRAMS.iter().find(|(_, name)| *name == text);
+        match named {
+            Some((unit, _)) => return Ok(*unit),
+            None if text == "W" => return Ok(SiUnit::WATT),
+            None if text.is_empty() => return Ok(unit),
+            None => {}
         }
         for (side, sign) in text.splitn(2, '/').zip([1, -1]) {
             for part in side.split('·').filter(|part| sign < 0 || *part != "1") {

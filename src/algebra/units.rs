@@ -56,6 +56,7 @@ impl<N> Expression<N> {
                 let all = || (known.iter()).try_fold(Number, |all, next| self.alike(all, *next));
                 match function {
                     Function::Abs | Function::Hypot | Function::Min | Function::Max => all()?,
+                    Function::If => self.alike(known[1], known[2])?,
                     Function::Atan2 => all().map(|_| KnownUnit::Unit(SiUnit::RADIAN))?,
                     Function::Sqrt => match known[0] {
                         KnownUnit::Unit(unit) => unit.sqrt().map_or(Open, KnownUnit::Unit),
@@ -160,7 +161,7 @@ mod tests {
             ("velocity:x/velocity:a", "m"),
             ("x*velocity:a/velocity:x", ""),
             ("velocity:a/velocity:x*x", ""),
-            ("force:a*velocity:a + force:x*velocity:x", "N·m/s"),
+            ("force:a*velocity:a + force:x*velocity:x", "W"),
             ("1/force:x", "1/N"),
             ("atan2(x, 2)", "rad"),
             ("a - 30 deg", "rad"),

@@ -72,6 +72,30 @@ words! {
         Millimetre = "mm",
         /// Inch, 25.4 mm.
         Inch = "in",
+        /// Kilogram.
+        Kilogram = "kg",
+        /// Gram.
+        Gram = "g",
+        /// Pound, 0.45359237 kg.
+        Pound = "lb",
+        /// Newton.
+        Newton = "N",
+        /// Kilonewton.
+        Kilonewton = "kN",
+        /// Pound-force, 4.4482216152605 N.
+        PoundForce = "lbf",
+        /// Second.
+        Second = "s",
+        /// Millisecond.
+        Millisecond = "ms",
+        /// Pascal, N/m².
+        Pascal = "Pa",
+        /// Megapascal.
+        Megapascal = "MPa",
+        /// Bar, 100000 Pa.
+        Bar = "bar",
+        /// Turn per minute, π/30 rad/s.
+        TurnPerMinute = "rpm",
     }
 
     /// A function that an expression may call. Angles are in radians.
@@ -92,6 +116,9 @@ words! {
         Hypot = "hypot",
         Min = "min",
         Max = "max",
+        /// `if(a < b, x, y)`: x where the condition holds, else y. Its first argument is a number, which is positive where
+        /// it holds.
+        If = "if",
     }
 }
 
@@ -107,7 +134,7 @@ impl Constant {
 }
 
 impl Unit {
-    /// `value` of this unit in radians or metres, over any number.
+    /// `value` of this unit in rad, m, kg, N, s and their products, over any number.
     pub fn over<T: Number>(self, value: f64) -> T {
         match self {
             Self::Degree => T::degrees(value),
@@ -115,13 +142,20 @@ impl Unit {
         }
     }
 
-    /// `value` of this unit in radians or metres.
+    /// `value` of this unit in rad, m, kg, N, s and their products.
     pub fn to_si(self, value: f64) -> f64 {
         // Division by a power of ten rounds once; multiplication by its inexact reciprocal would round twice.
         match self {
             Self::Degree => value.to_radians(),
-            Self::Radian | Self::Metre => value,
-            Self::Millimetre => value / 1000.0,
+            Self::Radian | Self::Metre | Self::Kilogram | Self::Newton => value,
+            Self::Second | Self::Pascal => value,
+            Self::Millimetre | Self::Gram | Self::Millisecond => value / 1000.0,
+            Self::Kilonewton => value * 1000.0,
+            Self::Megapascal => value * 1e6,
+            Self::Bar => value * 1e5,
+            Self::Pound => value * 0.453_592_37,
+            Self::PoundForce => value * 4.448_221_615_260_5,
+            Self::TurnPerMinute => value * std::f64::consts::PI / 30.0,
             Self::Centimetre => value / 100.0,
             Self::Inch => value * 254.0 / 10000.0,
         }
@@ -138,6 +172,7 @@ impl Function {
     pub fn arity(self) -> usize {
         match self {
             Self::Atan2 | Self::Hypot | Self::Min | Self::Max => 2,
+            Self::If => 3,
             _ => 1,
         }
     }

@@ -1,6 +1,7 @@
 //! Static equilibrium of an assembled mechanism: holding forces and reactions.
 
 mod reactions;
+mod rest;
 
 use std::collections::HashSet;
 
@@ -8,27 +9,38 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::{RANK_TOLERANCE, add, norm, rank_of};
-use crate::mechanism::{ClosureKind, Mechanism};
+use crate::mechanism::{Along, ClosureKind, Configuration, GivenEffort, Kinematics, Mechanism};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Equilibrium, GivenPose, Load, Neighbourhood, Question,
-    QuestionError, Unknown, check_angles,
+    Acting, Analysed, Closing, Coordinate, Equilibrium, GivenPose, Load, Loaded, Neighbourhood,
+    Question, QuestionError, Unknown, check_angles,
 };
 
 pub use reactions::Reaction;
+pub use rest::Rest;
 
-/// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
-/// forces in N, moments in N·m, points in m.
+/// The forces in an assembled mechanism at rest. Vectors are in ground, forces in N, moments in N·m, points in m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StaticsReport {
     /// The mechanism's name.
     pub mechanism: String,
     /// True if the forces balance the load.
     pub balanced: bool,
-    /// The wrenches applied.
+    /// The wrenches applied, then the weights of bodies.
     pub loads: Vec<AppliedWrench>,
     /// The loads on joints.
     pub joint_loads: Vec<Force>,
+    /// Efforts of springs and given forces of the file, each positive along its joint; along a line of two points where it
+    /// pulls them together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<Force>,
+    /// For each held coordinate the forces between which friction keeps the mechanism at rest; the forces and reactions
+    /// below are those without friction.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rests: Vec<Rest>,
+    /// True if nothing has weight.
+    #[serde(default)]
+    pub weightless: bool,
     /// Joints and platforms that the unbalanced part of the load would move; the forces below then come nearest to
     /// balance.
     pub unbalanced: Vec<String>,
@@ -83,7 +95,7 @@ fn is_none(count: &usize) -> bool {
     *count == 0
 }
 
-/// Finds the forces that balance a load at the assembled configuration near the start of a question.
+/// Finds the forces that balance a load, with the weights, springs and forces of the file, at the assembled configuration near the start of a question.
 ///
 /// By virtual work g + Jᵀλ + Sᵀτ = 0: g are the generalised forces of the load, J the closure
 /// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one is taken that
@@ -178,7 +190,11 @@ pub fn statics(
                 force,
                 moment,
             })
+            .chain(weights(load))
             .collect(),
+        springs: springs(mechanism, at, load),
+        rests: rest::of(question, at, &held, load),
+        weightless: weights(load).next().is_none(),
         joint_loads: (load.joints.iter())
             .map(|&(joint, force)| Force {
                 name: mechanism.joints()[joint].name.clone(),
@@ -198,6 +214,67 @@ pub fn statics(
         normalising_length: mechanism.characteristic_length(),
         pose: closed.pose(mechanism),
     }))
+}
+
+/// The weights of bodies.
+fn weights(load: &Load) -> impl Iterator<Item = AppliedWrench> {
+    let gravity = load.own.gravity;
+    let heavy = load.own.masses.iter();
+    let heavy = heavy.filter(move |of| of.mass > 0.0 && gravity != [0.0; 3]);
+    heavy.map(move |of| AppliedWrench {
+        frame: format!("weight of {}", of.name),
+        force: gravity.map(|g| g * of.mass),
+        moment: [0.0; 3],
+    })
+}
+
+/// The efforts of springs and of given forces along joints and lines.
+fn springs(mechanism: &Mechanism, at: &Configuration<f64>, load: &Load) -> Vec<Force> {
+    let own = &load.own;
+    let kinematics = Kinematics::new(mechanism.dimensions(), load.frames());
+    let loaded = Loaded::new(mechanism, &[], load, &kinematics);
+    let mut placement = kinematics.placement();
+    kinematics.place(at, &mut placement);
+    let mut acting = Acting::default();
+    loaded.act(at, &placement, None, &mut acting);
+    let of_springs = own.springs.iter().map(|of| (&of.name, Some(of.along)));
+    let of_forces = own.forces.iter().map(|of| match &of.on {
+        GivenEffort::Along(along, _) => (&of.name, Some(*along)),
+        GivenEffort::At { .. } => (&of.name, None),
+    });
+    let all = of_springs.chain(of_forces).zip(&acting.pulls);
+    let efforts = all.filter_map(|((name, along), pull)| {
+        let (unit, force) = match along? {
+            Along::Points(_) => (SiUnit::NEWTON, *pull),
+            Along::Joint(joint) => (Coordinate::Joint(joint).force_unit(mechanism), -pull),
+        };
+        Some(Force {
+            name: name.clone(),
+            unit,
+            force,
+            unique: true,
+        })
+    });
+    efforts.collect()
+}
+
+/// For each component of the reactions of closures, then of joints, true if equilibrium determines it at a configuration
+/// with these coordinates held.
+pub(crate) fn determined(
+    mechanism: &Mechanism,
+    at: &Configuration<f64>,
+    held: &[Coordinate],
+) -> Vec<[bool; 6]> {
+    let mut near = Neighbourhood::new(mechanism);
+    let rows = near.system().rows();
+    let none = Load::default();
+    let stresses = Equilibrium::of(&near, at, held, &none).stresses;
+    let changes: Vec<Vec<Reaction>> = (stresses.iter())
+        .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
+        .collect();
+    let mut all = reactions::of(&mut near, at, &none, &vec![0.0; rows]);
+    reactions::mark(&mut all, &changes, mechanism.characteristic_length());
+    all.into_iter().map(|reaction| reaction.unique).collect()
 }
 
 /// The joints and platforms that forces without counterpart would move.

@@ -1,5 +1,7 @@
 //! Analyses of one assembled configuration, and those that need none.
 
+use std::sync::Arc;
+
 use super::{AskError, Mode, Question, Role, Value};
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
@@ -8,7 +10,9 @@ use crate::analysis::statics::{StaticsReport, statics};
 use crate::analysis::velocity::{VelocityReport, velocity};
 use crate::mechanism::{Body, NamedPoint, Point, PoseCoordinate};
 use crate::solve::Watch;
-use crate::system::{self, Analysed, Closed, Closing, Coordinate, Drive, Load, check_angle};
+use crate::system::{
+    self, Analysed, Closed, Closing, Coordinate, Drive, ForceError, Load, check_angle,
+};
 
 impl Question {
     /// The mechanism closed near the start, as all analyses of one configuration close it.
@@ -68,7 +72,17 @@ impl Question {
 
     /// The wrenches and loads.
     pub(super) fn load_of(&self, question: &system::Question) -> Result<Load, AskError> {
-        let mut load = Load::default();
+        let mut own = self.mechanism().loads().clone();
+        for (item, left_out) in self.of(Role::Without) {
+            if let Some(known) = own.leave_out(&left_out.name) {
+                let name = left_out.name.clone();
+                return Err(item.loaded()(ForceError::NotActing { name, known }));
+            }
+        }
+        let mut load = Load {
+            own: Arc::new(own),
+            ..Load::default()
+        };
         for (item, wrench) in self.of(Role::Wrench) {
             let loaded = match wrench.values[..] {
                 [

@@ -25,7 +25,7 @@ impl Question {
                 let joints = words.map(|word| word.rsplit(':').next().unwrap_or_default());
                 joints.fold(mechanism, with_joint)
             }
-            Role::Point | Role::Wrench => mechanism,
+            Role::Point | Role::Wrench | Role::Without => mechanism,
         };
         let mechanism = self.demands.iter().fold(self.mechanism.clone(), with);
         let lengths = self.given_lengths(&mechanism);

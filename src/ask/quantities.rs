@@ -142,7 +142,7 @@ impl Question {
     ) -> Option<Unmeasured> {
         quantity.measured().find_map(|measured| {
             let moves = match measured {
-                Measured::Parameter(_) => false,
+                Measured::Parameter(_) | Measured::Time => false,
                 Measured::Joint(_, order) | Measured::Place(_, _, order) => *order != Order::Value,
                 Measured::Figure(figure) => *figure != Figure::Constraint,
                 _ => true,
@@ -157,12 +157,15 @@ impl Question {
                     let columns = held.driven_coordinates().len();
                     return (rows != columns).then_some(Unmeasured::NotSquare { rows, columns });
                 }
-                Measured::Force(joint) => Coordinate::Joint(joint),
+                Measured::Force(joint) | Measured::Inertia(joint) => Coordinate::Joint(joint),
                 Measured::PlatformForce(platform, c) => Coordinate::Pose(platform, c),
                 _ => return None,
             };
             match held.driven_coordinates().contains(&of) {
-                true if !self.has(Role::Wrench) && !self.has(Role::Load) => {
+                true if !self.has(Role::Wrench)
+                    && !self.has(Role::Load)
+                    && self.mechanism().loads().is_empty() =>
+                {
                     Some(Unmeasured::NoLoad)
                 }
                 true => None,

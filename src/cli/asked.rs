@@ -65,6 +65,9 @@ pub struct Forces {
     /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
     #[arg(long, value_name = "JOINT=FORCE")]
     load: Vec<Assignment>,
+    /// Leave out what the file says acts: `weight`, `inertia`, `springs`, `forces`, `friction`, or one by its name
+    #[arg(long, value_name = "NAME")]
+    without: Vec<String>,
 }
 
 impl Forces {
@@ -75,6 +78,7 @@ impl Forces {
     pub fn pose(&self, posed: &mut Posed) {
         posed.values(Role::Wrench, &self.wrench);
         posed.values(Role::Load, &self.load);
+        posed.names(Role::Without, &self.without);
     }
 }
 

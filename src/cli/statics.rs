@@ -10,8 +10,9 @@ use super::{Answer, Refusal};
 
 /// Find the actuator forces that balance a load, and the reactions in all joints and closures.
 ///
-/// The mechanism is closed first, at the values the options ask for. Bodies have no weight and joints no friction. Held
-/// coordinates carry the load. In an overconstrained mechanism, forces that equilibrium does not determine are the
+/// The mechanism is closed first, at the values the options ask for. Weights, springs and forces of the file
+/// act too, unless --without leaves them out. Held coordinates carry the load; where joints have friction, the forces are
+/// shown between which the mechanism stays at rest. In an overconstrained mechanism, forces that equilibrium does not determine are the
 /// minimum-norm choice and are marked.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \

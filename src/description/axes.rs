@@ -13,8 +13,8 @@ pub(crate) use graph::Graph;
 pub use tables::Coordinates;
 
 use super::{
-    ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, Named, Role, Spanned,
-    place_of,
+    ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, LoadsDescription, Named,
+    Role, Spanned, place_of,
 };
 use crate::algebra::words;
 
@@ -47,6 +47,8 @@ pub struct AxesDescription {
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
     /// Quantities of interest, over joints, coordinates of points, rates and forces.
     pub outputs: Vec<Named<Entry>>,
+    /// Masses, springs and forces.
+    pub loads: LoadsDescription,
 }
 
 /// A point on a body, or a frame.

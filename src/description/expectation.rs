@@ -1,8 +1,8 @@
 //! The values expected at each place of a mechanism file.
 
-use super::AxisKind;
 use super::closure_kind::ClosureKind;
 use super::parts::Role;
+use super::{AxisKind, LoadKind, Shape};
 use crate::algebra::words;
 
 words! {
@@ -24,6 +24,8 @@ words! {
         MatrixEntry = "an entry of a pose",
         Identity = "an identity",
         Output = "an output",
+        Mass = "a mass",
+        Load = "a load",
     }
 }
 
@@ -45,6 +47,8 @@ pub enum Structure {
     SecondPlace,
     Point,
     BodyFrame,
+    Mass,
+    Load(LoadKind),
 }
 
 /// The value expected at a place of the file.
@@ -81,6 +85,15 @@ pub enum Expected {
     Body,
     Bodies,
     Cuts,
+    Inertia,
+    Shape,
+    /// The dimensions of a shape.
+    Sizes(Shape),
+    Load,
+    Points,
+    YesOrNo,
+    Table,
+    TableRow,
 }
 
 /// The value found at a place of the file.
@@ -117,6 +130,8 @@ impl Structure {
             Self::SecondPlace => "Place",
             Self::Point => "Point",
             Self::BodyFrame => "Body",
+            Self::Mass => "Mass",
+            Self::Load(kind) => kind.word(),
         }
     }
 
@@ -124,11 +139,11 @@ impl Structure {
     pub fn fields(self) -> Vec<&'static str> {
         let fields = match self {
             Self::Mechanism => {
-                "version name source convention tolerance parameters joints chains platforms closures closed_forms outputs"
+                "version name source convention tolerance parameters joints chains platforms closures closed_forms outputs gravity masses loads"
             }
             Self::Variable(_) => "home limits",
             Self::Axes => {
-                "version name source convention tolerance parameters joints bodies points base tool cut closed_forms outputs"
+                "version name source convention tolerance parameters joints bodies points base tool cut closed_forms outputs gravity masses loads"
             }
             Self::Joint(kind) => match kind {
                 AxisKind::Revolute | AxisKind::Prismatic => {
@@ -148,6 +163,8 @@ impl Structure {
             Self::SecondPlace => "point direction directions through frame",
             Self::Point => "body at frame",
             Self::BodyFrame => "origin frame",
+            Self::Mass => "mass centre inertia shape density turned",
+            Self::Load(kind) => kind.fields(),
             Self::Chain => "on convention base rows tip",
             Self::Row => "alpha a d theta link",
             Self::Platform => "home frames",

@@ -264,10 +264,7 @@ impl Description {
             });
         });
         for literal in literals.iter_mut().filter(|of| of.measure == Measure::Open) {
-            let of_unit = literal.unit.map(|unit| match unit {
-                Unit::Degree | Unit::Radian => Measure::Angle,
-                _ => Measure::Length,
-            });
+            let of_unit = literal.unit.map(Unit::measure);
             let of_use = used.iter().find(|(name, _)| *name == literal.place);
             let found = of_unit.or(of_use.map(|(_, measure)| *measure));
             literal.measure = found.unwrap_or(Measure::Open);

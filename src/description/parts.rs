@@ -2,6 +2,10 @@
 //!
 //! Parts are equal if their contents are, wherever they are in their files.
 
+mod loads;
+
+pub use loads::*;
+
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
@@ -63,6 +67,8 @@ pub struct Description {
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
     /// Quantities of interest, over joints, coordinates of points, rates and forces.
     pub outputs: Vec<Named<Entry>>,
+    /// Masses, springs and forces.
+    pub loads: LoadsDescription,
     /// The joint coordinates from which all this was made, if it was.
     pub coordinates: Option<Box<super::Coordinates>>,
 }

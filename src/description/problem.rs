@@ -2,11 +2,13 @@
 
 mod advice;
 mod coordinates;
+mod loads;
 mod parts;
 
 use std::ops::Range;
 
 pub use coordinates::AxesProblem;
+pub use loads::LoadProblem;
 use thiserror::Error;
 
 use super::words::{count, cycle, syntax};
@@ -228,6 +230,9 @@ pub enum ProblemKind {
     /// A problem of a file of joint axes.
     #[error("{0}")]
     Axes(Box<AxesProblem>),
+    /// A problem of a mass, a spring, a force or friction.
+    #[error("{0}")]
+    Load(Box<LoadProblem>),
     #[error("nothing is attached to the platform `{name}`")]
     UnusedPlatform { name: String },
 }

@@ -5,6 +5,7 @@
 mod axes;
 mod closed_form;
 mod leaves;
+mod loads;
 mod shapes;
 mod syntax;
 
@@ -108,6 +109,7 @@ impl FileReader {
             closures: self.named(f, "closures", Noun::Closure, Self::closure),
             closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
             outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
+            loads: self.loads(f),
             coordinates: None,
         })
     }

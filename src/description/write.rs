@@ -97,6 +97,7 @@ written! {
         "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
         "tolerance": file.tolerance, "parameters": file.parameters, "joints": file.joints, "chains": file.chains, "platforms": file.platforms,
         "closures": file.closures, "closed_forms": file.closed_forms, "outputs": file.outputs,
+        "gravity": file.loads.gravity, "masses": file.loads.masses, "loads": file.loads.loads,
     }
     JointDescription |joint| as joint.role.word(), { "home": joint.home, "limits": joint.limits }
     ChainDescription |chain| as "Chain", {
@@ -114,6 +115,53 @@ written! {
         "tolerance": file.tolerance, "parameters": file.parameters, "joints": Some(NamedMap(&file.joints)), "bodies": bodies(&file.bodies),
         "points": file.points, "base": file.base, "tool": file.tool, "cut": file.cut,
         "closed_forms": file.closed_forms, "outputs": file.outputs,
+        "gravity": file.loads.gravity, "masses": file.loads.masses, "loads": file.loads.loads,
+    }
+    MassDescription |of| {
+        "mass": of.mass, "centre": of.centre, "inertia": of.inertia, "shape": of.shape, "density": of.density,
+        "turned": of.turned,
+    }
+}
+
+impl Serialize for InertiaDescription {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [only] => only.serialize(serializer),
+            [a, b, c, d, e, f] => (a, b, c, d, e, f).serialize(serializer),
+            other => other.serialize(serializer),
+        }
+    }
+}
+
+impl Serialize for ShapeDescription {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (word, count) = (self.kind.word(), self.sizes.len());
+        let mut tuple = serializer.serialize_tuple_variant("Shape", 0, word, count)?;
+        for size in &self.sizes {
+            tuple.serialize_field(size)?;
+        }
+        tuple.end()
+    }
+}
+
+impl Serialize for LoadDescription {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields =
+            serializer.serialize_struct_variant("Load", 0, self.kind.word(), self.fields.len())?;
+        for (name, value) in &self.fields {
+            match value {
+                LoadField::Name(name_of) => fields.serialize_field(name, name_of)?,
+                LoadField::Points([a, b]) => fields.serialize_field(name, &(a, b))?,
+                LoadField::Entry(entry) => fields.serialize_field(name, entry)?,
+                LoadField::Vector([x, y, z]) => fields.serialize_field(name, &(x, y, z))?,
+                LoadField::Yes(yes) => fields.serialize_field(name, yes)?,
+                LoadField::Table(rows) => {
+                    let rows: Vec<(&Entry, &Entry)> = rows.iter().map(|[x, y]| (x, y)).collect();
+                    fields.serialize_field(name, &rows)?;
+                }
+            }
+        }
+        fields.end()
     }
 }
 

@@ -8,6 +8,7 @@ mod outputs;
 mod parameters;
 
 pub(super) use closures::fault_of_length;
+pub(super) use outputs::problem as problem_of;
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -170,6 +171,8 @@ impl Mechanism {
                 platforms: poses,
             }),
             closing: Arc::default(),
+            loads: Arc::default(),
+            loads_file: Arc::new(description.loads.clone()),
             own: [description.chains.len(), description.closures.len()],
             added_unknowns: 0,
             dimensions: super::Dimensions::empty().into(),
@@ -200,6 +203,10 @@ impl Mechanism {
                 // the parts were evaluated one by one above; only their combination can fail
                 Err(error) => builder.refuse(ProblemKind::NoValue(error.kind), &error.span),
             }
+        }
+        if !builder.problems.iter().any(refused) {
+            let problems = mechanism.load_all();
+            builder.problems.extend(problems);
         }
         let problems = &mut builder.problems;
         sort_by_key(problems, |problem| (problem.span.start, problem.span.end));

@@ -62,9 +62,13 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     let evaluated: HashSet<&str> = (outputs.chain(places))
         .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
         .collect();
+    let in_loads = description.loads.names();
     for (i, named) in description.parameters.iter().enumerate() {
         let name = named.name.value.clone();
-        if !used.contains(&Symbol::Parameter(i)) && !evaluated.contains(name.as_str()) {
+        if !used.contains(&Symbol::Parameter(i))
+            && !evaluated.contains(name.as_str())
+            && !in_loads.contains(&name)
+        {
             let problem = ProblemKind::UnusedParameter { name };
             problems.push(problem.at(named.name.span.clone()));
         }

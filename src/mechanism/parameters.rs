@@ -123,6 +123,9 @@ impl Mechanism {
         }
         let dimensions = changed.centred(&values).map_err(no_value)?;
         changed.set_dimensions(dimensions);
-        Ok(changed)
+        match changed.load_all().into_iter().next() {
+            Some(problem) => Err(Box::new(problem)),
+            None => Ok(changed),
+        }
     }
 }

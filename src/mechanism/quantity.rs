@@ -37,6 +37,18 @@ pub enum Measured {
     PlatformForce(usize, PoseCoordinate),
     /// The least transmission angle: of all loops, or of that of a closure.
     Transmission(Option<usize>),
+    /// The time since the beginning of a motion, in s.
+    Time,
+    /// The power of all drives.
+    Power,
+    /// Energy of weights, springs and motion.
+    Energy(Energy),
+    /// The inertia that a held joint feels where the other held coordinates are at rest.
+    Inertia(usize),
+    /// The reaction of a joint or a closure, on the body behind it.
+    Reaction(Carrier, Effort),
+    /// The force that the moving bodies exert on ground, and its moment about the origin of ground.
+    Shaking(Effort),
     /// A figure of the Jacobian between inputs and outputs, or of how near a singularity is.
     Figure(Figure),
 }
@@ -52,7 +64,41 @@ pub enum Order {
     Acceleration,
 }
 
+/// What transmits a reaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carrier {
+    /// The joint of that index, by the link behind it.
+    Joint(usize),
+    /// The closure of that index.
+    Closure(usize),
+}
+
 words! {
+    /// A kind of energy.
+    Energy {
+        /// All of it.
+        Total = "energy",
+        /// Kinetic energy.
+        Kinetic = "energy:kinetic",
+        /// Potential energy of weights and springs.
+        Potential = "energy:potential",
+    }
+
+    /// A part of a force and a moment, along axes of ground.
+    #[allow(missing_docs)]
+    Effort {
+        Fx = "Fx",
+        Fy = "Fy",
+        Fz = "Fz",
+        Mx = "Mx",
+        My = "My",
+        Mz = "Mz",
+        /// The size of the force.
+        Force = "F",
+        /// The size of the moment.
+        Moment = "M",
+    }
+
     /// A measure of how well the inputs drive the outputs; none has a unit.
     Figure {
         /// Condition number of the input–output Jacobian.
@@ -93,6 +139,24 @@ pub enum QuantityError {
 
 const TRANSMISSION: &str = "transmission";
 const CURVATURE: &str = "curvature";
+const TIME: &str = "time";
+const POWER: &str = "power";
+const SHAKING: &str = "shaking";
+
+impl Effort {
+    /// True for a part of the moment.
+    pub fn is_moment(self) -> bool {
+        !matches!(self, Effort::Fx | Effort::Fy | Effort::Fz | Effort::Force)
+    }
+
+    /// A name and the part of its reaction after a dot; the size of the force where none is said.
+    fn of(name: &str) -> (&str, Effort) {
+        let part = name
+            .rsplit_once('.')
+            .and_then(|(of, word)| Some((of, Effort::from_word(word)?)));
+        part.unwrap_or((name, Effort::Force))
+    }
+}
 
 impl Figure {
     /// True for a distance from singularities.
@@ -200,6 +264,13 @@ impl Measured {
         if name == TRANSMISSION {
             return Ok(Measured::Transmission(None));
         }
+        match (name, Energy::from_word(name), Effort::of(name)) {
+            (TIME, ..) => return Ok(Measured::Time),
+            (POWER, ..) => return Ok(Measured::Power),
+            (_, Some(energy), _) => return Ok(Measured::Energy(energy)),
+            (.., (SHAKING, part)) => return Ok(Measured::Shaking(part)),
+            _ => {}
+        }
         if let ([_], Some(coordinate)) = (mechanism.platforms(), PoseCoordinate::from_word(name)) {
             let platform = Frame::Platform { platform: 0 };
             return Ok(Measured::Place(platform.into(), coordinate, Order::Value));
@@ -237,6 +308,17 @@ impl Measured {
                     Some(Measured::PlatformForce(platform, coordinate))
                 })
             }
+            "inertia" => mechanism.joint(of).map(Measured::Inertia),
+            "reaction" => {
+                let (of, part) = Effort::of(of);
+                let joint = mechanism.joint(of).map(Carrier::Joint);
+                let closures = mechanism.closures();
+                let carrier = joint.or_else(|| {
+                    let closure = closures.iter().position(|closure| closure.name == of);
+                    closure.map(Carrier::Closure)
+                });
+                carrier.map(|carrier| Measured::Reaction(carrier, part))
+            }
             TRANSMISSION => {
                 let closure = mechanism
                     .closures()
@@ -262,6 +344,19 @@ impl Measured {
             Measured::Curvature(_) => SiUnit::PER_METRE,
             Measured::Force(joint) => SiUnit::of_effort(turns(joint)),
             Measured::PlatformForce(_, c) => SiUnit::of_effort(c.is_angle()),
+            Measured::Time => SiUnit::SECOND,
+            Measured::Power => SiUnit::WATT,
+            Measured::Energy(_) => SiUnit::NEWTON_METRE,
+            Measured::Inertia(joint) => {
+                let square = SiUnit::METRE.times(SiUnit::METRE);
+                match turns(joint) {
+                    true => SiUnit::KILOGRAM.times(square),
+                    false => SiUnit::KILOGRAM,
+                }
+            }
+            Measured::Reaction(_, part) | Measured::Shaking(part) => {
+                SiUnit::of_effort(part.is_moment())
+            }
             Measured::Transmission(_) => SiUnit::RADIAN,
             Measured::Figure(_) => SiUnit::ONE,
         })
@@ -308,10 +403,18 @@ fn suggestion(mechanism: &Mechanism, name: &str) -> Option<String> {
         .iter()
         .map(|p| p.name.to_string())
         .collect();
-    known.push(TRANSMISSION.into());
+    known.extend([TRANSMISSION, TIME, POWER, SHAKING].map(str::to_owned));
+    known.extend(Energy::ALL.map(|energy| energy.word().to_owned()));
     known.extend(Figure::ALL.map(|figure| figure.word().to_owned()));
     for joint in mechanism.joints() {
-        let kinds = ["", "velocity:", "acceleration:", "force:"];
+        let kinds = [
+            "",
+            "velocity:",
+            "acceleration:",
+            "force:",
+            "reaction:",
+            "inertia:",
+        ];
         known.extend(kinds.map(|kind| format!("{kind}{}", joint.name)));
     }
     for closure in mechanism.closures() {

@@ -5,7 +5,7 @@ use super::document::{Cell, Document, Table, TableOf};
 use super::quantity::{metres, number, shown, size, with_unit};
 use super::report::Report;
 use crate::algebra::SiUnit;
-use crate::analysis::statics::{AppliedWrench, Force, Reaction, StaticsReport};
+use crate::analysis::statics::{AppliedWrench, Force, Reaction, Rest, StaticsReport};
 use crate::description::{count, listed};
 
 impl Report for StaticsReport {
@@ -15,7 +15,8 @@ impl Report for StaticsReport {
         closing::document(&self.mechanism, sentence(self), &self.pose, length)
             .yes_if(self.unbalanced.is_empty())
             .note(format!(
-                "without weight and friction; condition number {}, forces multiplied by {} for comparison with moments",
+                "{}condition number {}, forces multiplied by {} for comparison with moments",
+                neglected(self),
                 size(self.condition),
                 metres(length)
             ))
@@ -23,6 +24,11 @@ impl Report for StaticsReport {
             .notes(closing::notes(&self.pose))
             .table("Loads", loads(self))
             .table("Loads on joints", forces(&self.joint_loads, [0.0; 2]))
+            .table("Springs and forces of the file", forces(&self.springs, [0.0; 2]))
+            .table(
+                "Friction keeps the mechanism at rest between these forces at each held coordinate, the others held",
+                rests(self),
+            )
             .table("Held coordinates, with the force that holds each", forces(&self.actuators, rounding))
             .table(
                 "Closures: components in ground axes, moments about the given point, the origin of the second frame",
@@ -33,6 +39,31 @@ impl Report for StaticsReport {
                 reactions(&self.joints, length, rounding),
             )
     }
+}
+
+/// What the forces leave out.
+fn neglected(report: &StaticsReport) -> &'static str {
+    match (report.weightless, report.rests.is_empty()) {
+        (true, true) => "without weight and friction; ",
+        (true, false) => "without weight; held coordinates and reactions without friction; ",
+        (false, true) => "without friction; ",
+        (false, false) => "held coordinates and reactions without friction; ",
+    }
+}
+
+fn rests(report: &StaticsReport) -> TableOf<&Rest> {
+    let end = |force: Option<f64>, of: &Rest| match force {
+        Some(force) => Cell::quantity(force, of.unit),
+        None => "jams".into(),
+    };
+    Table::of(&report.rests)
+        .words("name", |rest| &rest.name)
+        .numbers("from", move |rest| end(rest.least, rest))
+        .numbers("to", move |rest| end(rest.greatest, rest))
+        .words("", |rest| match rest.self_locking {
+            true => "self-locking",
+            false => "",
+        })
 }
 
 fn sentence(report: &StaticsReport) -> String {
@@ -53,7 +84,7 @@ fn balance(report: &StaticsReport) -> String {
             listed(&report.unbalanced)
         );
     }
-    if report.loads.is_empty() && report.joint_loads.is_empty() {
+    if report.loads.is_empty() && report.joint_loads.is_empty() && report.springs.is_empty() {
         return "No load: all forces are zero.".into();
     }
     let across = report.across_plane;

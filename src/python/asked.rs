@@ -214,7 +214,14 @@ impl Asked {
                     self.question.add(Demand::new(role, name, [&from, &to]));
                 }
             }
-            Some(role @ (Role::Free | Role::Lock | Role::Output | Role::Point | Role::Report)) => {
+            Some(
+                role @ (Role::Free
+                | Role::Lock
+                | Role::Output
+                | Role::Point
+                | Role::Report
+                | Role::Without),
+            ) => {
                 let names = match taken(key, "a name or a list of names", given)? {
                     Names::One(name) => vec![name],
                     Names::Several(names) => names,

@@ -3,7 +3,6 @@
 mod count;
 mod demand;
 mod drive;
-mod equilibrium;
 mod error;
 mod forces;
 mod held;
@@ -14,7 +13,6 @@ mod spins;
 pub use count::{Count, check_angle, check_angles, check_count, redundant_motors};
 pub use demand::{Demand, Role};
 pub use drive::{Drive, DriveError};
-pub use equilibrium::{Equilibrium, Loaded};
 pub use error::QuestionError;
 pub use forces::{ForceError, Load};
 pub use held::with_coordinates;

@@ -16,6 +16,7 @@ mod formulas;
 mod frames;
 mod gimbal_lock;
 mod lengths;
+mod loads;
 mod many;
 mod mobility;
 mod modes;

@@ -49,7 +49,7 @@ fn loads(mechanism: &Mechanism) -> Load {
     });
     Load {
         wrenches: wrenches.collect(),
-        joints: vec![],
+        ..Load::default()
     }
 }
 

@@ -10,6 +10,7 @@ mod wants;
 
 use crate::algebra::{BATCH, Expression};
 use crate::analysis::singularities::Classifier;
+use crate::analysis::statics::determined;
 use crate::analysis::sweep::{Pace, Row, Schedule};
 use crate::analysis::velocity::{
     Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
@@ -17,7 +18,7 @@ use crate::analysis::velocity::{
 use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
 use crate::number::Number;
-use crate::system::{self, Coordinate, Driven, Load, Loaded, Lock, Neighbourhood};
+use crate::system::{self, Balance, Coordinate, Driven, Load, Lock, Neighbourhood};
 pub(crate) use block::Block;
 use found::Here;
 use probe::{Plan, Probe};
@@ -72,6 +73,10 @@ pub(crate) struct Meter<'q> {
     /// With the distances that are asked for.
     distances: Option<Box<(Classifier<'q>, Vec<Figure>)>>,
     wants: Wants,
+    /// True if the mechanism moves in a plane.
+    planar: bool,
+    /// For each component of the reactions of closures, then of links, true if equilibrium determines it at the start.
+    determined: Vec<[bool; 6]>,
     /// Rates, then accelerations of the held coordinates.
     driven: [Vec<f64>; 2],
     before: Vec<Option<f64>>,
@@ -118,7 +123,10 @@ impl<'q> Meter<'q> {
         let question = &of.question;
         let mechanism = question.mechanism();
         let all = || names.iter().map(|name| &name.of);
-        let wants = Wants::of(all());
+        let mut wants = Wants::of(all());
+        if wants.forces && (of.load.has_inertia() || of.load.has_friction()) {
+            wants.order = Order::Acceleration;
+        }
         let mut points: Vec<Point> = Vec::new();
         for measured in all() {
             if let Measured::Place(point, ..)
@@ -149,7 +157,10 @@ impl<'q> Meter<'q> {
             .iter()
             .filter(|frame| !spins.lines_of(**frame).is_empty());
         let loose = loose.copied().collect();
-        frames.extend(Outputs::frames(&outputs).chain(Loaded::frames(&of.load)));
+        frames.extend(Outputs::frames(&outputs));
+        if wants.forces {
+            frames.extend(Balance::<f64>::frames(mechanism, &of.load, wants.reactions));
+        }
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
@@ -163,7 +174,9 @@ impl<'q> Meter<'q> {
         let numbered: Vec<(Name, usize)> = numbered.collect();
         let held_by = |coordinate: &Coordinate| {
             names.iter().any(|name| match name.of {
-                Measured::Force(joint) => *coordinate == Coordinate::Joint(joint),
+                Measured::Force(joint) | Measured::Inertia(joint) => {
+                    *coordinate == Coordinate::Joint(joint)
+                }
                 Measured::PlatformForce(platform, c) => {
                     *coordinate == Coordinate::Pose(platform, c)
                 }
@@ -189,6 +202,7 @@ impl<'q> Meter<'q> {
             angles: angles.collect(),
             responses: wanted.collect(),
             forces: wants.forces,
+            reactions: wants.reactions,
             outputs: wants.jacobian.then_some(outputs),
             transmission: None,
             points,
@@ -239,6 +253,11 @@ impl<'q> Meter<'q> {
             names: numbered,
             programs,
             wants,
+            planar: wants.reactions && mechanism.plane_of_motion().is_some(),
+            determined: match wants.reactions {
+                true => determined(mechanism, start, &question.driven_coordinates()),
+                false => Vec::new(),
+            },
             of,
         }
     }
@@ -256,7 +275,8 @@ impl<'q> Meter<'q> {
     /// order.
     pub fn read_row(&mut self, row: &Row, time: f64, take: &mut Take) {
         self.block.put(row, time);
-        let alone = self.probe.unknowns() > DENSE_LIMIT || self.spins().is_none();
+        let rubs = self.wants.forces && self.of.load.has_friction();
+        let alone = rubs || self.probe.unknowns() > DENSE_LIMIT || self.spins().is_none();
         if alone || self.block.len() == BATCH {
             self.read_waiting(take);
         }
@@ -323,12 +343,15 @@ impl<'q> Meter<'q> {
     /// The values at one configuration, angles between −π and π.
     fn read_alone(&mut self, at: &Configuration<f64>, time: f64) {
         let pace = self.drive(time);
+        let seconds = time * self.of.pace.duration;
         match &mut self.spinning {
-            Spinning::Nothing(spins) => self.probe.at(&self.plan, at, &self.driven, spins),
+            Spinning::Nothing(spins) => {
+                (self.probe).at(&self.plan, at, &self.driven, (pace, seconds), spins)
+            }
             Spinning::Something(held) => {
                 let rest = held.tangent(at.clone());
                 let spins = Spins::of(held, &rest);
-                self.probe.at(&self.plan, at, &self.driven, &spins)
+                (self.probe).at(&self.plan, at, &self.driven, (pace, seconds), &spins)
             }
         }
         let found = std::mem::take(&mut self.probe.found);
@@ -341,7 +364,7 @@ impl<'q> Meter<'q> {
             let of = |figure: &Figure| (*figure, classifier.distance(*figure, at));
             figures.extend(distances.iter().map(of));
         }
-        let both = Here::both(at, &found, &figures, pace);
+        let both = Here::both(at, &found, &figures, (pace, seconds), &self.probe);
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
             *known = self.value(&both[usize::from(name.geometric)], &name.of, *number);

@@ -97,6 +97,7 @@ impl AxesDescription {
                 parameters: axes.parameters.clone(),
                 closed_forms: axes.closed_forms.clone(),
                 outputs: axes.outputs.clone(),
+                loads: axes.loads.clone(),
                 ..Description::default()
             },
         };

@@ -103,6 +103,7 @@ impl ProblemKind {
             ZeroDistance { .. } => "use `Spherical` for two points that coincide".into(),
             LimitsReversed { .. } => "write the lowest value first".into(),
             Axes(problem) => return axes::help(problem),
+            Load(problem) => return problem.help(),
             DefinitionCycle { .. } => "define one of them without the others".into(),
             ChainCycle { .. } => "attach one of them to `ground` and close the loop with a closure".into(),
             _ => return None,

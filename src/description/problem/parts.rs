@@ -2,7 +2,9 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::description::{AxisKind, ClosureKind, Expected, Found, Noun, Scope, Structure};
+use crate::description::{
+    AxisKind, ClosureKind, Expected, Found, LoadKind, Noun, Scope, Shape, Structure,
+};
 
 impl Display for Noun {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
@@ -25,6 +27,9 @@ impl Display for Structure {
             Self::Row => "a row",
             Self::Platform => "a platform",
             Self::ClosedForm => "a closed form",
+            Self::Mass => "a mass",
+            Self::Load(LoadKind::Friction) => "friction",
+            Self::Load(kind) => return write!(f, "a {}", kind.word().to_lowercase()),
         })
     }
 }
@@ -51,6 +56,8 @@ impl Expected {
             Self::TwoPoints => "point",
             Self::TwoDirections => "direction",
             Self::Bodies => "body",
+            Self::Points => "point",
+            Self::Sizes(_) => "dimension",
             _ => "entry",
         }
     }
@@ -74,6 +81,20 @@ impl Display for Expected {
             }
             Self::ClosureFrames(ClosureKind::Coupling) => "`Coupling(expression)`",
             Self::ClosureFrames(kind) => return write!(f, "`{}(frame, frame)`", kind.word()),
+            Self::Sizes(shape) => match shape {
+                Shape::Rod => "`Rod(length)`",
+                Shape::Plate => "`Plate(a, b)`",
+                Shape::Cylinder => "`Cylinder(radius, length)`",
+                Shape::Box => "`Box(a, b, c)`",
+                Shape::Sphere => "`Sphere(radius)`",
+            },
+            Self::Inertia => "moments of inertia `(Ixx, Iyy, Izz, Ixy, Ixz, Iyz)`",
+            Self::Shape => "a shape such as `Rod(…)` or `Box(…)`",
+            Self::Load => "`Spring(…)`, `Force(…)` or `Friction(…)`",
+            Self::Points => "two points `(\"crank\", \"ground+0.1,0,0\")`",
+            Self::YesOrNo => "`true` or `false`",
+            Self::Table => "a list of rows `[(0, 10), (0.1, 12)]`, or the name of a CSV file",
+            Self::TableRow => "a row `(value, force)`",
             Self::Version => "the number of the file format",
             Self::Text => "a string",
             Self::Frame => "the name of a frame",
@@ -115,6 +136,8 @@ fn content(noun: Noun) -> &'static str {
         Noun::PlatformFrame => "a list of displacements",
         Noun::Closure => "a closure",
         Noun::ClosedForm => "`ClosedForm(…)`",
+        Noun::Mass => "`(mass: …)`",
+        Noun::Load => "`Spring(…)`, `Force(…)` or `Friction(…)`",
         Noun::Field => "a value",
     }
 }

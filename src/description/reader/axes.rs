@@ -42,6 +42,7 @@ impl FileReader {
             }),
             closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
             outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
+            loads: self.loads(f),
         })
     }
 

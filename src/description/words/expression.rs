@@ -72,6 +72,7 @@ pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static s
         MeasureErrorKind::Mixed => "an angle and a length",
         MeasureErrorKind::LengthAsAngle(_) => "a length",
         MeasureErrorKind::Units(..) => "different units",
+        MeasureErrorKind::Instead(..) => "wrong unit",
         MeasureErrorKind::Argument(..) => "wrong unit",
         MeasureErrorKind::BareAngle(_) => "deg or rad?",
         MeasureErrorKind::BareRate(_) => "deg/s or rad/s?",
@@ -104,6 +105,9 @@ pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
         MeasureErrorKind::Units(..) => {
             "only quantities of the same unit can be added or compared: divide one by something"
                 .into()
+        }
+        MeasureErrorKind::Instead(wanted, _) => {
+            format!("a number without unit is in {wanted}")
         }
         MeasureErrorKind::Argument(function, _) if function.takes_angle() => {
             "divide by a length, or give it an angle".into()

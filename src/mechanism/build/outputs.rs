@@ -33,7 +33,7 @@ impl ModelBuilder<'_> {
     }
 }
 
-fn problem(error: QuantityError) -> ProblemKind {
+pub(in crate::mechanism) fn problem(error: QuantityError) -> ProblemKind {
     let unknown = |name, suggestion| ProblemKind::UnknownName {
         name,
         suggestion,

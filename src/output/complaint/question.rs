@@ -173,6 +173,11 @@ impl Wording<'_> {
                 let bodies = listed(instead);
                 said("on the ground").help(format!("load a body that moves, such as {bodies}"))
             }
+            ForceError::NotActing { name, known } => {
+                said("not known").help(meant(name, known, || {
+                    format!("leave out {}", listed(known))
+                }))
+            }
             ForceError::Components(_) => said("")
                 .help("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m")
                 .at(Part::WholeValue),

@@ -31,6 +31,8 @@ words! {
         Wrench = "wrench",
         /// A force or a moment acts along the joint variable.
         Load = "load",
+        /// Of what the file says acts, this is left out.
+        Without = "without",
         /// Quantities to report.
         Report = "report",
         /// A quantity that may stay within a tolerance of one value.

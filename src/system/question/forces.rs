@@ -1,12 +1,14 @@
 //! Forces and moments that act on a mechanism.
 
+use std::sync::Arc;
+
 use thiserror::Error;
 
 use super::Question;
 use super::drive::{DriveError, number};
 use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
-use crate::mechanism::{Body, Frame, Point, PointError, PoseCoordinate, Value};
+use crate::mechanism::{Body, Frame, Loads, Point, PointError, PoseCoordinate, Value};
 use crate::system::Coordinate;
 
 /// Wrenches on frames and loads on joints, in N and N·m.
@@ -16,6 +18,8 @@ pub struct Load {
     pub wrenches: Vec<(Point, [f64; 3], [f64; 3])>,
     /// Joint, and the force (N) or moment (N·m) that acts along its variable.
     pub joints: Vec<(usize, f64)>,
+    /// Weights, springs and forces of the file.
+    pub own: Arc<Loads>,
 }
 
 /// Reasons for which a load cannot be given.
@@ -46,6 +50,14 @@ pub enum ForceError {
         /// The joint that was probably meant.
         suggestion: Option<String>,
         /// The joints there are.
+        known: Vec<String>,
+    },
+    /// Nothing of that name acts.
+    #[error("nothing acts that is called `{name}`")]
+    NotActing {
+        /// The name.
+        name: String,
+        /// The names there are.
         known: Vec<String>,
     },
     /// A platform, or a coordinate of one, is loaded by a wrench.

@@ -8,7 +8,7 @@ use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{Coordinate, Held, System, Unknown, Work};
+use crate::system::{ClosureWrenches, Coordinate, Held, System, Unknown, Work};
 
 use super::driving::{Driving, Entrance};
 pub use frames::FrameMotion;
@@ -41,6 +41,7 @@ pub struct Motion<T: Factorable = f64> {
     given: [Vec<T>; 2],
     rates: Vec<T>,
     accelerations: Vec<T>,
+    opening: Vec<T>,
 }
 
 /// The equations along a path.
@@ -121,6 +122,7 @@ impl<T: Factorable> Motion<T> {
             given: [(); 2].map(|()| vec![T::zero(); coordinates.len()]),
             rates: vec![T::zero(); unknowns.len()],
             accelerations: vec![T::zero(); unknowns.len()],
+            opening: vec![T::zero(); unknowns.len()],
             here: home,
             length,
             scales,
@@ -204,6 +206,32 @@ impl<T: Factorable> Motion<T> {
         self.given[0].fill(T::zero());
         self.given[0][i] = T::one() / self.units[i];
         self.solve_rates()
+    }
+
+    /// The number of rows of the closures.
+    pub fn rows(&self) -> usize {
+        self.system
+            .closure_rows()
+            .map(|rows| rows.end)
+            .max()
+            .unwrap_or(0)
+    }
+
+    /// Rates of all unknowns in a motion −J⁺ e, in which one row of the closures opens while held coordinates are at rest,
+    /// as far as the other rows let it.
+    pub fn opening(&mut self, row: usize) -> &[T] {
+        self.opening.fill(T::zero());
+        let residual = self.system.residual_mut(&mut self.work);
+        residual.fill(T::zero());
+        residual[row] = T::one();
+        let (system, work) = (&self.system, &mut self.work);
+        self.driving.rest(system, work, &mut self.opening);
+        &self.opening
+    }
+
+    /// The wrenches of every closure's rows where it was last factorised.
+    pub fn closure_wrenches(&self) -> Vec<ClosureWrenches<T>> {
+        self.system.closure_wrenches(&self.here, &self.work)
     }
 
     /// Sets the rates to a sum of [responses](Self::responses); those of coordinates at rest need not be known.

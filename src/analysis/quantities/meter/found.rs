@@ -1,33 +1,45 @@
 //! Values of names in quantities at one configuration.
 
 use super::Meter;
-use super::probe::Found;
+use super::probe::{Found, Probe};
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Figure, Measured, Order, Point, PoseCoordinate};
+use crate::linear::Factorable;
+use crate::mechanism::{
+    Carrier, Configuration, Effort, Energy, Figure, Measured, Order, Point, PoseCoordinate,
+};
 use crate::number::Number;
 use crate::number::tolerance::SOLVED;
-use crate::system::Coordinate;
+use crate::system::{Balance, Coordinate};
 
 /// A configuration with the known rates and figures.
-pub(super) struct Here<'a, T> {
+pub(super) struct Here<'a, T: Factorable> {
     pub at: &'a Configuration<T>,
     pub found: &'a Found<T>,
     pub figures: &'a [(Figure, Option<T>)],
     /// The pace relative to that of `found`, and its change per s.
     pace: [T; 2],
+    /// The time in s.
+    time: T,
+    balance: Option<&'a Balance<T>>,
+    shaking: [Vector3<T>; 2],
     /// The largest rate and acceleration, in rad and characteristic lengths.
     largest: [T; 2],
 }
 
-impl<'a, T: Number> Here<'a, T> {
+impl<'a, T: Factorable> Here<'a, T> {
     /// The configuration with its motion by the law, and with the motion of `found`.
     pub fn both(
         at: &'a Configuration<T>,
         found: &'a Found<T>,
         figures: &'a [(Figure, Option<T>)],
-        pace: [T; 2],
-    ) -> [Self; 2] {
+        (pace, time): ([T; 2], T),
+        probe: &'a Probe<T>,
+    ) -> [Self; 2]
+    where
+        T: Factorable,
+    {
         let largest = [0, 1].map(|order| largest(&found.rates[order]));
+        let shaking = probe.shaking();
         [pace, [T::one(), T::zero()]].map(|pace| {
             let [rate, change] = pace;
             let accelerated = largest[1] * rate * rate + largest[0] * change.abs();
@@ -36,6 +48,9 @@ impl<'a, T: Number> Here<'a, T> {
                 found,
                 figures,
                 pace,
+                time,
+                balance: probe.balance.as_ref(),
+                shaking,
                 largest: [largest[0] * rate.abs(), accelerated],
             }
         })
@@ -70,6 +85,16 @@ impl<'a, T: Number> Here<'a, T> {
     }
 }
 
+/// A part of a force and a moment.
+fn part_of<T: Number>(part: Effort, [force, moment]: &[Vector3<T>; 2]) -> T {
+    match part {
+        Effort::Force => force.norm(),
+        Effort::Moment => moment.norm(),
+        part if part.is_moment() => moment.0[part as usize - 3],
+        part => force.0[part as usize],
+    }
+}
+
 /// The largest size of some numbers, but for those that are not known.
 fn largest<T: Number>(of: &[T]) -> T {
     let sizes = of.iter().filter(|x| x.is_finite()).map(|x| x.abs());
@@ -79,13 +104,13 @@ fn largest<T: Number>(of: &[T]) -> T {
 impl Meter<'_> {
     /// The value of a name, not a number where it is not determined, and how far it may be off; with the number of the
     /// point, if it is of one.
-    pub(super) fn value<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize) -> [T; 2] {
+    pub(super) fn value<T: Factorable>(&self, here: &Here<T>, of: &Measured, i: usize) -> [T; 2] {
         let value = (self.known(here, of, i)).unwrap_or_else(|| T::from_f64(f64::NAN));
         [value, self.off(here, of, i, value)]
     }
 
     /// Uncertainty of the value of a name: configurations are closed to 1e-12.
-    fn off<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize, value: T) -> T {
+    fn off<T: Factorable>(&self, here: &Here<T>, of: &Measured, i: usize, value: T) -> T {
         let [rate, change] = here.largest;
         let most = |order: Order| match order {
             Order::Value => T::one(),
@@ -96,14 +121,24 @@ impl Meter<'_> {
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
         let size = match *of {
-            Measured::Parameter(_) => T::zero(),
+            Measured::Parameter(_) | Measured::Time => T::zero(),
             Measured::Joint(joint, order) => {
                 most(order).scale(mechanism.dimensions().joint_scales[joint])
             }
             Measured::Place(_, c, order) => most(order).scale(scale(c.is_angle())),
             Measured::Size(_, order) => most(order).scale(length),
             Measured::Transmission(_) => T::from_f64(10.0),
-            Measured::Force(_) | Measured::PlatformForce(..) => largest(&here.found.forces),
+            Measured::Force(_) | Measured::PlatformForce(..) => {
+                here.balance.map_or(T::zero(), |of| largest(&of.forces))
+            }
+            Measured::Power
+            | Measured::Energy(_)
+            | Measured::Inertia(_)
+            | Measured::Reaction(..)
+            | Measured::Shaking(_) => match value.is_finite() {
+                true => value.abs(),
+                false => T::zero(),
+            },
             // κ = |v × a| / |v|³ by δv and δa
             Measured::Curvature(point) => {
                 let [v, a] = [Order::Velocity, Order::Acceleration].map(|order| {
@@ -119,9 +154,10 @@ impl Meter<'_> {
         size.scale(SOLVED)
     }
 
-    fn known<T: Number>(&self, here: &Here<T>, of: &Measured, i: usize) -> Option<T> {
+    fn known<T: Factorable>(&self, here: &Here<T>, of: &Measured, i: usize) -> Option<T> {
         let mechanism = self.of.question.mechanism();
         match *of {
+            Measured::Time => Some(here.time),
             Measured::Parameter(parameter) => {
                 Some(T::from_f64(mechanism.parameters()[parameter].value))
             }
@@ -154,6 +190,23 @@ impl Meter<'_> {
             }
             Measured::Force(joint) => self.force(here, Coordinate::Joint(joint)),
             Measured::PlatformForce(platform, c) => self.force(here, Coordinate::Pose(platform, c)),
+            Measured::Power => here.balance.map(|of| of.power),
+            Measured::Energy(energy) => {
+                let acting = &here.balance?.acting;
+                Some(match energy {
+                    Energy::Total => acting.kinetic + acting.potential,
+                    Energy::Kinetic => acting.kinetic,
+                    Energy::Potential => acting.potential,
+                })
+            }
+            Measured::Inertia(joint) => {
+                let of = Coordinate::Joint(joint);
+                let place = self.coordinates.iter().position(|known| *known == of)?;
+                let inertia = *here.balance?.inertias.get(place)?;
+                (here.found.moves && inertia.is_finite()).then_some(inertia)
+            }
+            Measured::Reaction(of, part) => self.reaction(here, of, part),
+            Measured::Shaking(part) => Some(part_of(part, &here.shaking)),
             Measured::Transmission(closure) => {
                 let name = closure.map(|closure| &*mechanism.closures()[closure].name);
                 let loops = self.plan.transmission.as_ref()?.loops();
@@ -170,7 +223,7 @@ impl Meter<'_> {
     }
 
     /// Place, velocity or acceleration of a point, by its number.
-    fn vector<T: Number>(
+    fn vector<T: Factorable>(
         &self,
         here: &Here<T>,
         point: Point,
@@ -183,7 +236,7 @@ impl Meter<'_> {
     }
 
     /// A coordinate of the point of that number, or of the orientation of its frame.
-    fn coordinate<T: Number>(
+    fn coordinate<T: Factorable>(
         &self,
         here: &Here<T>,
         i: usize,
@@ -210,9 +263,29 @@ impl Meter<'_> {
         })
     }
 
-    fn force<T: Number>(&self, here: &Here<T>, of: Coordinate) -> Option<T> {
+    fn force<T: Factorable>(&self, here: &Here<T>, of: Coordinate) -> Option<T> {
         let place = self.coordinates.iter().position(|known| *known == of)?;
-        let force = *here.found.forces.get(place)?;
+        let force = *here.balance?.forces.get(place)?;
         (here.found.moves && force.is_finite()).then_some(force)
+    }
+
+    /// A part of a reaction that equilibrium determines. The size of a force across the plane of a planar mechanism is that
+    /// in the plane.
+    fn reaction<T: Factorable>(&self, here: &Here<T>, of: Carrier, part: Effort) -> Option<T> {
+        let place = here.balance?.place(of)?;
+        let unique = self.determined.get(place)?;
+        let carried = here.balance?.reactions.get(place)?;
+        let planar = self.planar;
+        let known = |from: usize| {
+            let parts = from..from + 3;
+            parts.clone().all(|i| unique[i]) || planar && parts.clone().any(|i| unique[i])
+        };
+        let determined = match part {
+            Effort::Force => known(0),
+            Effort::Moment => known(3),
+            part => unique[part as usize],
+        };
+        let value = part_of(part, &[carried.force, carried.moment]);
+        (determined && here.found.moves && value.is_finite()).then_some(value)
     }
 }

@@ -5,8 +5,8 @@ use crate::analysis::velocity::{Normalised, Outputs, Spins, TransmissionAngles};
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Kinematics, Order, Placement, Point, PoseCoordinate};
-use crate::number::Dual;
-use crate::system::{FrameTwists, Loaded, Lock, Motion, Unknown};
+use crate::number::{Dual, Number};
+use crate::system::{Balance, FrameTwists, Instant, Lock, Motion, Unknown};
 
 /// Ingredients that some quantity needs, and no others.
 pub(super) struct Plan {
@@ -17,6 +17,7 @@ pub(super) struct Plan {
     /// For each held coordinate, true if the motion for a unit rate of it is wanted.
     pub responses: Vec<bool>,
     pub forces: bool,
+    pub reactions: bool,
     /// The outputs of the Jacobian, if it is wanted.
     pub outputs: Option<Vec<Lock>>,
     pub transmission: Option<TransmissionAngles>,
@@ -33,9 +34,10 @@ pub(super) struct Probe<'q, T: Factorable> {
     twists: FrameTwists<T>,
     /// Motion of the points to second order, if that is wanted.
     changing: Option<FrameTwists<Dual<T>>>,
-    loaded: Option<Loaded<T>>,
+    pub balance: Option<Balance<T>>,
     outputs: Option<Outputs<'q, T>>,
     responses: Vec<Vec<T>>,
+    centre: [f64; 3],
     pub found: Found<T>,
 }
 
@@ -48,8 +50,6 @@ pub(super) struct Found<T> {
     /// Places, velocities and accelerations of the points.
     pub points: [Vec<Vector3<T>>; 3],
     pub angles: Vec<T>,
-    /// Force or moment that holds each held coordinate against the load.
-    pub forces: Vec<T>,
     pub jacobian: Normalised<T>,
     pub transmission: Vec<T>,
 }
@@ -83,14 +83,25 @@ impl<'q, T: Factorable> Probe<'q, T> {
                 .as_ref()
                 .filter(|_| plan.order == Order::Acceleration))
             .map(|motion| FrameTwists::moving(mechanism, motion, &plan.points)),
-            loaded: (plan.forces).then(|| Loaded::new(mechanism, unknowns, &of.load, &kinematics)),
+            balance: motion.as_ref().filter(|_| plan.forces).map(|motion| {
+                Balance::new(mechanism, &of.load, motion, &kinematics, plan.reactions)
+            }),
             outputs: outputs.map(|(motion, of)| Outputs::new(mechanism, motion, of.clone())),
             responses: vec![Vec::new(); coordinates.len()],
+            centre: mechanism.dimensions().centre,
             found: Found::default(),
             placement: kinematics.placement(),
             kinematics,
             motion,
         }
+    }
+
+    /// The force of the moving bodies on ground and its moment about the origin.
+    pub fn shaking(&self) -> [Vector3<T>; 2] {
+        let both = self.balance.as_ref().zip(self.motion.as_ref());
+        both.map_or([Vector3::zero(); 2], |(balance, motion)| {
+            balance.shaking(motion, self.centre)
+        })
     }
 
     /// The order in which frames are placed.
@@ -103,12 +114,14 @@ impl<'q, T: Factorable> Probe<'q, T> {
         self.motion.as_ref().map_or(0, |of| of.unknowns().len())
     }
 
-    /// Computes the ingredients at a configuration for rates and accelerations of the held coordinates.
+    /// Computes the ingredients at a configuration for rates and accelerations of the held coordinates, with the pace of
+    /// the motion against these and the time in s.
     pub fn at(
         &mut self,
         plan: &Plan,
         at: &Configuration<T>,
         [rates, changes]: &[Vec<T>; 2],
+        (pace, time): ([T; 2], T),
         spins: &Spins,
     ) {
         let found = &mut self.found;
@@ -127,8 +140,18 @@ impl<'q, T: Factorable> Probe<'q, T> {
                     true => motion.set_rates(&self.responses, rates),
                     false => _ = motion.rates(rates),
                 }
-                if self.changing.is_some() {
+                if plan.order == Order::Acceleration {
                     motion.accelerations(changes);
+                }
+                if let Some(balance) = &mut self.balance {
+                    let responses = self.responses.iter().zip(&plan.responses);
+                    let responses = responses.map(|(rates, wanted)| (&rates[..], *wanted));
+                    let instant = Instant {
+                        pace,
+                        time,
+                        impending: None,
+                    };
+                    balance.at(motion, at, &responses.collect::<Vec<_>>(), instant);
                 }
                 for (to, from) in found.rates.iter_mut().zip(motion.known()) {
                     to.clear();
@@ -172,16 +195,6 @@ impl<'q, T: Factorable> Probe<'q, T> {
         });
         found.angles.clear();
         found.angles.extend(angles);
-        if let Some(loaded) = &self.loaded {
-            // τ δh + g δx = 0: what holds a coordinate does the work of the load
-            let forces = self.responses.iter().zip(&plan.responses);
-            let forces = forces.map(|(rates, wanted)| match wanted {
-                true => -loaded.power(rates, placement),
-                false => T::from_f64(f64::NAN),
-            });
-            found.forces.clear();
-            found.forces.extend(forces);
-        }
         if let Some(outputs) = &self.outputs {
             let jacobian = &mut found.jacobian;
             outputs.normalised_into(jacobian, at, placement, &self.responses, spins);
@@ -193,14 +206,13 @@ impl<'q, T: Factorable> Probe<'q, T> {
     }
 }
 
-impl<T> Default for Found<T> {
+impl<T: Number> Default for Found<T> {
     fn default() -> Self {
         Found {
             moves: false,
             rates: Default::default(),
             points: Default::default(),
             angles: Vec::new(),
-            forces: Vec::new(),
             jacobian: Normalised::default(),
             transmission: Vec::new(),
         }

@@ -80,13 +80,11 @@ impl Meter<'_> {
             next += 1;
         };
         at.numbers().for_each(&mut put);
-        match &self.of.schedule {
-            None => put(time),
-            Some(schedule) => {
-                let inputs = self.ways.iter().flatten();
-                let rates = inputs.flat_map(|(input, _)| schedule.rates(*input, time));
-                rates.for_each(&mut put);
-            }
+        put(time);
+        if let Some(schedule) = &self.of.schedule {
+            let inputs = self.ways.iter().flatten();
+            let rates = inputs.flat_map(|(input, _)| schedule.rates(*input, time));
+            rates.for_each(&mut put);
         }
         if let Some((classifier, figures)) = self.distances.as_deref_mut() {
             for figure in figures {
@@ -132,8 +130,10 @@ impl Meter<'_> {
         let mut next = || all.next().expect("there is no last one");
         let at = at.map(|_| next());
         let mut driven = [(); 2].map(|()| vec![Recorded::zero(); self.ways.len()]);
+        let time = next();
+        let seconds = time.scale(self.of.pace.duration);
         let pace = match self.of.schedule {
-            None => self.of.pace.relative(next()),
+            None => self.of.pace.relative(time),
             Some(_) => [Recorded::one(), Recorded::zero()],
         };
         for (of, way) in self.ways.iter().enumerate() {
@@ -144,7 +144,7 @@ impl Meter<'_> {
             };
         }
         let mut probe = Probe::new(self.of, &self.plan);
-        probe.at(&self.plan, &at, &driven, self.spins()?);
+        probe.at(&self.plan, &at, &driven, (pace, seconds), self.spins()?);
         let found = &probe.found;
         if self.plan.moves() && !found.moves {
             return None;
@@ -163,7 +163,7 @@ impl Meter<'_> {
             }
         };
         figures.extend(distances);
-        let both = Here::both(&at, found, &figures, pace);
+        let both = Here::both(&at, found, &figures, (pace, seconds), &probe);
         let names = self.names.iter();
         let known: Vec<[Recorded; 2]> = names
             .map(|(name, number)| self.value(&both[usize::from(name.geometric)], &name.of, *number))

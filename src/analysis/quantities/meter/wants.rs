@@ -7,6 +7,7 @@ use crate::mechanism::{Figure, Measured, Order};
 pub(super) struct Wants {
     pub order: Order,
     pub forces: bool,
+    pub reactions: bool,
     pub transmission: bool,
     pub jacobian: bool,
     pub determinant: bool,
@@ -19,6 +20,7 @@ impl Wants {
         let mut wants = Wants {
             order: Order::Value,
             forces: false,
+            reactions: false,
             transmission: false,
             jacobian: false,
             determinant: false,
@@ -27,12 +29,18 @@ impl Wants {
         };
         for measured in measured {
             match measured {
-                Measured::Parameter(_) => {}
+                Measured::Parameter(_) | Measured::Time => {}
                 Measured::Joint(_, order)
                 | Measured::Place(_, _, order)
                 | Measured::Size(_, order) => wants.order = wants.order.max(*order),
                 Measured::Curvature(_) => wants.order = Order::Acceleration,
-                Measured::Force(_) | Measured::PlatformForce(..) => wants.forces = true,
+                Measured::Force(_)
+                | Measured::PlatformForce(..)
+                | Measured::Power
+                | Measured::Energy(_)
+                | Measured::Inertia(_)
+                | Measured::Shaking(_) => wants.forces = true,
+                Measured::Reaction(..) => (wants.forces, wants.reactions) = (true, true),
                 Measured::Transmission(_) => wants.transmission = true,
                 Measured::Figure(Figure::Determinant) => {
                     (wants.jacobian, wants.determinant) = (true, true);

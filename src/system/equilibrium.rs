@@ -1,12 +1,9 @@
 //! The equations of equilibrium of an assembled mechanism.
 
-use super::Load;
-use crate::geometry::Vector3;
 use crate::linear::{Decomposition, Elimination, Rows, add};
-use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, Point};
-use crate::number::Number;
+use crate::mechanism::{Configuration, Kinematics};
 use crate::solve::Equations;
-use crate::system::{Coordinate, FrameTwists, Neighbourhood, Unknown};
+use crate::system::{Acting, Coordinate, Load, Loaded, Neighbourhood};
 
 /// Forces that balance a load: g + Jᵀλ + Sᵀτ = 0 with the generalised forces g of the load, the closure Jacobian J
 /// with nothing held, and S the derivatives of the held coordinates.
@@ -98,75 +95,18 @@ impl Equilibrium {
 /// The work of a load for a unit of each unknown, in N·m.
 fn generalised(near: &Neighbourhood, at: &Configuration<f64>, load: &Load) -> Vec<f64> {
     let unknowns = near.system().unknowns();
-    let kinematics = Kinematics::new(near.mechanism().dimensions(), Loaded::frames(load));
+    let kinematics = Kinematics::new(near.mechanism().dimensions(), load.frames());
     let loaded = Loaded::new(near.mechanism(), unknowns, load, &kinematics);
     let mut placement = kinematics.placement();
     kinematics.place(at, &mut placement);
+    let mut acting = Acting::default();
+    loaded.act(at, &placement, None, &mut acting);
     let mut rates = vec![0.0; unknowns.len()];
     let powers = (0..unknowns.len()).map(|k| {
         rates[k] = 1.0;
-        let power = loaded.power(&rates, &placement);
+        let power = loaded.power(&acting, &rates, &placement);
         rates[k] = 0.0;
         power
     });
     powers.collect()
-}
-
-/// The power of a load in motions of a mechanism. Built once; nothing allocates afterwards.
-#[derive(Clone, Debug)]
-pub struct Loaded<T = f64> {
-    twists: FrameTwists<T>,
-    /// Force and moment at each of the points.
-    wrenches: Vec<([f64; 3], [f64; 3])>,
-    /// Unknowns with the loads along them, in N·m.
-    joints: Vec<(usize, f64)>,
-}
-
-impl Loaded {
-    /// Frames that must be placed.
-    pub fn frames(load: &Load) -> impl Iterator<Item = Frame> {
-        load.wrenches.iter().map(|(point, ..)| point.frame)
-    }
-}
-
-impl<T: Number> Loaded<T> {
-    /// For rates of these unknowns.
-    pub fn new(
-        mechanism: &Mechanism,
-        unknowns: &[Unknown],
-        load: &Load,
-        kinematics: &Kinematics<T>,
-    ) -> Self {
-        let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
-        let dimensions = mechanism.dimensions().map(T::from_f64);
-        let twists = FrameTwists::sharing(kinematics, &dimensions, unknowns, &points);
-        let scales = &mechanism.dimensions().joint_scales;
-        let joints = load.joints.iter().filter_map(|&(joint, force)| {
-            let column = unknowns.iter().position(|u| *u == Unknown::Joint(joint))?;
-            Some((column, force * scales[joint]))
-        });
-        Loaded {
-            wrenches: (load.wrenches.iter())
-                .map(|&(_, force, moment)| (force, moment))
-                .collect(),
-            joints: joints.collect(),
-            twists,
-        }
-    }
-
-    /// The power for rates of the unknowns, which are dimensionless per s: in W.
-    pub fn power(&self, rates: &[T], placement: &Placement<T>) -> T {
-        let wrenches = self.wrenches.iter().enumerate();
-        let along = |v: &Vector3<T>, f: &[f64; 3]| v.dot(&Vector3(f.map(T::from_f64)));
-        let wrenches = wrenches.map(|(i, (force, moment))| {
-            let twist = self.twists.twist(i, placement, rates);
-            along(&twist.velocity, force) + along(&twist.omega, moment)
-        });
-        let joints = (self.joints.iter()).map(|&(k, force)| rates[k].scale(force));
-        let [wrenches, joints] = [
-            wrenches.fold(T::zero(), |sum, x| sum + x),
-            joints.fold(T::zero(), |sum, x| sum + x),
-        ];
-        wrenches + joints
-    }
 }

@@ -1,0 +1,190 @@
+//! Masses, springs and forces as a file gives them.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use super::{Displacement, Entry, Named, Spanned};
+use crate::algebra::{Expression, words};
+
+/// What acts in a mechanism: weight and inertia of bodies, springs, forces, friction.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LoadsDescription {
+    /// The acceleration of free fall (m/s²), in ground.
+    pub gravity: Option<[Entry; 3]>,
+    /// Masses under the names of bodies, or of frames and points on them.
+    pub masses: Vec<Named<MassDescription>>,
+    /// Springs, forces and friction.
+    pub loads: Vec<Named<LoadDescription>>,
+}
+
+/// The mass of a body, or of a part of one.
+#[derive(Debug, Clone)]
+pub struct MassDescription {
+    /// The mass (kg), unless it follows from shape and density.
+    pub mass: Option<Entry>,
+    /// The centre of mass in the frame (m).
+    pub centre: Option<[Entry; 3]>,
+    /// Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the centre of mass along the axes of the frame (kg·m²), or Izz of a flat body
+    /// alone.
+    pub inertia: Option<InertiaDescription>,
+    /// A homogeneous shape about the centre of mass.
+    pub shape: Option<ShapeDescription>,
+    /// Its density: kg/m for a rod, kg/m² for a plate, else kg/m³.
+    pub density: Option<Entry>,
+    /// The turn of the axes of inertia or shape against those of the frame.
+    pub turned: Vec<Displacement>,
+    /// Its place.
+    pub span: Range<usize>,
+}
+
+/// Moments of inertia: six, or one of a flat body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InertiaDescription(pub Vec<Entry>);
+
+/// A homogeneous shape with its dimensions (m).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeDescription {
+    /// Its kind.
+    pub kind: Shape,
+    /// Its dimensions.
+    pub sizes: Vec<Entry>,
+}
+
+words! {
+    /// A homogeneous shape.
+    Shape {
+        /// `Rod(length)`: a thin rod along x.
+        Rod = "Rod",
+        /// `Plate(a, b)`: a thin plate with sides along x and y.
+        Plate = "Plate",
+        /// `Cylinder(radius, length)`: about z.
+        Cylinder = "Cylinder",
+        /// `Box(a, b, c)`: with edges along x, y and z.
+        Box = "Box",
+        /// `Sphere(radius)`.
+        Sphere = "Sphere",
+    }
+
+    /// What acts between bodies, at joints or on a body.
+    LoadKind {
+        /// A spring, a damper or both, between two points or at a joint.
+        Spring = "Spring",
+        /// A force or moment that is given: between two points, at a joint or at a point.
+        Force = "Force",
+        /// Coulomb friction in a joint.
+        Friction = "Friction",
+    }
+}
+
+impl Shape {
+    /// Number of its dimensions.
+    pub fn sizes(self) -> usize {
+        match self {
+            Self::Rod | Self::Sphere => 1,
+            Self::Plate | Self::Cylinder => 2,
+            Self::Box => 3,
+        }
+    }
+}
+
+/// A spring, a force or friction, with its fields.
+#[derive(Debug, Clone)]
+pub struct LoadDescription {
+    /// Its kind.
+    pub kind: LoadKind,
+    /// The fields that are given, in the order of [`LoadKind::fields`].
+    pub fields: Vec<(&'static str, LoadField)>,
+    /// Its place.
+    pub span: Range<usize>,
+}
+
+/// The value of a field of a load.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LoadField {
+    /// The name of a joint or a point.
+    Name(Spanned<String>),
+    /// Two points.
+    Points([Spanned<String>; 2]),
+    /// A number or an expression.
+    Entry(Entry),
+    /// A vector.
+    Vector([Entry; 3]),
+    /// True or false.
+    Yes(bool),
+    /// Rows of a table, from which a value is read between its neighbours.
+    Table(Vec<[Entry; 2]>),
+}
+
+impl LoadKind {
+    /// The fields it may have.
+    pub fn fields(self) -> &'static str {
+        match self {
+            Self::Spring => {
+                "between joint stiffness length rest preload damping tension_only compression_only"
+            }
+            Self::Force => "between joint at force moment along table over",
+            Self::Friction => "joint force moment coefficient radius",
+        }
+    }
+}
+
+impl LoadDescription {
+    /// A field, if it is given.
+    pub fn field(&self, name: &str) -> Option<&LoadField> {
+        let field = self.fields.iter().find(|(known, _)| *known == name);
+        field.map(|(_, value)| value)
+    }
+}
+
+impl LoadsDescription {
+    /// Every name in its expressions and in the offsets of its points.
+    pub fn names(&self) -> HashSet<String> {
+        let mut entries: Vec<&Entry> = self.gravity.iter().flatten().collect();
+        let mut points: Vec<&str> = Vec::new();
+        for Named { name, value } in &self.masses {
+            points.push(&name.value);
+            entries.extend(value.mass.iter().chain(&value.density));
+            entries.extend(value.centre.iter().flatten());
+            entries.extend(value.inertia.iter().flat_map(|of| &of.0));
+            entries.extend(value.shape.iter().flat_map(|of| &of.sizes));
+            entries.extend(value.turned.iter().flat_map(Displacement::entries));
+        }
+        let fields = self.loads.iter().flat_map(|load| &load.value.fields);
+        for (_, field) in fields {
+            match field {
+                LoadField::Name(name) => points.push(&name.value),
+                LoadField::Points(names) => points.extend(names.iter().map(|of| &*of.value)),
+                LoadField::Entry(entry) => entries.push(entry),
+                LoadField::Vector(parts) => entries.extend(parts),
+                LoadField::Table(rows) => entries.extend(rows.iter().flatten()),
+                LoadField::Yes(_) => {}
+            }
+        }
+        let offsets = points.iter().filter_map(|point| point.split_once('+'));
+        let offsets = offsets.flat_map(|(_, offsets)| offsets.split(','));
+        let offsets = offsets.filter_map(|text| Expression::parse(text).ok());
+        let written = entries.into_iter().map(|of| of.expression.clone());
+        let all = written.chain(offsets);
+        all.flat_map(|of| of.names().map(|(name, _)| name.clone()).collect::<Vec<_>>())
+            .collect()
+    }
+}
+
+// parts are equal if their contents are, wherever they stand
+impl PartialEq for LoadDescription {
+    fn eq(&self, other: &Self) -> bool {
+        (self.kind, &self.fields) == (other.kind, &other.fields)
+    }
+}
+
+impl PartialEq for MassDescription {
+    fn eq(&self, other: &Self) -> bool {
+        let parts = |of: &Self| {
+            (
+                (of.mass.clone(), of.centre.clone(), of.inertia.clone()),
+                (of.shape.clone(), of.density.clone(), of.turned.clone()),
+            )
+        };
+        parts(self) == parts(other)
+    }
+}

@@ -1,0 +1,465 @@
+//! Forces and moments that act at a configuration: loads, weights, springs and, where it moves, inertia.
+
+use super::{FrameTwists, Load, Places, Unknown};
+use crate::geometry::Vector3;
+use crate::mechanism::{
+    Along, Configuration, Frame, GivenEffort, GivenValue, Kinematics, Loads, Measured, Mechanism,
+    Order, Placement, Point, PoseCoordinate,
+};
+use crate::number::{Dual, Number};
+use std::sync::Arc;
+
+/// What acts in a mechanism, ready to be evaluated. Built once; nothing allocates afterwards.
+#[derive(Clone, Debug)]
+pub struct Loaded<T = f64> {
+    own: Arc<Loads>,
+    twists: FrameTwists<T>,
+    points: Vec<Point>,
+    /// Number of the point of each mass, of the ends of each spring and of each given force.
+    masses: Vec<usize>,
+    springs: Vec<Place>,
+    forces: Vec<Place>,
+    /// Number of the point, force at it and moment.
+    constant: Vec<(usize, [f64; 3], [f64; 3])>,
+    /// Joints with the constant loads along them, in N and N·m.
+    joints: Vec<(usize, f64)>,
+    /// For each joint its column among the unknowns, and its scale.
+    columns: Vec<(Option<usize>, f64)>,
+    parameters: Vec<f64>,
+    centre: [f64; 3],
+}
+
+/// Numbers of points, or a joint.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    Points(usize, usize),
+    Joint(usize),
+    At(usize),
+}
+
+/// Points, the rates as duals, and frames placed along their path.
+pub type Changes<'a, T> = (
+    &'a FrameTwists<Dual<T>>,
+    &'a [Dual<T>],
+    &'a Placement<Dual<T>>,
+);
+
+/// The motion of a mechanism at an instant.
+#[derive(Clone, Copy)]
+pub struct Moving<'a, T> {
+    /// Dimensionless rates of the unknowns.
+    pub rates: &'a [T],
+    /// Points with the rates as duals and frames placed along their path, if accelerations are known.
+    pub changes: Option<Changes<'a, T>>,
+    /// Velocities are those of `rates` times the first of these, r, and accelerations r²·a + c·v.
+    pub pace: [T; 2],
+    /// In s.
+    pub time: T,
+}
+
+/// Forces and moments at a configuration.
+#[derive(Clone, Debug)]
+pub struct Acting<T = f64> {
+    /// For each point force and moment, in N and N·m.
+    pub wrenches: Vec<[Vector3<T>; 2]>,
+    /// For each joint the effort along it, in N or N·m.
+    pub efforts: Vec<T>,
+    /// Efforts of springs, then of given forces along joints or lines, each towards lower values of a joint or shorter
+    /// distances; 0 of forces at points.
+    pub pulls: Vec<T>,
+    /// Energy of weights and springs, in J: weights have none at the origin of ground, springs none without effort.
+    pub potential: T,
+    /// Kinetic energy, in J.
+    pub kinetic: T,
+    /// The power of dampers and given forces, in W.
+    pub supplied: T,
+}
+
+impl<T: Number> Default for Acting<T> {
+    fn default() -> Self {
+        Acting {
+            wrenches: Vec::new(),
+            efforts: Vec::new(),
+            pulls: Vec::new(),
+            potential: T::zero(),
+            kinetic: T::zero(),
+            supplied: T::zero(),
+        }
+    }
+}
+
+impl Load {
+    /// The points of everything that acts: masses, ends of springs, given forces and what they depend on, loads.
+    pub fn points(&self) -> Vec<Point> {
+        let own = &self.own;
+        let mut points: Vec<Point> = own.masses.iter().map(|mass| mass.centre).collect();
+        let places = own.springs.iter().map(|spring| &spring.along);
+        let given = own.forces.iter().filter_map(|force| match &force.on {
+            GivenEffort::Along(along, _) => Some(along),
+            GivenEffort::At { .. } => None,
+        });
+        for along in places.chain(given) {
+            if let Along::Points(both) = along {
+                points.extend(both);
+            }
+        }
+        for force in &own.forces {
+            if let GivenEffort::At { point, .. } = force.on {
+                points.push(point);
+            }
+            let measured = force.values().iter().flat_map(GivenValue::measured);
+            points.extend(measured.filter_map(|of| match of {
+                Measured::Place(point, ..) | Measured::Size(point, _) => Some(*point),
+                _ => None,
+            }));
+        }
+        points.extend(self.wrenches.iter().map(|(point, ..)| *point));
+        let mut distinct: Vec<Point> = Vec::new();
+        for point in points {
+            if !distinct.contains(&point) {
+                distinct.push(point);
+            }
+        }
+        distinct
+    }
+
+    /// Frames that must be placed.
+    pub fn frames(&self) -> impl Iterator<Item = Frame> {
+        self.points().into_iter().map(|point| point.frame)
+    }
+
+    /// True if bodies have mass, so that forces depend on how fast everything moves.
+    pub fn has_inertia(&self) -> bool {
+        !self.own.masses.is_empty() && !self.own.without_inertia
+    }
+}
+
+impl<T: Number> Loaded<T> {
+    /// For rates of these unknowns.
+    pub fn new(
+        mechanism: &Mechanism,
+        unknowns: &[Unknown],
+        load: &Load,
+        kinematics: &Kinematics<T>,
+    ) -> Self {
+        let points = load.points();
+        let dimensions = mechanism.dimensions().map(T::from_f64);
+        let number = |point: &Point| {
+            let place = points.iter().position(|known| known == point);
+            place.expect("every point is among those of the load")
+        };
+        let place = |along: &Along| match along {
+            Along::Points([a, b]) => Place::Points(number(a), number(b)),
+            Along::Joint(joint) => Place::Joint(*joint),
+        };
+        let places = Places::new(unknowns);
+        let scales = mechanism.dimensions().joint_scales.iter().enumerate();
+        let own = &load.own;
+        Loaded {
+            masses: own.masses.iter().map(|of| number(&of.centre)).collect(),
+            springs: own.springs.iter().map(|of| place(&of.along)).collect(),
+            forces: (own.forces.iter())
+                .map(|of| match &of.on {
+                    GivenEffort::Along(along, _) => place(along),
+                    GivenEffort::At { point, .. } => Place::At(number(point)),
+                })
+                .collect(),
+            constant: (load.wrenches.iter())
+                .map(|(point, force, moment)| (number(point), *force, *moment))
+                .collect(),
+            joints: load.joints.clone(),
+            columns: scales
+                .map(|(joint, scale)| (places.of(Unknown::Joint(joint)), *scale))
+                .collect(),
+            parameters: mechanism.parameters().iter().map(|of| of.value).collect(),
+            centre: mechanism.dimensions().centre,
+            twists: FrameTwists::sharing(kinematics, &dimensions, unknowns, &points),
+            own: own.clone(),
+            points,
+        }
+    }
+
+    /// The points at which something acts.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Point `i` where frames are placed, in m from the centre.
+    pub fn origin(&self, i: usize, placement: &Placement<T>) -> Vector3<T> {
+        self.twists.origin(i, placement)
+    }
+
+    /// Everything that acts at a configuration where frames are placed; dampers and inertia only where it moves.
+    pub fn act(
+        &self,
+        at: &Configuration<T>,
+        placement: &Placement<T>,
+        moving: Option<Moving<T>>,
+        acting: &mut Acting<T>,
+    ) {
+        let still = [Vector3::zero(); 2];
+        acting.wrenches.clear();
+        acting.wrenches.resize(self.points.len(), still);
+        acting.efforts.clear();
+        acting.efforts.resize(self.columns.len(), T::zero());
+        (acting.potential, acting.kinetic, acting.supplied) = (T::zero(), T::zero(), T::zero());
+        acting.pulls.clear();
+        let constant = |x: &[f64; 3]| Vector3(x.map(T::from_f64));
+        for (i, force, moment) in &self.constant {
+            acting.wrenches[*i][0] += constant(force);
+            acting.wrenches[*i][1] += constant(moment);
+        }
+        for &(joint, effort) in &self.joints {
+            acting.efforts[joint] += T::from_f64(effort);
+        }
+        let here = Here {
+            of: self,
+            at,
+            placement,
+            moving,
+        };
+        self.weigh(&here, acting);
+        for (spring, place) in self.own.springs.iter().zip(&self.springs) {
+            let (x, rate) = here.extension(*place);
+            let n = T::from_f64;
+            let (stiffness, preload) = (n(spring.stiffness), n(spring.preload));
+            let out = x - n(spring.rest);
+            let one_way = |effort: T| match spring.only {
+                None => effort,
+                Some(sign) if sign > 0.0 => effort.greater(T::zero()),
+                Some(_) => effort.lesser(T::zero()),
+            };
+            let elastic = preload + stiffness * out;
+            let kept = one_way(elastic);
+            acting.potential += match spring.stiffness > 0.0 {
+                true => (kept * kept).scale(0.5 / spring.stiffness),
+                false => kept * out,
+            };
+            let effort = match (spring.damping > 0.0, rate) {
+                (true, Some(rate)) => one_way(elastic + rate.scale(spring.damping)),
+                _ => kept,
+            };
+            if let Some(rate) = rate {
+                acting.supplied += (kept - effort) * rate;
+            }
+            acting.pulls.push(effort);
+            self.pull(&here, *place, effort, acting);
+        }
+        for (force, place) in self.own.forces.iter().zip(&self.forces) {
+            let value = |of: &GivenValue| of.at(&|of: &Measured| here.value(of));
+            match (&force.on, *place) {
+                (GivenEffort::Along(_, given), place) => {
+                    // positive towards higher values of a joint, but towards one another of points
+                    let effort = match place {
+                        Place::Joint(_) => -value(given),
+                        _ => value(given),
+                    };
+                    if let (_, Some(rate)) = here.extension(place) {
+                        acting.supplied += -(effort * rate);
+                    }
+                    acting.pulls.push(effort);
+                    self.pull(&here, place, effort, acting);
+                }
+                (
+                    GivenEffort::At {
+                        wrench, follows, ..
+                    },
+                    Place::At(i),
+                ) => {
+                    let values = wrench.each_ref().map(value);
+                    let [fx, fy, fz, mx, my, mz] = values;
+                    let turned = |v: Vector3<T>| match follows {
+                        true => self.twists.frame(i, placement).rotation * v,
+                        false => v,
+                    };
+                    let (force, moment) =
+                        (turned(Vector3([fx, fy, fz])), turned(Vector3([mx, my, mz])));
+                    if let Some([omega, velocity]) = here.motion(i) {
+                        acting.supplied += force.dot(&velocity) + moment.dot(&omega);
+                    }
+                    acting.pulls.push(T::zero());
+                    acting.wrenches[i][0] += force;
+                    acting.wrenches[i][1] += moment;
+                }
+                (GivenEffort::At { .. }, _) => {}
+            }
+        }
+    }
+
+    /// Weights, and forces and moments of inertia: F = m·(g − a), M = −(I·α + ω × I·ω).
+    fn weigh(&self, here: &Here<T>, acting: &mut Acting<T>) {
+        let gravity = Vector3(self.own.gravity.map(T::from_f64));
+        let centre = Vector3(self.centre.map(T::from_f64));
+        for (mass, &i) in self.own.masses.iter().zip(&self.masses) {
+            let m = mass.mass;
+            let height = self.twists.origin(i, here.placement) + centre;
+            acting.potential += -gravity.dot(&height).scale(m);
+            acting.wrenches[i][0] += gravity.scaled(m);
+            let Some([omega, velocity]) = here.motion(i) else {
+                continue;
+            };
+            let spin = self.angular_momentum(i, mass, &omega, here.placement);
+            let twice = velocity.dot(&velocity).scale(m) + omega.dot(&spin);
+            acting.kinetic += twice.scale(0.5);
+            if let Some([alpha, acceleration]) = here.change(i) {
+                let change = self.angular_momentum(i, mass, &alpha, here.placement);
+                acting.wrenches[i][0] += -acceleration.scaled(m);
+                acting.wrenches[i][1] += -(change + omega.cross(&spin));
+            }
+        }
+    }
+
+    /// I·ω of a mass, in ground.
+    fn angular_momentum(
+        &self,
+        i: usize,
+        mass: &crate::mechanism::Mass,
+        omega: &Vector3<T>,
+        placement: &Placement<T>,
+    ) -> Vector3<T> {
+        let turn = &self.twists.frame(i, placement).rotation;
+        let own = turn.inverse_rotate(omega);
+        let along = |row: &[f64; 3]| {
+            let parts = row.iter().zip(own.0).filter(|(entry, _)| **entry != 0.0);
+            parts.fold(T::zero(), |sum, (entry, part)| sum + part.scale(*entry))
+        };
+        *turn * Vector3(mass.inertia.each_ref().map(along))
+    }
+
+    /// An effort that pulls two points together, or a joint to lower values.
+    fn pull(&self, here: &Here<T>, place: Place, effort: T, acting: &mut Acting<T>) {
+        match place {
+            Place::Joint(joint) => acting.efforts[joint] -= effort,
+            Place::Points(a, b) => {
+                let (_, direction) = here.line(a, b);
+                let force = direction.times(effort);
+                acting.wrenches[a][0] += force;
+                acting.wrenches[b][0] += -force;
+            }
+            Place::At(_) => {}
+        }
+    }
+
+    /// The power of what acts for dimensionless rates of the unknowns, in W.
+    pub fn power(&self, acting: &Acting<T>, rates: &[T], placement: &Placement<T>) -> T {
+        let mut power = T::zero();
+        for (i, [force, moment]) in acting.wrenches.iter().enumerate() {
+            let twist = self.twists.twist(i, placement, rates);
+            power += twist.velocity.dot(force) + twist.omega.dot(moment);
+        }
+        for (effort, (column, scale)) in acting.efforts.iter().zip(&self.columns) {
+            if let Some(column) = column {
+                power += (*effort * rates[*column]).scale(*scale);
+            }
+        }
+        power
+    }
+
+    /// The inertia that couples two motions, Σ m·v₁·v₂ + ω₁·I·ω₂, for dimensionless rates of the unknowns. For motions of
+    /// unit rates of two coordinates it is an entry of the mass matrix.
+    pub fn inertia(&self, first: &[T], second: &[T], placement: &Placement<T>) -> T {
+        let mut sum = T::zero();
+        for (mass, &i) in self.own.masses.iter().zip(&self.masses) {
+            let [a, b] = [first, second].map(|rates| self.twists.twist(i, placement, rates));
+            let spin = self.angular_momentum(i, mass, &b.omega, placement);
+            sum += a.velocity.dot(&b.velocity).scale(mass.mass) + a.omega.dot(&spin);
+        }
+        sum
+    }
+}
+
+/// A configuration with its motion.
+struct Here<'a, T> {
+    of: &'a Loaded<T>,
+    at: &'a Configuration<T>,
+    placement: &'a Placement<T>,
+    moving: Option<Moving<'a, T>>,
+}
+
+impl<T: Number> Here<'_, T> {
+    /// Angular velocity and velocity of a point.
+    fn motion(&self, i: usize) -> Option<[Vector3<T>; 2]> {
+        let moving = self.moving.as_ref()?;
+        let twist = self.of.twists.twist(i, self.placement, moving.rates);
+        Some([twist.omega, twist.velocity].map(|v| v.times(moving.pace[0])))
+    }
+
+    /// Angular acceleration and acceleration of a point.
+    fn change(&self, i: usize) -> Option<[Vector3<T>; 2]> {
+        let moving = self.moving.as_ref()?;
+        let (twists, rates, placement) = moving.changes?;
+        let twist = twists.twist(i, placement, rates);
+        let [r, c] = moving.pace;
+        let paced = |x: Dual<T>| x.slope * r * r + x.value * c;
+        Some([twist.omega.map(paced), twist.velocity.map(paced)])
+    }
+
+    /// Distance of two points, and the direction from the first to the second.
+    fn line(&self, a: usize, b: usize) -> (T, Vector3<T>) {
+        let [a, b] = [a, b].map(|i| self.of.twists.origin(i, self.placement));
+        let apart = b - a;
+        let distance = apart.norm();
+        match distance.real() == 0.0 {
+            true => (distance, Vector3::zero()),
+            false => (distance, apart.times(T::one() / distance)),
+        }
+    }
+
+    /// The distance of two points, or the value of a joint, and its rate.
+    fn extension(&self, place: Place) -> (T, Option<T>) {
+        match place {
+            Place::Joint(joint) => (self.at.joints[joint], self.rate(joint)),
+            Place::Points(a, b) => {
+                let (distance, direction) = self.line(a, b);
+                let rates = self.motion(a).zip(self.motion(b));
+                let rate = rates.map(|(a, b)| direction.dot(&(b[1] - a[1])));
+                (distance, rate)
+            }
+            Place::At(_) => (T::zero(), None),
+        }
+    }
+
+    fn rate(&self, joint: usize) -> Option<T> {
+        let moving = self.moving.as_ref()?;
+        let (column, scale) = self.of.columns[joint];
+        let rate = moving.rates[column?] * moving.pace[0];
+        Some(rate.scale(scale))
+    }
+
+    /// The value of a quantity on which a given force depends. Nothing moves where it is not said how.
+    fn value(&self, of: &Measured) -> T {
+        let of_point = |point: &Point| self.of.points.iter().position(|known| known == point);
+        let nothing = T::zero();
+        match of {
+            Measured::Parameter(i) => T::from_f64(self.of.parameters[*i]),
+            Measured::Time => self.moving.as_ref().map_or(nothing, |moving| moving.time),
+            Measured::Joint(joint, Order::Value) => self.at.joints[*joint],
+            Measured::Joint(joint, _) => self.rate(*joint).unwrap_or(nothing),
+            Measured::Place(point, c, order) => {
+                let Some(i) = of_point(point) else {
+                    return T::from_f64(f64::NAN);
+                };
+                self.coordinate(i, *c, *order)
+            }
+            Measured::Size(point, _) => {
+                let motion = of_point(point).and_then(|i| self.motion(i));
+                motion.map_or(nothing, |[_, velocity]| velocity.norm())
+            }
+            _ => T::from_f64(f64::NAN),
+        }
+    }
+
+    fn coordinate(&self, i: usize, c: PoseCoordinate, order: Order) -> T {
+        let frame = self.of.twists.frame(i, self.placement);
+        let motion = self.motion(i).unwrap_or([Vector3::zero(); 2]);
+        match (order, c.is_angle()) {
+            (Order::Value, true) => c.of(frame),
+            (Order::Value, false) => {
+                let place = self.of.twists.origin(i, self.placement).0[c as usize];
+                place + T::from_f64(self.of.centre[c as usize])
+            }
+            (_, true) => c.turned(frame, &motion[0]),
+            (_, false) => motion[1].0[c as usize],
+        }
+    }
+}
