@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod centres;
+mod cut;
 mod frames;
 mod jacobian;
 mod planar;
@@ -36,6 +37,9 @@ pub struct VelocityReport {
     pub inputs: Vec<Rate>,
     /// Every joint; rates are `None` where nothing determines them.
     pub joints: Vec<JointRate>,
+    /// The joints at which loops are cut, which follow from the others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut: Vec<JointRate>,
     /// Platforms, then the points followed; empty if nothing determines their motion.
     pub frames: Vec<FrameRate>,
     /// The input–output Jacobian; `None` where the inputs do not determine the outputs.
@@ -202,6 +206,7 @@ pub fn velocity(
     let points = frames::followed(mechanism, points);
     let mut frames: Vec<Frame> = points.iter().map(|point| point.frame).collect();
     frames.extend(Outputs::frames(&outputs).chain(TransmissionAngles::frames(mechanism)));
+    frames.extend(cut::frames(mechanism));
     let mut motion = Motion::placing(mechanism, &drive.coordinates, &frames, |held| held);
     let gain = gain(mechanism, &mut held, &rest);
     let accuracy = accuracy::of(&mut motion, &mut held, &rest, drive);
@@ -243,6 +248,7 @@ pub fn velocity(
         }
     });
     let joints = joints.collect();
+    let cut = cut::rates(mechanism, &motion, at, &spins, (determined, exist));
     let frames = match determined {
         true => frames::rates(mechanism, &mut motion, at, &points, &spins, exist),
         false => Vec::new(),
@@ -258,6 +264,7 @@ pub fn velocity(
         mechanism: mechanism.name().to_owned(),
         inputs: inputs.collect(),
         joints,
+        cut,
         frames,
         jacobian,
         gain,

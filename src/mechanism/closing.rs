@@ -37,10 +37,10 @@ pub struct ClosingJoint {
 }
 
 /// The values of a joint of a kind whose second frame has this pose in the first, in rad and m.
-pub(crate) fn joint_values(kind: ClosureKind, pose: &Pose<f64>) -> Vec<f64> {
-    let about_z = |pose: &Pose<f64>| {
+pub(crate) fn joint_values<T: Number>(kind: ClosureKind, pose: &Pose<T>) -> Vec<T> {
+    let about_z = |pose: &Pose<T>| {
         let [x, ..] = pose.rotation.0;
-        Number::atan2(x.0[1], x.0[0])
+        x.0[1].atan2(x.0[0])
     };
     let along_z = pose.position.0[2];
     match kind {
@@ -50,8 +50,9 @@ pub(crate) fn joint_values(kind: ClosureKind, pose: &Pose<f64>) -> Vec<f64> {
         ClosureKind::Universal => {
             // Rz(q₁)·Rx(90°) takes z to (sin q₁, −cos q₁, 0)
             let [.., z] = pose.rotation.0;
-            let first = Number::atan2(z.0[0], -z.0[1]);
-            let cross = Pose::rotation(Axis::Z, first) * Pose::rotation(Axis::X, FRAC_PI_2);
+            let first = z.0[0].atan2(-z.0[1]);
+            let right_angle = Pose::rotation(Axis::X, T::from_f64(FRAC_PI_2));
+            let cross = Pose::rotation(Axis::Z, first) * right_angle;
             vec![first, about_z(&(cross.inverse() * *pose))]
         }
         ClosureKind::Spherical

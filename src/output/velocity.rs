@@ -150,7 +150,7 @@ fn joints(report: &VelocityReport) -> TableOf<&JointRate> {
         Some(rate) => Cell::quantity(rate, unit),
         None => "not determined".into(),
     };
-    Table::of(&report.joints)
+    Table::of(report.joints.iter().chain(&report.cut))
         .words("name", |joint| joint.name.as_str())
         .words("", |joint| if joint.held { "held" } else { "solved" })
         .numbers("value", |joint| Cell::quantity(joint.value, joint.unit))

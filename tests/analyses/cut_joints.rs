@@ -360,3 +360,51 @@ fn a_universal_joint_has_the_values_of_its_drawing_wherever_the_loop_is_cut() {
         assert_near(degrees(&again, name), degrees(&whole, name), 1e-7);
     }
 }
+
+/// Rates and accelerations of all joints by name, in rad.
+fn rates(question: &Question) -> Vec<(String, f64, f64)> {
+    let found = question.velocity(&Watch::none()).unwrap().closed().unwrap();
+    let all = found.joints.iter().chain(&found.cut);
+    let all = all.map(|of| (of.name.clone(), of.rate.unwrap(), of.acceleration.unwrap()));
+    let mut all: Vec<_> = all.collect();
+    all.sort_by(|a, b| a.0.cmp(&b.0));
+    all
+}
+
+#[test]
+fn joints_have_the_same_rates_wherever_the_loop_is_cut() {
+    let pins = |cut: &str| Question::new(built(&cut_at(cut))).hold("O", "60 deg");
+    let universals = |cut: &str| {
+        let text = UNIVERSALS.replace("joints: {", &format!("cut: [\"{cut}\"], joints: {{"));
+        Question::new(built(&text)).hold("A", "25 deg")
+    };
+    let near = |a: &[(String, f64, f64)], b: &[(String, f64, f64)]| {
+        assert_eq!(a.len(), b.len());
+        for (a, b) in a.iter().zip(b) {
+            assert_eq!(a.0, b.0);
+            assert_near(a.1, b.1, 1e-8);
+            assert_near(a.2, b.2, 1e-7);
+        }
+    };
+    let driven = |question: Question, input: &str| {
+        rates(&question.rate(input, 1.5).acceleration(input, -0.5))
+    };
+    let known = driven(pins("A"), "O");
+    near(&driven(pins("B"), "O"), &known);
+    near(&driven(pins("C"), "O"), &known);
+    let known = driven(universals("P"), "A");
+    near(&driven(universals("U"), "A"), &known);
+    near(&driven(universals("V"), "A"), &known);
+    // and they are the differences of values
+    let values = |angle: f64| {
+        let report = solved(&Question::new(built(&cut_at("B"))).hold("O", angle));
+        *report.joints.get("B").unwrap()
+    };
+    let (at, h) = (60_f64.to_radians(), 1e-4);
+    let slope = (values(at + h) - values(at - h)) / (2.0 * h);
+    let b = driven(pins("B"), "O")
+        .into_iter()
+        .find(|of| of.0 == "B")
+        .unwrap();
+    assert_near(b.1, 1.5 * slope, 1e-7);
+}
