@@ -20,7 +20,7 @@ use crate::linear::Rows;
 use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
-use crate::system::{Coordinate, Held, HeldParts, HeldPlatform, Unknown};
+use crate::system::{Coordinate, Held, Unknown};
 
 /// A coordinate that moves along a segment, in m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -417,26 +417,5 @@ impl SolutionCurve for Curve {
 
     fn difference(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> Vec<f64> {
         self.system.difference(from, to)
-    }
-}
-
-impl Held<f64> {
-    /// Frees one coordinate.
-    pub fn without(mut self, coordinate: Coordinate) -> Self {
-        match coordinate {
-            Coordinate::Joint(joint) => self.joints[joint] = false,
-            Coordinate::Pose(platform, without) => {
-                let held = &mut self.platforms[platform];
-                if let HeldPlatform::Partly(parts) = held {
-                    parts.coordinates.retain(|(c, _)| *c != without);
-                    if *parts == HeldParts::default() {
-                        *held = HeldPlatform::Free;
-                    }
-                }
-            }
-            // held only with its whole pose
-            Coordinate::Turn(platform, _) => self.platforms[platform] = HeldPlatform::Free,
-        }
-        self
     }
 }

@@ -7,6 +7,7 @@ mod coordinate;
 mod course;
 mod decomposed;
 mod displacement;
+mod holds;
 mod layout;
 mod parts;
 mod plan;
@@ -19,6 +20,7 @@ pub use closure_gap::Gap;
 pub use closures::{ClosureAxes, ClosureWrenches};
 pub use coordinate::Coordinate;
 pub(crate) use course::Course;
+pub(crate) use holds::hold_rows;
 pub use layout::{Held, HeldParts, HeldPlatform, Places, Unknown};
 pub use parts::independent_parts;
 pub use settle::{settle, solve};
@@ -29,9 +31,8 @@ use plan::ClosurePlan;
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
     Closure, Configuration, Dimensions, EVERY_ROW, Frame, Kept, Kinematics, Mechanism, Mover, Need,
-    Placement, PoseCoordinate, Side, needs, orientation_rows,
+    Placement, PoseCoordinate, Side, needs,
 };
-use crate::number::Field;
 use crate::solve::{Equations, Size};
 pub(crate) use layout::HoldRow;
 
@@ -276,43 +277,6 @@ impl<T: Factorable> System<T> {
         dense
     }
 
-    fn hold_residuals(&self, at: &Configuration<T>, work: &mut Work<T>) {
-        let width = self.empty.shared().len();
-        let first = self.hold_rows().start;
-        let twist_place = |platform| {
-            let unknown = self.place_of(Unknown::first_twist(platform));
-            unknown.expect("a partly held platform is unknown") - self.empty.shared()[0]
-        };
-        let mut row = 0;
-        for hold in &self.holds {
-            match hold {
-                HoldRow::Coordinate(platform, coordinate, value) => {
-                    let pose = at.platforms[*platform].pose();
-                    let (gap, slope) = coordinate.row(&pose, *value, self.length);
-                    work.residual[first + row] = gap;
-                    let place = row * width + twist_place(*platform);
-                    work.hold_rows[place..place + 6].copy_from_slice(&slope);
-                }
-                HoldRow::Spin(spin) => {
-                    let (gap, slope) = spin.row(&at.platforms[spin.platform].orientation);
-                    work.residual[first + row] = gap;
-                    let place = row * width + twist_place(spin.platform);
-                    work.hold_rows[place..place + 3].copy_from_slice(&slope);
-                }
-                HoldRow::Orientation(platform, wanted) => {
-                    let actual = at.platforms[*platform].orientation.rotation();
-                    let (gaps, slopes) = orientation_rows(&actual, wanted);
-                    for (i, (gap, slope)) in gaps.into_iter().zip(slopes).enumerate() {
-                        work.residual[first + row + i] = gap;
-                        let place = (row + i) * width + twist_place(*platform);
-                        work.hold_rows[place..place + 3].copy_from_slice(&slope.0);
-                    }
-                }
-            }
-            row += hold.rows();
-        }
-    }
-
     fn jacobian_columns(&self, at: &Configuration<T>, work: &mut Work<T>) {
         for (plan, closure) in self.plans.iter().zip(&self.closures) {
             let rows = closure.rows(&work.placement, at);
@@ -347,21 +311,6 @@ impl<T: Factorable> System<T> {
             }
         }
     }
-}
-
-/// The rows of platforms held in part, with positions from the centre.
-pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<HoldRow<T>> {
-    let mut rows = Vec::new();
-    for (platform, held) in held.platforms.iter().enumerate() {
-        let single = held.coordinates().iter();
-        rows.extend(
-            single
-                .map(|&(c, value)| HoldRow::Coordinate(platform, c, c.about_centre(value, centre))),
-        );
-        rows.extend((held.orientation()).map(|wanted| HoldRow::Orientation(platform, wanted)));
-        rows.extend(held.spins().iter().copied().map(HoldRow::Spin));
-    }
-    rows
 }
 
 impl<T: Factorable> Equations for System<T> {

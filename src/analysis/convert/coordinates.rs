@@ -10,6 +10,7 @@
 
 mod closures;
 mod frames;
+mod places;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
@@ -17,14 +18,15 @@ use std::f64::consts::PI;
 use super::references::rename;
 use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
-use crate::description::steps::{carried, doing_something, joined, zero};
+use crate::description::steps::{doing_something, joined, zero};
 use crate::description::{
     AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
     Description, Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable,
     place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
-use crate::number::real;
+
+use places::{axis_along, is_oblique, place_at, point_of, rotations};
 
 type Displacements = Vec<Displacement>;
 
@@ -118,42 +120,6 @@ fn axis_of(
     match convention {
         Convention::Modified => joined(steps.chain(doing_something(link)).chain(joint)),
         Convention::Standard => joined(steps.chain(joint)),
-    }
-}
-
-/// True if something is turned by other than right angles.
-fn is_oblique(steps: &[Displacement]) -> bool {
-    let oblique = |step: &Displacement| match step {
-        Displacement::Rotate(_, angle) => match angle.expression.fixed_value() {
-            Some(angle) => real::sin(angle).abs().min(real::cos(angle).abs()) > 1e-12,
-            None => true,
-        },
-        _ => false,
-    };
-    steps.iter().any(oblique)
-}
-
-/// The rotations among displacements.
-fn rotations(steps: &[Displacement]) -> impl Iterator<Item = &Displacement> {
-    let is_rotation = |step: &&Displacement| matches!(step, Displacement::Rotate(..));
-    steps.iter().filter(is_rotation)
-}
-
-fn point_of(steps: &[Displacement]) -> [Entry; 3] {
-    carried(steps, [zero(), zero(), zero()], true)
-}
-
-fn axis_along(steps: &[Displacement], axis: Axis, sense: f64) -> [Entry; 3] {
-    let mut along = [zero(), zero(), zero()];
-    along[axis as usize] = Entry::number(sense, 0..0);
-    carried(steps, along, false)
-}
-
-/// A frame by its origin where nothing is turned.
-fn place_at(steps: &[Displacement]) -> AxisPlace {
-    match rotations(steps).next() {
-        Some(_) => AxisPlace::Frame(steps.to_vec()),
-        None => AxisPlace::Centre(point_of(steps)),
     }
 }
 
