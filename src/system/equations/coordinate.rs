@@ -1,7 +1,7 @@
 //! Coordinates that can be held, driven or mapped.
 
 use super::System;
-use super::layout::Unknown;
+use super::layout::{Held, HeldParts, HeldPlatform, Unknown};
 use crate::algebra::Measure;
 use crate::geometry::{Axis, Pose};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
@@ -162,5 +162,26 @@ impl Coordinate {
                 format!("{}.{axis}", mechanism.platforms()[platform].name)
             }
         }
+    }
+}
+
+impl Held<f64> {
+    /// Frees one coordinate.
+    pub fn without(mut self, coordinate: Coordinate) -> Self {
+        match coordinate {
+            Coordinate::Joint(joint) => self.joints[joint] = false,
+            Coordinate::Pose(platform, without) => {
+                let held = &mut self.platforms[platform];
+                if let HeldPlatform::Partly(parts) = held {
+                    parts.coordinates.retain(|(c, _)| *c != without);
+                    if *parts == HeldParts::default() {
+                        *held = HeldPlatform::Free;
+                    }
+                }
+            }
+            // held only with its whole pose
+            Coordinate::Turn(platform, _) => self.platforms[platform] = HeldPlatform::Free,
+        }
+        self
     }
 }

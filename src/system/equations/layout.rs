@@ -1,6 +1,6 @@
 //! Held coordinates, unknowns, and the blocks of the Jacobian.
 
-use super::{Coordinate, Spin};
+use super::Spin;
 use crate::geometry::Rotation;
 use crate::linear::{Block, Factorable, SparseStep};
 use crate::mechanism::{Closure, Configuration, Mechanism, PoseCoordinate};
@@ -88,27 +88,6 @@ pub struct Held<T> {
     pub joints: Vec<bool>,
     /// Held coordinates of each platform.
     pub platforms: Vec<HeldPlatform<T>>,
-}
-
-impl Held<f64> {
-    /// Frees one coordinate.
-    pub fn without(mut self, coordinate: Coordinate) -> Self {
-        match coordinate {
-            Coordinate::Joint(joint) => self.joints[joint] = false,
-            Coordinate::Pose(platform, without) => {
-                let held = &mut self.platforms[platform];
-                if let HeldPlatform::Partly(parts) = held {
-                    parts.coordinates.retain(|(c, _)| *c != without);
-                    if *parts == HeldParts::default() {
-                        *held = HeldPlatform::Free;
-                    }
-                }
-            }
-            // held only with its whole pose
-            Coordinate::Turn(platform, _) => self.platforms[platform] = HeldPlatform::Free,
-        }
-        self
-    }
 }
 
 impl<T: Number> Held<T> {
