@@ -46,7 +46,7 @@ pub use crate::analysis::quantities::Motions;
 pub use crate::system::{Demand, Role, Value};
 pub use error::{AskError, Item, Unmeasured};
 pub use live::{Gained, Reading};
-pub use many::Many;
+pub use many::{Jacobians, Many, ManyMeasured, Unreached};
 pub use modes::{Mode, Modes, Solved, Store};
 pub use remedy::Remedy;
 pub use schedule::{TableError, TableErrorKind};

@@ -6,17 +6,36 @@ mod check;
 mod compare;
 mod convert;
 mod draw;
+mod examples;
 mod export;
 mod format;
 mod formulas;
 mod frames;
 mod generate;
+mod handout;
+mod help;
 mod import;
 mod merge;
 mod mobility;
+mod new;
 mod pictures;
+mod read;
+#[cfg(feature = "schema")]
+mod schema;
+#[cfg(not(feature = "schema"))]
+mod schema {
+    pub fn has_one(_: &str) -> bool {
+        false
+    }
+
+    pub fn written(_: &str) -> String {
+        String::new()
+    }
+}
 mod search;
 mod served;
+mod setup;
+mod shipped;
 mod singularities;
 mod snap;
 mod solve;
@@ -36,7 +55,7 @@ use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use linkwork::output::complaint::Complaint;
 use linkwork::output::diagnostics::Style;
 
@@ -73,7 +92,7 @@ commands! {
     check: Check, solve: Solve, assemblies: Assemblies, compare: Compare, convert: Convert, draw: Draw, frames: Frames,
     export: Export, import: Import, formulas: Formulas, generate: Generate, mobility: Mobility, velocity: Velocity,
     view: View, statics: Statics, sweep: Sweep, singularities: Singularities, workspace: Workspace, study: Study,
-    merge: Merge, snap: Snap,
+    merge: Merge, snap: Snap, handout: Handout, new: New, examples: Examples, setup: Setup,
 }
 
 /// Answer of a command.
@@ -126,16 +145,44 @@ fn lines(word: &str, said: impl IntoIterator<Item = String>) -> String {
     lines.collect()
 }
 
+/// The program's commands and options.
+fn command() -> clap::Command {
+    help::arranged(Arguments::command())
+}
+
+/// Request of a command line.
+enum Parsed {
+    Command(Box<Command>),
+    /// The schema of a command's JSON.
+    Schema(String),
+}
+
+fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, clap::Error> {
+    let mut command = command();
+    let mut matches = command.try_get_matches_from_mut(arguments)?;
+    if let Some((name, of)) = matches.subcommand()
+        && schema::has_one(name)
+        && of.get_flag("schema")
+    {
+        return Ok(Parsed::Schema(schema::written(name)));
+    }
+    match Arguments::from_arg_matches_mut(&mut matches) {
+        Ok(arguments) => Ok(Parsed::Command(Box::new(arguments.command))),
+        Err(error) => Err(error.format(&mut command)),
+    }
+}
+
 /// Does what the command line asks for; returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
+    let answer = match parsed(arguments) {
+        Ok(Parsed::Command(command)) => command.run(),
+        Ok(Parsed::Schema(schema)) => Ok(Answer::yes(schema, String::new())),
         Err(error) => {
             let _ = error.print();
             return error.exit_code() as u8;
         }
     };
-    match arguments.command.run() {
+    match answer {
         Ok(answer) => {
             say(&answer.remarks);
             match write(&answer.data) {

@@ -35,7 +35,7 @@ pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;
 pub use literals::{Literal, rounding_of_text, roundings};
-pub use load::{FileError, LoadError, load, load_text, load_text_within};
+pub use load::{FileError, LoadError, load, load_text, load_text_within, text_from};
 #[cfg(feature = "interchange")]
 pub(crate) use naming::variable_name;
 pub(crate) use naming::{first_free, free_variable};

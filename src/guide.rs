@@ -4,6 +4,7 @@
 //!
 //! | Page | Subject |
 //! |---|---|
+//! | [`begin`] | examples, completions, manual, handouts |
 //! | [`file`](mod@file) | the mechanism file |
 //! | [`coordinates`] | the same by joint coordinates, as a drawing gives them |
 //! | [`solve`] | the assembled configuration near a guess: direct, inverse and mixed kinematics |
@@ -30,6 +31,10 @@
 /// All assemblies (assembly modes, working modes) for held inputs, each with a certificate.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/assemblies.md"))]
 pub mod assemblies {}
+
+/// The first hour: examples, completions, manual, handouts.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/begin.md"))]
+pub mod begin {}
 
 /// Units, frames, tables, angles, names, exit status.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/conventions.md"))]

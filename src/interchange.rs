@@ -18,7 +18,7 @@ mod urdf;
 mod xml;
 
 pub use cut::tree_of;
-pub use import::{ImportError, ImportSettings, Imported, import, load};
+pub use import::{ImportError, ImportSettings, Imported, import, load, load_beside};
 pub use mjcf::{NotRead, write as write_mjcf};
 pub use problem::{ImportProblem, ImportProblemKind, WrongFile};
 pub use remark::Remark;

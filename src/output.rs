@@ -34,6 +34,8 @@ pub mod overview;
 pub mod plot;
 pub mod quantity;
 pub mod rounding;
+#[cfg(feature = "schema")]
+pub mod schema;
 mod screws;
 pub mod singularities;
 pub mod solution;
@@ -41,6 +43,7 @@ pub mod solver;
 pub mod statics;
 pub mod study;
 pub mod sweep;
+pub mod tables;
 pub mod velocity;
 #[cfg(feature = "cli")]
 pub mod view;

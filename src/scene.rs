@@ -266,6 +266,7 @@ impl Scene {
                 ));
             }
         }
+        scene.blocks();
         scene.travels(mechanism, at, &pose);
         scene.gears(mechanism, &pose, &number);
         scene

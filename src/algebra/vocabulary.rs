@@ -35,6 +35,17 @@ macro_rules! words {
                 }
             }
 
+            #[cfg(feature = "schema")]
+            impl schemars::JsonSchema for $part {
+                fn schema_name() -> std::borrow::Cow<'static, str> {
+                    stringify!($part).into()
+                }
+
+                fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                    schemars::json_schema!({ "enum": Self::ALL.map(Self::word) })
+                }
+            }
+
             impl<'de> serde::Deserialize<'de> for $part {
                 fn deserialize<D: serde::Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
                     let word = String::deserialize(reader)?;

@@ -51,6 +51,7 @@ impl Default for CompareSettings {
 
 /// Report on the closed forms of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CompareReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -76,6 +77,7 @@ pub struct CompareReport {
 
 /// Report on one closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FormReport {
     /// Its name.
     pub name: String,
@@ -98,6 +100,7 @@ pub struct FormReport {
 
 /// Outcome of comparing a closed form with the chains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// It agrees at every sample.
@@ -112,6 +115,7 @@ pub enum Verdict {
 
 /// Report on one entry of a pose or one identity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComponentReport {
     /// `px`, `r11`, … or the name of the identity.
     pub name: String,
@@ -138,6 +142,7 @@ pub struct ComponentReport {
 
 /// The sample at which a component differs most.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorstSample {
     /// Joint values, rad or m.
     pub joints: Named<f64>,
@@ -149,6 +154,7 @@ pub struct WorstSample {
 
 /// Kind of quantity of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// A coordinate of a position, in m.

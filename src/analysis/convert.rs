@@ -29,9 +29,11 @@ pub struct ConvertSettings {
 
 /// A converted mechanism file, with its differences.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Conversion {
     /// The file, serialised as its text.
     #[serde(rename = "file", with = "mechanism_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub description: Description,
     /// Frames renamed, and information lost.
     pub notes: Vec<ConversionNote>,
@@ -39,6 +41,7 @@ pub struct Conversion {
 
 /// A difference of a converted file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "note", rename_all = "snake_case")]
 pub enum ConversionNote {
     /// A frame is called otherwise now.

@@ -32,6 +32,7 @@ pub struct FramesSettings {
 
 /// Tables for joint axes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FramesReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -47,6 +48,7 @@ pub struct FramesReport {
     pub moved: f64,
     /// The mechanism file, serialised as its text.
     #[serde(rename = "file", with = "mechanism_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub description: Description,
     /// Warnings about the file of axes, with places in its text, which are not serialised.
     #[serde(skip)]
@@ -55,11 +57,13 @@ pub struct FramesReport {
 
 /// The joint axes that the tables of a mechanism describe.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AxesReport {
     /// Name of the mechanism.
     pub mechanism: String,
     /// The file of joint axes, serialised as its text.
     #[serde(rename = "file", with = "axes_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub axes: AxesDescription,
 }
 
@@ -74,6 +78,7 @@ impl From<AxesDescription> for AxesReport {
 
 /// A chain whose frames are placed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlacedChain {
     /// Its name.
     pub name: String,
@@ -97,6 +102,7 @@ pub struct PlacedChain {
 
 /// A common normal between consecutive axes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlacedNormal {
     /// Relation of the axes; `None` at an end where nothing given fixes it.
     pub relation: Option<Relation>,
@@ -114,6 +120,7 @@ pub struct PlacedNormal {
 
 /// A frame at home, in ground.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlacedFrame {
     /// Its origin in m.
     pub position: [f64; 3],
@@ -127,6 +134,7 @@ pub struct PlacedFrame {
 
 /// A joint axis at home, in ground.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlacedAxis {
     /// A point on it, in m.
     pub point: [f64; 3],
@@ -138,6 +146,7 @@ pub struct PlacedAxis {
 
 /// Cuts of loops.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CutReport {
     /// The joints that were cut.
     pub cut: Vec<String>,
@@ -151,6 +160,7 @@ pub struct CutReport {
 
 /// A way to cut the loops.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CutChoice {
     /// Rows of the longest chain.
     pub longest: usize,

@@ -59,6 +59,7 @@ impl Default for SingularitiesSettings {
 
 /// Singularity of an assembled configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SingularitiesReport {
     /// The mechanism's name.
     pub mechanism: String,

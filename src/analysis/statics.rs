@@ -21,6 +21,7 @@ pub use rest::Rest;
 
 /// The forces in an assembled mechanism at rest. Vectors are in ground, forces in N, moments in N·m, points in m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StaticsReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -69,6 +70,7 @@ pub struct StaticsReport {
 
 /// A wrench at a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AppliedWrench {
     /// The point: a frame stands for its origin.
     pub frame: String,
@@ -80,6 +82,7 @@ pub struct AppliedWrench {
 
 /// A force or moment along a coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Force {
     /// The coordinate.
     pub name: String,

@@ -139,6 +139,7 @@ type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
 /// Outcome of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SweepReport {
     /// The inputs; none for a motion that follows its curve.
     pub inputs: Vec<Bound>,

@@ -23,13 +23,14 @@ use crate::system::{
 pub use centres::InstantCentre;
 pub(crate) use frames::Spins;
 pub use jacobian::{Axis, InputOutput};
-pub(crate) use jacobian::{Normalised, Outputs, condition, row_count};
+pub(crate) use jacobian::{Normalised, Outputs, axes, condition, row_count};
 pub use planar::Transmission;
 pub(crate) use planar::TransmissionAngles;
 
 /// Velocities and accelerations of an assembled mechanism. Vectors are in ground; angles in rad, lengths in m, time in
 /// s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VelocityReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -74,6 +75,7 @@ impl VelocityReport {
 
 /// A coordinate with its rate and acceleration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rate {
     /// The coordinate.
     pub name: String,
@@ -87,6 +89,7 @@ pub struct Rate {
 
 /// A joint variable with its rate and acceleration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointRate {
     /// The joint.
     pub name: String,
@@ -104,6 +107,7 @@ pub struct JointRate {
 
 /// Velocity and acceleration of a frame, or of a point of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrameRate {
     /// The frame, or a point of one.
     pub name: String,
@@ -123,6 +127,7 @@ pub struct FrameRate {
 
 /// Freedoms with all held coordinates at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Gain {
     /// Number of freedoms.
     pub freedoms: usize,
@@ -134,6 +139,7 @@ pub struct Gain {
 
 /// Rates that exist to first order and belong to no motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FirstOrderOnly {
     /// True for a shaky structure: one infinitesimal freedom, and no finite motion at all.
     pub shaky: bool,
@@ -146,6 +152,7 @@ pub struct FirstOrderOnly {
 /// Accuracy of rates and accelerations. Near a singular configuration the rounding left in the closures may displace
 /// the mechanism far along the direction in which they hardly resist.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Accuracy {
     /// The smallest singular value of the dimensionless closure equations with what is held, of
     /// those that count; `None` if nothing is unknown.

@@ -1,5 +1,6 @@
 //! One configuration after another for rows of held values.
 
+mod measured;
 mod rows;
 
 use std::sync::atomic::AtomicUsize;
@@ -12,6 +13,7 @@ use crate::analysis::solver::{Follower, Following};
 use crate::linear::DENSE_LIMIT;
 use crate::solve::{Watch, each};
 use crate::system::{self, Coordinate, HeldPlatform, check_count};
+pub use measured::{Jacobians, ManyMeasured};
 use rows::{Block, Rows};
 
 /// The most rows that are followed from the start; they decide where following begins again, and so belong to the answer.
@@ -29,8 +31,21 @@ pub struct Many {
     pub values: Vec<f64>,
     /// For each row, true if it was reached.
     pub reached: Vec<bool>,
+    /// The rows that were not reached, and why.
+    pub lost: Vec<(usize, Unreached)>,
     /// True if the work was stopped before it was done; then rows are missing at the end, of unsorted values all.
     pub interrupted: bool,
+}
+
+/// Reason for which a row was not reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unreached {
+    /// A value is infinite or not a number.
+    NotFinite,
+    /// No path along which the mechanism keeps to its branch leads there from the row before or from the beginning.
+    NoPath,
+    /// A search found no assembly there.
+    NotFound,
 }
 
 impl Question {
@@ -167,6 +182,7 @@ impl Question {
             names: all.columns.iter().map(|of| of.name(mechanism)).collect(),
             values: found,
             reached,
+            lost: Vec::new(),
             interrupted,
         };
         if !all.order.is_empty() {
@@ -178,6 +194,16 @@ impl Question {
                 many.reached[row] = reached;
             }
         }
+        let lost = (0..many.reached.len()).filter(|row| !many.reached[*row]);
+        many.lost = lost
+            .map(|row| {
+                let values = &values[row * names.len()..(row + 1) * names.len()];
+                match values.iter().all(|value| value.is_finite()) {
+                    true => (row, Unreached::NoPath),
+                    false => (row, Unreached::NotFinite),
+                }
+            })
+            .collect();
         Ok(many)
     }
 }

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use linkwork::analysis::overview::overview;
+use linkwork::output::tables;
 
 use super::format::{Format, readable};
 use super::source::Source;
@@ -16,6 +17,9 @@ use super::{Answer, Refusal};
 pub struct Check {
     #[command(flatten)]
     source: Source,
+    /// Write the Denavit–Hartenberg tables as LaTeX, for the packages booktabs and amsmath
+    #[arg(long, conflicts_with = "format")]
+    latex: bool,
     /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
@@ -24,6 +28,11 @@ pub struct Check {
 impl Check {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        loaded.answer(self.format, &overview(&loaded.mechanism))
+        let overview = overview(&loaded.mechanism);
+        let mut answer = loaded.answer(self.format, &overview)?;
+        if self.latex {
+            answer.data = tables::latex(&overview, &loaded.mechanism.names_in_formulas());
+        }
+        Ok(answer)
     }
 }

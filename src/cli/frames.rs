@@ -1,6 +1,6 @@
 //! `linkwork frames`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
@@ -8,7 +8,7 @@ use linkwork::analysis::frames::{AxesReport, FramesReport, FramesSettings, frame
 use linkwork::analysis::rounding::posed;
 use linkwork::ask::Question;
 use linkwork::description::{
-    AxesDescription, Convention, Description, LoadError, is_mechanism, load_text,
+    AxesDescription, Convention, Description, LoadError, MAX_BYTES, is_mechanism,
 };
 use linkwork::mechanism::Mechanism;
 use linkwork::output::frames as output;
@@ -16,6 +16,7 @@ use linkwork::output::rounding::{Prefaced, sentence};
 use linkwork::system::Analysed;
 
 use super::format::{Format, with_file};
+use super::read::{called, text};
 use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
@@ -33,7 +34,7 @@ use super::{Answer, Refusal, lines};
     after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron"
 )]
 pub struct Frames {
-    /// The file of joint axes, or a mechanism file.
+    /// The file of joint axes, or a mechanism file; `-` reads standard input
     file: PathBuf,
     /// The convention of the tables; that of the file, or else modified
     #[arg(long, value_enum)]
@@ -48,12 +49,11 @@ pub struct Frames {
 
 impl Frames {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let text = load_text(&self.file)?;
+        let (path, text) = (called(&self.file), text(&self.file, MAX_BYTES)?);
         if is_mechanism(&text) {
-            return self.axes_of_mechanism();
+            return self.axes_of_mechanism(&path, text);
         }
-        let refused =
-            |problems| Refusal::from(LoadError::wrong(&self.file, text.clone(), problems));
+        let refused = |problems| Refusal::from(LoadError::wrong(&path, text.clone(), problems));
         let mut axes = AxesDescription::read(&text).map_err(refused)?;
         let exact = axes.tables().and_then(posed).ok();
         let rounding = exact
@@ -93,10 +93,10 @@ impl Frames {
     }
 
     /// Writes the axes of tables, and other tables of these if they are asked for.
-    fn axes_of_mechanism(&self) -> Result<Answer, Refusal> {
-        let (text, description) = Mechanism::read(&self.file)?;
+    fn axes_of_mechanism(&self, path: &Path, text: String) -> Result<Answer, Refusal> {
+        let (text, description) = Mechanism::read_text(path, text)?;
         let (_, mechanism) =
-            posed(description).map_err(|problems| LoadError::wrong(&self.file, text, problems))?;
+            posed(description).map_err(|problems| LoadError::wrong(path, text, problems))?;
         let mechanism = Arc::new(mechanism);
         let question = Question::new(mechanism.clone());
         let (at, gap) = match watched(|watch| question.closed(watch)) {

@@ -1,18 +1,20 @@
 //! `linkwork import`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use linkwork::analysis::rounding::posed;
-use linkwork::description::rounding_of_text;
-use linkwork::description::{self, Convention, Description, LoadError, ProblemKind, Role};
-use linkwork::interchange::{ImportError, ImportSettings, Remark, load};
+use linkwork::description::{
+    self, Convention, Description, LoadError, MAX_BYTES, ProblemKind, Role, rounding_of_text,
+};
+use linkwork::interchange::{ImportError, ImportSettings, Remark, load_beside};
 use linkwork::mechanism::{Mechanism, Rounding};
 use linkwork::output::diagnostics;
 use linkwork::output::rounding::sentence;
 use linkwork::system::redundant_motors;
 
 use super::export::remarks;
+use super::read::{called, text};
 use super::written::{file, written};
 use super::{Answer, Refusal, lines, style};
 
@@ -26,7 +28,7 @@ use super::{Answer, Refusal, lines, style};
     after_help = "Example: linkwork import robot.urdf --loops loops.ron --frame tool0 > robot.ron"
 )]
 pub struct Import {
-    /// The URDF, MJCF or SDF file
+    /// The URDF, MJCF or SDF file; `-` reads standard input
     file: PathBuf,
     /// A mechanism file with the closures of the loops, and chains `on:` links, by the names of links and sites
     #[arg(long, value_name = "FILE")]
@@ -47,7 +49,11 @@ pub struct Import {
 
 impl Import {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loops = self.loops.as_ref().map(description::load).transpose()?;
+        let closing = |path: &PathBuf| {
+            let read = Mechanism::read_text(called(path), text(path, MAX_BYTES)?);
+            read.map_err(Refusal::from)
+        };
+        let loops = self.loops.as_ref().map(closing).transpose()?;
         let settings = ImportSettings {
             convention: self.convention,
             frames: self.frame.clone(),
@@ -55,13 +61,14 @@ impl Import {
             include_from: self.include_from.clone(),
         };
         let closing = loops.as_ref().map(|(_, description)| description);
-        let mut imported = load(&self.file, closing, &settings).map_err(|error| {
-            Refusal(match error {
-                ImportError::Wrong(wrong) => diagnostics::import(&wrong, style()),
-                ImportError::Unreadable(error) => return Refusal::error(error),
-            })
-        })?;
-        let (exact, note) = exact(&imported.description, &self.file);
+        let path = called(&self.file);
+        let text = text(&self.file, MAX_BYTES)?;
+        let mut imported =
+            load_beside(&path, &text, closing, &settings).map_err(|error| match error {
+                ImportError::Wrong(wrong) => Refusal(diagnostics::import(&wrong, style())),
+                ImportError::Unreadable(error) => error.into(),
+            })?;
+        let (exact, note) = exact(&imported.description, &text);
         imported.description = exact;
         let made = Mechanism::new(&imported.description);
         // without loops every motor has a freedom of its own
@@ -87,7 +94,7 @@ impl Import {
             // names and values of the imported part are sound: what is wrong stands in the file of loops
             let (path, text) = match (&self.loops, loops) {
                 (Some(path), Some((text, _))) => (path, text),
-                _ => (&self.file, String::new()),
+                _ => (&path, String::new()),
             };
             return Err(LoadError::wrong(path, text, problems).into());
         }
@@ -101,11 +108,9 @@ impl Import {
 
 /// The description of the nearest linkage that closes exactly where loops close within the rounding of the numbers of a file
 /// of another program, with what is said about it. A pose there is a product of many numbers.
-fn exact(description: &Description, path: &Path) -> (Description, String) {
+fn exact(description: &Description, text: &str) -> (Description, String) {
     const PRODUCT: f64 = 4.0;
-    let rounded = description::load_text(path)
-        .ok()
-        .and_then(|text| rounding_of_text(&text));
+    let rounded = rounding_of_text(text);
     let length = Mechanism::new(description)
         .ok()
         .map(|of| of.characteristic_length());

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use linkwork::description::MAX_BYTES;
 use linkwork::output::study::{mapped, merge, spread};
 
+use super::read::{called, text};
 use super::{Answer, Refusal};
 
 /// Join the shards of a study.
@@ -15,7 +17,7 @@ use super::{Answer, Refusal};
 #[derive(Args)]
 #[command(after_help = "Example: linkwork merge part-*.csv > study.csv")]
 pub struct Merge {
-    /// Files written by `linkwork study --shard`
+    /// Files written by `linkwork study --shard`; `-` reads standard input
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Write mean, standard deviation and extremes of each column instead of the rows
@@ -34,11 +36,7 @@ pub struct Merge {
 impl Merge {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let read = self.files.iter().map(|file| {
-            let name = file.display().to_string();
-            match std::fs::read_to_string(file) {
-                Ok(text) => Ok((name, text)),
-                Err(error) => Err(Refusal::error(format!("{name}: {error}"))),
-            }
+            Ok::<_, Refusal>((called(file).display().to_string(), text(file, MAX_BYTES)?))
         });
         let files: Vec<(String, String)> = read.collect::<Result<_, _>>()?;
         let merged = merge(&files).map_err(Refusal::error)?;

@@ -1,12 +1,12 @@
 //! The mechanism file a command works on.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
 use linkwork::analysis::rounding::posed;
-use linkwork::description::{Description, FileError, LoadError, MAX_BYTES, load_text_within};
+use linkwork::description::{Description, FileError, LoadError, MAX_BYTES};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given};
 use linkwork::output::rounding::{Prefaced, sentence};
@@ -14,11 +14,12 @@ use linkwork::output::view::Viewed;
 use linkwork::output::{JsonReport, diagnostics};
 
 use super::format::Format;
+use super::read::{called, help, is_stdin, text};
 use super::{Answer, Refusal, lines, style};
 
 #[derive(Args)]
 pub struct Source {
-    /// The mechanism file: tables, or joint coordinates.
+    /// The mechanism file: tables, or joint coordinates; `-` reads standard input
     file: PathBuf,
     /// Give a parameter another value: a number or an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]
@@ -95,7 +96,9 @@ impl Source {
 
     /// Reads the file, or says everything that is wrong with it or with `--set`.
     pub fn load(&self) -> Result<Loaded, Refusal> {
-        let (text, mut description) = Mechanism::read_within(&self.file, self.max_bytes)?;
+        let path = called(&self.file);
+        let (text, mut description) =
+            Mechanism::read_text(&path, text(&self.file, self.max_bytes)?)?;
         once("--set", &self.set)?;
         if let Some(tolerance) = &self.tolerance {
             description = description.with_tolerance(tolerance).ok_or_else(|| {
@@ -119,14 +122,14 @@ impl Source {
         }
         match posed(description.clone()) {
             Ok((description, mechanism)) => Ok(Loaded {
-                path: self.file.clone(),
+                path,
                 set: self.set.iter().map(|given| given.name.clone()).collect(),
                 text,
                 description,
                 mechanism: Arc::new(mechanism),
             }),
             Err(problems) => {
-                let error = FileError::new(&self.file, text, problems);
+                let error = FileError::new(&path, text, problems);
                 let set: Vec<Given> = self.set.iter().map(|set| set.given("--set")).collect();
                 let wrong = diagnostics::with_replacements(error, &description, &set, style());
                 Err(Refusal(wrong))
@@ -136,18 +139,22 @@ impl Source {
 
     /// The file as a page shows it, with its problems if it has any.
     pub fn viewed(&self) -> Result<Viewed, Refusal> {
-        let file = self.file.file_name().unwrap_or_default();
+        let called = called(&self.file);
+        let file = called.file_name().unwrap_or_default();
         let set = self.set.iter();
         Ok(Viewed {
             file: file.to_string_lossy().into_owned(),
-            text: load_text_within(&self.file, self.max_bytes)?,
+            text: text(&self.file, self.max_bytes)?,
             set: set.map(|s| (s.name.clone(), s.value.clone())).collect(),
             watch: false,
         })
     }
 
     pub fn beside(&self, ending: &str) -> PathBuf {
-        self.file.with_extension(ending)
+        match is_stdin(&self.file) {
+            true => Path::new("linkwork").with_extension(ending),
+            false => self.file.with_extension(ending),
+        }
     }
 }
 
@@ -159,7 +166,10 @@ impl From<LoadError> for Refusal {
             LoadError::TooLarge { .. } => Refusal::error(format!(
                 "{error}\n  = help: --max-bytes allows more, if it is a mechanism"
             )),
-            other => Refusal::error(other),
+            other => {
+                let help = help(&other).map(|help| format!("\n  = help: {help}"));
+                Refusal::error(format!("{other}{}", help.unwrap_or_default()))
+            }
         }
     }
 }

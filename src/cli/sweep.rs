@@ -6,6 +6,7 @@ use clap::Args;
 use clap::builder::TypedValueParser;
 use linkwork::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use linkwork::ask::{Mode, Question, Role};
+use linkwork::description::MAX_BYTES;
 use linkwork::output::Report;
 use linkwork::output::canvas::gif;
 use linkwork::output::complaint::Ranged;
@@ -17,6 +18,7 @@ use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values
 use super::asked::{Asked, Forces, Posed};
 use super::format::{Format, with_rows};
 use super::pictures::{LASTS, keep, view};
+use super::read::{called, text};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
@@ -138,8 +140,7 @@ impl Sweep {
         self.search.pose(&mut posed)?;
         posed.ranges(Ranged::Input, &self.input)?;
         if let Some(path) = &self.motion {
-            let text = std::fs::read_to_string(path)
-                .map_err(|error| Refusal::error(format!("{}: {error}", path.display())))?;
+            let (text, path) = (text(path, MAX_BYTES)?, &called(path));
             let moved = posed.question.clone().through_rows(&text);
             let moved = moved.map_err(|error| Refusal::from(words::table(path, &error)))?;
             posed.ask_with(|_| moved);

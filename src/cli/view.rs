@@ -21,7 +21,7 @@ use super::{Answer, Refusal};
     linkwork view mechanisms/three_rps.ron --set b=1.2 -o three_rps.html\n  \
     linkwork view mechanisms/four_bar.ron --watch")]
 pub struct View {
-    /// The mechanism file: tables, or joint coordinates; without one the page is a gallery
+    /// The mechanism file: tables, or joint coordinates; `-` reads standard input; without one the page is a gallery
     file: Option<PathBuf>,
     /// Give a parameter another value: a number or an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]

@@ -87,19 +87,36 @@ pub fn load_text_within(path: impl AsRef<Path>, limit: u64) -> Result<String, Lo
         path: path.to_owned(),
         error,
     };
+    let file = File::open(path).map_err(unreadable)?;
+    let size = file.metadata().map_err(unreadable)?.len();
+    if size > limit {
+        return Err(LoadError::TooLarge {
+            path: path.to_owned(),
+            bytes: Some(size),
+            limit,
+        });
+    }
+    text_from(file, path, limit)
+}
+
+/// Reads a text of at most `limit` bytes from a source that errors call `path`.
+///
+/// # Errors
+/// If it cannot be read, is too large or is not text.
+pub fn text_from(source: impl Read, path: &Path, limit: u64) -> Result<String, LoadError> {
+    let unreadable = |error| LoadError::Unreadable {
+        path: path.to_owned(),
+        error,
+    };
     let too_large = |bytes| LoadError::TooLarge {
         path: path.to_owned(),
         bytes,
         limit,
     };
-    let file = File::open(path).map_err(unreadable)?;
-    let size = file.metadata().map_err(unreadable)?.len();
-    if size > limit {
-        return Err(too_large(Some(size)));
-    }
     // A pipe has no size beforehand, and a file may grow meanwhile.
     let mut bytes = Vec::new();
-    file.take(limit.saturating_add(1))
+    source
+        .take(limit.saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(unreadable)?;
     if bytes.len() as u64 > limit {

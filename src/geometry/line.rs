@@ -13,6 +13,7 @@ pub struct Line {
 
 /// The relative position of two directed lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Relation {
     /// They do not meet and are not parallel: one common normal.

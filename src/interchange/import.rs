@@ -65,6 +65,19 @@ pub fn load(
     settings: &ImportSettings,
 ) -> Result<Imported, ImportError> {
     let text = load_text(path).map_err(ImportError::Unreadable)?;
+    load_beside(path, &text, loops, settings)
+}
+
+/// As [`load`], for a text that stands for the file at a path.
+///
+/// # Errors
+/// If an included file cannot be read, or one has problems.
+pub fn load_beside(
+    path: &Path,
+    text: &str,
+    loops: Option<&Description>,
+    settings: &ImportSettings,
+) -> Result<Imported, ImportError> {
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
     let files = |name: &str| {
         let path = folder.join(name);
@@ -79,7 +92,7 @@ pub fn load(
         })
     };
     let name = path.display().to_string();
-    import(&name, &text, &files, loops, settings).map_err(ImportError::Wrong)
+    import(&name, text, &files, loops, settings).map_err(ImportError::Wrong)
 }
 
 /// True if a file lies in one of these folders, links followed. Of a file that does not exist the folder decides.

@@ -92,6 +92,17 @@ impl Mechanism {
         limit: u64,
     ) -> Result<(String, Description), LoadError> {
         let text = load_text_within(&path, limit)?;
+        Mechanism::read_text(path, text)
+    }
+
+    /// As [`Mechanism::read`], for a text that errors call `path`.
+    ///
+    /// # Errors
+    /// If the text is not well formed; then with all its problems.
+    pub fn read_text(
+        path: impl AsRef<Path>,
+        text: String,
+    ) -> Result<(String, Description), LoadError> {
         match Description::read(&text) {
             Ok(description) => Ok((text, description)),
             Err(_) => {

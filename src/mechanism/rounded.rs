@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What the rounding of a file's numbers means for its loops, where it means anything.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "rounding", rename_all = "snake_case")]
 pub enum Rounding {
     /// The loops close within the rounding; the mechanism is the nearest linkage that closes exactly.
@@ -17,6 +18,7 @@ pub enum Rounding {
 
 /// What was changed so that loops close exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rounded {
     /// The largest gap over finite motions with the numbers of the file, in m.
     pub gap: f64,
@@ -28,6 +30,7 @@ pub struct Rounded {
 
 /// A number of the file that was changed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NumberChange {
     /// The part of the file in which it stands.
     pub place: String,

@@ -9,6 +9,7 @@ use crate::algebra::SiUnit;
 
 /// The name of a number with its unit, written `theta1 (rad)`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(into = "String", from = "String")]
 pub struct Variable {
     /// The name.

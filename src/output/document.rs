@@ -73,8 +73,25 @@ pub enum Block {
         /// The lines.
         text: String,
     },
+    /// A formula under a title.
+    Formula(Formula),
+    /// A picture as SVG, with its description: formats of text leave it out.
+    Picture(String, String),
     /// A part under a title of its own.
     Section(Section),
+}
+
+/// A formula, set for terminals and for TeX.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Formula {
+    /// What it is about; may be empty.
+    pub title: String,
+    /// Its lines in Unicode.
+    pub unicode: String,
+    /// The same for displayed LaTeX; empty if there are no lines.
+    pub latex: String,
+    /// Remarks below it, a line each.
+    pub below: Vec<String>,
 }
 
 /// Rows under a header.
@@ -259,6 +276,14 @@ impl Section {
     pub fn code(self, language: &str, text: impl Into<String>) -> Self {
         let (language, text) = (language.into(), text.into());
         self.block(Block::Code { language, text })
+    }
+
+    /// With formulas, one below the other.
+    #[must_use]
+    pub fn formulas(mut self, formulas: impl IntoIterator<Item = Formula>) -> Self {
+        let formulas = formulas.into_iter().map(Block::Formula);
+        self.blocks.extend(formulas);
+        self
     }
 
     /// With a section inside; one without contents is left out.

@@ -246,9 +246,10 @@ impl<'s> Stage<'s> {
                     }),
                 );
             }
-            for (end, body) in rod.ends.iter().zip(rod.bodies) {
+            let [a, b] = rod.ends.map(Vector3);
+            for ((end, other), body) in [(a, b), (b, a)].into_iter().zip(rod.bodies) {
                 let on_ground = self.scene.bodies[body].ground;
-                pieces.extend(symbols::rod_end(self, &Vector3(*end), on_ground));
+                pieces.extend(symbols::rod_end(self, &end, &other, on_ground));
             }
         }
         for joint in &self.scene.joints {

@@ -10,7 +10,7 @@ pub use code::rust;
 pub use latex::latex;
 pub use ron::ron;
 
-pub(super) use notation::{Notation, Script};
+pub(super) use notation::{Notation, Script, upright};
 
 use crate::algebra::Expression;
 use crate::analysis::formulas::{

@@ -1,5 +1,7 @@
 //! Documents as one HTML page that needs no other file.
 
+mod mathml;
+
 use super::document::{Align, Block, Cell, Document, Piece, Section, Table, pieces};
 
 /// Light or dark as the reader's system is set; nothing is loaded and no script runs.
@@ -11,16 +13,22 @@ const HEAD: &str = r#"<!doctype html>
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
 "#;
 
-const STYLE: &str = "\
+const PAGE: &str = "\
 :root { color-scheme: light dark; --ink: #1b1b1b; --paper: #fdfdfc; --line: #c9c9c4; --soft: #55554f; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e8e8e4; --paper: #191a1b; --line: #46484b; --soft: #a9a9a2; } }
 body { margin: 2rem auto; max-width: 70rem; padding: 0 1rem; font: 1rem/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); }
+";
+
+const STYLE: &str = "\
 h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2rem; } h3, h4, h5, h6 { font-size: 1rem; }
 .answer { font-size: 1.1rem; } .notes, .method { color: var(--soft); }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: .2rem .8rem; border-bottom: 1px solid var(--line); text-align: left; font-weight: normal; white-space: nowrap; }
 thead th { font-weight: 600; } .right { text-align: right; } .ruled th, .ruled td { border: 1px solid var(--line); }
+math { font-size: 1.1em; padding: .3rem 0; } .formula { margin-bottom: 0; } mtd { padding: .2em .5em; } mtd.ruled { border-left: 1px solid; }
+.aligned mtd { padding: .2em .1em; } .aligned mtd:nth-child(odd) { text-align: right; } .aligned mtd:nth-child(even) { text-align: left; }
+figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; background: #fff; }
 code, pre { font-family: ui-monospace, monospace; font-size: .95em; } pre { overflow-x: auto; }
 ";
 
@@ -28,7 +36,20 @@ code, pre { font-family: ui-monospace, monospace; font-size: .95em; } pre { over
 pub fn render(document: &Document) -> String {
     let mut page = String::from(HEAD);
     page += &format!("<title>{}</title>\n", escaped(&document.title));
-    page += &format!("<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n");
+    page += &format!("<style>\n{PAGE}{STYLE}</style>\n</head>\n<body>\n<main>\n");
+    page + &contents(document) + "</main>\n</body>\n</html>\n"
+}
+
+/// The document as a part of another page, as of a notebook: in the colours of that page, and without rules for it.
+pub fn fragment(document: &Document) -> String {
+    let contents = contents(document);
+    format!(
+        "<div class=\"linkwork\">\n<style>\n.linkwork {{ --line: #8888; --soft: inherit;\n{STYLE}}}\n</style>\n{contents}</div>\n"
+    )
+}
+
+fn contents(document: &Document) -> String {
+    let mut page = String::new();
     page += &format!("<h1>{}</h1>\n", inline(&document.title));
     if !document.answer.is_empty() {
         page += &format!("<p class=\"answer\">{}</p>\n", inline(&document.answer));
@@ -39,7 +60,7 @@ pub fn render(document: &Document) -> String {
     for part in document.parts() {
         section(&part, 2, &mut page);
     }
-    page + "</main>\n</body>\n</html>\n"
+    page
 }
 
 fn section(section: &Section, level: usize, page: &mut String) {
@@ -56,6 +77,22 @@ fn section(section: &Section, level: usize, page: &mut String) {
             Block::Code { text, .. } => {
                 let text = escaped(text);
                 *page += &format!("<pre tabindex=\"0\"><code>{text}</code></pre>\n");
+            }
+            Block::Formula(formula) => {
+                if !formula.title.is_empty() {
+                    *page += &format!("<p class=\"formula\">{}</p>\n", inline(&formula.title));
+                }
+                if !formula.latex.is_empty() {
+                    let formula = mathml::render(&formula.latex);
+                    *page += &format!("<div class=\"wide\" tabindex=\"0\">{formula}</div>\n");
+                }
+                if !formula.below.is_empty() {
+                    *page += &list("lines", &formula.below);
+                }
+            }
+            Block::Picture(svg, about) => {
+                let about = escaped(about);
+                *page += &format!("<figure role=\"img\" aria-label=\"{about}\">\n{svg}</figure>\n");
             }
             Block::Section(inner) => self::section(inner, level + 1, page),
         }

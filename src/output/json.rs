@@ -9,6 +9,8 @@ use super::report::{Remarks, Report};
 /// JSON answer of a command: the fields of its report after those of the envelope. Numbers are in SI units and
 /// rad. A field that both have, the name of the mechanism, stands once.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "{R} of a command"))]
 pub struct Answer<R> {
     /// Fields before the report.
     #[serde(flatten)]
@@ -20,6 +22,7 @@ pub struct Answer<R> {
 
 /// Fields with which every answer begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Envelope {
     /// The version of the program.
     pub linkwork: String,

@@ -33,6 +33,18 @@ fn section(section: &Section, level: usize, parts: &mut Vec<String>) {
             Block::List(lines) => parts.push(list(lines)),
             Block::Table(rows) => parts.push(table(rows)),
             Block::Code { language, text } => parts.push(fenced(language, text)),
+            Block::Formula(formula) => {
+                if !formula.title.is_empty() {
+                    parts.push(paragraph(&formula.title));
+                }
+                if !formula.latex.is_empty() {
+                    parts.push(format!("$$\n{}\n$$\n", formula.latex));
+                }
+                if !formula.below.is_empty() {
+                    parts.push(list(&formula.below));
+                }
+            }
+            Block::Picture(..) => {}
             Block::Section(inner) => self::section(inner, level + 1, parts),
         }
     }

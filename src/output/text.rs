@@ -24,7 +24,14 @@ pub fn render(document: &Document) -> String {
 }
 
 fn section(section: &Section) -> String {
-    let blocks: String = section.blocks.iter().map(block).collect();
+    let mut blocks = String::new();
+    for (i, each) in section.blocks.iter().enumerate() {
+        let after = i.checked_sub(1).map(|before| &section.blocks[before]);
+        if let (Block::Formula(_), Some(Block::Formula(_))) = (each, after) {
+            blocks.push('\n');
+        }
+        blocks += &block(each);
+    }
     match section.title.is_empty() {
         true => blocks,
         false => format!("{}\n{}", section.title, indented(&blocks)),
@@ -37,6 +44,15 @@ fn block(block: &Block) -> String {
         Block::List(lines) => lines.iter().map(|line| format!("{line}\n")).collect(),
         Block::Table(rows) => table(rows),
         Block::Code { text, .. } => format!("{}\n", text.trim_end_matches('\n')),
+        Block::Formula(formula) => {
+            let below = formula.below.iter().map(|line| format!("{line}\n"));
+            let lines = formula.unicode.clone() + "\n" + &below.collect::<String>();
+            match formula.title.is_empty() {
+                true => lines,
+                false => format!("{}\n{}", formula.title, indented(lines.trim_matches('\n'))),
+            }
+        }
+        Block::Picture(..) => String::new(),
         Block::Section(inner) => section(inner),
     }
 }

@@ -42,9 +42,63 @@ pub fn page(viewed: &Viewed) -> String {
     [&before, &viewed.json(), after].concat()
 }
 
+/// The mechanisms that the page brings with it: their paths within `mechanisms/`, and their texts.
+pub fn shipped() -> Vec<(String, String)> {
+    let packed = PAGE.split_once("id=\"files\">").map(|(_, rest)| rest);
+    let packed = packed.and_then(|rest| rest.split('<').next());
+    let bytes = from_base64(packed.unwrap_or_default());
+    serde_json::from_reader(flate2::read::GzDecoder::new(&bytes[..]))
+        .expect("src/page/bundle.mjs wrote a list of pairs")
+}
+
+/// Bytes written as base64 (RFC 4648, 4).
+fn from_base64(text: &str) -> Vec<u8> {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let digits = text
+        .bytes()
+        .filter_map(|c| DIGITS.iter().position(|d| *d == c));
+    let (mut bytes, mut waiting, mut bits) = (Vec::with_capacity(text.len() * 3 / 4), 0, 0);
+    for digit in digits {
+        waiting = waiting << 6 & 0xffff | digit;
+        bits += 6;
+        if bits >= 8 {
+            bits -= 8;
+            bytes.push((waiting >> bits) as u8);
+        }
+    }
+    bytes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_page_brings_every_mechanism_as_it_is() {
+        let shipped = shipped();
+        let mut count = 0;
+        for folder in ["", "axes/"] {
+            let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+            for entry in path.join(folder).read_dir().unwrap().flatten() {
+                let name = format!("{folder}{}", entry.file_name().to_string_lossy());
+                if name.ends_with(".ron") {
+                    let text = std::fs::read_to_string(entry.path()).unwrap();
+                    let there = shipped.contains(&(name.clone(), text));
+                    assert!(there, "{name}: src/page/build.sh makes the page anew");
+                    count += 1;
+                }
+            }
+        }
+        assert_eq!(shipped.len(), count);
+    }
+
+    #[test]
+    fn base64_is_read() {
+        assert_eq!(from_base64("Zm9vYmFy"), b"foobar");
+        assert_eq!(from_base64("Zm9vYg=="), b"foob");
+        assert_eq!(from_base64("Zm9vYmE="), b"fooba");
+        assert_ne!(from_base64("Zm9vYmE="), b"foobar");
+    }
 
     #[test]
     fn no_text_ends_the_block_it_stands_in() {

@@ -10,7 +10,7 @@ use crate::geometry::Vector3;
 use crate::mechanism::Point;
 use crate::output::drawing::movement;
 use crate::output::quantity::{quantity, three_digits};
-use crate::scene::Scene;
+use crate::scene::{Arrow, Scene};
 use crate::solve::Watch;
 
 const TRANSMISSION: &str = "transmission";
@@ -74,12 +74,16 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
         json!([force.name, known.unwrap_or_else(|| UNKNOWN.into())])
     });
     let scene = scene.with_forces(mechanism, steering.at(), &report);
-    let size = |of: [f64; 3], unit| three_digits(Vector3(of).norm(), unit);
+    let sizes = |of: fn(&Arrow) -> [f64; 3], unit| -> Vec<String> {
+        let arrows = scene.arrows.iter();
+        arrows
+            .map(|arrow| three_digits(Vector3(of(arrow)).norm(), unit))
+            .collect()
+    };
     let forces = json!({
         "held": held.collect::<Vec<_>>(),
-        "arrows": (scene.arrows.iter())
-            .map(|arrow| size(arrow.force, SiUnit::NEWTON))
-            .collect::<Vec<_>>(),
+        "arrows": sizes(|arrow| arrow.force, SiUnit::NEWTON),
+        "moments": sizes(|arrow| arrow.moment, SiUnit::NEWTON_METRE),
         "unbalanced": report.unbalanced,
     });
     (scene, forces)

@@ -93,6 +93,34 @@ impl Scene {
         self.attach(body, end);
     }
 
+    /// Puts slides on ground where their blocks are: a table may place one anywhere on its axis, and a block is where the only
+    /// other thing that it carries stands.
+    pub(super) fn blocks(&mut self) {
+        for joint in &mut self.joints {
+            let on_ground = joint.bodies.map(|body| self.bodies[body].ground);
+            let block = match (joint.kind, on_ground) {
+                (Symbol::Prismatic, [true, false]) => joint.bodies[1],
+                (Symbol::Prismatic, [false, true]) => joint.bodies[0],
+                _ => continue,
+            };
+            let (at, axis) = (Vector3(joint.at), Vector3(joint.axes[0]));
+            let along = |point: &[f64; 3]| {
+                let from = Vector3(*point) - at;
+                from.cross(&axis).norm() <= 1e-9 * from.norm()
+            };
+            let body = &mut self.bodies[block];
+            let elsewhere = |corner: &&[f64; 3]| !close(&Vector3(**corner), &at);
+            let others: Vec<[f64; 3]> = body.corners.iter().filter(elsewhere).copied().collect();
+            if let [place] = others[..]
+                && body.lines.iter().flatten().chain(&others).all(along)
+            {
+                joint.at = place;
+                body.corners = others;
+                body.lines.clear();
+            }
+        }
+    }
+
     fn line(&mut self, body: usize, [from, to]: [Vector3<f64>; 2]) {
         if close(&from, &to) {
             return;

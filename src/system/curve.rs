@@ -46,6 +46,7 @@ impl Driven {
 
 /// Range of a coordinate that moves, or of a side of a box.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Bound {
     /// The coordinate.
     pub name: String,
@@ -70,6 +71,7 @@ impl Bound {
 
 /// End of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SweepEnd {
     /// The inputs went through their whole segment.

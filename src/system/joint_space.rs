@@ -22,6 +22,7 @@ pub(crate) fn enclosed(mechanism: &Mechanism) -> Option<Dimensions<Interval>> {
 
 /// Reasons for which interval arithmetic cannot prove anything about a question.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Unfit {
     /// A dimension has no value over intervals.

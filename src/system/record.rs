@@ -69,6 +69,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
 
 /// A frame in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrameRecord {
     /// Its origin, in m.
     pub position: [f64; 3],
@@ -80,6 +81,7 @@ pub struct FrameRecord {
 
 /// A platform in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlatformRecord {
     /// Its own frame.
     #[serde(flatten)]
@@ -118,6 +120,7 @@ pub(crate) fn uncut(joints: &Named<f64>, cut: &[String]) -> Vec<f64> {
 
 /// The names in formulas about a mechanism.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FormulaNames {
     /// The joint variables, in the order of the file.
     pub joints: Vec<Variable>,

@@ -5,7 +5,7 @@ use linkwork::description::{Entry, FileError};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::csv::Csv;
 use linkwork::output::diagnostics::{self, Style};
-use linkwork::output::document::{Align, Cell, Column, Document, Section, Table};
+use linkwork::output::document::{Align, Cell, Column, Document, Formula, Section, Table};
 use linkwork::output::quantity::{number, quantity};
 use linkwork::output::{Report, html, json, markdown, text};
 use serde::{Serialize, Serializer};
@@ -51,6 +51,12 @@ fn sample() -> Document {
             Section::new("More")
                 .table(matrix)
                 .code("ron", "a: \"```\",\n  <b>\n")
+                .formulas([Formula {
+                    title: "a_b".into(),
+                    unicode: "x₁ = 0".into(),
+                    latex: "x_{1} &= 0".into(),
+                    below: vec!["as *said*".into()],
+                }])
                 .section(Section::new("Inner").list(["- one".into(), "two".into()])),
         )
         .method("3 steps")
@@ -82,6 +88,9 @@ More
   x (m/s)         2
   a: "```",
     <b>
+  a_b
+    x₁ = 0
+    as *said*
   Inner
     - one
     two
@@ -119,6 +128,14 @@ in ground
 a: "```",
   <b>
 ````
+
+a_b
+
+$$
+x_{1} &= 0
+$$
+
+- as \*said\*
 
 ### Inner
 

@@ -11,6 +11,7 @@ use crate::number::Number;
 
 /// One operation of a straight-line program; operands stand at lower places.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Operation {
     /// A constant.

@@ -17,6 +17,7 @@ pub type Followed = Result<Configuration<f64>, LostReason>;
 
 /// A point at which a mode ceases to exist.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Fold {
     /// The part of the way that was gone, from 0 to 1.
     pub fraction: f64,
@@ -31,6 +32,7 @@ pub struct Fold {
 
 /// A mode that was not followed to the target inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LostMode {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -45,6 +47,7 @@ pub struct LostMode {
 
 /// Reasons for which a mode was not followed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "outcome")]
 pub enum LostReason {
     /// It ceases to exist on the way.

@@ -11,6 +11,7 @@ pub use crate::system::{Named, Unfit};
 
 /// The pose of a platform in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PoseReport {
     /// Position of its origin in m.
     pub position: [f64; 3],
@@ -22,6 +23,7 @@ pub struct PoseReport {
 
 /// One assembled configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Assembly {
     /// Its number, from 1.
     pub mode: usize,
@@ -80,6 +82,7 @@ impl Assembly {
 
 /// Closest approach to assembly of a mechanism that cannot be assembled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosestApproach {
     /// The gap of each closure.
     pub gaps: Named<Gap>,
@@ -99,6 +102,7 @@ pub struct ClosestApproach {
 
 /// Number of held inputs compared with the freedoms of the mechanism.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
     /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
@@ -121,6 +125,7 @@ pub enum Fit {
 /// Rodriguez
 /// and Sottile 2018 in double precision. Solutions that no such loop reaches may exist beside them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Traced {
     /// Values of the inputs.
@@ -136,6 +141,7 @@ pub enum Traced {
 
 /// Assemblies that are connected, infinitely many, at the target inputs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Continuum {
     /// Number of coordinates that can be chosen freely on it.
     pub dimension: usize,
@@ -148,6 +154,7 @@ pub struct Continuum {
 
 /// A joint of the list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ListedJoint {
     /// Its name.
     pub name: String,
@@ -165,6 +172,7 @@ pub struct ListedJoint {
 
 /// All assemblies for the target inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AssembliesReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -275,6 +283,7 @@ pub struct AssembliesReport {
 
 /// The values from `low` to `high` of a joint or of a coordinate of a platform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Range {
     /// Its name.
     pub name: String,
@@ -288,6 +297,7 @@ pub struct Range {
 
 /// A part of the region that a proof covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Part {
     /// The joints that distinguish assemblies, with their values in it.
     pub ranges: Vec<Range>,
@@ -297,6 +307,7 @@ pub struct Part {
 
 /// Result of interval branch and prune on all real assemblies: over every angle, and the `ranges` of everything else.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Proof {
     /// Reason for which nothing was proved.
     pub unfit: Option<Unfit>,
@@ -334,6 +345,7 @@ impl Proof {
 
 /// A complex solution that is not real.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComplexAssembly {
     /// Joint values as (real, imaginary), rad or m.
     pub joints: Named<[f64; 2]>,

@@ -12,6 +12,7 @@ use crate::system::{
 
 /// Freedoms that the held coordinates leave.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Left {
     /// Number of freedoms.
     pub freedoms: usize,
@@ -23,6 +24,7 @@ pub struct Left {
 
 /// End of the search. Joints, platforms and closures are given by name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Outcome {
     /// Assembled.
@@ -64,6 +66,7 @@ pub enum Outcome {
 
 /// A joint variable and its part in the question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointVariable {
     /// Its name.
     pub name: String,
@@ -81,6 +84,7 @@ pub struct JointVariable {
 
 /// Result of the search for an assembled configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AssemblyReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -98,6 +102,7 @@ pub struct AssemblyReport {
     /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian, estimated beyond
     /// [`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT) unknowns; infinite, in JSON `null`, at a singular configuration.
     #[serde(deserialize_with = "infinite_if_null")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub condition: f64,
     /// True if the condition number is poor.
     pub near_singular: bool,

@@ -19,6 +19,7 @@ const ANYWHERE: f64 = 1e9;
 
 /// A formula in a closed form that must not be zero, and is not proved never to be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Divisor {
     /// A divisor of the form; cos x for tan x, √(x² + y²) for atan2(y, x), the argument of a logarithm.
     pub formula: Expression,

@@ -21,6 +21,7 @@ pub(super) const MOST_TERMS: usize = 400;
 
 /// Proof or refutation of one component of a closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Proof {
     /// It equals the chains, for all values of joints and parameters at which it has a value.
@@ -42,6 +43,7 @@ pub enum Proof {
 
 /// Difference between a closed form and the chains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Difference {
     /// The terms of the form that differ; 0 if the form has none.
     pub closed_form: Expression,
@@ -53,6 +55,7 @@ pub struct Difference {
 
 /// Reasons for which a closed form is neither proved nor refuted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// Roots, inverse functions or constant angles stand in it, which may depend on one another.

@@ -8,6 +8,7 @@ use crate::system::FormulaNames;
 
 /// A mechanism in closed form. Lengths are in m and angles in rad.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FormulasReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -34,6 +35,7 @@ pub struct FormulasReport {
 
 /// A letter in the formulas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Letter {
     /// Its name.
     pub name: String,
@@ -45,6 +47,7 @@ pub struct Letter {
 
 /// Kind of a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Meaning {
     /// A named constant.
@@ -61,6 +64,7 @@ pub enum Meaning {
 
 /// ⁱⱼT in closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TransformFormula {
     /// The frame.
     pub of: String,
@@ -75,6 +79,7 @@ pub struct TransformFormula {
 
 /// The equations of a closure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosureFormula {
     /// Its name.
     pub name: String,
@@ -97,6 +102,7 @@ pub struct ClosureFormula {
 
 /// The screw Jacobian of a frame: its twist is the sum of these columns times the joint rates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JacobianFormula {
     /// The frame, whose origin's velocity is taken.
     pub of: String,
@@ -109,6 +115,7 @@ pub struct JacobianFormula {
 
 /// The twist for a unit rate of a joint variable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TwistFormula {
     /// The joint.
     pub joint: String,
@@ -120,6 +127,7 @@ pub struct TwistFormula {
 
 /// The unknowns of a question in closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SolutionFormula {
     /// Names of the held coordinates.
     pub held: Vec<String>,
@@ -144,6 +152,7 @@ pub struct SolutionFormula {
 
 /// A formula of a solution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StepFormula {
     /// The joint variable, or a name for an angle that is a sum of some.
     pub name: String,
@@ -163,6 +172,7 @@ pub struct StepFormula {
 
 /// Closures and unknowns left unsolved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Remaining {
     /// Closures that still contain unknowns.
     pub closures: Vec<String>,

@@ -11,6 +11,7 @@ use crate::system::{MechanismLoop, Neighbourhood, loops};
 /// M = Σf − λ with λ = 6; and once more with λ the order of the loop's screw system: 3 for a planar
 /// or a spherical loop.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LoopCount {
     /// The closure that completes the loop.
     pub closure: String,

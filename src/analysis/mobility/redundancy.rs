@@ -9,6 +9,7 @@ use crate::system::{Neighbourhood, Tangent};
 
 /// Equations of a closure that follow from those of earlier closures and from one another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Redundancy {
     /// The closure.
     pub closure: String,
@@ -24,6 +25,7 @@ pub struct Redundancy {
 
 /// A wrench in the first frame of a closure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Wrench {
     /// Force, without unit.
     pub force: [f64; 3],

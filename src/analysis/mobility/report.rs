@@ -9,6 +9,7 @@ use crate::system::{GivenPose, Named, TwistSpace};
 
 /// Mobility of an assembled mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MobilityReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -97,6 +98,7 @@ pub struct MobilityReport {
 
 /// Kind of a point of the configuration space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Character {
     /// No freedom, not even an infinitesimal one.
@@ -115,6 +117,7 @@ pub enum Character {
 
 /// A local (passive) freedom: a link turns about its own axis and nothing else moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum LocalFreedom {
     /// The link turns in joints of its own, which these are.
@@ -144,6 +147,7 @@ impl LocalFreedom {
 
 /// A branch of assembled configurations through the one given.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BranchReport {
     /// Its freedoms.
     pub mobility: usize,
@@ -159,6 +163,7 @@ pub struct BranchReport {
 
 /// An assembly of another mobility.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Elsewhere {
     /// Its freedoms.
     pub mobility: usize,

@@ -8,6 +8,7 @@ use crate::mechanism::Mechanism;
 ///
 /// The count knows nothing of dimensions: it is wrong for every mechanism whose loops are special.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MobilityCount {
     /// N: bodies, the ground among them.
     pub bodies: usize,
@@ -30,6 +31,7 @@ pub struct MobilityCount {
 
 /// The count of a mechanism all of whose joints move in parallel planes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlanarCount {
     /// Equations of all closures within the plane.
     pub equations: usize,

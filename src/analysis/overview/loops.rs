@@ -7,6 +7,7 @@ use crate::mechanism::{Body, ClosureKind, Frame, Mechanism};
 
 /// A loop, from a body round to the same body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Loop {
     /// The closure that closes it: no earlier closure and no chain does.
     pub closed_by: String,
@@ -16,6 +17,7 @@ pub struct Loop {
 
 /// A part of a loop.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum LoopStep {
     /// The ground.

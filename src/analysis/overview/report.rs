@@ -10,6 +10,7 @@ use crate::mechanism::{ClosureKind, Convention, JointKind, Role};
 
 /// Overview of a mechanism file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Overview {
     /// Name of the mechanism.
     #[serde(rename = "mechanism")]
@@ -44,9 +45,11 @@ pub struct Overview {
 
 /// Joint coordinates, with the choices made in writing tables of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CoordinatesOverview {
     /// The file of joint coordinates, serialised as its text.
     #[serde(rename = "file", with = "axes_text")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub axes: AxesDescription,
     /// The joints that are cut, besides balls and rods.
     pub cut: Vec<String>,
@@ -56,6 +59,7 @@ pub struct CoordinatesOverview {
 
 /// A parameter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ParameterOverview {
     /// Its name.
     pub name: String,
@@ -67,6 +71,7 @@ pub struct ParameterOverview {
 
 /// A joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointOverview {
     /// Its name.
     pub name: String,
@@ -84,6 +89,7 @@ pub struct JointOverview {
 
 /// Kind of a joint variable by its use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum JointUse {
     /// The joint turns.
@@ -110,6 +116,7 @@ impl JointUse {
 
 /// A chain.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ChainOverview {
     /// Its name.
     pub name: String,
@@ -127,6 +134,7 @@ pub struct ChainOverview {
 
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RowOverview {
     /// Twist.
     pub alpha: EntryOverview,
@@ -140,6 +148,7 @@ pub struct RowOverview {
 
 /// An entry of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EntryOverview {
     /// As written in the file.
     pub written: String,
@@ -151,6 +160,7 @@ pub struct EntryOverview {
 
 /// A platform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlatformOverview {
     /// Its name.
     pub name: String,
@@ -166,6 +176,7 @@ pub struct PlatformOverview {
 
 /// A frame of a platform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlatformFrameOverview {
     /// Its name.
     pub name: String,
@@ -175,6 +186,7 @@ pub struct PlatformFrameOverview {
 
 /// A closure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosureOverview {
     /// Its name.
     pub name: String,
@@ -190,6 +202,7 @@ pub struct ClosureOverview {
 
 /// A body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BodyOverview {
     /// Its name, which is that of a frame on it.
     pub name: String,
@@ -201,6 +214,7 @@ pub struct BodyOverview {
 
 /// A closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosedFormOverview {
     /// Its name.
     pub name: String,

@@ -13,7 +13,7 @@ use crate::analysis::singularities::Classifier;
 use crate::analysis::statics::determined;
 use crate::analysis::sweep::{Pace, Row, Schedule};
 use crate::analysis::velocity::{
-    Normalised, Outputs, Spins, TransmissionAngles, condition, outputs,
+    Axis, Normalised, Outputs, Spins, TransmissionAngles, axes, condition, outputs,
 };
 use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
@@ -269,6 +269,30 @@ impl<'q> Meter<'q> {
             self.values[i] = self.values[i].map(|value| self.without_jump(i, value));
         }
         &self.values
+    }
+
+    /// The values at a configuration that belongs to no motion, angles between −π and π.
+    pub fn read_here(&mut self, at: &Configuration<f64>) -> &[Option<f64>] {
+        self.read_alone(at, 0.0);
+        &self.values
+    }
+
+    /// The Jacobian where it was read last, row by row with units; none where rates are not determined, or nothing that
+    /// was read needs it.
+    pub fn jacobian(&self) -> Option<impl Iterator<Item = f64> + '_> {
+        let found = &self.probe.found;
+        let columns = self.coordinates.len();
+        let rows = found.jacobian.given().len() / columns.max(1);
+        let entries = (0..rows).flat_map(move |row| (0..columns).map(move |c| c * rows + row));
+        found
+            .moves
+            .then(|| entries.map(|entry| found.jacobian.given()[entry]))
+    }
+
+    /// The rows and columns of the Jacobian.
+    pub fn axes(&self) -> [Vec<Axis>; 2] {
+        let outputs = self.plan.outputs.as_deref().unwrap_or_default();
+        axes(self.of.question.mechanism(), outputs, &self.coordinates)
     }
 
     /// Reads a row of a motion where a part of the time is gone, or lets it wait for others; rows go to `take` in their

@@ -7,6 +7,7 @@ use crate::mechanism::{Mechanism, Rounding};
 
 /// A mechanism file whose loops close exactly, and what was changed to that end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Snap {
     /// The mechanism's name.
     pub mechanism: String,

@@ -18,6 +18,7 @@ type At = Place<Configuration<f64>>;
 
 /// Singularities met by a motion along a segment of inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AlongReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -50,6 +51,7 @@ pub struct AlongReport {
 
 /// A singularity that was met.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Crossing {
     /// The part of the segment that was gone.
     pub part: f64,

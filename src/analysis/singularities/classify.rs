@@ -12,6 +12,7 @@ use crate::system::{
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Zlatanov {
     /// Redundant input: inputs move while the outputs stand still.
     #[serde(rename = "RI")]
@@ -35,6 +36,7 @@ pub enum Zlatanov {
 
 /// Singularity of a configuration; empty at a regular one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Singularity {
     /// The type of Gosselin and Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither.
     pub gosselin_angeles: Option<u8>,
@@ -60,6 +62,7 @@ pub struct Singularity {
 
 /// Infinitesimal motions with the inputs, or the outputs, at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Movement {
     /// Number of independent motions.
     pub freedoms: usize,
@@ -72,6 +75,7 @@ pub struct Movement {
 
 /// A joint that moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Moving {
     /// Its name.
     pub joint: String,
@@ -81,6 +85,7 @@ pub struct Moving {
 
 /// Wrenches that an output resists without actuation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Resisted {
     /// The output; the platform, where outputs are coordinates of one.
     pub output: String,
@@ -91,6 +96,7 @@ pub struct Resisted {
 /// The smallest singular values of the dimensionless matrices, of those that vanish only at
 /// singularities; `None` where nothing can vanish. Lengths are over the normalising length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Distances {
     /// Smallest singular value of the closure Jacobian J: zero at constraint singularities.
     pub constraint: Option<f64>,
@@ -302,6 +308,7 @@ impl<'m> Classifier<'m> {
 
 /// Matrix that loses rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// [J; H]: freedoms are gained while the inputs stand still.

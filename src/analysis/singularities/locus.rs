@@ -19,6 +19,7 @@ type At = Place<Singular>;
 
 /// The singularity loci in a box of two coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LocusReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -59,6 +60,7 @@ pub struct LocusReport {
 
 /// A curve of singular configurations in the box, or several that coincide there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Locus {
     /// Matrix that loses rank on it.
     pub kind: Kind,
@@ -92,6 +94,7 @@ pub struct Locus {
 /// A configuration of a locus in which three assemblies meet, or three configurations for the same
 /// outputs on an inverse one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cusp {
     /// The two coordinates of the box, rad or m, located to rounding.
     pub point: [f64; 2],

@@ -29,6 +29,7 @@ pub(super) fn outputs_of(
 /// A full pose as an output whose rotation and translation depend on one another. What its position
 /// loses, its twist need not lose: a stretched 2R arm still turns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Coupled {
     /// The frame.
     pub output: String,

@@ -11,6 +11,7 @@ use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
 /// Image of a curve of configurations in the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A curve.

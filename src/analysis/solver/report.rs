@@ -5,6 +5,7 @@ use crate::system::is_origin;
 
 /// A component of the input or the state array.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Component {
     /// The joint, `top.x` for a coordinate of a platform, `top.qw` for a component of its unit quaternion.
     pub name: String,
@@ -19,6 +20,7 @@ pub struct Component {
 
 /// The pose and the twists of a frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FrameProgram {
     /// Its name.
     pub name: String,
@@ -30,6 +32,7 @@ pub struct FrameProgram {
 
 /// A divisor, with its reciprocal and its natural size.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Divisor {
     /// Its place.
     pub place: Place,
@@ -53,6 +56,7 @@ impl Divisor {
 
 /// A number whose square root is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Radicand {
     /// Its place.
     pub place: Place,
@@ -62,6 +66,7 @@ pub struct Radicand {
 
 /// The state in closed form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosedProgram {
     /// The places of the state.
     pub state: Vec<Place>,
@@ -76,6 +81,7 @@ pub struct ClosedProgram {
 /// A solver as a straight-line program. Its inputs are numbered: the held coordinates, then the state, then a step of
 /// the unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Solver {
     /// Name of the mechanism.
     pub mechanism: String,

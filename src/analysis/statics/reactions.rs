@@ -9,6 +9,7 @@ use crate::system::{Acting, Bearings, Load, Loaded, Neighbourhood};
 
 /// The wrench that one body exerts on another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reaction {
     /// The closure, or the link after the joint.
     pub name: String,

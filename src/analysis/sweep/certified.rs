@@ -32,6 +32,7 @@ const MOST_VARIABLES: usize = 100;
 
 /// Certificate of the branch between the rows of a motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Certificate {
     /// The reason if nothing is certified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,6 +52,7 @@ impl Certificate {
 
 /// A part of a motion in which the branch is not certified: near a dead point or a crossing, as a rule.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Uncertified {
     /// The inputs where it begins, in rad or m.
     pub from: Vec<f64>,

@@ -10,6 +10,7 @@ use crate::solve::summit;
 
 /// The longest part of a motion over which a quantity stays within a tolerance of one value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Dwell {
     /// The quantity.
     pub name: String,

@@ -25,6 +25,7 @@ words! {
 ///
 /// Source: Norton, Design of Machinery, chapter 8, on the laws; they are those of cams.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Pace {
     /// The law.
     pub law: Law,

@@ -11,6 +11,7 @@ use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
 /// A special point met by a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Met {
     /// Its kind.
     #[serde(flatten)]
@@ -29,6 +30,7 @@ pub struct Met {
 
 /// Kind of special point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", tag = "met")]
 pub enum MetKind {
     /// A joint turns back: driven, it would lock here.
@@ -74,6 +76,7 @@ pub enum MetKind {
 
 /// A branch that passes through a crossing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Passing {
     /// True for the branch that was followed.
     pub followed: bool,

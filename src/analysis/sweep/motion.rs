@@ -10,6 +10,7 @@ use crate::system::Moved;
 
 /// The motions of one question: one, or one in each mode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MotionsReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -22,6 +23,8 @@ pub struct MotionsReport {
 
 /// A motion with its mode and the rows that are kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = told))]
 #[serde(remote = "Self")]
 pub struct MotionReport {
     /// The number of the mode, if it was asked for.
@@ -52,8 +55,24 @@ pub struct MotionReport {
     pub values: Vec<Vec<Option<f64>>>,
 }
 
+/// The schema of a motion as it is written: with its mode, and its end in words.
+#[cfg(feature = "schema")]
+fn told(schema: &mut schemars::Schema) {
+    let fields = schema
+        .get_mut("properties")
+        .and_then(|of| of.as_object_mut());
+    if let Some(fields) = fields {
+        fields.insert(
+            "mode".into(),
+            serde_json::json!({ "type": ["integer", "null"] }),
+        );
+        fields.insert("sentence".into(), serde_json::json!({ "type": "string" }));
+    }
+}
+
 /// The least and the greatest value of a quantity over a motion; none where it has no value, no bound, or one value only.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Extremum {
     /// The quantity.
     pub name: String,
@@ -79,6 +98,7 @@ pub struct Extremum {
 
 /// Reasons for which a quantity has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Missing {
     /// A transmission angle belongs to a loop that moves in a plane.
@@ -91,6 +111,7 @@ pub enum Missing {
 
 /// A place where a quantity grows without bound: its reciprocal vanishes there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Pole {
     /// The part of the time that is gone there, if there are inputs.
     pub time: Option<f64>,
@@ -104,6 +125,7 @@ pub struct Pole {
 
 /// A value of a quantity with the place where it is taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Extreme {
     /// The value.
     pub value: f64,

@@ -16,6 +16,7 @@ use crossings::double_points;
 
 /// Cusps and double points of the path of a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathReport {
     /// The point, as it was asked for.
     pub point: String,
@@ -34,6 +35,7 @@ pub struct PathReport {
 
 /// A point of a path with the configurations that lead there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathPoint {
     /// Position in ground, in m.
     pub position: [f64; 3],

@@ -9,6 +9,7 @@ use crate::solve::summit;
 
 /// The straight line nearest to a path over a motion, and the largest distance from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Straightness {
     /// The point whose path it is.
     pub point: String,

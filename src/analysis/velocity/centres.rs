@@ -9,6 +9,7 @@ use crate::system::{Drive, FrameTwists, Motion};
 
 /// The instant centre of the motion of a body relative to another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct InstantCentre {
     /// The two bodies.
     pub bodies: [String; 2],

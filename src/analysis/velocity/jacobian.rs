@@ -14,6 +14,7 @@ use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 /// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane of ground it
 /// has no rows across that plane: a platform has two velocities and one angular velocity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct InputOutput {
     /// The outputs.
     pub rows: Vec<Axis>,
@@ -39,6 +40,7 @@ pub struct InputOutput {
 
 /// A row or column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Axis {
     /// Name of the coordinate or component.
     pub name: String,
@@ -112,6 +114,26 @@ fn rows_kept(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<bool> {
     rows.collect()
 }
 
+/// Rows and columns of the Jacobian from rates of inputs to those of outputs.
+pub(crate) fn axes(
+    mechanism: &Mechanism,
+    outputs: &[Lock],
+    inputs: &[Coordinate],
+) -> [Vec<Axis>; 2] {
+    let rows = outputs
+        .iter()
+        .flat_map(|&output| rows_of(mechanism, output));
+    let kept = rows.zip(rows_kept(mechanism, outputs)).filter(|row| row.1);
+    let inputs = inputs.iter();
+    [
+        kept.map(|((name, is_angle), _)| Axis::new(name, is_angle))
+            .collect(),
+        inputs
+            .map(|input| Axis::new(input.name(mechanism), input.is_angle(mechanism)))
+            .collect(),
+    ]
+}
+
 /// The number of rows of the dimensionless Jacobian of some outputs.
 pub(crate) fn row_count(mechanism: &Mechanism, outputs: &[Lock]) -> usize {
     let is_point = |output: &Lock| matches!(output, Lock::Point(_));
@@ -182,6 +204,11 @@ pub(crate) struct Normalised<T = f64> {
 }
 
 impl<T: Number> Normalised<T> {
+    /// With units and all rows, column by column.
+    pub fn given(&self) -> &[T] {
+        &self.given
+    }
+
     /// Column by column.
     pub fn entries(&self) -> &[T] {
         &self.entries
@@ -363,10 +390,7 @@ impl Outputs<'_> {
         let (responses, mut normalised) = (motion.responses(), Normalised::default());
         self.normalised_into(&mut normalised, at, motion.placement(), &responses, spins);
         let values = (normalised.singular_values()).expect("reals are known");
-        let mechanism = self.mechanism;
-        let rows = (self.outputs.iter()).flat_map(|&output| rows_of(mechanism, output));
-        let rows = rows.zip(&self.kept).filter(|(_, kept)| **kept);
-        let inputs = motion.coordinates().iter();
+        let [rows, inputs] = axes(self.mechanism, &self.outputs, motion.coordinates());
         let count = self.scales[0].len();
         let columns = normalised.given.chunks_exact(count.max(1));
         let entries = (0..count).map(|row| columns.clone().map(|column| column[row]).collect());
@@ -377,12 +401,8 @@ impl Outputs<'_> {
             condition: condition(&values),
             manipulability: values.iter().product(),
             determinant: normalised.determinant(),
-            rows: rows
-                .map(|((name, is_angle), _)| Axis::new(name, is_angle))
-                .collect(),
-            columns: inputs
-                .map(|input| Axis::new(input.name(mechanism), input.is_angle(mechanism)))
-                .collect(),
+            rows,
+            columns: inputs,
             entries: entries.collect(),
         }
     }

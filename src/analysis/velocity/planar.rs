@@ -21,6 +21,7 @@ use crate::system::{Coordinate, LoopPart, MechanismLoop, Neighbourhood, loops};
 /// between that line and the way the output link moves at their hinge; the *transmission angle* is
 /// 90° less that, at a rocker the acute angle between coupler and rocker (Alt 1932).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Transmission {
     /// The closure of the loop.
     pub closure: String,

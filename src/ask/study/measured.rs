@@ -21,7 +21,7 @@ impl Question {
     }
 
     /// The quantities that are asked for where what is held moves at the rates that are given, and how it moves.
-    pub(super) fn measured_by_rates(
+    pub(in crate::ask) fn measured_by_rates(
         &self,
         held: &system::Question,
     ) -> Result<(Vec<Quantity>, Vec<Driven>), AskError> {

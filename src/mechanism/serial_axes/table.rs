@@ -19,6 +19,7 @@ pub struct Table {
 
 /// A row: the constant parts of its entries, and the way in which the variable enters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TableRow {
     /// Twist of the link, in rad.
     pub alpha: f64,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 /// Remarks beside the answer; each is absent where the question is another one.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Remarks {
     /// Reason for which the mobility differs from Kutzbach's count.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -7,6 +7,9 @@ use crate::number::real;
 /// Height of the letters in pixels.
 pub(super) const LETTERS: f64 = 12.0;
 
+/// Height of the title above the picture, which no label covers.
+const TITLE: f64 = 34.0;
+
 /// A rectangle in pixels: left, top, right, bottom.
 type Area = [f64; 4];
 
@@ -61,7 +64,7 @@ impl Labels {
         let mut labels = Labels {
             sheet: [
                 stage.centre.0 - WIDTH / 2.0,
-                stage.centre.1 - HEIGHT / 2.0,
+                stage.centre.1 - HEIGHT / 2.0 + TITLE,
                 stage.centre.0 + WIDTH / 2.0,
                 stage.centre.1 + HEIGHT / 2.0,
             ],

@@ -22,7 +22,7 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
         _ if telescopes(stage, joint) => Vec::new(),
         Symbol::Cylindrical | Symbol::Prismatic => guide(stage, &at, &axis(0), on_ground),
         _ if !on_ground => Vec::new(),
-        Symbol::Revolute | Symbol::Helical if flat(0) => support(stage, &at),
+        Symbol::Revolute | Symbol::Helical if flat(0) => support(stage, &at, carried(stage, joint)),
         Symbol::Revolute | Symbol::Helical | Symbol::Universal => bearing(stage, joint, &axis(0)),
         Symbol::Spherical => plate(stage, &at, &Vector3::unit(2)),
         Symbol::Planar | Symbol::Rigid => Vec::new(),
@@ -53,6 +53,21 @@ pub(super) fn telescopes(stage: &Stage, joint: &JointShape) -> bool {
     joint.kind == Symbol::Prismatic && !stage.flat && moves
 }
 
+/// The middle of what a joint on ground carries, with others that stand in its place; none if that is nothing that is drawn.
+fn carried(stage: &Stage, joint: &JointShape) -> Option<Point> {
+    let at = Vector3(joint.at);
+    let here = |of: &&JointShape| (Vector3(of.at) - at).norm() < 0.1 * stage.metres();
+    let bodies = stage.scene.joints.iter().filter(here);
+    let bodies = bodies.flat_map(|of| of.bodies.map(|body| &stage.scene.bodies[body]));
+    let moved = bodies.filter(|body| !body.ground);
+    let points = moved.flat_map(|body| body.lines.iter().flatten().chain(&body.corners));
+    let points: Vec<Point> = points.map(|point| Vector3(*point)).collect();
+    let sum = points
+        .iter()
+        .fold(Vector3::zero(), |sum, point| sum + *point);
+    (!points.is_empty()).then(|| sum.times(1.0 / points.len() as f64))
+}
+
 /// A bearing block: under a level axis, with a cheek at either end, on the side away from the link; a plate under an
 /// upright one.
 fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
@@ -60,10 +75,7 @@ fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
     let across = |way: Point| way - axis.times(way.dot(axis));
     let unit = |way: Point| way.times(1.0 / way.norm().max(f64::MIN_POSITIVE));
     let down = across(Vector3([0.0, 0.0, -1.0]));
-    let bodies = joint.bodies.iter().map(|&body| &stage.scene.bodies[body]);
-    let moved = bodies.filter(|body| !body.ground);
-    let points = moved.flat_map(|body| body.lines.iter().flatten().chain(&body.corners));
-    let away = points.fold(Vector3::zero(), |sum, point| sum + at - Vector3(*point));
+    let away = at - carried(stage, joint).unwrap_or(at);
     let side = down + unit(across(away)).times(0.8);
     if down.norm() < 0.4 || side.norm() < 0.2 {
         return plate(stage, &at, axis);
@@ -97,10 +109,10 @@ fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
 }
 
 /// The ball at the end of a rod, with its base.
-pub(super) fn rod_end(stage: &Stage, at: &Point, on_ground: bool) -> Vec<Piece> {
+pub(super) fn rod_end(stage: &Stage, at: &Point, other: &Point, on_ground: bool) -> Vec<Piece> {
     let under = match stage.flat {
         _ if !on_ground => Vec::new(),
-        true => support(stage, at),
+        true => support(stage, at, Some(*other)),
         false => plate(stage, at, &Vector3::unit(2)),
     };
     let ball = ball(stage, at, 0.7, INK);
@@ -187,10 +199,18 @@ fn guide(stage: &Stage, at: &Point, axis: &Point, on_ground: bool) -> Vec<Piece>
     pieces
 }
 
-/// A pin on ground: a triangle on a hatched line.
-fn support(stage: &Stage, at: &Point) -> Vec<Piece> {
+/// Sine of the angle below the horizontal from which on a link hangs from its pin on ground.
+const HANGS: f64 = 0.35;
+
+/// A pin on ground: a triangle on a hatched line, below the pin, or above it where what it carries hangs down.
+fn support(stage: &Stage, at: &Point, carried: Option<Point>) -> Vec<Piece> {
     let metres = stage.metres();
     let Camera { right, up, .. } = stage.camera;
+    let way = carried.map_or(up, |middle| middle - *at);
+    let up = match way.dot(&up) < -HANGS * way.norm() {
+        true => up.times(-1.0),
+        false => up,
+    };
     let foot = |x: f64| *at + right.times(x * metres) - up.times(1.9 * metres);
     let triangle = [*at, foot(-1.1), foot(1.1)];
     let style = Style::filled(Colour(0xdddddd)).edged(GROUND, 1.2);

@@ -3,7 +3,7 @@
 use super::notation::upright;
 use super::{Notation, Script, jacobian_rows, notes, one_line, printed_rows};
 use crate::analysis::formulas::{
-    ClosureFormula, FormulasReport, JacobianFormula, TransformFormula,
+    ClosureFormula, FormulasReport, JacobianFormula, StepFormula, TransformFormula,
 };
 
 /// Matrices with longer rows are set entry by entry.
@@ -32,11 +32,7 @@ pub fn latex(report: &FormulasReport) -> String {
     }
     for step in report.solution.iter().flat_map(|solution| &solution.steps) {
         text += &comment(&format!("{}, by closure {}", step.name, step.closure));
-        let lines = super::step_lines(&notation, step).into_iter();
-        let lines = lines.map(|(name, value)| format!("{name} &= {value}"));
-        let real = step.real_where.iter();
-        let real = real.map(|real| format!("0 &\\le {}", notation.print(real)));
-        text += &display(aligned(&lines.chain(real).collect::<Vec<_>>()));
+        text += &display(step_of(&notation, step));
     }
     for jacobian in &report.jacobians {
         text += &display(jacobian_of(&notation, jacobian));
@@ -62,8 +58,23 @@ fn named(letter: &str, of: &str, relative_to: &str) -> String {
     }
 }
 
+/// Lines of an environment. Fractions in two lines, one below the other, do not touch.
+fn stacked(lines: &[String]) -> String {
+    let mut text = String::new();
+    for (i, line) in lines.iter().enumerate() {
+        let fraction = |line: &String| line.contains("\\frac");
+        text += line;
+        text += match lines.get(i + 1) {
+            Some(next) if fraction(line) || fraction(next) => " \\\\[6pt]\n",
+            Some(_) => " \\\\\n",
+            None => "",
+        };
+    }
+    text
+}
+
 fn aligned(lines: &[String]) -> String {
-    let lines = lines.join(" \\\\\n");
+    let lines = stacked(lines);
     format!("\\begin{{aligned}}\n{lines}\n\\end{{aligned}}")
 }
 
@@ -72,7 +83,7 @@ fn matrix(
     name: String,
     columns: &str,
     rows: &[Vec<String>],
-    last: &str,
+    last: Option<&str>,
     entry: impl Fn(usize, usize) -> String,
 ) -> String {
     let is_wide = |row: &Vec<String>| row.iter().map(String::len).sum::<usize>() > WIDEST;
@@ -82,22 +93,35 @@ fn matrix(
         let lines: Vec<String> = lines.collect();
         return format!("{name}: \\quad {}", aligned(&lines));
     }
-    let rows: Vec<String> = rows.iter().map(|row| row.join(" & ")).collect();
-    let rows = rows.join(" \\\\\n");
-    format!("{name} = \\left[\\begin{{array}}{{{columns}}}\n{rows}{last}\n\\end{{array}}\\right]")
+    let rows = rows.iter().map(|row| row.join(" & "));
+    let rows = stacked(&rows.chain(last.map(str::to_owned)).collect::<Vec<_>>());
+    format!("{name} = \\left[\\begin{{array}}{{{columns}}}\n{rows}\n\\end{{array}}\\right]")
 }
 
-fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
+pub(super) fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
     let name = named("T", &transform.of, &transform.relative_to);
     let rows = printed_rows(notation, transform);
-    let last = " \\\\\n0 & 0 & 0 & 1";
-    matrix(name, "ccc|c", &rows, last, |i, j| match j {
-        3 => format!("p_{{{}}}", AXES[i]),
-        _ => format!("r_{{{}{}}}", i + 1, j + 1),
-    })
+    matrix(
+        name,
+        "ccc|c",
+        &rows,
+        Some("0 & 0 & 0 & 1"),
+        |i, j| match j {
+            3 => format!("p_{{{}}}", AXES[i]),
+            _ => format!("r_{{{}{}}}", i + 1, j + 1),
+        },
+    )
 }
 
-fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
+pub(super) fn step_of(notation: &Notation, step: &StepFormula) -> String {
+    let lines = super::step_lines(notation, step).into_iter();
+    let lines = lines.map(|(name, value)| format!("{name} &= {value}"));
+    let real = step.real_where.iter();
+    let real = real.map(|real| format!("0 &\\le {}", notation.print(real)));
+    aligned(&lines.chain(real).collect::<Vec<_>>())
+}
+
+pub(super) fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
     let mut lines: Vec<String> = (closure.equations.iter())
         .map(|equation| format!("{} &= 0", notation.print(equation)))
         .collect();
@@ -117,11 +141,11 @@ fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
     (!lines.is_empty()).then(|| aligned(&lines))
 }
 
-fn jacobian_of(notation: &Notation, jacobian: &JacobianFormula) -> String {
+pub(super) fn jacobian_of(notation: &Notation, jacobian: &JacobianFormula) -> String {
     let name = named("J", &jacobian.of, &jacobian.relative_to);
     let rows = jacobian_rows(notation, jacobian);
     let columns = "c".repeat(jacobian.columns.len());
-    matrix(name, &columns, &rows, "", |i, j| {
+    matrix(name, &columns, &rows, None, |i, j| {
         let letter = if i < 3 { "v" } else { "\\omega" };
         let joint = notation.name(&jacobian.columns[j].joint);
         format!("{letter}_{{{}}}^{{({joint})}}", AXES[i % 3])

@@ -6,8 +6,9 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::system::FormulaNames;
+pub(in crate::output) use characters::upright;
 use characters::{VULGAR, escaped, greek, parts, raised};
-pub(super) use characters::{lowered, plain_digit, upright};
+pub(super) use characters::{lowered, plain_digit};
 
 /// For terminals or for TeX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::latex;
 use super::{Notation, Script, jacobian_rows, notes, parts, printed_rows, rows, step_lines};
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
@@ -9,7 +10,7 @@ use crate::analysis::formulas::{
     TransformFormula,
 };
 use crate::description::{ClosureKind, count, listed};
-use crate::output::document::{Document, Section};
+use crate::output::document::{Document, Formula, Section};
 use crate::output::quantity::form;
 use crate::output::report::Report;
 
@@ -19,22 +20,25 @@ const WIDEST: usize = 110;
 impl Report for FormulasReport {
     fn document(&self) -> Document {
         let notation = Notation::new(&self.names, Script::Unicode);
-        let section = |title: &str, blocks: Vec<String>| match blocks.is_empty() {
-            true => Section::new(title),
-            false => Section::new(title).code("", blocks.join("\n").trim_end()),
+        let tex = Notation::new(&self.names, Script::Latex);
+        let section = |title: &str, formulas: Vec<Formula>| Section::new(title).formulas(formulas);
+        let transforms = |transforms: &[TransformFormula]| -> Vec<Formula> {
+            let each = transforms.iter();
+            each.map(|t| titled(transform(&notation, t), latex::transform_of(&tex, t)))
+                .collect()
         };
-        let transforms = |transforms: &[TransformFormula]| -> Vec<String> {
-            transforms.iter().map(|t| transform(&notation, t)).collect()
-        };
-        let closures = self.closures.iter().map(|c| closure(&notation, c));
-        let jacobians = self.jacobians.iter().map(|j| jacobian(&notation, j));
+        let closures = self.closures.iter().map(|c| closure(&notation, &tex, c));
+        let jacobians = self.jacobians.iter();
+        let jacobians =
+            jacobians.map(|j| titled(jacobian(&notation, j), latex::jacobian_of(&tex, j)));
         let solution = self.solution.iter();
         let (answer, note) = match &self.solution {
             Some(solution) => (answer(solution), checked(solution)),
             None => (String::new(), None),
         };
         let steps = solution.flat_map(|solution| &solution.steps);
-        let steps = steps.map(|step| self::step(&notation, step));
+        let steps =
+            steps.map(|step| titled(self::step(&notation, step), latex::step_of(&tex, step)));
         Document::new(&self.mechanism, answer)
             .notes(note)
             .section(section("Solution", steps.collect()))
@@ -47,6 +51,21 @@ impl Report for FormulasReport {
             ))
             .section(Section::new("Notation").list(legend(&notation, self)))
             .section(Section::new("Remarks").list(notes(self)))
+    }
+}
+
+/// A formula whose text begins with its title.
+fn titled(text: String, latex: String) -> Formula {
+    let (title, lines) = text.split_once('\n').unwrap_or_default();
+    // the lines stand below the title without the indentation that a terminal gives them
+    let lines = lines
+        .lines()
+        .map(|line| line.strip_prefix("  ").unwrap_or(line));
+    Formula {
+        title: title.to_owned(),
+        unicode: lines.collect::<Vec<_>>().join("\n"),
+        latex,
+        below: Vec::new(),
     }
 }
 
@@ -156,7 +175,7 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
     Some(text)
 }
 
-fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
+fn closure(notation: &Notation, tex: &Notation, closure: &ClosureFormula) -> Formula {
     let [a, b] = &closure.between;
     let (name, kind) = (&closure.name, closure.kind.word());
     let mut text = match closure.kind {
@@ -177,21 +196,27 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         };
         text += &format!("  gx² + gy² + gz² = {length}\n");
     }
+    let mut below = Vec::new();
     if closure.identically_zero > 0 {
         let hold = form(closure.identically_zero, "holds", "hold");
         let more = format!(
             "{} {hold}",
             count(closure.identically_zero, "more equation")
         );
-        text += &format!("  {more} at all joint values\n");
+        below.push(format!("{more} at all joint values"));
     }
     if closure.same_axes {
-        text += &format!("  and the axes n, s, a of {a} are those of {b}\n");
+        below.push(format!("and the axes n, s, a of {a} are those of {b}"));
     }
     if closure.admits_flipped && closure.equations.len() > 3 {
-        text += "  and the axes point the same way: these equations hold for opposite ones too\n";
+        let same = "and the axes point the same way: these equations hold for opposite ones too";
+        below.push(same.to_owned());
     }
-    text
+    let latex = latex::closure_of(tex, closure).unwrap_or_default();
+    Formula {
+        below,
+        ..titled(text, latex)
+    }
 }
 
 fn jacobian(notation: &Notation, jacobian: &JacobianFormula) -> String {

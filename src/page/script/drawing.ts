@@ -42,6 +42,9 @@ export function points(scene: Scene): Vector3[] {
   return [...[...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints].map(v), ...wheels];
 }
 
+/** Sine of the angle below the horizontal from which on a link hangs from its pin on ground. */
+const HANGS = 0.35;
+
 /** Half the length of a guide, in sizes of joints. */
 const GUIDE = 3.5;
 
@@ -135,7 +138,7 @@ export class Drawing {
       case "revolute":
       case "helical":
         if (plane && facing) {
-          if (fixed) this.support(v(joint.at));
+          if (fixed) this.support(v(joint.at), moving);
           rim(0.95 * size);
           shapes.ball(at, 0.72 * size, colour, pick);
         } else {
@@ -192,16 +195,18 @@ export class Drawing {
     if (fixed && this.plane) this.hatch(at, axis, axis.clone().cross(this.plane.towards), GUIDE);
   }
 
-  /** A pin on ground: a triangle on a hatched line. */
-  private support(at: Vector3) {
+  /** A pin on ground: a triangle on a hatched line, below the pin, or above it where what it carries hangs down. */
+  private support(at: Vector3, towards: Vector3 | null) {
     const { plane, size, shapes } = this;
     if (!plane) return;
-    const foot = (x: number) => at.clone().addScaledVector(plane.right, x * size).addScaledVector(plane.up, -2.1 * size);
+    const way = towards?.clone().sub(at) ?? plane.up;
+    const up = plane.up.clone().multiplyScalar(way.dot(plane.up) < -HANGS * way.length() ? -1 : 1);
+    const foot = (x: number) => at.clone().addScaledVector(plane.right, x * size).addScaledVector(up, -2.1 * size);
     shapes.plate([at, foot(-1.2), foot(1.2)].map((p) => p.addScaledVector(plane.towards, 0.8 * size)), theme().plate, 1);
     const corners = [at, foot(-1.2), foot(1.2)];
     corners.forEach((corner, i) => shapes.rod(corner, corners[(i + 1) % 3]!, 0.1 * size, theme().ground));
     shapes.rod(foot(-1.8), foot(1.8), 0.12 * size, theme().ground);
-    this.hatch(foot(0), plane.right, plane.up.clone().negate(), 1.8);
+    this.hatch(foot(0), plane.right, up.negate(), 1.8);
   }
 
   /** Short strokes along a line, on the side of the ground. */
@@ -229,15 +234,16 @@ export class Drawing {
 
   /** A ball or a rod's end on ground, seen from where it leads to. */
   private pinned(at: Vector3, towards: Vector3 | null) {
-    if (this.plane) return this.support(at);
+    if (this.plane) return this.support(at, towards);
     const up = towards?.clone().sub(at).z ?? 1;
     this.foot(at, new Vector3(0, 0, up < 0 ? -1 : 1));
   }
 
-  /** The middle of what a joint on ground moves; none if it moves nothing that is drawn. */
+  /** The middle of what a joint on ground moves, with others in its place; none if they move nothing that is drawn. */
   private awayFrom(scene: Scene, joint: JointShape): Vector3 | null {
-    const moved = scene.bodies[joint.bodies.find((body) => !scene.bodies[body]?.ground) ?? -1];
-    const all = [...(moved?.lines.flat() ?? []), ...(moved?.corners ?? [])].map(v).filter((p) => p.distanceTo(v(joint.at)) > 0.5 * this.size);
+    const here = scene.joints.filter((of) => v(of.at).distanceTo(v(joint.at)) < 0.1 * this.size);
+    const moved = new Set(here.flatMap((of) => of.bodies).filter((body) => !scene.bodies[body]?.ground).map((body) => scene.bodies[body]!));
+    const all = [...moved].flatMap((body) => [...body.lines.flat(), ...body.corners]).map(v).filter((p) => p.distanceTo(v(joint.at)) > 0.5 * this.size);
     return all.length ? all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(all.length) : null;
   }
 

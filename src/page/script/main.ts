@@ -115,7 +115,7 @@ class Picture {
     this.drawing.draw(scene);
     this.surroundings.draw(scene, this.scenery.arrows.extent, this.drawing.size, this.inPlane || this.drawn);
     const forces = this.other ? null : this.model.frame?.forces;
-    const words = forces && "arrows" in forces ? forces.arrows : [];
+    const words = forces && "arrows" in forces ? forces : { arrows: [], moments: [] };
     this.scenery.draw(scene, words, this.drawing.size, this.drawing.plane !== null, (point) => this.drawing.above(point, 3));
     this.label();
     this.stage.draw();

@@ -1,6 +1,6 @@
 // What stands beside the mechanism: ghosts of other assemblies, the paths of points, forces, freedoms gained.
 import { Vector3 } from "three";
-import { Arrows, type Note, screw } from "./arrows";
+import { Arrows, type Note, screw, type Words } from "./arrows";
 import type { Trace } from "./motion";
 import { Shapes } from "./shapes";
 import { theme } from "./theme";
@@ -19,7 +19,7 @@ export class Scenery {
   notes: Note[] = [];
 
   /** Beside a scene, of which the arrows are drawn with these words. */
-  draw(scene: Scene, words: string[], size: number, flat: boolean, raised: (point: Vector3) => Vector3) {
+  draw(scene: Scene, words: Words, size: number, flat: boolean, raised: (point: Vector3) => Vector3) {
     const { shapes } = this;
     shapes.flat = flat;
     shapes.begin();

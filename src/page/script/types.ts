@@ -98,8 +98,9 @@ export type Named = [string, string];
 /** What a load calls for. */
 export interface Forces {
   held: Named[];
-  /** Beside each arrow of the scene. */
+  /** Beside each arrow of the scene: its force, and its moment. */
   arrows: string[];
+  moments: string[];
   /** What nothing balances. */
   unbalanced: string[];
 }

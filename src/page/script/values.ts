@@ -5,6 +5,11 @@ import type { Frame, Mechanism } from "./types";
 /** Beyond this four digits are lost: a singularity is near. */
 const POOR = 1e4;
 
+/** A value to be read: five digits of its number, its unit after it. */
+export function rounded(value: string): string {
+  return value.replace(/^[-+]?\d*\.?\d+(e[-+]?\d+)?/, (number) => String(Number(Number(number).toPrecision(5))));
+}
+
 export class Values {
   private names = "";
   private cells: HTMLElement[] = [];
@@ -21,9 +26,11 @@ export class Values {
     const held = new Set(frame.held ?? []);
     const limits = new Map(frame.limits);
     mechanism.coordinates.forEach((of, i) => {
-      this.cells[i]!.textContent = frame.values[i]![1];
-      this.cells[i]!.parentElement!.classList.toggle("limit", limits.has(of.name));
-      this.cells[i]!.title = limits.get(of.name) ?? "";
+      const [cell, whole] = [this.cells[i]!, frame.values[i]![1]];
+      cell.textContent = rounded(whole);
+      cell.dataset.whole = whole;
+      cell.parentElement!.classList.toggle("limit", limits.has(of.name));
+      cell.title = [whole, limits.get(of.name)].filter(Boolean).join(": ");
       this.boxes[i]!.checked = held.has(of.name);
       this.boxes[i]!.disabled = frame.held === null;
     });
@@ -46,6 +53,14 @@ export class Values {
       this.cells.push(cell);
       return element("tr", {}, element("td", {}, box), element("th", { scope: "row" }, of.name), cell);
     });
-    find("values").replaceChildren(...rows);
+    const table = find("values");
+    table.replaceChildren(...rows);
+    // what is copied has all digits
+    table.oncopy = (event) => {
+      const cells = this.cells.filter((cell) => getSelection()?.containsNode(cell, true));
+      if (!cells.length || !event.clipboardData) return;
+      event.clipboardData.setData("text/plain", cells.map((cell) => cell.dataset.whole ?? "").join("\n"));
+      event.preventDefault();
+    };
   }
 }

@@ -49,6 +49,7 @@ impl ConfigurationCurve for Curve {
 
 /// End of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum LocusEnd {
     /// At its own start: a closed curve.

@@ -7,6 +7,7 @@ use crate::number::real;
 
 /// Gap of a closure.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Gap {
     /// Distance in m: between origins, from the length of a `Distance`, or along blocked directions of a slide.
     pub distance: f64,

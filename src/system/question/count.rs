@@ -13,6 +13,7 @@ use crate::system::{Coordinate, Mobility, System};
 
 /// The number of held coordinates compared with the freedoms of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Count {
     /// Freedoms of the mechanism, if it assembles near the start.
     pub mobility: Option<usize>,

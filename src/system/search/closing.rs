@@ -13,6 +13,7 @@ use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
 /// The closure with the widest gap at a given pose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WidestGap {
     /// Name of the closure.
     pub closure: String,
@@ -90,6 +91,7 @@ const MUCH_NEARER: f64 = 0.1;
 
 /// The joint or platform that moved most when a given pose was closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Moved {
     /// Its name.
     pub name: String,
@@ -110,6 +112,7 @@ impl Moved {
 
 /// Correction of the given pose, for reports about the configuration closed from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GivenPose {
     /// The widest gap it had; `None` if it was assembled but for rounding.
     pub given_gap: Option<WidestGap>,
@@ -137,6 +140,7 @@ pub struct Closed {
 
 /// The answer of an analysis of assembled configurations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum Analysed<R> {
     /// The mechanism closes near the pose given; the report is about the configuration there.
@@ -167,6 +171,7 @@ impl<R> Analysed<R> {
 
 /// A mechanism that does not close near the pose given.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NotClosed {
     /// The mechanism's name.
     pub mechanism: String,
@@ -184,6 +189,7 @@ pub struct NotClosed {
 /// A mechanism with more unknowns than singular values are computed for
 /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TooLarge {
     /// The mechanism's name.
     pub mechanism: String,

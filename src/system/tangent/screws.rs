@@ -16,6 +16,7 @@ use crate::number::tolerance::RANK_TOLERANCE;
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TwistSpace {
     /// The body: a platform, or a link by its frame.
     pub body: String,
@@ -27,6 +28,7 @@ pub struct TwistSpace {
 
 /// A twist up to its size, in ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Screw {
     /// Unit vector along the axis, or along the translation.
     pub direction: [f64; 3],

@@ -9,6 +9,7 @@ use crate::mechanism::{Mechanism, Role};
 
 /// Range of a joint, or of a coordinate of a platform, over a circuit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointMotion {
     /// Its name.
     pub name: String,
@@ -24,6 +25,7 @@ pub struct JointMotion {
 
 /// Branch: a part of a circuit between two dead points of the input.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Branch {
     /// The lowest value of the input, rad or m.
     pub low: f64,
@@ -35,6 +37,7 @@ pub struct Branch {
 
 /// Circuit: all configurations reached along one curve without taking the mechanism apart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Circuit {
     /// Its number, from 1.
     pub number: usize,
@@ -65,6 +68,7 @@ pub struct Circuit {
 
 /// The class of a planar 4-bar, as its circuits show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FourBarClass {
     /// One of the links on ground turns fully.
@@ -83,6 +87,7 @@ pub enum FourBarClass {
 
 /// The class of a planar 4-bar by its lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Grashof {
     /// The class.
     pub class: FourBarClass,
@@ -92,6 +97,7 @@ pub struct Grashof {
 
 /// The circuits of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CircuitsReport {
     /// The mechanism's name.
     pub mechanism: String,

@@ -40,6 +40,7 @@ pub struct Slice {
 
 /// The search for circuits by following complex configurations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Swept {
     /// The joint along whose values complex configurations were followed.
     pub joint: String,

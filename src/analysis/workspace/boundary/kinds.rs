@@ -8,6 +8,7 @@ use crate::system::{Coordinate, LocusEnd};
 
 /// Kind of a boundary.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BoundaryKind {
     /// An inverse singularity (type 1 of Gosselin and Angeles): modes of the inverse problem meet.
@@ -56,6 +57,7 @@ impl KindByNumber {
 
 /// A boundary curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BoundaryCurve {
     /// Its kind.
     pub kind: BoundaryKind,
@@ -75,6 +77,7 @@ pub struct BoundaryCurve {
 
 /// A piece of a curve on the boundary of a mode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Piece {
     /// The mode.
     pub mode: usize,

@@ -9,6 +9,7 @@ use crate::mechanism::Variable;
 
 /// A mapped coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AxisReport {
     /// Its name.
     pub name: String,

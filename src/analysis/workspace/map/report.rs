@@ -10,6 +10,7 @@ use crate::mechanism::Variable;
 
 /// Workspace of a mechanism in a box of coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(remote = "Self")]
 pub struct WorkspaceReport {
     /// The mechanism's name.
@@ -91,6 +92,7 @@ impl<'de> Deserialize<'de> for WorkspaceReport {
 
 /// A coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CoordinateReport {
     /// Its name.
     pub name: String,
@@ -100,6 +102,7 @@ pub struct CoordinateReport {
 
 /// A coordinate that is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HeldReport {
     /// Its name.
     pub name: String,
@@ -111,6 +114,7 @@ pub struct HeldReport {
 
 /// A mode: what regular motion within the box connects, whether within limits or not.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModeReport {
     /// Its number: sorted by the first node reached, then by the joints there, angles in (−π, π].
     pub mode: usize,
@@ -128,6 +132,7 @@ pub struct ModeReport {
 
 /// Position on a map of the assembly near home, or near the guess.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HomeReport {
     /// The mapped coordinates, rad or m.
     pub at: Vec<f64>,
@@ -139,6 +144,7 @@ pub struct HomeReport {
 
 /// A region of one mode within limits that no singularity parts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AspectReport {
     /// Its number: by mode, then by nodes, the most first.
     pub aspect: usize,
@@ -160,6 +166,7 @@ pub struct AspectReport {
 
 /// A node with the condition number there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Conditioned {
     /// The mapped coordinates, rad or m.
     pub at: Vec<f64>,
@@ -169,6 +176,7 @@ pub struct Conditioned {
 
 /// A boundary point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BoundaryPoint {
     /// Kind of boundary.
     pub kind: BoundaryKind,

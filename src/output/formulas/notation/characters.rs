@@ -63,7 +63,7 @@ pub(in crate::output::formulas) fn escaped(name: &str) -> String {
 }
 
 /// The name of a frame or body in a formula of TeX.
-pub(in crate::output::formulas) fn upright(name: &str) -> String {
+pub(in crate::output) fn upright(name: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '.' || c == '_';
     // in mathematics a dash is a minus and spaces vanish
     let command = if name.chars().all(plain) {
