@@ -11,6 +11,7 @@ mod machines;
 mod mechanisms;
 mod negative_lengths;
 mod numbers;
+mod numerics;
 mod pictures;
 #[cfg(feature = "cli")]
 mod rendered;
