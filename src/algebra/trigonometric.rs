@@ -87,7 +87,8 @@ impl Trigonometric {
         Trigonometric::term(key, BigRational::one())
     }
 
-    pub(crate) fn term(key: Key, coefficient: BigRational) -> Self {
+    /// A single term.
+    pub fn term(key: Key, coefficient: BigRational) -> Self {
         let mut sum = Trigonometric::zero();
         sum.add_term(key, coefficient);
         sum
@@ -397,6 +398,3 @@ impl Trigonometric {
         Trigonometric::atom(Atom::Call(function, Arc::from(arguments)))
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -394,6 +394,3 @@ impl<'a> Checked<'a> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -6,6 +6,7 @@ mod closed_form;
 mod closed_reports;
 mod closing;
 mod commands;
+mod compared;
 mod comparison;
 mod conversion;
 mod cusps;

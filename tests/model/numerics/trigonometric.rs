@@ -1,9 +1,9 @@
+//! Trigonometric normal forms prove the identities of textbooks, and nothing else.
+
+use linkwork::algebra::*;
 use proptest::prelude::*;
 
-use super::super::Expression;
-use super::super::symbolic::{Symbolic, with_letters};
-use super::*;
-use crate::number::Number;
+use linkwork::number::Number;
 
 const PLENTY: Budget = Budget { products: 20_000 };
 const LETTERS: [&str; 5] = ["a", "b", "x", "y", "t"];

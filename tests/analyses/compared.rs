@@ -1,7 +1,12 @@
+//! Closed forms against the chains of a 4-bar.
+
+use linkwork::analysis::compare::*;
+use linkwork::mechanism::Mechanism;
+use linkwork::solve::{Progress, Stage, Watch};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::*;
-use crate::description::Description;
+use linkwork::description::Description;
 
 fn mechanism(forms: &str) -> Mechanism {
     let text = format!(
