@@ -69,7 +69,7 @@ fn check_starts(given: usize) -> Result<(), AskError> {
     }
 }
 
-/// What is asked of a mechanism. Every analysis refuses a question that is wrong in itself.
+/// A question about a mechanism. Every analysis refuses a question that is wrong in itself.
 ///
 /// A fresh question holds the actuated joints at home, starts at the home configuration and moves nothing. Coordinates
 /// are named as for [`system::Question`]; values are numbers in m and rad, or texts as in the file ([`Value`]).
@@ -107,7 +107,7 @@ impl Question {
         self.ready.get_or_init(|| self.prepared())
     }
 
-    /// What is demanded by name, in the order in which it was demanded.
+    /// The demands by name, in the order in which it was demanded.
     pub fn demands(&self) -> &[Demand] {
         &self.demands
     }
@@ -333,13 +333,13 @@ impl Question {
         self.resolve(system::Question::new(self.mechanism()))
     }
 
-    /// What is held, free and guessed where the actuated joints are held only if that is asked for.
+    /// The held, free and guessed coordinates where actuated joints are held only if that is asked for.
     fn released(&self) -> Result<system::Question<'_>, AskError> {
         let released = system::Question::new(self.mechanism()).free("actuated");
         self.resolve(released.map_err(AskError::Question)?)
     }
 
-    /// What is freed is freed first, so that one joint of several that are free can be held.
+    /// Frees first, so that one joint of several that are free can be held.
     fn resolve<'q>(
         &self,
         mut question: system::Question<'q>,

@@ -195,7 +195,7 @@ impl Loaded {
         self.warnings_beside(Format::Text) + &lines("note", rounding)
     }
 
-    /// What is said beside a report that is prefaced and written in a format.
+    /// Remarks beside a report that is prefaced and written in a format.
     pub fn warnings_beside(&self, format: Format) -> String {
         match format {
             Format::Csv | Format::Ron => self.warnings(),

@@ -13,11 +13,11 @@ pub struct Literal {
     pub written: f64,
     /// The unit behind it.
     pub unit: Option<Unit>,
-    /// What it measures; [`Measure::Number`] for a part of a direction, [`Measure::Open`] where nothing says it.
+    /// Its measure; [`Measure::Number`] for a part of a direction, [`Measure::Open`] where nothing says it.
     pub measure: Measure,
     /// The part of the file in which it stands: `b`, `links row 2`, `joint A`.
     pub place: String,
-    /// Whether it is a coordinate of a point or a direction.
+    /// True for a coordinate of a point or a direction.
     pub in_vector: bool,
 }
 
@@ -28,7 +28,7 @@ impl Literal {
             .map_or(self.written, |unit| unit.over(self.written))
     }
 
-    /// What one in its place and unit is in m or rad or without unit.
+    /// The value of 1 in its place and unit in m or rad or without unit.
     fn size(&self) -> f64 {
         self.unit.map_or(1.0, |unit| unit.over(1.0))
     }
@@ -58,7 +58,7 @@ impl Literal {
     }
 }
 
-/// How many digits a number has, and the power of ten of its last one.
+/// The number of digits, and the power of ten of its last one.
 fn digits(value: f64) -> (i32, i32) {
     let written = format!("{value:e}");
     let (mantissa, power) = written.split_once('e').unwrap_or((&written, "0"));
@@ -77,7 +77,7 @@ const COARSE: f64 = 1.5e-3;
 /// So few digits are chosen, not measured.
 const CHOSEN: i32 = 3;
 
-/// What is less than this beside the size of the mechanism is no dimension but rounding, whatever its digits.
+/// Numbers below this part of the size of the mechanism are rounding, whatever their digits.
 const NOTHING: f64 = 1e-8;
 
 /// For each literal the most by which it is off if it was rounded when it was written, in m or rad or without unit; `None` if
@@ -272,7 +272,7 @@ impl Description {
         literals
     }
 
-    /// The same file with what is given in place of its literals.
+    /// The file with other expressions in place of its literals.
     fn replaced(&self, mut replacement: impl FnMut(usize) -> Option<Expression>) -> Description {
         let (mut changed, mut number) = (self.clone(), 0);
         changed.dimensions(&mut |entry, _, _, _| {
@@ -294,7 +294,7 @@ impl Description {
         }
     }
 
-    /// The same file with other values of some literals, by their places in [`literals`](Self::literals), in m or rad or
+    /// The file with other values of some literals, by their places in [`literals`](Self::literals), in m or rad or
     /// without unit.
     ///
     /// # Errors
@@ -306,7 +306,7 @@ impl Description {
         changed.made_anew()
     }
 
-    /// The same file with parameters in place of some literals, by their places, and the names of these parameters.
+    /// The file with parameters in place of some literals, by their places, and the names of these parameters.
     ///
     /// # Errors
     /// If no tables can be made of joint coordinates.
@@ -350,7 +350,7 @@ impl Description {
         Ok((changed.made_anew()?, names))
     }
 
-    /// The same file with numbers that may be off by so much, a length as in the file; `None` if it is no positive length.
+    /// The file with numbers that may be off by so much, a length as in the file; `None` if it is no positive length.
     pub fn with_tolerance(mut self, length: &str) -> Option<Description> {
         let expression = Expression::parse(length).ok()?;
         let is_length = expression.check_measure(Measure::Length, &|_| Measure::Open);

@@ -47,7 +47,7 @@ impl<R: Serialize> Serialize for Prefaced<R> {
     }
 }
 
-/// What the rounding of a file's numbers means, in a sentence.
+/// Meaning of the rounding of a file's numbers, in a sentence.
 pub fn sentence(rounding: &Rounding) -> String {
     match rounding {
         Rounding::Nearest(rounded) => format!(

@@ -40,7 +40,7 @@ pub fn stopped(report: &SweepReport) -> Option<String> {
     })
 }
 
-/// Why a part did not follow a pointer. A pull goes round dead points: where a step ended before one, the next goes on.
+/// Reason for which a part did not follow a pointer. A pull goes round dead points: where a step ended before one, the next goes on.
 pub fn pulled(report: &SweepReport) -> Option<String> {
     match report.ending {
         SweepEnd::Fold => None,

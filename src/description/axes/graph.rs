@@ -167,7 +167,7 @@ impl AxesDescription {
         self.joints.iter().enumerate().map(driven).collect()
     }
 
-    /// Whether the value of another joint, or a quantity that the file names, is given in terms of this one.
+    /// True if the value of another joint, or a quantity that the file names, is given in terms of this one.
     pub(crate) fn leads(&self, name: &str) -> bool {
         let values = self.joints.iter().flat_map(|joint| &joint.value.value);
         let mut names = values.flat_map(|value| value.expression.names());
