@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use super::vocabulary::{continues_name, starts_name};
+use super::vocabulary::{continues_name, continues_words, is_reserved, starts_name};
 use super::{Constant, Expression, ExpressionError, Function, Node, Operator, Unit};
 
 /// The deepest nesting of parentheses, calls, signs and powers.
@@ -331,8 +331,33 @@ impl Parser<'_> {
         }
     }
 
+    /// The words that follow a word of a name, with the blanks before them.
+    fn more_words(&self, first: usize) -> usize {
+        let rest = self.rest();
+        let mut end = first;
+        while let Some(after) = rest[end..].strip_prefix(' ') {
+            let ends = |c: char| !continues_name(c);
+            let word = &after[..after.find(ends).unwrap_or(after.len())];
+            if !continues_words(word) || after[word.len()..].starts_with('(') {
+                break;
+            }
+            end += 1 + word.len();
+            // of a quantity a coordinate may follow, as in `left foot.x`
+            if self.dotted && rest[end..].starts_with('.') {
+                let dotted = &rest[end + 1..];
+                end += 1 + dotted.find(ends).unwrap_or(dotted.len());
+            }
+        }
+        end
+    }
+
     fn name(&mut self) -> Result<Tall, ParseError> {
-        let word = self.word().to_owned();
+        let first = self.word();
+        let length = match is_reserved(first) {
+            true => first.len(),
+            false => self.more_words(first.len()),
+        };
+        let word = self.rest()[..length].to_owned();
         if word.is_empty() {
             let c = self.peek().unwrap_or_default();
             return Err(ParseErrorKind::UnexpectedCharacter(c).at(self.here()));

@@ -189,9 +189,23 @@ impl Function {
     }
 }
 
-/// True if `text` has the form of a name (it may still be reserved).
+/// True if `text` has the form of a name (it may still be reserved): a word, or several with a blank between them of which
+/// none means something else in an expression.
 pub fn is_name(text: &str) -> bool {
-    text.starts_with(starts_name) && text.chars().all(continues_name)
+    let mut words = text.split(' ');
+    let first = words.next().unwrap_or_default();
+    let mut rest = words.peekable();
+    let alone = rest.peek().is_none() || !is_reserved(first);
+    first.starts_with(starts_name)
+        && first.chars().all(continues_name)
+        && alone
+        && rest.all(continues_words)
+}
+
+/// True for a word that may follow another in a name.
+pub(super) fn continues_words(word: &str) -> bool {
+    let whole = !word.is_empty() && word.chars().all(continues_name);
+    whole && !is_reserved(word) && Unit::from_word(word).is_none()
 }
 
 /// True for the words with a meaning in every expression: `pi`, `deg`, `rad` and the functions.

@@ -25,8 +25,11 @@ fn clean(wanted: &str) -> String {
     wanted.replace(|c| !is_name(&format!("_{c}")), "_")
 }
 
-/// A name like `wanted` that expressions may use, with letters, digits and underscores only.
+/// A name like `wanted` that expressions may use, with letters, digits, underscores and blanks only.
 pub(crate) fn variable_name(wanted: &str) -> String {
+    if is_name(wanted) && !is_reserved(wanted) {
+        return wanted.to_owned();
+    }
     let clean = clean(wanted);
     match is_name(&clean) && !is_reserved(&clean) {
         true => clean,

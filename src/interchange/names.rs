@@ -21,7 +21,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// A name for a joint variable: letters, digits and underscores.
+    /// A name for a joint variable: letters, digits, underscores and single blanks.
     pub fn variable(&mut self, wanted: &str) -> String {
         let free = |name: &str| !self.variables.contains(name);
         let name = first_free(&variable_name(wanted), "_", free);

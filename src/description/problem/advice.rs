@@ -69,6 +69,9 @@ impl ProblemKind {
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
             }
+            UnknownName { name, .. } if name.contains(' ') => {
+                "no joint or parameter is called so; to multiply, write `*` between names".into()
+            }
             UnknownName { scope: Scope::ClosedForm, .. } => "declare it under `where`, `parameters` or `joints`".into(),
             UnknownName { scope: Scope::Outputs, .. } => {
                 "write a joint, a coordinate such as `hand.x`, a rate such as `velocity:hand`, `force:l1`, `transmission` or `condition`".into()
@@ -80,7 +83,7 @@ impl ProblemKind {
             Expression(error) => return expression::help(error),
             Unit(error) => expression::unit_help(error),
             NotAName { .. } => {
-                "a name starts with a letter or `_`, followed by letters, digits or `_`".into()
+                "a name starts with a letter or `_`, followed by letters, digits, `_` or single blanks".into()
             }
             DottedName { .. } => "the dot is reserved for frames, as in `leg.2`".into(),
             NoConvention { .. } => {
