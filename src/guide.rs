@@ -11,6 +11,7 @@
 //! | [`assemblies`] | all assemblies, with certificates |
 //! | [`mobility`] | mobility, velocities and forces |
 //! | [`motion`] | sweeps, circuits and branches |
+//! | [`suspensions`] | steering axis, caster, scrub radius, roll centre and anti-dive as quantities |
 //! | [`singularities`] | singular configurations and loci |
 //! | [`workspace`] | workspace maps, modes and aspects |
 //! | [`formulas`] | closed forms derived and checked |
@@ -108,3 +109,7 @@ pub mod view {}
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/workspace.md"))]
 #[cfg_attr(doc, doc = "<div>", doc = include_str!("guide/workspace.svg"), doc = "</div>")]
 pub mod workspace {}
+
+/// The words of suspensions as quantities: steering axis, caster, scrub radius, roll centre, anti-dive.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/suspensions.md"))]
+pub mod suspensions {}

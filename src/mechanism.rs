@@ -43,7 +43,9 @@ pub use loads::{Along, Friction, GivenEffort, GivenForce, GivenValue, Loads, Mas
 pub use point::{NamedPoint, Point, PointError};
 pub use relation::Relation;
 
-pub use quantity::{Carrier, Effort, Energy, Figure, Measured, Order, Quantity, QuantityError};
+pub use quantity::{
+    Carrier, Effort, Energy, Figure, Measured, Order, Quantity, QuantityError, ScrewPart,
+};
 pub use rounded::{NumberChange, Rounded, Rounding};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;

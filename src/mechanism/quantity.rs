@@ -31,6 +31,8 @@ pub enum Measured {
     Size(Point, Order),
     /// The curvature of the path of a point.
     Curvature(Point),
+    /// A number of the instant screw of the body that carries a frame.
+    Screw(Frame, ScrewPart),
     /// The force or moment that holds a joint.
     Force(usize),
     /// The force or moment that holds a coordinate of a platform.
@@ -116,6 +118,26 @@ words! {
     }
 }
 
+words! {
+    /// A number of the instant screw of a body seen from ground.
+    ScrewPart {
+        /// The point of the axis nearest to the origin of ground.
+        X = "x",
+        /// Its y.
+        Y = "y",
+        /// Its z.
+        Z = "z",
+        /// The direction of the axis, about which the body turns positively.
+        Dx = "dx",
+        /// Its y.
+        Dy = "dy",
+        /// Its z.
+        Dz = "dz",
+        /// How far the body advances along the axis, in m/rad.
+        Pitch = "pitch",
+    }
+}
+
 /// Reasons for which a text is not a quantity.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
@@ -139,6 +161,7 @@ pub enum QuantityError {
 
 const TRANSMISSION: &str = "transmission";
 const CURVATURE: &str = "curvature";
+const SCREW: &str = "screw";
 const TIME: &str = "time";
 const POWER: &str = "power";
 const SHAKING: &str = "shaking";
@@ -162,6 +185,15 @@ impl Figure {
     /// True for a distance from singularities.
     pub fn is_distance(self) -> bool {
         matches!(self, Figure::Direct | Figure::Inverse | Figure::Constraint)
+    }
+}
+
+impl ScrewPart {
+    fn unit(self) -> SiUnit {
+        match self {
+            ScrewPart::Dx | ScrewPart::Dy | ScrewPart::Dz => SiUnit::ONE,
+            _ => SiUnit::METRE,
+        }
     }
 }
 
@@ -245,7 +277,8 @@ impl Quantity {
 impl Measured {
     /// Resolves a name: a joint, a parameter, a coordinate of a point, `left.x`, `top.yaw` or
     /// `[left+0.5,0.2].y`, of the only platform also by its word alone; a rate, `velocity:l1`, `velocity:top.x`,
-    /// `acceleration:left`; the curvature of a path, `curvature:left`; a force, `force:l1`; `transmission`, or `transmission:B` of the loop of closure B; a
+    /// `acceleration:left`; the curvature of a path, `curvature:left`; the instant screw of a body, `screw:top.x`, `screw:top.dx`,
+    /// `screw:top.pitch`; a force, `force:l1`; `transmission`, or `transmission:B` of the loop of closure B; a
     /// [`Figure`].
     ///
     /// # Errors
@@ -342,6 +375,7 @@ impl Measured {
             Measured::Place(_, c, order) => order.of(SiUnit::of_coordinate(c.is_angle())),
             Measured::Size(_, order) => order.of(SiUnit::METRE),
             Measured::Curvature(_) => SiUnit::PER_METRE,
+            Measured::Screw(_, part) => part.unit(),
             Measured::Force(joint) => SiUnit::of_effort(turns(joint)),
             Measured::PlatformForce(_, c) => SiUnit::of_effort(c.is_angle()),
             Measured::Time => SiUnit::SECOND,
@@ -387,6 +421,11 @@ fn moving(mechanism: &Mechanism, kind: &str, name: &str) -> Option<Result<Measur
     if kind == CURVATURE {
         return Some(point(mechanism, name).map(Measured::Curvature));
     }
+    if kind == SCREW {
+        let (of, word) = name.rsplit_once('.')?;
+        let part = ScrewPart::from_word(word)?;
+        return Some(point(mechanism, of).map(|point| Measured::Screw(point.frame, part)));
+    }
     let order = Order::of_kind(kind)?;
     if let Some(joint) = mechanism.joint(name) {
         return Some(Ok(Measured::Joint(joint, order)));
@@ -424,6 +463,7 @@ fn suggestion(mechanism: &Mechanism, name: &str) -> Option<String> {
         let frame = mechanism.frame_name(frame);
         known.extend(PoseCoordinate::ALL.map(|c| format!("{frame}.{}", c.word())));
         known.extend(["velocity", "acceleration", CURVATURE].map(|kind| format!("{kind}:{frame}")));
+        known.extend(ScrewPart::ALL.map(|part| format!("{SCREW}:{frame}.{}", part.word())));
     }
     nearest(name, known.iter().map(String::as_str)).map(str::to_owned)
 }

@@ -297,6 +297,99 @@ fn camber_and_toe_over_wheel_travel_are_those_of_the_orientation() {
 }
 
 #[test]
+fn names_of_joints_hold_blanks() {
+    let text = WITH_ROD.replace("BASE", "Tx(5)").replace("LENGTH", "3");
+    let text = text.replace("phi1", "right rocker 2");
+    let text = text.replace(
+        "theta: \"theta1\"",
+        "theta: \"left crank + 0.5*pi - 90 deg\"",
+    );
+    let question = Question::new(written(&text.replace("theta1", "left crank")))
+        .input("left crank", "60 deg", "70 deg")
+        .report("2*right rocker 2 - left crank, velocity:right rocker 2");
+    let plain = WITH_ROD.replace("BASE", "Tx(5)").replace("LENGTH", "3");
+    let known = Question::new(written(&plain))
+        .input("theta1", "60 deg", "70 deg")
+        .report("2*phi1 - theta1, velocity:phi1");
+    let [found, known] = [question, known].map(|of| moved(&of, 3, Pace::default()));
+    assert_eq!(
+        column(&found, "2*right rocker 2 - left crank"),
+        column(&known, "2*phi1 - theta1")
+    );
+    assert_eq!(
+        column(&found, "velocity:right rocker 2"),
+        column(&known, "velocity:phi1")
+    );
+    // two names without an operator between them are no name
+    let wrong = text.replace("left crank + 0.5*pi", "left crank right rocker 2");
+    assert!(
+        Mechanism::new(&Description::read(&wrong.replace("theta1", "left crank")).unwrap())
+            .is_err()
+    );
+}
+
+/// The coupler of a four-bar turns about the point where the lines of crank and rocker meet.
+#[test]
+fn the_screw_of_a_coupler_is_about_its_pole() {
+    let question = Question::new(load("four_bar"))
+        .input("theta1", "20 deg", "50 deg")
+        .report("screw:left.x, screw:left.y, screw:left.dz, screw:left.pitch");
+    let motion = moved(&question, 5, Pace::default());
+    let [x, y, dz, pitch] =
+        ["x", "y", "dz", "pitch"].map(|of| column(&motion, &format!("screw:left.{of}")));
+    let [theta, phi] = ["theta1", "phi1"].map(|of| column(&motion, of));
+    for row in 0..x.len() {
+        // on the line of the crank through the origin, and on that of the rocker through its pivot
+        let across = x[row] * theta[row].sin() - y[row] * theta[row].cos();
+        let other = (x[row] - 5.0) * phi[row].sin() - y[row] * phi[row].cos();
+        assert!(
+            across.abs() < 1e-9 && other.abs() < 1e-9,
+            "{row}: {across} {other}"
+        );
+        assert!((dz[row].abs() - 1.0).abs() < 1e-12 && pitch[row].abs() < 1e-12);
+    }
+}
+
+/// The steering axis of a wheel on five rods: its screw moves no ball along the rod there, and the wheel at its height.
+#[test]
+fn a_steering_axis_moves_no_ball_along_its_rod() {
+    let rods = [
+        [[-0.2, 0.3, 0.165], [-0.015, 0.68, 0.15]],
+        [[0.26, 0.32, 0.17], [0.02, 0.67, 0.145]],
+        [[-0.16, 0.38, 0.455], [0.0, 0.64, 0.48]],
+        [[0.2, 0.39, 0.43], [0.025, 0.645, 0.475]],
+    ];
+    let parts = ["x", "y", "z", "dx", "dy", "dz", "pitch"].map(|of| format!("screw:upright.{of}"));
+    let question = Question::new(load("axes/five_rod_axle"))
+        .free("strut")
+        .input("rack", 0.0, 0.02)
+        .hold("wheel.z", 0.31)
+        .report(parts.join(", ") + ", caster, kingpin inclination, scrub radius");
+    let motion = moved(&question, 2, Pace::default());
+    let [px, py, pz, dx, dy, dz, pitch] = parts.each_ref().map(|of| column(&motion, of)[0]);
+    let velocity = |[x, y, z]: [f64; 3]| {
+        let [x, y, z] = [x - px, y - py, z - pz];
+        [
+            dy * z - dz * y + pitch * dx,
+            dz * x - dx * z + pitch * dy,
+            dx * y - dy * x + pitch * dz,
+        ]
+    };
+    for [inner, outer] in rods {
+        let v = velocity(outer);
+        let along: f64 = (0..3).map(|k| v[k] * (outer[k] - inner[k])).sum();
+        assert!(along.abs() < 1e-9, "{along}");
+    }
+    assert!(velocity([0.0, 0.74, 0.31])[2].abs() < 1e-9);
+    let first = |of: &str| column(&motion, of)[0];
+    assert!((first("caster").tan() - dx / dz).abs() < 1e-12);
+    assert!((first("kingpin inclination").tan() + dy / dz).abs() < 1e-12);
+    // the axis meets the road here
+    let at = py - dy / dz * pz;
+    assert!((first("scrub radius") - (0.74 - at)).abs() < 1e-12);
+}
+
+#[test]
 fn figures_are_those_of_velocity_and_of_singularities() {
     let question = Question::new(load("three_rps"))
         .input("l1", "0.6", "0.7")

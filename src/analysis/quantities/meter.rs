@@ -25,7 +25,7 @@ use probe::{Plan, Probe};
 pub(crate) use programs::Name;
 pub(super) use programs::{evaluated, has_atan2, turns};
 use recorded::Recording;
-use wants::Wants;
+use wants::{Wants, points_of};
 
 /// Quantities to be evaluated on a motion, with the motion's inputs, law, load and outputs.
 #[derive(Clone, Debug)]
@@ -128,13 +128,14 @@ impl<'q> Meter<'q> {
             wants.order = Order::Acceleration;
         }
         let mut points: Vec<Point> = Vec::new();
-        for measured in all() {
-            if let Measured::Place(point, ..)
-            | Measured::Size(point, _)
-            | Measured::Curvature(point) = measured
-                && !points.contains(point)
-            {
-                points.push(*point);
+        let length = mechanism.characteristic_length();
+        let first = |points: &[Point], of: &[Point]| {
+            let mut windows = points.windows(of.len().max(1));
+            windows.position(|known| known == of)
+        };
+        for of in all().map(|measured| points_of(measured, length)) {
+            if first(&points, &of).is_none() {
+                points.extend(of);
             }
         }
         let coordinates = question.driven_coordinates();
@@ -164,12 +165,9 @@ impl<'q> Meter<'q> {
         if wants.transmission {
             frames.extend(TransmissionAngles::frames(mechanism));
         }
-        let numbered = names.iter().map(|&name| match &name.of {
-            Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
-                let number = points.iter().position(|known| known == point);
-                (name, number.unwrap_or(0))
-            }
-            _ => (name, 0),
+        let numbered = (names.iter()).map(|&name| {
+            let number = first(&points, &points_of(&name.of, length));
+            (name, number.unwrap_or(0))
         });
         let numbered: Vec<(Name, usize)> = numbered.collect();
         let held_by = |coordinate: &Coordinate| {

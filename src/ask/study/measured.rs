@@ -90,7 +90,7 @@ fn moves(measured: &Measured) -> bool {
         Measured::Joint(_, order) | Measured::Place(_, _, order) | Measured::Size(_, order) => {
             *order != Order::Value
         }
-        Measured::Curvature(_) => true,
+        Measured::Curvature(_) | Measured::Screw(..) => true,
         _ => false,
     }
 }

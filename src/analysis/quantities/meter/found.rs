@@ -6,6 +6,7 @@ use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{
     Carrier, Configuration, Effort, Energy, Figure, Measured, Order, Point, PoseCoordinate,
+    ScrewPart,
 };
 use crate::number::Number;
 use crate::number::tolerance::SOLVED;
@@ -148,6 +149,15 @@ impl Meter<'_> {
                 let both = change.greater(rate * rate) + rate * a / v;
                 both.scale(length) / (v * v)
             }
+            Measured::Screw(_, part) => {
+                let turn = self.twist(here, i).map(|[turn, _]| turn.norm());
+                let off = most(Order::Velocity) / turn.unwrap_or(T::one());
+                let far = value.abs().greater(T::from_f64(length));
+                match part {
+                    ScrewPart::Dx | ScrewPart::Dy | ScrewPart::Dz => off,
+                    _ => off * far,
+                }
+            }
             Measured::Figure(_) if !value.is_finite() => T::zero(),
             Measured::Figure(_) => value.abs(),
         };
@@ -187,6 +197,23 @@ impl Meter<'_> {
                 }
                 let across = velocity.cross(&self.vector(here, point, i, Order::Acceleration)?);
                 Some(across.norm() / size.powi(3))
+            }
+            Measured::Screw(_, part) => {
+                /// What turns less than this beside its fastest joints is shifted.
+                const TURNS: f64 = 1e-7;
+                let [turn, shift] = self.twist(here, i)?;
+                let size = turn.norm();
+                if !here.largest[0].scale(TURNS).less(size) {
+                    return None;
+                }
+                let square = size * size;
+                Some(match part {
+                    ScrewPart::Pitch => turn.dot(&shift) / square,
+                    ScrewPart::Dx | ScrewPart::Dy | ScrewPart::Dz => {
+                        turn.0[part as usize - ScrewPart::Dx as usize] / size
+                    }
+                    _ => turn.cross(&shift).0[part as usize] / square,
+                })
             }
             Measured::Force(joint) => self.force(here, Coordinate::Joint(joint)),
             Measured::PlatformForce(platform, c) => self.force(here, Coordinate::Pose(platform, c)),
@@ -233,6 +260,27 @@ impl Meter<'_> {
         let loose = order > Order::Value && !point.is_origin() && self.loose.contains(&point.frame);
         let known = here.tells(order) && !loose;
         known.then(|| here.moved(i, order))?
+    }
+
+    /// The rates of a body: its turning, and its velocity at the origin of ground, from points on the axes of a frame,
+    /// ω = ½ Σ eₖ × (ω × eₖ).
+    fn twist<T: Factorable>(&self, here: &Here<T>, i: usize) -> Option<[Vector3<T>; 2]> {
+        let mechanism = self.of.question.mechanism();
+        if !here.tells(Order::Velocity) || self.loose.contains(&self.plan.points[i].frame) {
+            return None;
+        }
+        let all = |order: Order| {
+            let points = (0..4).map(|k| here.moved(i + k, order));
+            points.collect::<Option<Vec<Vector3<T>>>>()
+        };
+        let (place, velocity) = (all(Order::Value)?, all(Order::Velocity)?);
+        let square = mechanism.characteristic_length().powi(2);
+        let turn = (1..4).fold(Vector3::zero(), |sum, k| {
+            sum + (place[k] - place[0]).cross(&(velocity[k] - velocity[0]))
+        });
+        let turn = turn.map(|x| x.scale(0.5 / square));
+        let shift = velocity[0] - turn.cross(&mechanism.to_ground(place[0]));
+        Some([turn, shift])
     }
 
     /// A coordinate of the point of that number, or of the orientation of its frame.

@@ -66,7 +66,9 @@ fn is_geometric(expression: &Expression<Measured>) -> bool {
         of => of,
     };
     if all.iter().all(|of| order(of) == Order::Value) {
-        return all.iter().any(|of| matches!(of, Measured::Curvature(_)));
+        return all
+            .iter()
+            .any(|of| matches!(of, Measured::Curvature(_) | Measured::Screw(..)));
     }
     // the size of an acceleration changes with more than its own velocity
     if (all.iter()).any(|of| matches!(of, Measured::Size(_, Order::Acceleration))) {

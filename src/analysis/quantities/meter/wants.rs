@@ -1,6 +1,6 @@
 //! Ingredients that quantities need.
 
-use crate::mechanism::{Figure, Measured, Order};
+use crate::mechanism::{Figure, Measured, Order, Point};
 
 /// Ingredients of quantities besides positions.
 #[derive(Clone, Copy)]
@@ -33,6 +33,7 @@ impl Wants {
                 Measured::Joint(_, order)
                 | Measured::Place(_, _, order)
                 | Measured::Size(_, order) => wants.order = wants.order.max(*order),
+                Measured::Screw(..) => wants.order = wants.order.max(Order::Velocity),
                 Measured::Curvature(_) => wants.order = Order::Acceleration,
                 Measured::Force(_)
                 | Measured::PlatformForce(..)
@@ -52,5 +53,20 @@ impl Wants {
             }
         }
         wants
+    }
+}
+
+/// The points whose motion a name needs: of a screw the origin of its frame, then one on each of its axes.
+pub(super) fn points_of(measured: &Measured, length: f64) -> Vec<Point> {
+    match *measured {
+        Measured::Place(point, ..) | Measured::Size(point, _) | Measured::Curvature(point) => {
+            vec![point]
+        }
+        Measured::Screw(frame, _) => {
+            let mut points = vec![Point::from(frame); 4];
+            (0..3).for_each(|k| points[k + 1].offset[k] = length);
+            points
+        }
+        _ => Vec::new(),
     }
 }
