@@ -14,6 +14,7 @@ mod kinematics;
 mod letters;
 mod lift;
 mod loads;
+mod loops;
 mod model;
 mod names;
 mod parameters;

@@ -8,15 +8,20 @@
 //! what is left grows with the square of the way, and a frame that only nearly closes needs a larger change.
 
 mod explained;
+mod parts;
 mod snap;
 mod walk;
 
+use std::path::Path;
+
 use crate::algebra::Measure;
-use crate::description::{Description, Literal, Problem, roundings};
+use crate::description::{Description, Literal, LoadError, Problem, roundings};
 use crate::mechanism::{Configuration, Mechanism, NumberChange, Rounded, Rounding};
+use crate::number::sorting::sort_by;
 use crate::solve::{LeastSquares, LevenbergMarquardt};
-use crate::system::{Bundle, Bundled, Gap, Held};
+use crate::system::{Bundle, Bundled, Gap};
 use explained::least_largest;
+use parts::Part;
 pub use snap::{Snap, snap};
 use walk::Walk;
 
@@ -26,7 +31,7 @@ const EXPLAINED: f64 = 1.05;
 /// Beyond so many nothing of it is rounding; between the two it is not decided.
 const BEYOND: f64 = 1.5;
 
-/// The most unknowns of a mechanism that is looked at: each singular value decomposition grows as their cube.
+/// The most unknowns of loops that are looked at together: each singular value decomposition grows as their cube.
 const MOST_UNKNOWNS: usize = 150;
 
 /// The mechanism of a description, and its description: where loops close within the rounding of the numbers, those of the
@@ -54,6 +59,19 @@ pub fn posed(description: Description) -> Result<(Description, Mechanism), Vec<P
     })
 }
 
+impl Mechanism {
+    /// Reads a mechanism file; where its loops close only within the rounding of its numbers, as the nearest linkage that
+    /// closes exactly ([`posed`]).
+    ///
+    /// # Errors
+    /// If the file cannot be read, or has problems; then with all of them.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
+        let (text, description) = Mechanism::read(&path)?;
+        let made = posed(description).map_err(|problems| LoadError::wrong(path, text, problems))?;
+        Ok(made.1)
+    }
+}
+
 /// A file with its numbers that may have been rounded.
 struct Numbers<'a> {
     description: &'a Description,
@@ -66,6 +84,13 @@ struct Numbers<'a> {
 enum Found {
     Undecided(f64),
     Nearest(Box<(Description, Mechanism, Rounded)>),
+}
+
+/// What closes the loops of a part exactly.
+enum Closed {
+    Undecided(f64),
+    /// Literals with their values, and the largest gaps with those of the file.
+    Nearest(Vec<(usize, f64)>, Gap),
 }
 
 impl<'a> Numbers<'a> {
@@ -89,51 +114,122 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Angles that are multiples of 15° but for their rounding, with these.
-    fn meant(&self) -> Vec<(usize, f64)> {
+    /// Numbers of a part as a drawing means them where they differ by their rounding only: angles that are multiples of 15°,
+    /// lengths that are nothing, so that axes are parallel, perpendicular, or meet.
+    fn meant(&self, part: &Part) -> Vec<(usize, f64)> {
         let step = std::f64::consts::PI / 12.0;
-        let meant = |(i, of): (usize, &Literal)| {
-            let (value, off) = (of.value(), self.off[i]?);
-            let whole = (value / step).round() * step;
-            let near = (whole - value).abs() <= EXPLAINED * off && whole != 0.0;
-            (of.measure == Measure::Angle && near && whole != value).then_some((i, whole))
+        let meant = |&i: &usize| {
+            let (of, off) = (&self.literals[i], self.off[i]?);
+            let value = of.value();
+            let whole = match of.measure {
+                Measure::Angle => (value / step).round() * step,
+                Measure::Length if !of.in_vector => 0.0,
+                _ => return None,
+            };
+            let near = (whole - value).abs() <= EXPLAINED * off;
+            (near && whole != value).then_some((i, whole))
         };
-        self.literals.iter().enumerate().filter_map(meant).collect()
+        part.numbers.iter().filter_map(meant).collect()
+    }
+
+    /// Lengths of a part that are equal but for their rounding, with their mean.
+    fn equal(&self, part: &Part) -> Vec<(usize, f64)> {
+        let value = |i: usize| self.literals[i].value();
+        let off = |i: usize| EXPLAINED * self.off[i].unwrap_or(0.0);
+        let is_length = |&i: &usize| {
+            let of = &self.literals[i];
+            of.measure == Measure::Length && !of.in_vector && value(i).abs() > off(i)
+        };
+        let mut lengths: Vec<usize> = part.numbers.iter().copied().filter(is_length).collect();
+        sort_by(&mut lengths, |a, b| {
+            value(*a).abs().total_cmp(&value(*b).abs())
+        });
+        let alike = |a: &usize, b: &usize| value(*b).abs() - value(*a).abs() <= off(*a) + off(*b);
+        let groups = lengths.chunk_by(alike).filter(|group| group.len() > 1);
+        let equal = groups.flat_map(|group| {
+            let sum: f64 = group.iter().map(|&i| value(i).abs()).sum();
+            let mean = sum / group.len() as f64;
+            let near = group
+                .iter()
+                .all(|&i| (value(i).abs() - mean).abs() <= off(i));
+            let of_group = group.iter().map(move |&i| (i, mean.copysign(value(i))));
+            of_group.filter(move |(i, mean)| near && *mean != value(*i))
+        });
+        equal.collect()
     }
 
     fn nearest(&self) -> Option<Found> {
-        let joints = self.mechanism.joints().len();
-        let unknowns = joints + 6 * self.mechanism.platforms().len();
-        let none = self.off.iter().all(Option::is_none);
-        if none || self.mechanism.closures().is_empty() || unknowns > MOST_UNKNOWNS {
+        if self.mechanism.closures().is_empty() {
             return None;
         }
-        let plain = self.closed(&[])?;
-        let meant = self.meant();
-        if meant.is_empty() || matches!(plain, Found::Undecided(_)) {
-            return Some(plain);
+        let rounded = |i: &usize| self.off[*i].is_some();
+        let places: Vec<usize> = (0..self.literals.len()).filter(rounded).collect();
+        let (named, numbers) = self.named(&places, &[])?;
+        let mut parts = Part::of(&named, &numbers)?;
+        for part in &mut parts {
+            part.numbers = part.numbers.iter().map(|&k| places[k]).collect();
         }
-        match self.closed(&meant) {
-            Some(found @ Found::Nearest(_)) => Some(found),
-            _ => Some(plain),
+        let mut undecided: Option<f64> = None;
+        let (mut values, mut most) = (Vec::new(), Gap::NONE);
+        for part in parts.iter().filter(|part| part.unknowns() <= MOST_UNKNOWNS) {
+            match self.nearest_of(part) {
+                Some(Closed::Undecided(change)) => {
+                    undecided = Some(undecided.map_or(change, |other| other.max(change)));
+                }
+                Some(Closed::Nearest(of_part, gap)) => {
+                    values.extend(of_part);
+                    most = most.max(gap);
+                }
+                None => {}
+            }
+        }
+        match undecided {
+            Some(change) => Some(Found::Undecided(change)),
+            None => self.changed(values, most),
         }
     }
 
-    /// The nearest linkage that closes exactly and in which some literals have given values.
-    fn closed(&self, meant: &[(usize, f64)]) -> Option<Found> {
-        let fixed = |i: &usize| meant.iter().any(|(of, _)| of == i);
-        let rounded = |i: &usize| self.off[*i].is_some() && !fixed(i);
-        let places: Vec<usize> = (0..self.literals.len()).filter(rounded).collect();
-        let sizes: Vec<f64> = places.iter().filter_map(|&i| self.off[i]).collect();
-        let given = self.description.with_literals(meant).ok()?;
-        let (named, names) = given.with_named_literals(&places).ok()?;
+    fn nearest_of(&self, part: &Part) -> Option<Closed> {
+        let plain = self.closed(part, &[])?;
+        if let Closed::Undecided(_) = plain {
+            return Some(plain);
+        }
+        let meant = self.meant(part);
+        let mut all = self.equal(part);
+        if !all.is_empty() {
+            all.extend(&meant);
+        }
+        let wanted = [all, meant].into_iter().filter(|meant| !meant.is_empty());
+        let found = wanted.map(|meant| self.closed(part, &meant));
+        let mut found =
+            found.filter_map(|found| found.filter(|of| matches!(of, Closed::Nearest(..))));
+        Some(found.next().unwrap_or(plain))
+    }
+
+    /// The mechanism in which literals are parameters, these with the most that each is off, and others have given values.
+    fn named(
+        &self,
+        places: &[usize],
+        given: &[(usize, f64)],
+    ) -> Option<(Mechanism, Vec<(usize, f64)>)> {
+        let given = self.description.with_literals(given).ok()?;
+        let (named, names) = given.with_named_literals(places).ok()?;
         let named = Mechanism::new(&named).ok()?;
         let parameter = |name: &String| named.parameters().iter().position(|of| *of.name == **name);
-        let numbers = names.iter().zip(&sizes);
+        let sizes = places.iter().filter_map(|&i| self.off[i]);
+        let numbers = names.iter().zip(sizes);
         let numbers: Option<Vec<(usize, f64)>> = numbers
-            .map(|(name, size)| Some((parameter(name)?, *size)))
+            .map(|(name, size)| Some((parameter(name)?, size)))
             .collect();
-        let bundle = Bundle::new(&named, Held::nothing(&named), &numbers?);
+        Some((named, numbers?))
+    }
+
+    /// The nearest linkage that closes exactly and in which some literals have given values.
+    fn closed(&self, part: &Part, meant: &[(usize, f64)]) -> Option<Closed> {
+        let fixed = |i: &usize| meant.iter().any(|(of, _)| of == i);
+        let places: Vec<usize> = part.numbers.iter().copied().filter(|i| !fixed(i)).collect();
+        let (named, numbers) = self.named(&places, meant)?;
+        let bundle = Bundle::new(&named, part.held(&named), &numbers).only(&part.closures);
         let file = bundle.file();
         let walk = Walk::new(&bundle, &named, &file, !meant.is_empty())?;
         let mut configurations = walk.configurations()?;
@@ -144,7 +240,7 @@ impl<'a> Numbers<'a> {
             if largest > EXPLAINED {
                 match least_largest(&rows, &change) {
                     least if least > BEYOND => return None,
-                    least if least > EXPLAINED => return Some(Found::Undecided(least)),
+                    least if least > EXPLAINED => return Some(Closed::Undecided(least)),
                     _ => {}
                 }
             }
@@ -153,7 +249,14 @@ impl<'a> Numbers<'a> {
                 None => {
                     let values = places.iter().copied().zip(found.numbers);
                     let values = meant.iter().copied().chain(values);
-                    return self.changed(values.collect(), &configurations);
+                    let gaps = configurations.iter().flat_map(|at| {
+                        let gaps = Gap::of(self.mechanism, at);
+                        part.closures.iter().map(move |&i| gaps[i])
+                    });
+                    return Some(Closed::Nearest(
+                        values.collect(),
+                        gaps.fold(Gap::NONE, Gap::max),
+                    ));
                 }
             }
         }
@@ -161,29 +264,26 @@ impl<'a> Numbers<'a> {
     }
 
     /// The file with other numbers.
-    fn changed(
-        &self,
-        values: Vec<(usize, f64)>,
-        configurations: &[Configuration<f64>],
-    ) -> Option<Found> {
+    fn changed(&self, mut values: Vec<(usize, f64)>, gap: Gap) -> Option<Found> {
         /// A change of this part of the rounding is none: it comes from the arithmetic.
         const NONE: f64 = 1e-6;
+        /// So is what is left of a number, beside the least that would be seen.
+        const NOTHING: f64 = 1e-15;
+        values.iter_mut().for_each(|(_, to)| {
+            if to.abs() < NOTHING {
+                *to = 0.0;
+            }
+        });
         let is_changed = |(literal, to): &(usize, f64)| {
             let (of, off) = (&self.literals[*literal], self.off[*literal].unwrap_or(0.0));
             let change = (to - of.value()).abs();
             change > NONE * off && change > 4.0 * f64::EPSILON * of.value().abs()
         };
-        let mut values: Vec<(usize, f64)> = values.into_iter().filter(is_changed).collect();
+        values.retain(is_changed);
         values.sort_by_key(|(literal, _)| *literal);
         if values.is_empty() {
             return None;
         }
-        let gaps = configurations
-            .iter()
-            .flat_map(|at| Gap::of(self.mechanism, at));
-        let (gap, gap_angle) = gaps.fold((0.0, 0.0), |(distance, angle): (f64, f64), gap| {
-            (distance.max(gap.distance), angle.max(gap.angle))
-        });
         let change = |&(literal, to): &(usize, f64)| {
             let of = &self.literals[literal];
             NumberChange {
@@ -194,8 +294,8 @@ impl<'a> Numbers<'a> {
             }
         };
         let rounded = Rounded {
-            gap,
-            gap_angle,
+            gap: gap.distance,
+            gap_angle: gap.angle,
             changes: values.iter().map(change).collect(),
         };
         let description = self.description.with_literals(&values).ok()?;

@@ -119,20 +119,22 @@ pub fn roundings(literals: &[Literal], length: f64) -> Vec<Option<f64>> {
     literals.iter().map(off).collect()
 }
 
-/// The most by which the numbers in a text are off, which are written to as many decimals as the one with most; `None` if they
-/// are short, or have all digits of a double.
+/// The most by which numbers below 1 in a text are off, from those with most digits; numbers with all digits of a double do
+/// not count. `None` if all are short.
+///
+/// Programs write either so many decimals, or so many digits: then what is nearly nothing has decimals that say little.
 pub fn rounding_of_text(text: &str) -> Option<f64> {
     let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
     let numbers = text
         .split(|c| !is_part(c))
         .filter(|word| word.contains('.'));
     let written = numbers.filter_map(|word| word.parse::<f64>().ok());
-    let written = written.filter(|x| *x != 0.0 && x.is_finite());
-    let all = written.map(digits);
-    let (most, last) = all.reduce(|(n, p), (m, q)| (n.max(m), p.min(q)))?;
-    (CHOSEN + 1..ALL_DIGITS)
-        .contains(&most)
-        .then(|| 0.5 * 10.0_f64.powi(last))
+    let all = written
+        .filter(|x| *x != 0.0 && x.abs() < 1.0)
+        .map(digits)
+        .filter(|(count, _)| *count < ALL_DIGITS);
+    let (most, last) = all.max()?;
+    (most > CHOSEN).then(|| 0.5 * 10.0_f64.powi(last))
 }
 
 /// Visits the numbers of a sum.

@@ -66,15 +66,6 @@ pub(super) struct ModelBuilder<'a> {
 }
 
 impl Mechanism {
-    /// Reads a mechanism file.
-    ///
-    /// # Errors
-    /// If the file cannot be read, or has problems; then with all of them.
-    pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
-        let (text, description) = Mechanism::read(&path)?;
-        Mechanism::new(&description).map_err(|problems| LoadError::wrong(path, text, problems))
-    }
-
     /// Reads a mechanism file as a description, to be changed before it becomes a mechanism. Returns its text too.
     ///
     /// # Errors

@@ -264,7 +264,7 @@ impl Mechanism {
     }
 
     /// The chains that carry a frame, from it downwards, each with the rows between.
-    fn chains_below(&self, frame: Frame) -> impl Iterator<Item = (usize, &[Row])> {
+    pub(super) fn chains_below(&self, frame: Frame) -> impl Iterator<Item = (usize, &[Row])> {
         let below = |&(chain, _): &(usize, usize)| self.on_chain(self.chains[chain].on).ok();
         let chains = std::iter::successors(self.on_chain(frame).ok(), below);
         chains.map(|(chain, rows)| (chain, &self.chains[chain].rows[..rows]))

@@ -20,7 +20,7 @@ use shared::Reduced;
 pub use target::{Target, TargetError};
 
 use crate::linear::{Factorable, RANK_TOLERANCE};
-use crate::mechanism::{Configuration, Dimensions, Frame, Mechanism};
+use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Frame, Kept, Mechanism};
 use crate::number::{Gradient, Number};
 use crate::solve::{Equations, LeastSquares, Misfit};
 use crate::system::{Held, System, Work};
@@ -30,6 +30,8 @@ use crate::system::{Held, System, Work};
 pub struct Bundle<'m> {
     mechanism: &'m Mechanism,
     held: Held<f64>,
+    /// The rows of each closure that are asked for.
+    kept: Vec<Kept>,
     /// Indices of the unknown ones among the independent parameters.
     numbers: Vec<usize>,
     /// The unit in which steps of each are measured.
@@ -83,6 +85,7 @@ impl<'m> Bundle<'m> {
         Bundle {
             mechanism,
             held,
+            kept: vec![EVERY_ROW; mechanism.closures().len()],
             numbers: places,
             sizes: numbers.iter().map(|(_, size)| *size).collect(),
             near: None,
@@ -91,6 +94,14 @@ impl<'m> Bundle<'m> {
             rank: None,
             cut: RANK_TOLERANCE,
         }
+    }
+
+    /// Leaves out all closures but these.
+    #[must_use]
+    pub fn only(mut self, closures: &[usize]) -> Self {
+        let of = |(i, kept): (usize, Kept)| kept.map(|row| row && closures.contains(&i));
+        self.kept = self.kept.into_iter().enumerate().map(of).collect();
+        self
     }
 
     /// Keeps the shared numbers near values, each within about its unit: of what closes that which is nearest is sought.
@@ -151,7 +162,12 @@ impl<'m> Bundle<'m> {
     pub fn equations<T: Factorable>(&self, numbers: &[T]) -> Option<System<T>> {
         let (_, dimensions) = self.dimensions(numbers)?;
         let held = self.held.map(|x| T::from_f64(x));
-        Some(System::whole(&dimensions, &held, &self.frames))
+        Some(System::keeping(
+            &dimensions,
+            &held,
+            &self.kept,
+            &self.frames,
+        ))
     }
 
     /// The equations over the shared numbers from one on as directions of differentiation; from beyond the last on those of
@@ -166,7 +182,7 @@ impl<'m> Bundle<'m> {
         let numbers: Vec<Gradient> = numbers.iter().enumerate().map(lane).collect();
         let (parameters, dimensions) = self.dimensions(&numbers)?;
         let held = self.held.map(Gradient::from_f64);
-        let system = System::whole(&dimensions, &held, &self.frames);
+        let system = System::keeping(&dimensions, &held, &self.kept, &self.frames);
         Some(Lanes {
             work: system.work(),
             system,

@@ -4,7 +4,7 @@ use linkwork::algebra::Measure;
 use linkwork::analysis::frames::joint_axes;
 use linkwork::analysis::rounding::{posed, snap};
 use linkwork::ask::Question;
-use linkwork::description::{AxesDescription, AxisPlace, Description, Entry};
+use linkwork::description::{AxesDescription, AxisPlace, Description, Entry, rounding_of_text};
 use linkwork::mechanism::{Mechanism, Rounding};
 use linkwork::output::rounding::sentence;
 use linkwork::solve::Watch;
@@ -162,12 +162,7 @@ fn a_hinge_ten_roundings_aside_leaves_a_structure() {
 }
 
 /// Pins through points to a micrometre, of a plane linkage of 20, 60, 80, 100 mm in a tilted plane.
-const PINS: &str = r#"Axes(version: 1, name: "pins", joints: {
-    "crank": Revolute(through: (("98.290 mm", "54.698 mm", "11.340 mm"), ("101.710 mm", "45.302 mm", "28.660 mm")), role: Actuated, between: ("ground", "crank")),
-    "A": Revolute(through: (("102.557 mm", "72.214 mm", "20.000 mm"), ("105.977 mm", "62.817 mm", "37.321 mm")), between: ("crank", "coupler")),
-    "B": Revolute(through: (("126.608 mm", "122.381 mm", "42.468 mm"), ("130.028 mm", "112.984 mm", "59.788 mm")), between: ("coupler", "rocker")),
-    "rocker": Revolute(through: (("192.259 mm", "88.900 mm", "11.340 mm"), ("195.679 mm", "79.504 mm", "28.660 mm")), between: ("ground", "rocker")),
-})"#;
+const PINS: &str = include_str!("../exchange/pins.ron");
 
 #[test]
 fn a_four_bar_with_pins_to_a_micrometre_moves_by_the_law_of_cosines() {
@@ -269,6 +264,63 @@ fn structures_stay_structures() {
         closures: { "pin": Revolute("left", "right") })"#;
     let (_, mechanism) = read(shaky);
     assert!(mechanism.rounding().is_none(), "{:?}", mechanism.rounding());
+}
+
+/// Two of the loop in one file, the joints of the second with a 2 behind their names.
+fn twice(second: &str) -> String {
+    let inside = |text: &str| {
+        let (start, end) = (
+            text.find("joints: {").unwrap() + 9,
+            text.rfind("})").unwrap(),
+        );
+        text[start..end].to_owned()
+    };
+    let names = ["crank", "A", "B", "rocker", "coupler"];
+    let second = names.iter().fold(inside(second), |text, name| {
+        text.replace(&format!("\"{name}\""), &format!("\"{name}2\""))
+    });
+    PINS.replace("})", "") + &second + "})"
+}
+
+#[test]
+fn loops_are_closed_one_by_one() {
+    let both = read(&twice(PINS)).1;
+    assert!(is_changed(&both));
+    assert_eq!(freedoms(&both), Some(2));
+    // a pin of the second loop forty roundings out of line leaves that loop as it is, and the first is closed
+    let aside = PINS.replace("130.028 mm", "130.048 mm");
+    let mechanism = read(&twice(&aside)).1;
+    let Some(Rounding::Nearest(found)) = mechanism.rounding() else {
+        panic!("{:?}", mechanism.rounding());
+    };
+    assert!(
+        found.changes.iter().all(|of| !of.place.contains('2')),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_file_loaded_by_its_name_is_closed_too() {
+    let path = std::env::temp_dir().join(format!("rounded-pins-{}.ron", std::process::id()));
+    std::fs::write(&path, PINS).unwrap();
+    let mechanism = Mechanism::load(&path);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(freedoms(&mechanism.unwrap()), Some(1));
+}
+
+#[test]
+fn digits_are_counted_where_they_say_something() {
+    // six digits each, as printf's %g writes them: what is nearly nothing has decimals that say little
+    let digits = r#"<body pos="0.0316325 1.98799e-15 -0.037853" quat="0.000327035 -0.790569 0.000422201 -0.612372"/>"#;
+    assert_eq!(rounding_of_text(digits), Some(0.5e-6));
+    // six decimals each, and numbers of all digits beside them
+    assert_eq!(
+        rounding_of_text("12.345678 0.123456 0.30000000000000004"),
+        Some(0.5e-6)
+    );
+    // chosen, not rounded
+    assert_eq!(rounding_of_text("0.125 0.5 1.25"), None);
+    assert_eq!(rounding_of_text("0.30000000000000004 0.1"), None);
 }
 
 #[test]

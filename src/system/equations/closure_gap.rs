@@ -16,6 +16,21 @@ pub struct Gap {
 }
 
 impl Gap {
+    /// Closed.
+    pub const NONE: Gap = Gap {
+        distance: 0.0,
+        angle: 0.0,
+    };
+
+    /// The larger distance and the larger angle of two.
+    #[must_use]
+    pub fn max(self, other: Gap) -> Gap {
+        Gap {
+            distance: self.distance.max(other.distance),
+            angle: self.angle.max(other.angle),
+        }
+    }
+
     /// The gaps of all closures at a configuration, in the order of the file.
     pub fn of(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Gap> {
         let closures = mechanism.closures().iter().enumerate();

@@ -5,17 +5,14 @@ use crate::mechanism::Mechanism;
 
 /// For each independent part of a mechanism which of the unknowns are its own.
 ///
-/// Unknowns belong together if both affect one closure. The configurations of a mechanism are the
-/// product of those of its parts.
+/// Unknowns belong together if whether one closure is closed depends on both: the legs of a robot are parts of their own, and
+/// so is the base that carries them. The configurations of a mechanism are the product of those of its parts.
 pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..unknowns.len()).collect();
     let all = Places::new(unknowns);
     let platforms = (0..mechanism.platforms().len()).map(|platform| (vec![], vec![platform]));
-    let closures = mechanism.closures().iter().map(|closure| {
-        let carriers = closure.frames.into_iter();
-        let carriers = carriers.filter_map(|frame| mechanism.carrier(frame));
-        (mechanism.joints_moving(closure), carriers.collect())
-    });
+    let closures = mechanism.closures().iter();
+    let closures = closures.map(|closure| mechanism.within_loop(closure));
     for (joints, platforms) in platforms.chain(closures) {
         let joints = joints.into_iter().map(Unknown::Joint);
         let twists = platforms

@@ -128,7 +128,14 @@ pub fn wrench_screws(mechanism: &Mechanism, wrenches: &[Vec<f64>]) -> Vec<Screw>
 /// Twists are made unique by taking the part of v that is orthogonal to the translations; the pitch ω·v/ω·ω is then a
 /// quadratic form on the space of the ω, and its eigenvectors are the principal screws (Ball 1900; Hunt 1978).
 fn principal_screws(mechanism: &Mechanism, twists: &[Vec<f64>]) -> Vec<Screw> {
-    let space = axis_aligned(twists);
+    /// What turns less than this beside its shift is a translation: its axis would be a million lengths away.
+    const TURNS: f64 = 1e-6;
+    let mut space = axis_aligned(twists);
+    for twist in &mut space {
+        if norm(&twist[..3]) < TURNS * norm(&twist[3..]) {
+            twist[..3].fill(0.0);
+        }
+    }
     let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();
     let rotations = axis_aligned(&omegas);
     let turning = Decomposition::of(3, omegas.len(), &omegas.concat());

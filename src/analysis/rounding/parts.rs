@@ -1,0 +1,85 @@
+//! Loops that neither joints nor numbers of the file couple.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::mechanism::Mechanism;
+use crate::system::{Bundle, Bundled, Held, HeldPlatform};
+
+/// Closures that are looked at together, with what they depend on.
+#[derive(Default)]
+pub(super) struct Part {
+    pub closures: Vec<usize>,
+    joints: BTreeSet<usize>,
+    platforms: BTreeSet<usize>,
+    /// The numbers of the file, among those that may be rounded.
+    pub numbers: BTreeSet<usize>,
+}
+
+impl Part {
+    /// The parts of a mechanism with numbers of these indices among its parameters.
+    pub fn of(mechanism: &Mechanism, numbers: &[(usize, f64)]) -> Option<Vec<Part>> {
+        /// A part of a number's own size: what is less comes from loops that are not quite closed.
+        const COUNTS: f64 = 1e-3;
+        let bundle = Bundle::new(mechanism, Held::nothing(mechanism), numbers);
+        let home = Bundled {
+            numbers: bundle.file(),
+            configurations: vec![mechanism.home()],
+        };
+        let columns = bundle.by_numbers(&home)?.pop()?;
+        let system = bundle.equations::<f64>(&home.numbers)?;
+        let rows: Vec<Range<usize>> = system.closure_rows().collect();
+        let mut parts: Vec<Part> = Vec::new();
+        for (i, closure) in mechanism.closures().iter().enumerate() {
+            let (joints, platforms) = mechanism.within_loop(closure);
+            let touches = |(k, (_, size)): (usize, &(usize, f64))| {
+                let column = &columns[k * system.rows()..][rows[i].clone()];
+                column.iter().any(|x| x.abs() > COUNTS * size).then_some(k)
+            };
+            let mut part = Part {
+                closures: vec![i],
+                joints: joints.into_iter().collect(),
+                platforms: platforms.into_iter().collect(),
+                numbers: numbers.iter().enumerate().filter_map(touches).collect(),
+            };
+            let (coupled, others): (Vec<Part>, _) =
+                parts.into_iter().partition(|other| part.is_coupled(other));
+            parts = others;
+            coupled.into_iter().for_each(|other| part.join(other));
+            parts.push(part);
+        }
+        Some(parts)
+    }
+
+    fn is_coupled(&self, other: &Part) -> bool {
+        !(self.joints.is_disjoint(&other.joints)
+            && self.platforms.is_disjoint(&other.platforms)
+            && self.numbers.is_disjoint(&other.numbers))
+    }
+
+    fn join(&mut self, other: Part) {
+        self.closures.extend(other.closures);
+        self.joints.extend(other.joints);
+        self.platforms.extend(other.platforms);
+        self.numbers.extend(other.numbers);
+    }
+
+    pub fn unknowns(&self) -> usize {
+        self.joints.len() + 6 * self.platforms.len()
+    }
+
+    /// Everything else at rest.
+    pub fn held(&self, mechanism: &Mechanism) -> Held<f64> {
+        let joints = 0..mechanism.joints().len();
+        let platforms = 0..mechanism.platforms().len();
+        Held {
+            joints: joints.map(|i| !self.joints.contains(&i)).collect(),
+            platforms: platforms
+                .map(|i| match self.platforms.contains(&i) {
+                    true => HeldPlatform::Free,
+                    false => HeldPlatform::Pose,
+                })
+                .collect(),
+        }
+    }
+}
