@@ -4,13 +4,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use linkwork::analysis::rounding::posed;
+use linkwork::ask::Question;
 use linkwork::description::{
-    self, Convention, Description, LoadError, MAX_BYTES, ProblemKind, Role, rounding_of_text,
+    self, Convention, Description, Entry, LoadError, MAX_BYTES, ProblemKind, Role,
+    rounding_of_text,
 };
 use linkwork::interchange::{ImportError, ImportSettings, Remark, load_beside};
 use linkwork::mechanism::{Mechanism, Rounding};
 use linkwork::output::diagnostics;
 use linkwork::output::rounding::sentence;
+use linkwork::solve::Watch;
 use linkwork::system::redundant_motors;
 
 use super::export::remarks;
@@ -68,8 +71,17 @@ impl Import {
                 ImportError::Wrong(wrong) => Refusal(diagnostics::import(&wrong, style())),
                 ImportError::Unreadable(error) => error.into(),
             })?;
-        let (exact, note) = exact(&imported.description, &text);
-        imported.description = exact;
+        // loops are closed where the file is drawn, which may be outside the limits
+        let drawn = with_homes(&imported.description, &imported.outside);
+        let (exact, note) = exact(&drawn, &text);
+        imported.description = inside(&exact, &imported.outside).unwrap_or_else(|| {
+            let moved = |(name, _): &(String, f64)| {
+                let mut joints = imported.description.joints.iter();
+                let of = joints.find(|joint| joint.name.value == *name)?;
+                Some((name.clone(), of.value.home.clone()))
+            };
+            with_entries(&exact, imported.outside.iter().filter_map(moved))
+        });
         let made = Mechanism::new(&imported.description);
         // without loops every motor has a freedom of its own
         if let Ok(mechanism) = &made
@@ -104,6 +116,61 @@ impl Import {
         let data = written(text, self.output.as_deref())?;
         Ok(Answer::yes(data, remarks(&imported.remarks) + &note))
     }
+}
+
+/// The description with other home values, in m or rad.
+fn with_homes(description: &Description, homes: &[(String, f64)]) -> Description {
+    let slides = Mechanism::new(description).map_or(Vec::new(), |mechanism| {
+        let slides = mechanism.joints().iter().filter(|of| !of.kind.is_angle());
+        slides.map(|joint| joint.name.clone()).collect()
+    });
+    let entry = |(name, value): &(String, f64)| {
+        let entry = [Entry::angle, Entry::length][usize::from(slides.contains(name))];
+        (name.clone(), entry(*value))
+    };
+    with_entries(description, homes.iter().map(entry))
+}
+
+fn with_entries(
+    description: &Description,
+    homes: impl Iterator<Item = (String, Entry)>,
+) -> Description {
+    let mut description = description.clone();
+    for (name, home) in homes {
+        let mut joints = description.joints.iter_mut();
+        if let Some(joint) = joints.find(|joint| joint.name.value == name) {
+            joint.value.home = home;
+        }
+    }
+    description
+}
+
+/// Home values inside the limits with which loops are closed, on the way from those of the file: one joint after another that is
+/// outside is held a little inside. `None` if some stay outside.
+fn inside(description: &Description, outside: &[(String, f64)]) -> Option<Description> {
+    /// Part of the range between the limits.
+    const INSIDE: f64 = 0.02;
+    let mechanism = Mechanism::new(description).ok()?;
+    if outside.is_empty() || mechanism.closures().is_empty() {
+        return None;
+    }
+    let mut question = Question::new(mechanism.clone());
+    for _ in 0..=mechanism.joints().len() {
+        let found = question.closed(&Watch::none()).ok()?.ok()?.configuration;
+        let joints = mechanism.joints().iter().zip(&found.joints);
+        let beyond = joints.clone().find_map(|(joint, value)| {
+            let (low, high) = joint.limits?;
+            let margin = INSIDE * (high - low);
+            let to = value.clamp(low + margin, high - margin);
+            ((*value < low || *value > high) && to.is_finite()).then(|| (&joint.name, to))
+        });
+        let Some((name, to)) = beyond else {
+            let homes = joints.map(|(joint, value)| (joint.name.clone(), *value));
+            return Some(with_homes(description, &homes.collect::<Vec<_>>()));
+        };
+        question = question.hold(name, to);
+    }
+    None
 }
 
 /// The description of the nearest linkage that closes exactly where loops close within the rounding of the numbers of a file

@@ -38,6 +38,8 @@ pub struct Imported {
     pub remarks: Vec<Remark>,
     /// The names of all links and sites, to which a file of loops can refer.
     pub links: Vec<String>,
+    /// The home values of the file that were outside the limits, in m or rad, by joint.
+    pub outside: Vec<(String, f64)>,
 }
 
 /// Reasons for which a file of another program could not be read.
@@ -152,6 +154,7 @@ pub fn import(
         mut description,
         remarks: more,
         references,
+        outside,
     } = describe(&tree, settings.convention, &kept, source).map_err(whole)?;
     remarks.extend(more);
     if let Some(loops) = loops {
@@ -164,6 +167,7 @@ pub fn import(
         description,
         remarks,
         links: links.map(|(name, _)| fit(name)).collect(),
+        outside,
     })
 }
 

@@ -134,16 +134,16 @@ pub enum Remark {
         if names.len() == 1 { "distance" } else { "distances" }
     )]
     Rods { names: Vec<String> },
-    /// Home values that were moved to the nearer limit.
+    /// Home values that were moved inside the limits.
     #[error(
-        "the home {} of {} outside the limits: moved to the nearer one",
+        "the home {} of {} outside the limits: moved inside",
         if joints.len() == 1 { "value" } else { "values" },
         named_few(joints, ["is", "are"])
     )]
     Moved { joints: Vec<String> },
     /// Names that a mechanism file cannot use, with those in their place.
     #[error(
-        "{}: a name is given once, names of frames have no dots, names of joints only letters, digits and `_`",
+        "{}: a name is given once, names of frames have no dots, names of joints only letters, digits, `_` and single blanks",
         renamed(noun, names)
     )]
     Renamed {

@@ -33,6 +33,8 @@ pub(super) struct Unrolled {
     pub remarks: Vec<Remark>,
     /// The names of the requested frames.
     pub references: Vec<(String, String)>,
+    /// The home values of the file that were outside the limits.
+    pub outside: Vec<(String, f64)>,
 }
 
 /// The description of a tree, in which the frames of the given names can be found.
@@ -57,6 +59,7 @@ pub(super) fn describe(
         chains: Vec::new(),
         references: Vec::new(),
         remarks: Vec::new(),
+        outside: Vec::new(),
     };
     unroller.variables();
     let outputs = unroller.outputs();
@@ -90,6 +93,7 @@ pub(super) fn describe(
         description,
         remarks,
         references: unroller.references,
+        outside: unroller.outside,
     })
 }
 
@@ -119,6 +123,7 @@ struct Unroller<'a> {
     chains: Vec<Named<ChainDescription>>,
     references: Vec<(String, String)>,
     remarks: Vec<Remark>,
+    outside: Vec<(String, f64)>,
 }
 
 /// A platform and the body that it is.

@@ -560,7 +560,7 @@ fn home_values_outside_limits_are_moved_inside() {
         joint("c", "b", r#"lower="-1" upper="1""#),
     );
     let (imported, question) = read(&text);
-    let said = "the home values of `a` and `b` are outside the limits: moved to the nearer one";
+    let said = "the home values of `a` and `b` are outside the limits: moved inside";
     assert_eq!(
         remarks(&imported).matches(said).count(),
         1,

@@ -41,18 +41,13 @@ impl Reader<'_> {
             self.axis(part, scope, &name)
         });
         let axes = axes.collect::<Option<Vec<Axis>>>()?;
-        // metres per turn, or before in rad/m against the turn
+        // metres per turn, 1 unless given, or before in rad/m against the turn
         let advance = self.numbers::<1>(node, "screw_thread_pitch");
         let before = self.numbers::<1>(node, "thread_pitch");
         let pitch = match (advance, before) {
             (Some([advance]), _) => advance / std::f64::consts::TAU,
             (None, Some([turn])) if turn != 0.0 => -1.0 / turn,
-            _ if kind == Kind::Screw => {
-                self.problems
-                    .missing(node, "element `screw_thread_pitch`".into());
-                0.0
-            }
-            _ => 0.0,
+            _ => 1.0 / std::f64::consts::TAU,
         };
         let gear = match kind {
             Kind::Gear => {

@@ -134,6 +134,7 @@ impl Unroller<'_> {
             let home = limits.map_or(joint.home, |(low, high)| joint.home.clamp(low, high));
             if home != joint.home {
                 moved.push(joint.name.clone());
+                self.outside.push((variable.clone(), joint.home));
             }
             let description = JointDescription {
                 role: [Role::Passive, Role::Actuated][usize::from(actuated)],
