@@ -622,9 +622,24 @@ fn bad_coordinates_are_refused_at_their_place_with_the_remedy() {
         );
     }
     assert_eq!(refused(&file(two, "")), Vec::<String>::new());
-    let spaced = refused(&file(&two.replace("\"a\"", "\"boom pin\""), ""));
-    let title = "f:2:1: `boom pin` cannot be the name of a joint";
-    assert!(spaced[0].starts_with(title), "{spaced:?}");
+    let dashed = refused(&file(&two.replace("\"a\"", "\"boom-pin\""), ""));
+    let title = "f:2:1: `boom-pin` cannot be the name of a joint";
+    assert!(dashed[0].starts_with(title), "{dashed:?}");
+    let spaced = file(&two.replace("\"a\"", "\"boom pin\""), "");
+    assert_eq!(refused(&spaced), Vec::<String>::new());
+    // six digits leave this much open of a right angle, five times as much they do not
+    let askew = |z: &str| {
+        let first = "(0.707107, 0.707107, 0)";
+        let directions = format!("({first}, (-0.408248, {z}, 0.816497))");
+        file(
+            &format!(
+                "\"a\": Universal(point: (0, 0, 0), directions: {directions}, between: (\"ground\", \"b\")),"
+            ),
+            "",
+        )
+    };
+    assert_eq!(refused(&askew("0.408249")), Vec::<String>::new());
+    assert_eq!(refused(&askew("0.408256")).len(), 1);
 }
 
 #[test]

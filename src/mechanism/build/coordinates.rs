@@ -6,7 +6,7 @@ use super::super::Mechanism;
 use super::ModelBuilder;
 use crate::algebra::Measure;
 use crate::description::{
-    AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, Problem, ProblemKind,
+    AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, Problem, ProblemKind, rounding_of_text,
 };
 use crate::geometry::Vector3;
 use crate::number::real;
@@ -77,11 +77,21 @@ fn fault(
         _ => return None,
     };
     let joint = joint.to_owned();
+    let off = match place {
+        AxisPlace::Cross(_, directions) => {
+            let written = directions.iter().flatten();
+            let written: Vec<String> = written.map(|of| of.expression.to_string()).collect();
+            rounding_of_text(&written.join(" ")).map_or(0.0, |off| 3.0_f64.sqrt() * off)
+        }
+        _ => 0.0,
+    };
     let problem = match ends {
         _ if ends.iter().flatten().any(|v| v.norm() == 0.0) => AxesProblem::NoDirection { joint },
         [Some(a), Some(b)] => {
             let angle = real::acos((a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0));
-            if (angle - FRAC_PI_2).abs() <= ROUNDING {
+            // what their digits leave open does not part them
+            let open = off * (1.0 / a.norm() + 1.0 / b.norm());
+            if (angle - FRAC_PI_2).abs() <= ROUNDING.max(open) {
                 return None;
             }
             AxesProblem::NotPerpendicular { joint, angle }
