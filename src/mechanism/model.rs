@@ -71,16 +71,20 @@ impl JointKind {
 }
 
 impl Joint {
+    /// How far beyond its limits a joint may be that stands at one: what a solver returns is off by rounding.
+    pub(crate) fn slack(&self) -> f64 {
+        match self.limits {
+            Some((low, high)) if !self.kind.is_angle() => ROUNDING * low.abs().max(high.abs()),
+            _ => ROUNDING,
+        }
+    }
+
     /// True if a value is within the limits, where there are any. An angle counts modulo a turn.
     pub fn allows(&self, value: f64) -> bool {
-        // what a solver returns for a joint held at its limit may be off by rounding
         let Some((low, high)) = self.limits else {
             return true;
         };
-        let rounding = match self.kind.is_angle() {
-            true => ROUNDING,
-            false => ROUNDING * low.abs().max(high.abs()),
-        };
+        let rounding = self.slack();
         let within = |x: f64| x >= low - rounding && x <= high + rounding;
         if self.kind.is_angle() && self.kind != JointKind::Helical {
             let turn = std::f64::consts::TAU;

@@ -59,7 +59,8 @@ pub struct Segment {
 pub struct Walk<'m> {
     method: Continuation,
     monitors: Vec<Monitor<'m>>,
-    limits: Vec<(usize, f64, f64)>,
+    /// Joints with their limits, and how far beyond them they stand at one.
+    limits: Vec<(usize, [f64; 2], f64)>,
     /// The joints whose turning points are located, with their columns.
     turning: Vec<(usize, usize)>,
     start: At,
@@ -85,7 +86,7 @@ impl<'m> Walk<'m> {
         Walk {
             turning: turning.collect(),
             limits: limits
-                .filter_map(|(joint, j)| j.limits.map(|(low, high)| (joint, low, high)))
+                .filter_map(|(joint, j)| j.limits.map(|ends| (joint, ends.into(), j.slack())))
                 .collect(),
             length: 0.1 * method.longest,
             place: start.clone(),
@@ -249,12 +250,12 @@ impl<'m> Walk<'m> {
                 }
             }
         }
-        for &(joint, low, high) in &self.limits {
+        for &(joint, [low, high], slack) in &self.limits {
             for (value, upper) in [(low, false), (high, true)] {
                 let sign = if upper { 1.0 } else { -1.0 };
                 let beyond = |p: &At| sign * (p.at.joints[joint] - value);
                 let (a, b) = (beyond(&from), beyond(&to));
-                if b > 0.0 && b > a {
+                if b > slack && b > a {
                     let place = match a < 0.0 {
                         true => method.root(curve, &from, &to, &mut |_, p| beyond(p)),
                         false => from.clone(),
