@@ -158,13 +158,15 @@ fn inside(description: &Description, outside: &[(String, f64)]) -> Option<Descri
     for _ in 0..=mechanism.joints().len() {
         let found = question.closed(&Watch::none()).ok()?.ok()?.configuration;
         let joints = mechanism.joints().iter().zip(&found.joints);
-        let beyond = joints.clone().find_map(|(joint, value)| {
+        let beyond = joints.clone().filter_map(|(joint, value)| {
             let (low, high) = joint.limits?;
             let margin = INSIDE * (high - low);
             let to = value.clamp(low + margin, high - margin);
-            ((*value < low || *value > high) && to.is_finite()).then(|| (&joint.name, to))
+            (*value < low || *value > high).then_some((joint.role, &joint.name, to))
         });
-        let Some((name, to)) = beyond else {
+        // what is driven is held anyway
+        let beyond = beyond.min_by_key(|(role, ..)| *role != Role::Actuated);
+        let Some((_, name, to)) = beyond else {
             let homes = joints.map(|(joint, value)| (joint.name.clone(), *value));
             return Some(with_homes(description, &homes.collect::<Vec<_>>()));
         };
