@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::value::split_at_commas;
-use super::{Frame, Mechanism, Point, PointError, PoseCoordinate};
+use super::{ClosureKind, Frame, Mechanism, Point, PointError, PoseCoordinate};
 use crate::algebra::{Expression, MeasureError, ParseError, SiUnit, words};
 use crate::description::nearest;
 
@@ -99,6 +99,8 @@ words! {
         Force = "F",
         /// The size of the moment.
         Moment = "M",
+        /// The force along a rod, or along the axis of a joint; tension is positive.
+        Axial = "axial",
     }
 
     /// A measure of how well the inputs drive the outputs; none has a unit.
@@ -169,7 +171,7 @@ const SHAKING: &str = "shaking";
 impl Effort {
     /// True for a part of the moment.
     pub fn is_moment(self) -> bool {
-        !matches!(self, Effort::Fx | Effort::Fy | Effort::Fz | Effort::Force)
+        matches!(self, Effort::Mx | Effort::My | Effort::Mz | Effort::Moment)
     }
 
     /// A name and the part of its reaction after a dot; the size of the force where none is said.
@@ -335,7 +337,11 @@ impl Measured {
             "force" => {
                 let (platform, part) = of.rsplit_once('.').unwrap_or((of, ""));
                 let joint = mechanism.joint(of).map(Measured::Force);
-                joint.or_else(|| {
+                let mut closures = mechanism.closures().iter();
+                let rod =
+                    closures.position(|rod| rod.name == of && rod.kind == ClosureKind::Distance);
+                let rod = rod.map(|rod| Measured::Reaction(Carrier::Closure(rod), Effort::Axial));
+                joint.or(rod).or_else(|| {
                     let platform = mechanism.platform(platform)?;
                     let coordinate = PoseCoordinate::from_word(part)?;
                     Some(Measured::PlatformForce(platform, coordinate))

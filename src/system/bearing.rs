@@ -17,7 +17,8 @@ pub struct Carried<T = f64> {
     pub force: Vector3<T>,
     /// Moment about the point, in N·m.
     pub moment: Vector3<T>,
-    /// The axis of a joint, z of the frame after its row in the modified convention.
+    /// The axis of a joint, z of the frame after its row in the modified convention; from the first to the second end of a
+    /// closure.
     pub axis: Vector3<T>,
 }
 
@@ -41,6 +42,13 @@ type Wrench<T> = [Vector3<T>; 2];
 
 fn at_centre<T: Number>(point: &Vector3<T>, force: Vector3<T>, moment: Vector3<T>) -> Wrench<T> {
     [force, moment + point.cross(&force)]
+}
+
+impl<T: Number> Carried<T> {
+    /// The force along the axis; tension is positive.
+    pub fn axial(&self) -> T {
+        -(self.force.dot(&self.axis) / self.axis.norm())
+    }
 }
 
 impl<T: Number> Bearings<T> {
@@ -133,7 +141,7 @@ impl<T: Number> Bearings<T> {
                 point: end,
                 force,
                 moment,
-                axis: Vector3::zero(),
+                axis: end - start,
             });
         }
         carried.extend(sums.into_iter().enumerate().map(|(i, [force, moment])| {

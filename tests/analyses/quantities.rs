@@ -296,6 +296,39 @@ fn camber_and_toe_over_wheel_travel_are_those_of_the_orientation() {
     assert!(camber[20] - camber[0] < -0.01 && (toe[20] - toe[0]).abs() > 1e-3);
 }
 
+/// A force on the tip of the rocker is balanced about its pivot by the tension T of the rod along u: (B − P) × (F − T u) = 0.
+#[test]
+fn the_axial_force_of_a_rod_is_that_of_the_balance_of_the_rocker() {
+    let text = WITH_ROD.replace("BASE", "Tx(5)").replace("LENGTH", "3");
+    let force = [10.0, -4.0, 0.0];
+    let asked = |force: [f64; 3]| {
+        let question = Question::new(written(&text))
+            .input("theta1", "60 deg", "100 deg")
+            .wrench("right", force, [0.0; 3])
+            .report("force:rod, reaction:rod");
+        moved(&question, 4, Pace::default())
+    };
+    let motion = asked(force);
+    let [tension, size, theta, phi] =
+        ["force:rod", "reaction:rod", "theta1", "phi1"].map(|of| column(&motion, of));
+    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    for row in 0..tension.len() {
+        let arm = [4.0 * phi[row].cos(), 4.0 * phi[row].sin()];
+        let along = [5.0 + arm[0] - theta[row].cos(), arm[1] - theta[row].sin()];
+        let along = along.map(|x| x / 3.0);
+        let known = cross(arm, [force[0], force[1]]) / cross(arm, along);
+        assert!(
+            (tension[row] - known).abs() < 1e-9 * known.abs(),
+            "{row}: {} {known}",
+            tension[row]
+        );
+        assert!((size[row] - known.abs()).abs() < 1e-9 * known.abs());
+    }
+    // the load turned about makes tension of compression
+    let pushed = column(&asked(force.map(|x| -x)), "force:rod");
+    assert!(pushed[0] * tension[0] < 0.0);
+}
+
 #[test]
 fn names_of_joints_hold_blanks() {
     let text = WITH_ROD.replace("BASE", "Tx(5)").replace("LENGTH", "3");

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector3;
 use crate::linear::{Decomposition, RANK_TOLERANCE};
-use crate::mechanism::{Configuration, Frame, Kinematics};
+use crate::mechanism::{ClosureKind, Configuration, Frame, Kinematics};
 use crate::system::{Acting, Bearings, Load, Loaded, Neighbourhood};
 
 /// The wrench that one body exerts on another.
@@ -27,6 +27,9 @@ pub struct Reaction {
     pub moment: [f64; 3],
     /// For each component of force and moment, true if equilibrium determines it.
     pub unique: [bool; 6],
+    /// The axial force of a rod, in N: tension is positive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial: Option<f64>,
 }
 
 /// The reactions of closures, then of joints, for multipliers λ of the closure rows, in N·m.
@@ -52,7 +55,8 @@ pub(super) fn of(
     bearings.carried(all, &wrenches, multipliers, &placement, &mut carried);
     let closures = mechanism.closures().iter().map(|closure| {
         let bodies = closure.frames.map(|frame| mechanism.body(frame));
-        (closure.name.clone(), vec![], bodies)
+        let is_rod = closure.kind == ClosureKind::Distance;
+        (closure.name.clone(), vec![], bodies, is_rod)
     });
     let links = bearings.links().iter().map(|&(body, chain, row)| {
         let name = mechanism.frame_name(Frame::Link { chain, row });
@@ -64,19 +68,22 @@ pub(super) fn of(
             chain,
             row: row - 1,
         });
-        (name, variables.collect(), [inner, body])
+        (name, variables.collect(), [inner, body], false)
     });
     let joined = closures.chain(links).zip(carried);
-    let reactions = joined.map(|((name, variables, [from, on]), carried)| Reaction {
-        name,
-        variables,
-        from: mechanism.body_name(from),
-        on: mechanism.body_name(on),
-        point: mechanism.to_ground(carried.point).0,
-        force: carried.force.0,
-        moment: carried.moment.0,
-        unique: [true; 6],
-    });
+    let reactions = joined.map(
+        |((name, variables, [from, on], is_rod), carried)| Reaction {
+            name,
+            variables,
+            from: mechanism.body_name(from),
+            on: mechanism.body_name(on),
+            point: mechanism.to_ground(carried.point).0,
+            force: carried.force.0,
+            moment: carried.moment.0,
+            unique: [true; 6],
+            axial: is_rod.then(|| carried.axial()),
+        },
+    );
     reactions.collect()
 }
 

@@ -91,6 +91,7 @@ fn part_of<T: Number>(part: Effort, [force, moment]: &[Vector3<T>; 2]) -> T {
     match part {
         Effort::Force => force.norm(),
         Effort::Moment => moment.norm(),
+        Effort::Axial => T::from_f64(f64::NAN),
         part if part.is_moment() => moment.0[part as usize - 3],
         part => force.0[part as usize],
     }
@@ -329,11 +330,14 @@ impl Meter<'_> {
             parts.clone().all(|i| unique[i]) || planar && parts.clone().any(|i| unique[i])
         };
         let determined = match part {
-            Effort::Force => known(0),
+            Effort::Force | Effort::Axial => known(0),
             Effort::Moment => known(3),
             part => unique[part as usize],
         };
-        let value = part_of(part, &[carried.force, carried.moment]);
+        let value = match part {
+            Effort::Axial => carried.axial(),
+            part => part_of(part, &[carried.force, carried.moment]),
+        };
         (determined && here.found.moves && value.is_finite()).then_some(value)
     }
 }
