@@ -156,7 +156,7 @@ fn inside(description: &Description, outside: &[(String, f64)]) -> Option<Descri
     }
     let mut question = Question::new(mechanism.clone());
     for _ in 0..=mechanism.joints().len() {
-        let found = question.closed(&Watch::none()).ok()?.ok()?.configuration;
+        let found = question.closed(&Watch::none()).ok()?.closed()?.configuration;
         let joints = mechanism.joints().iter().zip(&found.joints);
         let beyond = joints.clone().filter_map(|(joint, value)| {
             let (low, high) = joint.limits?;
