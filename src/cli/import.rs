@@ -6,8 +6,7 @@ use clap::Args;
 use linkwork::analysis::rounding::posed;
 use linkwork::ask::Question;
 use linkwork::description::{
-    self, Convention, Description, Entry, LoadError, MAX_BYTES, ProblemKind, Role,
-    rounding_of_text,
+    self, Convention, Description, Entry, LoadError, MAX_BYTES, ProblemKind, Role, rounding_of_text,
 };
 use linkwork::interchange::{ImportError, ImportSettings, Remark, load_beside};
 use linkwork::mechanism::{Mechanism, Rounding};
@@ -156,7 +155,11 @@ fn inside(description: &Description, outside: &[(String, f64)]) -> Option<Descri
     }
     let mut question = Question::new(mechanism.clone());
     for _ in 0..=mechanism.joints().len() {
-        let found = question.closed(&Watch::none()).ok()?.closed()?.configuration;
+        let found = question
+            .closed(&Watch::none())
+            .ok()?
+            .closed()?
+            .configuration;
         let joints = mechanism.joints().iter().zip(&found.joints);
         let beyond = joints.clone().filter_map(|(joint, value)| {
             let (low, high) = joint.limits?;

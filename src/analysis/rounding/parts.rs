@@ -22,12 +22,19 @@ impl Part {
         /// A part of a number's own size: what is less comes from loops that are not quite closed.
         const COUNTS: f64 = 1e-3;
         let bundle = Bundle::new(mechanism, Held::nothing(mechanism), numbers);
-        let home = Bundled {
-            numbers: bundle.file(),
-            configurations: vec![mechanism.home()],
+        let file = bundle.file();
+        let system = bundle.equations::<f64>(&file)?;
+        let home = mechanism.home();
+        // a drawing closes whatever its numbers are: there they matter beside it
+        let at = match mechanism.coordinates() {
+            Some(_) => system.displaced(&home, &vec![0.3; system.unknowns().len()]),
+            None => home,
         };
-        let columns = bundle.by_numbers(&home)?.pop()?;
-        let system = bundle.equations::<f64>(&home.numbers)?;
+        let at = Bundled {
+            numbers: file,
+            configurations: vec![at],
+        };
+        let columns = bundle.by_numbers(&at)?.pop()?;
         let rows: Vec<Range<usize>> = system.closure_rows().collect();
         let mut parts: Vec<Part> = Vec::new();
         for (i, closure) in mechanism.closures().iter().enumerate() {
