@@ -455,3 +455,32 @@ def test_rows_in_no_order_are_found_where_rows_in_order_are():
         np.testing.assert_array_equal(found[name][found["reached"]], rows[found["reached"], i])
     again = m.solve_many(rows)
     assert all(found[name].tobytes() == again[name].tobytes() for name in found)
+
+
+def test_a_jacobian_is_an_array():
+    platform = linkwork.load(SHIPPED / "three_rps.ron")
+    found = platform.jacobian(l1=0.7)
+    named = platform.velocity(l1=0.7).jacobian
+    assert found.shape == (len(named.rows), 3) and [column.name for column in named.columns] == ["l1", "l2", "l3"]
+    # what differences of assembled configurations say
+    step = 1e-6
+    heights = [platform.solve(l1=0.7 + part).platforms["top"].position[2] for part in (-step, step)]
+    row = [axis.name for axis in named.rows].index("top vz")
+    assert found[row, 0] == pytest.approx((heights[1] - heights[0]) / (2 * step), rel=1e-5)
+    singular = linkwork.load(SHIPPED / "parallelogram.ron")
+    with pytest.raises(QuestionError):
+        singular.jacobian()
+
+
+def test_parts_are_listed_and_imported():
+    names: dict = {}
+    exec("from linkwork.parts import *", names)
+    assert repr(names["Revolute"]("a", "b")) == 'Revolute("a", "b")' and "Mechanism" not in names
+    assert {"Tx", "Chain", "Actuated"} <= set(dir(linkwork.parts))
+    for name in linkwork.parts.__all__:
+        assert isinstance(names[name](), linkwork.parts.Part)
+
+
+def test_the_module_is_the_command_line():
+    said = subprocess.run([sys.executable, "-m", "linkwork", "--version"], capture_output=True, text=True)
+    assert said.returncode == 0 and said.stdout == f"linkwork {linkwork.__version__}\n"

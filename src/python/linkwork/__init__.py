@@ -317,6 +317,18 @@ class Mechanism:
             "velocity", given, rate=rate, acceleration=acceleration, point=point
         )
 
+    def jacobian(self, **given: Any) -> Array:
+        """The input-output Jacobian as an array: rates of the outputs, row by row, for unit rates of what is held.
+
+        ``velocity(...).jacobian`` names its ``rows`` and ``columns`` with their units, in m/s and rad/s.
+        """
+        report = self.velocity(**given)
+        found = report.to_dict().get("jacobian")
+        if found is None:
+            raise QuestionError(f"there is no Jacobian: {report.to_dict().get('sentence') or report!r}")
+        entries = np.array(found["entries"], dtype=np.float64)
+        return entries.reshape(len(found["rows"]), len(found["columns"]))
+
     def statics(
         self, *, wrench: Mapping[str, Wrench] | None = None, load: Values | None = None, **given: Any
     ) -> Report:

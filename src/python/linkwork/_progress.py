@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 import time
+import warnings
 from typing import Any, Callable, Optional
 
 from . import _given
@@ -13,6 +15,9 @@ Progress = Callable[[str, int, Optional[int]], None]
 
 #: Work that is done sooner, in s, needs no bar.
 PATIENCE = 0.5
+
+#: True once a notebook was told that it has no widgets.
+_said = False
 
 
 class Bar:
@@ -30,7 +35,7 @@ class Bar:
             return
         if self._bar is None:
             try:
-                from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+                tqdm = _tqdm()
             except ImportError:
                 self._shown = False
                 return
@@ -46,6 +51,18 @@ class Bar:
         """Takes the bar away."""
         if self._bar is not None:
             self._bar.close()
+
+
+def _tqdm() -> Any:
+    """The bar of this terminal or notebook; where a notebook has no widgets it is text, which is said once."""
+    global _said
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+    if "ipykernel" in sys.modules and importlib.util.find_spec("ipywidgets") is None and not _said:
+        _said = True
+        print("note: progress is shown as text; `pip install ipywidgets` makes it a bar", file=sys.stderr)
+    return tqdm
 
 
 def bar(wanted: bool | None | Progress) -> Progress | Bar:

@@ -6,13 +6,21 @@ Tx("l2")
 >>> Chain(rows=[{"theta": "theta1"}, {"a": 2, "theta": "phi2"}], tip=[Tx(4)])
 Chain(rows: [(theta: "theta1"), (a: 2, theta: "phi2")], tip: [Tx(4)])
 
-Every name can be imported; the reader of files knows which there are, and refuses the others with a suggestion.
+``from linkwork.parts import *`` has those of joints, chains and closures. Every name can be imported; the reader of files
+knows which there are, and refuses the others with a suggestion.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any, Callable
+
+#: The names of parts that files have.
+_NAMES = (
+    ("Actuated", "Passive", "Modified", "Standard", "Chain", "Platform", "Rx", "Ry", "Rz", "Tx", "Ty", "Tz")
+    + ("Revolute", "Prismatic", "Helical", "Spherical", "Universal", "Cylindrical", "Planar", "Rigid", "Fixed")
+    + ("Distance", "Coupling")
+)
 
 
 class Part:
@@ -35,6 +43,13 @@ def __getattr__(name: str) -> Callable[..., Part]:
         return Part(name, *parts, **fields)
 
     return part
+
+
+__all__ = [*_NAMES]
+
+
+def __dir__() -> list[str]:
+    return sorted(["Part", "written", *_NAMES])
 
 
 def written(value: Any, lines: int = 0) -> str:
