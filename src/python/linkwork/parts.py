@@ -6,8 +6,8 @@ Tx("l2")
 >>> Chain(rows=[{"theta": "theta1"}, {"a": 2, "theta": "phi2"}], tip=[Tx(4)])
 Chain(rows: [(theta: "theta1"), (a: 2, theta: "phi2")], tip: [Tx(4)])
 
-``from linkwork.parts import *`` has those of joints, chains and closures. Every name can be imported; the reader of files
-knows which there are, and refuses the others with a suggestion.
+``from linkwork.parts import *`` has those of joints, chains and closures. Every name can be imported; the reader of
+files knows which there are, and refuses the others with a suggestion.
 """
 
 from __future__ import annotations
