@@ -12,6 +12,7 @@
 //! | [`mobility`] | mobility, velocities and forces |
 //! | [`motion`] | sweeps, circuits and branches |
 //! | [`suspensions`] | steering axis, caster, scrub radius, roll centre and anti-dive as quantities |
+//! | [`loads`] | masses, springs and friction: torques, reactions, energies |
 //! | [`singularities`] | singular configurations and loci |
 //! | [`workspace`] | workspace maps, modes and aspects |
 //! | [`formulas`] | closed forms derived and checked |
@@ -72,6 +73,10 @@ pub mod generate {}
 /// The Rust library: load, ask, answer.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/library.md"))]
 pub mod library {}
+
+/// Masses, springs, forces and friction; holding forces, torques over a cycle, bearing forces, energies.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/loads.md"))]
+pub mod loads {}
 
 /// Mobility, velocities and forces of an assembled mechanism.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/mobility.md"))]

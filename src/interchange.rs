@@ -5,6 +5,7 @@
 
 mod cut;
 mod import;
+mod masses;
 mod mjcf;
 mod names;
 mod page;

@@ -64,6 +64,11 @@ impl SiUnit {
         }
     }
 
+    /// True for a force, a moment, a power, an energy or what else is made with one.
+    pub fn has_force(self) -> bool {
+        self.0[1] != 0
+    }
+
     /// True for rad.
     pub fn is_angle(self) -> bool {
         self == Self::RADIAN

@@ -5,6 +5,7 @@
 
 mod course;
 mod extremes;
+mod means;
 mod meter;
 mod motions;
 mod poles;

@@ -40,7 +40,7 @@ pub struct StaticsReport {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rests: Vec<Rest>,
     /// True if nothing has weight.
-    #[serde(default)]
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub weightless: bool,
     /// Joints and platforms that the unbalanced part of the load would move; the forces below then come nearest to
     /// balance.
@@ -92,6 +92,14 @@ pub struct Force {
     pub force: f64,
     /// True if equilibrium determines it.
     pub unique: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn is_yes(flag: &bool) -> bool {
+    *flag
 }
 
 fn is_none(count: &usize) -> bool {

@@ -1,5 +1,7 @@
 //! Reading a mechanism file from disk; nothing else in the library touches files.
 
+mod tables;
+
 use std::fmt::{self, Display, Formatter};
 use std::fs::File;
 use std::io::{self, Read};

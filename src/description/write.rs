@@ -150,7 +150,9 @@ impl Serialize for LoadDescription {
             serializer.serialize_struct_variant("Load", 0, self.kind.word(), self.fields.len())?;
         for (name, value) in &self.fields {
             match value {
-                LoadField::Name(name_of) => fields.serialize_field(name, name_of)?,
+                LoadField::Name(name_of) | LoadField::File(name_of) => {
+                    fields.serialize_field(name, name_of)?
+                }
                 LoadField::Points([a, b]) => fields.serialize_field(name, &(a, b))?,
                 LoadField::Entry(entry) => fields.serialize_field(name, entry)?,
                 LoadField::Vector([x, y, z]) => fields.serialize_field(name, &(x, y, z))?,

@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::masses::masses;
 use super::remark::Remark;
 use super::tree::{Attachment, Bend, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 use crate::description::{ClosureKind, GROUND, Role};
@@ -37,6 +38,12 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
     cutter.chains();
     let lost = cutter.relations();
     let loops = cutter.loops();
+    for (_, frame, heavy) in masses(mechanism) {
+        let Attachment { body, pose, .. } = &cutter.placed[&frame];
+        let seen = heavy.seen_from(pose);
+        let own = &mut cutter.bodies[*body].heavy;
+        *own = Some(own.as_ref().map_or(seen, |own| own.with(&seen)));
+    }
     let mut tree = Tree {
         name: match mechanism.name() {
             "" => "mechanism".into(),
@@ -46,6 +53,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
         couplings: cutter.couplings,
         loops,
         size: mechanism.characteristic_length(),
+        gravity: (!mechanism.loads().masses.is_empty()).then_some(mechanism.loads().gravity),
     };
     remarks.extend(lost);
     remarks.extend(followers(mechanism, &tree.couplings));

@@ -113,6 +113,7 @@ pub(super) fn without_rods(tree: &Tree, kept: &[String]) -> (Tree, Option<Remark
         couplings: tree.couplings.clone(),
         name: tree.name.clone(),
         size: tree.size,
+        gravity: tree.gravity,
     };
     (tree, Some(Remark::Rods { names }))
 }

@@ -1,5 +1,6 @@
 //! Bodies in a tree with the loops that close it: the common ground of URDF, MJCF and a mechanism.
 
+use super::masses::Heavy;
 use super::remark::Remark;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
@@ -54,6 +55,8 @@ pub struct Body {
     pub home: Option<Pose<f64>>,
     /// Named frames: body from frame.
     pub frames: Vec<(String, Pose<f64>)>,
+    /// Its mass, in its frame.
+    pub heavy: Option<Heavy>,
 }
 
 /// A relation between the values of joints: Σ factor · value = constant, or that plus powers of another such sum.
@@ -124,6 +127,8 @@ pub struct Tree {
     pub loops: Vec<Loop>,
     /// A typical length of the bodies in m.
     pub size: f64,
+    /// The acceleration of free fall in m/s², where it is known.
+    pub gravity: Option<[f64; 3]>,
 }
 
 impl Body {
@@ -136,6 +141,7 @@ impl Body {
             joints: Vec::new(),
             home: None,
             frames: Vec::new(),
+            heavy: None,
         }
     }
 
@@ -255,6 +261,11 @@ fn about(axis: &Vector3<f64>, angle: f64) -> Rotation<f64> {
 }
 
 impl Tree {
+    /// True if a body has mass: then no masses are made up.
+    pub(super) fn is_heavy(&self) -> bool {
+        self.bodies.iter().any(|body| body.heavy.is_some())
+    }
+
     pub(super) fn joints(&self) -> impl Iterator<Item = &Joint> {
         self.bodies.iter().flat_map(|body| &body.joints)
     }

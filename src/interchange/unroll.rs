@@ -15,6 +15,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) use relations::carriers;
 use relations::{Following, followers, within_reason};
 
+use super::masses::Heavy;
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
@@ -22,7 +23,7 @@ use super::tree::{Attachment, Joint, Motion, Tree};
 use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
-    Named, PlatformDescription, Row, Spanned,
+    LoadsDescription, Named, PlatformDescription, Row, Spanned,
 };
 use crate::geometry::{Line, Pose, Vector3};
 use crate::mechanism::{JointAxis, SerialAxes, Table};
@@ -73,6 +74,7 @@ pub(super) fn describe(
         return Err(ImportProblemKind::NothingMoves);
     }
     let joints = unroller.joints();
+    let loads = unroller.loads();
     let description = Description {
         name: Spanned::nowhere(match tree.name.trim() {
             "" => "mechanism".to_owned(),
@@ -85,6 +87,7 @@ pub(super) fn describe(
         platforms,
         closures,
         outputs,
+        loads,
         ..Description::default()
     };
     let mut remarks = unroller.remarks;
@@ -347,6 +350,48 @@ impl Unroller<'_> {
                 let name = &self.names.platforms[&on];
                 (name.clone(), self.zero[on].inverse() * base)
             }
+        }
+    }
+
+    /// The masses of bodies that move, each under the name of the frame behind its last row or of its platform.
+    fn loads(&mut self) -> LoadsDescription {
+        let mut masses: Vec<(String, Heavy)> = Vec::new();
+        let given = self.tree.bodies.iter().filter_map(|body| body.heavy);
+        let impossible = given.filter(|heavy| !heavy.is_possible()).count();
+        if impossible > 0 {
+            self.remarks.push(Remark::Ignored {
+                element: "inertial that no body has".into(),
+                count: impossible,
+            });
+        }
+        for (body, (carrier, pose)) in self.tree.bodies.iter().zip(&self.carriers) {
+            let Some(heavy) = body.heavy.filter(Heavy::is_possible) else {
+                continue;
+            };
+            let (name, pose) = match self.places.get(carrier) {
+                Some(Placed { chain, row, frame }) => {
+                    let name = format!("{}.{row}", self.chains[*chain].name.value);
+                    (name, frame.inverse() * self.zero[*carrier] * *pose)
+                }
+                None => match self.names.platforms.get(carrier) {
+                    Some(name) => (name.clone(), *pose),
+                    None => continue,
+                },
+            };
+            let seen = heavy.seen_from(&pose);
+            match masses.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, own)) => *own = own.with(&seen),
+                None => masses.push((name, seen)),
+            }
+        }
+        let gravity = self.tree.gravity.filter(|_| !masses.is_empty());
+        LoadsDescription {
+            gravity: gravity.map(|of| of.map(|g| Entry::number(g, 0..0))),
+            masses: masses
+                .iter()
+                .map(|(name, heavy)| heavy.entry(name))
+                .collect(),
+            loads: Vec::new(),
         }
     }
 

@@ -95,7 +95,17 @@ impl Mechanism {
         text: String,
     ) -> Result<(String, Description), LoadError> {
         match Description::read(&text) {
-            Ok(description) => Ok((text, description)),
+            Ok(description) => {
+                let folder = path
+                    .as_ref()
+                    .parent()
+                    .map(Path::to_owned)
+                    .unwrap_or_default();
+                match description.with_tables_in(&folder) {
+                    Ok(description) => Ok((text, description)),
+                    Err(problems) => Err(LoadError::wrong(path, text, problems)),
+                }
+            }
             Err(_) => {
                 let problems = Mechanism::problems(&text);
                 Err(LoadError::wrong(path, text, problems))

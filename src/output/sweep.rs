@@ -108,6 +108,7 @@ fn remarks(motion: &MotionReport) -> [Vec<String>; 4] {
 /// A motion in detail.
 fn parts(motion: &MotionReport) -> Vec<Section> {
     let mut parts = vec![extremes(motion)];
+    parts.extend(means(motion));
     parts.extend(words::met(motion));
     parts.extend(paths::sections(&motion.sweep.paths, false));
     parts.push(rows(motion));
@@ -151,6 +152,25 @@ fn extremes(motion: &MotionReport) -> Section {
             })
     });
     Section::new("Extremes").table(table)
+}
+
+/// Means of forces, powers and energies over the time.
+fn means(motion: &MotionReport) -> Option<Section> {
+    let known = motion.extremes.iter().filter(|of| of.rms.is_some());
+    let known: Vec<&Extremum> = known.collect();
+    let cell = |value: Option<f64>, of: &Extremum| value.map(|x| Cell::quantity(x, of.unit));
+    let table = Table::of(known.iter().copied())
+        .words("quantity", |of| &of.name)
+        .numbers("mean", move |of| cell(of.mean, of))
+        .numbers("root mean square", move |of| cell(of.rms, of));
+    let table = match known.iter().any(|of| of.fluctuation.is_some()) {
+        true => table.numbers("fluctuation of energy", |of| {
+            let energy = of.fluctuation;
+            energy.map(|energy| Cell::quantity(energy, SiUnit::NEWTON_METRE))
+        }),
+        false => table,
+    };
+    (!known.is_empty()).then(|| Section::new("Means over the time").table(table))
 }
 
 /// Table of some rows of a motion.

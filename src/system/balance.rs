@@ -30,6 +30,9 @@ pub struct Balance<T: Factorable = f64> {
     pub inertias: Vec<T>,
     /// The power of the drives, in W.
     pub power: T,
+    /// The sum of the sizes of all that acts, moments over the characteristic length, in N: rounding is in proportion to it.
+    pub size: T,
+    length: f64,
     /// Those of the rows of closures, in N·m.
     multipliers: Vec<T>,
     /// For each link and closure the number of its reaction.
@@ -101,6 +104,8 @@ impl<T: Factorable> Balance<T> {
             multipliers: Vec::new(),
             inertias: Vec::new(),
             power: T::zero(),
+            size: T::zero(),
+            length: mechanism.characteristic_length(),
             joint_links,
         }
     }
@@ -176,6 +181,12 @@ impl<T: Factorable> Balance<T> {
         });
         self.inertias.clear();
         self.inertias.extend(inertias);
+        let sizes = self
+            .acting
+            .wrenches
+            .iter()
+            .map(|[force, moment]| force.norm() + moment.norm().scale(1.0 / self.length));
+        self.size = sizes.fold(T::zero(), |sum, size| sum + size);
         let power = self.loaded.power(&self.acting, &rates, placement);
         self.power = -(power * instant.pace[0]);
     }

@@ -139,8 +139,15 @@ impl<'m> Course<'m> {
     }
 
     /// The part of the time that is gone at a place of a piece.
-    fn time_at(&self, piece: usize, s: f64) -> f64 {
+    pub fn time_at(&self, piece: usize, s: f64) -> f64 {
         polynomial(&self.pieces[piece].terms[self.names.len()], s)
+    }
+
+    /// Its derivative by s.
+    pub fn time_rate(&self, piece: usize, s: f64) -> f64 {
+        let terms = self.pieces[piece].terms[self.names.len()];
+        let slopes = (1..TERMS).rev().map(|k| k as f64 * terms[k]);
+        slopes.fold(0.0, |sum, slope| sum * s + slope)
     }
 
     /// A model of an expression over a part of a piece, if it has a value there.

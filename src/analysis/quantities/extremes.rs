@@ -6,7 +6,9 @@ use std::cmp::Ordering;
 
 use super::Meter;
 use super::course::{Course, Sought};
+use super::means::means;
 use super::poles::{change_of_sign, middle_of_gap, unbounded};
+use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Extreme, Extremum, Missing, Pole};
 use crate::mechanism::{Measured, Order, Quantity};
 use crate::number::sorting::sort_by;
@@ -27,7 +29,18 @@ pub(crate) fn located(
     let all = quantities.iter().zip(sought).enumerate();
     let all = all.map(|(i, (quantity, of))| {
         let bounds = bounds(course, of);
-        extremum(course, meter, (i, quantity), bounds)
+        // means tell of forces, powers and energies
+        let means = (quantity.unit.has_force())
+            .then(|| means(course, of))
+            .flatten();
+        let found = extremum(course, meter, (i, quantity), bounds);
+        let swing = means.filter(|_| quantity.unit == SiUnit::WATT);
+        Extremum {
+            mean: means.map(|of| of.mean),
+            rms: means.map(|of| of.rms),
+            fluctuation: swing.map(|of| of.swing * meter.duration()),
+            ..found
+        }
     });
     all.collect()
 }
@@ -47,6 +60,9 @@ fn extremum(
         unbounded: Vec::new(),
         at_least: bounds.cut,
         missing: None,
+        mean: None,
+        rms: None,
+        fluctuation: None,
     };
     let [Some(least), Some(greatest)] = bounds.best else {
         return Extremum {

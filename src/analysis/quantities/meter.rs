@@ -421,6 +421,11 @@ impl<'q> Meter<'q> {
         [0.0, 1.0]
     }
 
+    /// The time of the motion, in s.
+    pub fn duration(&self) -> f64 {
+        self.of.pace.duration
+    }
+
     /// Uncertainty of each value last read.
     pub fn noise(&self) -> &[f64] {
         &self.noise

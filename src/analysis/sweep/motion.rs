@@ -94,6 +94,16 @@ pub struct Extremum {
     /// The reason if it has no value anywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub missing: Option<Missing>,
+    /// The mean over the time, of a force, a power or an energy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean: Option<f64>,
+    /// The root of its mean square over the time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rms: Option<f64>,
+    /// Of a power the fluctuation of energy in J: the largest less the least of ∫ (P − mean) dt. A flywheel of inertia
+    /// ΔE/(δ·ω²) keeps the speed within a fluctuation δ = (ω_max − ω_min)/ω.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluctuation: Option<f64>,
 }
 
 /// Reasons for which a quantity has no value.

@@ -113,6 +113,8 @@ pub enum LoadField {
     Yes(bool),
     /// Rows of a table, from which a value is read between its neighbours.
     Table(Vec<[Entry; 2]>),
+    /// The CSV file of a table, in the folder of the mechanism file.
+    File(Spanned<String>),
 }
 
 impl LoadKind {
@@ -157,7 +159,7 @@ impl LoadsDescription {
                 LoadField::Entry(entry) => entries.push(entry),
                 LoadField::Vector(parts) => entries.extend(parts),
                 LoadField::Table(rows) => entries.extend(rows.iter().flatten()),
-                LoadField::Yes(_) => {}
+                LoadField::Yes(_) | LoadField::File(_) => {}
             }
         }
         let offsets = points.iter().filter_map(|point| point.split_once('+'));

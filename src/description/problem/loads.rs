@@ -31,6 +31,8 @@ pub enum LoadProblem {
     },
     #[error("the first column of a table must rise from row to row, in two rows or more")]
     Table,
+    #[error("the table `{file}` cannot be read: {reason}")]
+    TableFile { file: String, reason: String },
     #[error("`{name}` changes while the mechanism moves; only parameters have a meaning here")]
     NotConstant { name: String },
     #[error("a force cannot depend on `{name}`, which follows from forces or accelerations")]

@@ -65,6 +65,9 @@ impl FileReader {
                 }
                 "joint" | "at" | "along" => LoadField::Name(self.text(piece, Expected::Frame)?),
                 "tension_only" | "compression_only" => LoadField::Yes(self.yes(piece)?),
+                "table" if matches!(piece.shape(), Shape::Text) => {
+                    LoadField::File(self.text(piece, Expected::Table)?)
+                }
                 "table" => LoadField::Table(self.table(piece)?),
                 _ => match piece.shape() {
                     Shape::Tuple if kind == LoadKind::Force => {

@@ -9,7 +9,7 @@ use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
 
 /// Elements that do not affect how bodies move.
-const IRRELEVANT: &str = "asset camera composite contact custom deformable extension geom hfield inertial light \
+const IRRELEVANT: &str = "asset camera composite contact custom deformable extension geom hfield light \
                           material mesh option pair plugin sensor size skin statistic texture user visual";
 
 pub(super) fn is_irrelevant(node: Node) -> bool {

@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use mjcf_rs::Model;
-use mjcf_rs::body::JointType;
+use mjcf_rs::body::{InertiaSpec, Inertial, JointType};
 use mjcf_rs::equality::Equality;
 use roxmltree::Node;
 
@@ -16,7 +16,8 @@ use super::constraints;
 use super::part::{Parts, pose};
 use crate::description::{first_free, unless};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
-use crate::interchange::page::{Problems, child, children, direction, document};
+use crate::interchange::masses::Heavy;
+use crate::interchange::page::{Problems, child, children, direction, document, parse};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
@@ -154,6 +155,7 @@ fn bodies(
         if !part.frames.iter().any(|(frame, _)| *frame == name) {
             part.frames.push((name, Pose::identity()));
         }
+        part.heavy = entry.body.inertial.as_ref().and_then(heavy);
         own.push(bodies.len());
         bodies.push(part);
         parts.push(own);
@@ -164,9 +166,26 @@ fn bodies(
         couplings: Vec::new(),
         loops: Vec::new(),
         size: 1.0,
+        gravity: Some(gravity(root)),
     };
     home(model, &mut tree, remarks)?;
     Ok((tree, parts))
+}
+
+/// The acceleration of free fall: that of the format, unless the file says another.
+fn gravity(root: Node) -> [f64; 3] {
+    let given = child(root, "option").and_then(|option| option.attribute("gravity"));
+    let given = given.and_then(parse).and_then(|of| of.try_into().ok());
+    given.unwrap_or([0.0, 0.0, -9.81])
+}
+
+/// The mass of a body, unless it has none. Masses that follow from shapes are not read.
+fn heavy(of: &Inertial) -> Option<Heavy> {
+    let moments = match of.inertia {
+        InertiaSpec::Diagonal([x, y, z]) => [x, y, z, 0.0, 0.0, 0.0],
+        InertiaSpec::Full(moments) => moments,
+    };
+    (of.mass > 0.0).then(|| Heavy::at(of.mass, moments, &pose(&of.pose)))
 }
 
 /// Joints that actuators drive in other ways: in the axes of their parents, and the first of a tendon along joints.

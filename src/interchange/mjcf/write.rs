@@ -29,7 +29,9 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
         tree: &tree,
     };
     remarks.extend(tree.loops.iter().filter_map(|l| page.closure(l)));
-    remarks.push(Remark::MassesInvented);
+    if !tree.is_heavy() {
+        remarks.push(Remark::MassesInvented);
+    }
     for (joint, leader, polynomial) in tree.couplings.iter().filter_map(Coupling::polynomial) {
         let polynomial = numbers(polynomial);
         page.equalities.leaf(
@@ -43,7 +45,14 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
         xml.comment(&remark.to_string());
     }
     xml.leaf("compiler angle autolimits", &[&"radian", &"true"]);
-    xml.block("default", defaults(tree.size));
+    if let Some(gravity) = tree.gravity {
+        // constraints settle within two steps, far faster than anything moves
+        xml.leaf(
+            "option timestep integrator gravity",
+            &[&STEP, &"RK4", &numbers(gravity)],
+        );
+    }
+    xml.block("default", defaults(&tree));
     xml.open("worldbody", &[]);
     let order = page.bodies(&mut xml);
     xml.close("worldbody");
@@ -54,6 +63,10 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     xml.close("mujoco");
     (xml.text(), remarks)
 }
+
+/// Time step in s where masses are known: with closures that settle within two of them MuJoCo 4 follows a falling four-bar
+/// to 5e-8 rad over a second, while at its own settings it is 0.25 rad off.
+const STEP: f64 = 2e-5;
 
 struct Page<'a> {
     tree: &'a Tree,
@@ -190,8 +203,31 @@ impl Page<'_> {
         if index != 0 {
             let [pos, quat] = place(&body.pose);
             xml.open("body name pos quat", &[&body.name, &pos, &quat]);
-            let inertia = numbers([rounded(1e-3 * self.tree.size * self.tree.size); 3]);
-            xml.leaf("inertial pos mass diaginertia", &[&"0 0 0", &0.1, &inertia]);
+            let size = self.tree.size;
+            match (&body.heavy, self.tree.is_heavy()) {
+                (Some(heavy), _) if heavy.mass > 0.0 && heavy.moments() != [0.0; 6] => xml.leaf(
+                    "inertial pos mass fullinertia",
+                    &[
+                        &vector(&heavy.centre),
+                        &heavy.mass,
+                        &numbers(heavy.moments()),
+                    ],
+                ),
+                // MuJoCo refuses bodies without mass or inertia that move
+                (heavy, true) => {
+                    let centre = heavy.map_or(Vector3::zero(), |of| of.centre);
+                    let mass = heavy.map_or(1e-9, |of| of.mass.max(1e-9));
+                    let inertia = numbers([rounded(1e-12 * size * size); 3]);
+                    xml.leaf(
+                        "inertial pos mass diaginertia",
+                        &[&vector(&centre), &mass, &inertia],
+                    );
+                }
+                (_, false) => {
+                    let inertia = numbers([rounded(1e-3 * size * size); 3]);
+                    xml.leaf("inertial pos mass diaginertia", &[&"0 0 0", &0.1, &inertia]);
+                }
+            }
         }
         for joint in &body.joints {
             write_joint(xml, joint);
@@ -255,10 +291,17 @@ fn write_joint(xml: &mut Xml, joint: &Joint) {
     );
 }
 
-/// Display settings of joints and shapes in a mechanism of that size.
-fn defaults(size: f64) -> Xml {
+/// Settings of joints, shapes and closures.
+fn defaults(tree: &Tree) -> Xml {
+    let size = tree.size;
     let mut xml = Xml::default();
-    xml.leaf("joint armature damping", &[&0.01, &0.1]);
+    match tree.is_heavy() {
+        true => xml.leaf(
+            "equality solref solimp",
+            &[&numbers([2.0 * STEP, 1.0]), &"0.9999 0.9999 0.001 0.5 2"],
+        ),
+        false => xml.leaf("joint armature damping", &[&0.01, &0.1]),
+    }
     xml.leaf(
         "geom contype conaffinity size rgba",
         &[&0, &0, &rounded(0.015 * size), &"0.5 0.6 0.7 1"],

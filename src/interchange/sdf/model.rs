@@ -1,12 +1,13 @@
 //! Elements of an SDF file: links, joints and frames of models within models, by their full names.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use roxmltree::Node;
 
 use super::frames::{Frames, WORLD};
 use super::parts::Joint;
 use crate::geometry::{Pose, Vector3};
+use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::{Files, NotRead};
 use crate::interchange::page::{Problems, child, children, document, pose_of, tag, turned};
 use crate::interchange::problem::ImportProblemKind;
@@ -22,6 +23,8 @@ pub(super) struct Reader<'f> {
     pub frames: Frames,
     /// The links, each true if it stands still.
     pub links: Vec<(String, bool)>,
+    /// Masses of links that have some.
+    pub masses: HashMap<String, Heavy>,
     pub joints: Vec<Joint>,
     /// Joints that a controller drives.
     pub driven: HashSet<String>,
@@ -60,6 +63,7 @@ impl<'f> Reader<'f> {
             version: (1, 7),
             frames: Frames::default(),
             links: Vec::new(),
+            masses: HashMap::new(),
             joints: Vec::new(),
             driven: HashSet::new(),
             scenery: 0,
@@ -164,6 +168,9 @@ impl<'f> Reader<'f> {
             if let Some(name) = self.named(link, &scope) {
                 let place = self.pose(link, &scope, &scope.model());
                 self.add("link", link, &name, place, None);
+                if let Some(heavy) = self.heavy(link, &scope) {
+                    self.masses.insert(name.clone(), heavy);
+                }
                 self.links.push((name, fixed));
             }
         }
@@ -212,6 +219,19 @@ impl<'f> Reader<'f> {
                 self.driven.extend(part.text().map(|name| scope.name(name)));
             }
         }
+    }
+
+    /// The mass of a link in its frame, if one is given.
+    fn heavy(&mut self, link: Node, scope: &Scope) -> Option<Heavy> {
+        let inertial = child(link, "inertial")?;
+        let [mass] = self.numbers(inertial, "mass").unwrap_or([1.0]);
+        let (_, pose) = self.pose(inertial, scope, &scope.model());
+        let inertia = child(inertial, "inertia");
+        let moments = MOMENTS.map(|name| {
+            let given = inertia.and_then(|of| self.numbers::<1>(of, name));
+            given.map_or(0.0, |[moment]| moment)
+        });
+        (mass > 0.0).then(|| Heavy::at(mass, moments, &pose))
     }
 
     pub(super) fn named(&mut self, node: Node, scope: &Scope) -> Option<String> {

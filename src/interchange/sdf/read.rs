@@ -139,6 +139,14 @@ impl Builder<'_> {
                 parent.map(|of| place[of]),
                 seen_from * self.poses[link],
             );
+            body.heavy = match link {
+                0 => None,
+                link => self
+                    .reader
+                    .masses
+                    .get(&self.reader.links[link - 1].0)
+                    .copied(),
+            };
             body.frames.push((own, Pose::identity()));
             if let Some((_, Some(joint))) = ways[link] {
                 let outwards = ends[joint][1] == link;
@@ -172,6 +180,7 @@ impl Builder<'_> {
             couplings,
             loops,
             size: 1.0,
+            gravity: Some([0.0, 0.0, -9.8]),
         })
     }
 

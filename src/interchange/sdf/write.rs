@@ -6,6 +6,7 @@
 
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
+use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::with_sliders;
 use crate::interchange::page::along_z;
 use crate::interchange::remark::Remark;
@@ -24,7 +25,9 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     rods(&mut tree);
     remarks.extend(tree.bent());
     remarks.push(Remark::CountedFromHome);
-    remarks.push(Remark::MassesInvented);
+    if !tree.is_heavy() {
+        remarks.push(Remark::MassesInvented);
+    }
     let home = tree.home();
     let mut xml = Xml::default();
     xml.open("sdf version", &[&"1.9"]);
@@ -34,7 +37,7 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     }
     let mut joints = Xml::default();
     for (i, body) in tree.bodies.iter().enumerate().skip(1) {
-        link(&mut xml, &body.name, &home[i]);
+        link(&mut xml, &body.name, &home[i], body.heavy.as_ref());
         let Some(parent) = body.parent else { continue };
         let mut from = link_name(&tree, parent);
         if body.joints.is_empty() {
@@ -56,7 +59,7 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
                 false => format!("{}.{}", body.name, k + 1),
             };
             if !last {
-                link(&mut xml, &to, &at);
+                link(&mut xml, &to, &at, None);
             }
             moves(&mut joints, &tree, moving, [&from, &to]);
             from = to;
@@ -83,9 +86,20 @@ fn link_name(tree: &Tree, body: usize) -> String {
     }
 }
 
-fn link(xml: &mut Xml, name: &str, at: &Pose<f64>) {
+fn link(xml: &mut Xml, name: &str, at: &Pose<f64>, heavy: Option<&Heavy>) {
     xml.open("link name", &[&name]);
     pose(xml, at);
+    if let Some(heavy) = heavy {
+        xml.open("inertial", &[]);
+        pose(xml, &Pose::translation(heavy.centre));
+        xml.leaf_text("mass", &[], &numbers([heavy.mass]));
+        xml.open("inertia", &[]);
+        for (name, moment) in MOMENTS.iter().zip(heavy.moments()) {
+            xml.leaf_text(name, &[], &numbers([moment]));
+        }
+        xml.close("inertia");
+        xml.close("inertial");
+    }
     xml.close("link");
 }
 

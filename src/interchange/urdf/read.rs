@@ -1,6 +1,6 @@
 //! URDF → tree.
 //!
-//! Only what moves is read: shapes and masses do not matter here, and whatever is wrong with them does not either. Loops,
+//! Shapes do not matter here, and whatever is wrong with them does not either. Loops,
 //! which URDF does not have, are read in the five ways in which programs have added them; `loops.rs` knows these.
 //! Versions of the format differ in two points: from 1.1 on `quat_xyzw` may turn an origin, and from 1.2 on a limit that
 //! is left out is none (before, it is 0).
@@ -14,6 +14,7 @@ use super::loops;
 use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::description::unless;
 use crate::geometry::{Pose, Vector3};
+use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::page::{Problems, child, children, direction, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
@@ -32,6 +33,7 @@ pub(crate) fn read(text: &str) -> Read {
         version: version(robot),
         links: Vec::new(),
         known: HashSet::new(),
+        masses: HashMap::new(),
         joints: Vec::new(),
     };
     reader.elements(robot);
@@ -53,6 +55,7 @@ struct Reader<'a, 'i> {
     version: (u32, u32),
     links: Vec<String>,
     known: HashSet<String>,
+    masses: HashMap<String, Heavy>,
     joints: Vec<(Node<'a, 'i>, String)>,
 }
 
@@ -76,7 +79,12 @@ impl<'a, 'i> Reader<'a, 'i> {
                     };
                     let (new, name) = (names.insert((noun, name)), name.to_owned());
                     match noun {
-                        "link" => self.links.push(name.clone()),
+                        "link" => {
+                            self.links.push(name.clone());
+                            if let Some(heavy) = self.heavy(node) {
+                                self.masses.insert(name.clone(), heavy);
+                            }
+                        }
                         _ => self.joints.push((node, name.clone())),
                     }
                     if !new {
@@ -123,6 +131,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         for link in &order {
             let mut body = Body::new(link.clone(), None, Pose::identity());
             body.frames.push((link.clone(), Pose::identity()));
+            body.heavy = self.masses.get(link).copied();
             if let Some(&i) = joint_of.get(link.as_str()) {
                 let (part, name) = (&hangs[i], &joints[i].1);
                 body.parent = index.get(part.parent.as_str()).copied();
@@ -142,6 +151,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             couplings,
             loops: Vec::new(),
             size: 1.0,
+            gravity: None,
         };
         let poses = tree.poses(|joint| joint.reference);
         for (body, pose) in tree.bodies.iter_mut().zip(poses) {
@@ -150,6 +160,21 @@ impl<'a, 'i> Reader<'a, 'i> {
         (tree.couplings).extend(couplings::read(robot, &tree, &mut self.problems));
         tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
         unless(self.problems.0, (tree, self.remarks))
+    }
+
+    /// The mass of a link, unless it has none.
+    fn heavy(&mut self, link: Node) -> Option<Heavy> {
+        let inertial = child(link, "inertial")?;
+        let mass = self.problems.number(child(inertial, "mass")?, "value")?;
+        let pose = child(inertial, "origin").map(|origin| self.origin(origin));
+        let inertia = child(inertial, "inertia");
+        let moments = MOMENTS.map(|name| {
+            inertia
+                .and_then(|of| self.problems.number(of, name))
+                .unwrap_or(0.0)
+        });
+        let heavy = Heavy::at(mass, moments, &pose.unwrap_or(Pose::identity()));
+        (mass > 0.0 || moments != [0.0; 6]).then_some(heavy)
     }
 
     /// The origin of a joint, turned by `rpy` or `quat_xyzw`.

@@ -1,7 +1,8 @@
 //! Tree → URDF, without its loops.
 
 use crate::description::ClosureKind;
-use crate::geometry::{Pose, RollPitchYaw};
+use crate::geometry::{Pose, RollPitchYaw, Vector3};
+use crate::interchange::masses::Heavy;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, vector};
@@ -38,7 +39,9 @@ pub fn write(tree: &Tree) -> (String, Vec<Remark>) {
             limit: FAR * tree.size,
         });
     }
-    remarks.push(Remark::MassesInvented);
+    if !tree.is_heavy() {
+        remarks.push(Remark::MassesInvented);
+    }
     let mut xml = Xml::default();
     xml.open("robot name", &[&tree.name]);
     xml.append(writer.links);
@@ -99,7 +102,7 @@ impl UrdfWriter<'_> {
     fn body(&mut self, index: usize, body: &Body, home: &Pose<f64>) {
         let tree = self.tree;
         let Some(parent) = body.parent else {
-            self.link(&body.name, false);
+            self.link(&body.name, false, None);
             self.frames(body);
             return;
         };
@@ -115,7 +118,8 @@ impl UrdfWriter<'_> {
                 (kind, parent, origin) = self.floating(index, parent, home);
             }
             self.joint(joint, kind, [&parent, &child], &origin);
-            self.link(&child, true);
+            let last = i + 1 == body.joints.len();
+            self.link(&child, true, body.heavy.as_ref().filter(|_| last));
             (parent, origin) = (child, Pose::identity());
         }
         self.frames(body);
@@ -158,7 +162,7 @@ impl UrdfWriter<'_> {
             self.joints.leaf("axis xyz", &[&"1 0 0"]);
             self.limit(Some((0.0, 0.0)), 0.0, 0.0);
             self.joints.close("joint");
-            self.link(name, false);
+            self.link(name, false, None);
         }
     }
 
@@ -212,21 +216,28 @@ impl UrdfWriter<'_> {
         );
     }
 
-    /// A link; one that moves has a made-up mass and a ball at its joint.
-    fn link(&mut self, name: &str, moves: bool) {
+    /// A link; where no masses are known, one that moves has a made-up one. It has a ball at its joint.
+    fn link(&mut self, name: &str, moves: bool, heavy: Option<&Heavy>) {
         let size = self.tree.size;
-        let (mass, inertia) = match moves {
-            true => (0.1, 1e-3 * size * size),
-            false => (0.0, 0.0),
+        let made = moves && !self.tree.is_heavy();
+        let (mass, inertia) = match (made, heavy) {
+            (_, Some(heavy)) => (heavy.mass, heavy.moments()),
+            (true, None) => (
+                0.1,
+                [1.0, 1.0, 1.0, 0.0, 0.0, 0.0].map(|x| 1e-3 * size * size * x),
+            ),
+            (false, None) => (0.0, [0.0; 6]),
         };
+        let centre = heavy.map_or(Vector3::zero(), |heavy| heavy.centre);
         let xml = &mut self.links;
         xml.open("link name", &[&name]);
         xml.open("inertial", &[]);
-        write_origin(xml, &Pose::identity());
+        write_origin(xml, &Pose::translation(centre));
         xml.leaf("mass value", &[&mass]);
+        let [xx, yy, zz, xy, xz, yz] = inertia;
         xml.leaf(
             "inertia ixx ixy ixz iyy iyz izz",
-            &[&inertia, &0, &0, &inertia, &0, &inertia],
+            &[&xx, &xy, &xz, &yy, &yz, &zz],
         );
         xml.close("inertial");
         if moves {

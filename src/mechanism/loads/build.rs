@@ -395,6 +395,16 @@ impl Reading<'_> {
                 Some((self.argument(over)?, self.table(rows)?))
             }
             (None, None) => None,
+            (Some(LoadField::File(file)), _) => {
+                let reason = "only a mechanism file on disk has files beside it".into();
+                let file_name = file.value.clone();
+                let problem = LoadProblem::TableFile {
+                    file: file_name,
+                    reason,
+                };
+                self.note(problem, &file.span);
+                return None;
+            }
             _ => {
                 let fields = "`table` and `over` together";
                 let name = owned;

@@ -133,14 +133,20 @@ impl Meter<'_> {
             Measured::Force(_) | Measured::PlatformForce(..) => {
                 here.balance.map_or(T::zero(), |of| largest(&of.forces))
             }
-            Measured::Power
-            | Measured::Energy(_)
-            | Measured::Inertia(_)
-            | Measured::Reaction(..)
-            | Measured::Shaking(_) => match value.is_finite() {
-                true => value.abs(),
-                false => T::zero(),
-            },
+            Measured::Reaction(_, part) | Measured::Shaking(part) => {
+                let size = here.balance.map_or(T::zero(), |of| of.size);
+                size.scale(if part.is_moment() { length } else { 1.0 })
+            }
+            Measured::Energy(_) => {
+                let size = here.balance.map_or(T::zero(), |of| of.size);
+                size.scale(length)
+            }
+            Measured::Power => {
+                let size = here.balance.map_or(T::zero(), |of| of.size);
+                (size * rate).scale(length)
+            }
+            Measured::Inertia(_) if !value.is_finite() => T::zero(),
+            Measured::Inertia(_) => value.abs(),
             // κ = |v × a| / |v|³ by δv and δa
             Measured::Curvature(point) => {
                 let [v, a] = [Order::Velocity, Order::Acceleration].map(|order| {
