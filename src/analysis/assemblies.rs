@@ -21,7 +21,7 @@ pub use follow::{Fold, Followed, LostMode, LostReason};
 pub use proof::prove;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
-    Named, Part, PoseReport, Proof, Range, Traced, Unfit,
+    Named, Part, PoseReport, Proof, Range, Unfit,
 };
 pub use search::{GenericSolutions, StoredError};
 
@@ -40,8 +40,7 @@ pub struct AssembliesSettings {
     pub seed: u64,
     /// Seeds that must meet only known solutions before the search ends.
     pub quiet_seeds: usize,
-    /// Loops in a row that must bring nothing new, and lose no path, before the search ends; half as
-    /// many again where a known bound is not reached, one where it is.
+    /// Independent loops that must lead to nothing new, and lose no path, before the search ends.
     pub quiet_loops: usize,
     /// Seeds never exceeded.
     pub most_seeds: usize,
@@ -233,7 +232,6 @@ impl AssemblySolver {
         let question = Question {
             mechanism: &self.mechanism,
             coordinates: &self.family.coordinates,
-            moved: self.family.moved_by_trace(),
             flips: self.family.ways(),
             held,
             asked,

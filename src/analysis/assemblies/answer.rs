@@ -15,7 +15,7 @@ use std::ops::Range;
 use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
 use super::report::{
-    AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named, Traced,
+    AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named,
 };
 use super::search::GenericSolutions;
 use super::track::{End, Ends, Local, ParameterHomotopy, are_one};
@@ -37,8 +37,6 @@ pub(super) type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + '
 pub(super) struct Question<'a> {
     pub mechanism: &'a Mechanism,
     pub coordinates: &'a Coordinates,
-    /// The family that the trace test moves.
-    pub moved: Traced,
     /// Number of ways in which universal joints stand in each pose.
     pub flips: usize,
     pub held: &'a Held<f64>,
@@ -309,13 +307,10 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
-            traced: (generic.traced).then_some(match generic.complete {
-                true => Traced::OneRod,
-                false => self.moved,
-            }),
+            traced: generic.complete,
+            related: generic.related,
             general: generic.general,
             flips: Some(self.flips).filter(|flips| *flips > 1),
-            lost_in_loops: generic.lost_in_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,
             ..AssembliesReport::default()

@@ -3,13 +3,11 @@
 
 mod bound;
 mod coordinates;
-mod direction;
 mod legwise;
 mod rods;
 
 pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, Input, size};
-pub(super) use direction::Direction;
 pub(super) use legwise::{LegwiseSolutions, count, learn};
 pub(super) use rods::Rod;
 

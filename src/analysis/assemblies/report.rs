@@ -121,24 +121,6 @@ pub enum Fit {
     AlwaysMultiple,
 }
 
-/// Complex values through which no loop leads from the generic solutions to others, by the trace test of Leykin,
-/// Rodriguez
-/// and Sottile 2018 in double precision. Solutions that no such loop reaches may exist beside them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Traced {
-    /// Values of the inputs.
-    Inputs,
-    /// Values of the parameters, where there are no inputs.
-    Parameters,
-    /// Lengths of the rods, where there are no inputs.
-    Rods,
-    /// The length of one rod, with all points of the cut: there are no other isolated solutions, whatever loops lead
-    /// to, but such of which the joint that makes the cut does not turn with that length.
-    OneRod,
-}
-
 /// Assemblies that are connected, infinitely many, at the target inputs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -241,10 +223,16 @@ pub struct AssembliesReport {
     pub bound: Option<usize>,
     /// The structure with the source of the bound.
     pub bound_source: Option<String>,
-    /// Loops for which the trace test holds; `None` if it does not, or was not run. It is run where no known bound is
-    /// reached, and given up where it would take more paths than the loops that it saves.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub traced: Option<Traced>,
+    /// True if the trace test (Leykin, Rodriguez and Sottile 2018, in double precision) holds for the length of one rod
+    /// with all points of its cut: no isolated solution is missing but such of which the joint that makes the cut does
+    /// not turn with that length. It is run where no known bound is reached.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub traced: bool,
+    /// True if the search varied dimensions with the relations between them that parameters and expressions of the file
+    /// make: with other numbers of equations than of unknowns the mechanism may need them. Otherwise each is a number of its
+    /// own.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub related: bool,
     /// For a platform on six rods: how many of the 40 poses of a general one, whose paths lead to all of its isolated poses, go
     /// to infinity for generic inputs. Then nothing is searched.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -258,13 +246,10 @@ pub struct AssembliesReport {
     pub seeds: usize,
     /// Seeds since the last discovery.
     pub quiet_seeds: usize,
-    /// Monodromy loops at the generic member.
+    /// Independent monodromy loops through generic members.
     pub loops: usize,
-    /// Loops since the last discovery in which no path was lost, or of 200 and more at most a quarter.
+    /// Those on which no path was lost: they lead from what was found to nothing else.
     pub quiet_loops: usize,
-    /// The most paths lost in one of them. If it is not 0, a solution whose path each of them lost may be missing.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub lost_in_loops: usize,
     /// True if the search ended at its limits and not because nothing more was found.
     pub exhausted: bool,
     /// The random seed.
@@ -373,10 +358,6 @@ impl ComplexAssembly {
     }
 }
 
-pub(super) fn is_zero(count: &usize) -> bool {
-    *count == 0
-}
-
 impl AssembliesReport {
     /// True if an isolated assembly may be missing.
     pub fn may_lack_some(&self) -> bool {
@@ -386,10 +367,14 @@ impl AssembliesReport {
             _ => {}
         }
         // with a freedom left, multiple solutions are where the sets of solutions cross
-        let incomplete = self.multiple > 0 || self.lost_in_loops > 0 || self.exhausted;
+        let incomplete = self.multiple > 0 || self.exhausted;
         let doubted = self.fit == Fit::Finite && incomplete;
         let missed = self.lost + self.unexpected + self.conjugates > 0;
         let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
         self.interrupted || !listed || doubted || missed
     }
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }

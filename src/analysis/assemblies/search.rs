@@ -8,7 +8,6 @@ mod six_rods;
 mod solutions;
 mod starts;
 mod store;
-mod trace;
 
 pub(super) use members::search;
 pub use solutions::GenericSolutions;

@@ -1,7 +1,6 @@
 //! Path tracking along parameter homotopies between members of the family.
 
 mod along;
-mod cut;
 mod fold;
 mod homotopy;
 mod lift;
@@ -12,7 +11,6 @@ mod simple;
 mod target;
 
 pub(super) use along::{polish, tracked};
-pub(super) use cut::{Cut, Form};
 pub(super) use fold::located;
 pub(super) use homotopy::ParameterHomotopy;
 pub(super) use lift::Lift;

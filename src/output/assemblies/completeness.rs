@@ -1,7 +1,7 @@
 //! Completeness of a list of assemblies, and the course of the search.
 
 use super::proof;
-use crate::analysis::assemblies::{AssembliesReport, Fit, Traced};
+use crate::analysis::assemblies::{AssembliesReport, Fit};
 use crate::description::count;
 use crate::linear::RANK_TOLERANCE;
 use crate::output::quantity::{form, metres};
@@ -65,10 +65,7 @@ fn searched(report: &AssembliesReport) -> String {
         }
     }
     let loops = count(report.quiet_loops, "loop");
-    let mut quiet = match report.lost_in_loops {
-        0 => format!("{loops} without a lost path"),
-        n => format!("{loops}, each with {} at most,", count(n, "lost path")),
-    };
+    let mut quiet = format!("{loops} without a lost path");
     if report.quiet_seeds > 0 {
         quiet += &format!(" and {}", count(report.quiet_seeds, "seed"));
     }
@@ -99,27 +96,15 @@ fn searched(report: &AssembliesReport) -> String {
                 }
             ),
         ],
-        None if report.traced == Some(Traced::OneRod) => vec![
+        None if report.traced => vec![
             found,
             "the trace test holds for the length of one rod with all points of its cut: no solution that this length \
              moves is missing"
                 .into(),
         ],
+        None if report.bound == Some(report.generic) => vec![found, bound],
         None => vec![found, format!("{quiet} found no more"), bound],
     };
-    if let Some(traced) = report.traced.filter(|traced| *traced != Traced::OneRod) {
-        let moved = match traced {
-            Traced::OneRod | Traced::Inputs => "the inputs",
-            Traced::Parameters => "the parameters",
-            Traced::Rods => "the lengths of the rods",
-        };
-        parts.push(format!(
-            "the trace test holds: no loop of {moved} leads from these to others"
-        ));
-    }
-    if report.lost_in_loops > 0 {
-        parts.push("solutions whose paths every loop lost may be missing".into());
-    }
     if report.exhausted {
         parts.push("the search ended at its limits and there may be more".into());
     }
@@ -203,6 +188,13 @@ pub(super) fn accounting(report: &AssembliesReport) -> Vec<String> {
         count(report.loops, "monodromy loop"),
         report.seed
     ));
+    if report.related {
+        lines.push(
+            "the search varied dimensions with their relations kept as parameters and expressions give them: the mechanism may \
+             need them to close"
+                .into(),
+        );
+    }
     if report.assemblies.iter().any(|a| a.certified) {
         let length = metres(report.characteristic_length);
         lines.push(format!(

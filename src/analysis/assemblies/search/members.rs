@@ -1,5 +1,4 @@
-//! The search of a family: with rods for parts that are no more than that, and at another member where fewer solutions than
-//! the bound were found.
+//! The search of a family, with rods for parts that are no more than that.
 
 use super::super::AssembliesSettings;
 use super::monodromy::search_one;
@@ -8,8 +7,7 @@ use crate::analysis::assemblies::family::{C, Family, learn};
 use crate::analysis::assemblies::track::Lift;
 use crate::solve::Watch;
 
-/// Searches a generic member, and another one where fewer solutions than the bound were found. `None`
-/// if a dimension has no value anywhere near.
+/// All solutions of a generic member. `None` if a dimension has no value anywhere near.
 pub(crate) fn search(
     family: &Family,
     question: String,
@@ -22,35 +20,7 @@ pub(crate) fn search(
         let found = search(reduced, question.clone(), bound, settings, watch)?;
         completed(family, found)
     });
-    if let Some(found) = parts {
-        return Some(found);
-    }
-    let first = search_one(family, &question, bound, settings, watch, None)?;
-    if first.count() == 0
-        || watch.is_stopped()
-        || first.exhausted
-        || first.traced
-        || first.general.is_some()
-        || bound.is_none_or(|bound| first.count() >= bound)
-    {
-        return Some(first);
-    }
-    let other = AssembliesSettings {
-        seed: !settings.seed,
-        ..settings.clone()
-    };
-    let second = search_one(family, &question, bound, &other, watch, None)?;
-    let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
-    let better = match second.count() > first.count() {
-        true => second,
-        false => first,
-    };
-    Some(GenericSolutions {
-        seeds,
-        loops,
-        seed: settings.seed,
-        ..better
-    })
+    parts.or_else(|| search_one(family, &question, bound, settings, watch, None))
 }
 
 /// Solutions found with rods, with what the rods stand for. `None` if that is not all that there is to find.

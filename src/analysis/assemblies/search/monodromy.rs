@@ -1,26 +1,25 @@
-//! All solutions of one generic member of the family: random complex Newton seeds, spread by
-//! monodromy.
+//! All solutions of generic members of the family: Newton's method from random complex points, spread by monodromy.
 //!
-//! A loop through the family permutes the solutions within each irreducible component (Sommese,
-//! Verschelde and Wampler 2001; Duff et al. 2019). Other components are reached by seeds only, as the
-//! two operation modes of a 3-RPS. Seeds are started at every corner of every loop, and what they find
-//! is tracked home by the rest of it, until neither seeds nor loops find anything.
+//! Members are the nodes of a graph, and along each edge every solution is tracked once, from the end at which it is
+//! known (Duff et al. 2019). The equations have real coefficients, so that the solutions of a member with conjugate
+//! numbers are the conjugates: edges lead to the conjugates of members too, also from a member to its own.
 //!
-//! If a component is known in part, a random element of its monodromy group keeps the known solutions
-//! among themselves with probability ½ at most (those that do are a proper subgroup). A loop that lost
-//! a path does not count, unless there are hundreds: some of so many pass where double precision fails. Where the trace
-//! test holds, fewer loops are enough.
-
-mod seeds;
+//! A closed way permutes the solutions within each irreducible component (Sommese, Verschelde and Wampler 2001). If a
+//! component is known in part, a random element of its monodromy group keeps the known solutions among themselves with
+//! probability ½ at most (those that do are a proper subgroup); what is known at the end is kept by all closed ways on
+//! which no path was lost. Other components are reached by seeds only, as the two operation modes of a 3-RPS.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
+use super::newton_starts::{Seed, newton_seeds};
 use super::rod_trace::RodTrace;
+use super::six_rods;
 use super::solutions::GenericSolutions;
-use super::{six_rods, trace};
-use crate::analysis::assemblies::family::{C, Coordinates, Family, Member, learn};
+use crate::analysis::assemblies::family::{
+    C, Coordinates, Family, LegwiseSolutions, Member, count, learn, size,
+};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
@@ -32,23 +31,81 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
     )
 }
 
+/// A member with what is known of its solutions.
+struct Node<'a> {
+    member: Member,
+    /// How far out its inputs are.
+    reach: f64,
+    still: ParameterHomotopy<'a>,
+    legwise: Vec<LegwiseSolutions>,
+    /// Solutions that brought something new, which show all that is known.
+    shown: Vec<Vec<C>>,
+}
+
+impl Node<'_> {
+    /// Adds a solution; its place among those shown, if it is one, and true if it brought something new.
+    fn learn(&mut self, x: Vec<C>) -> (Option<usize>, bool) {
+        let coordinates = &self.still.family.coordinates;
+        if learn(&mut self.legwise, coordinates, &x) {
+            self.shown.push(x);
+            return (Some(self.shown.len() - 1), true);
+        }
+        let mut shown = self.shown.iter();
+        (shown.position(|y| coordinates.same(&x, y)), false)
+    }
+
+    fn count(&self) -> usize {
+        count(&self.legwise)
+    }
+}
+
+/// A way between two nodes, or from one to the conjugate of another or of itself.
+struct Edge {
+    ends: [usize; 2],
+    mirrored: bool,
+    /// For what is shown at each end, true if it belongs to a path that arrived.
+    matched: [Vec<bool>; 2],
+    /// Numbers of those at each end that were tracked if they did not.
+    tried: [usize; 2],
+}
+
+impl Edge {
+    fn sides(&self) -> usize {
+        if self.ends[0] == self.ends[1] { 1 } else { 2 }
+    }
+
+    fn lost(&self) -> usize {
+        let lost = |matched: &Vec<bool>| matched.iter().filter(|done| !**done).count();
+        self.matched.iter().map(lost).max().unwrap_or(0)
+    }
+
+    fn mark(&mut self, side: usize, place: usize) {
+        let matched = &mut self.matched[side];
+        matched.resize(matched.len().max(place + 1), false);
+        matched[place] = true;
+    }
+}
+
 struct Search<'a> {
     watch: &'a Watch<'a>,
     bound: Option<usize>,
     family: &'a Family,
     settings: &'a AssembliesSettings,
-    base: Member,
+    /// True if the solutions of the first node are asked for, false if those of any will do.
+    given: bool,
+    nodes: Vec<Node<'a>>,
+    edges: Vec<Edge>,
     found: GenericSolutions,
-    /// Number of solutions for which the trace test holds.
-    traced: Option<usize>,
     /// The trace test over the length of a rod, and how often it was begun.
     cut: Option<RodTrace<'a>>,
     cuts: usize,
+    /// Number of solutions for which it was run last.
+    traced: usize,
     /// Number of solutions from which on it is doubted that they are finite in number.
     doubtful: usize,
 }
 
-/// Searches a given member, or a generic one.
+/// Searches a given member, or a generic one. `None` if a dimension has no value.
 pub(super) fn search_one(
     family: &Family,
     question: &str,
@@ -57,45 +114,44 @@ pub(super) fn search_one(
     watch: &Watch,
     base: Option<Member>,
 ) -> Option<GenericSolutions> {
-    let mut rng = generator(settings.seed, 0);
-    let base = base.unwrap_or_else(|| family.generic_member(&mut rng));
-    let found = GenericSolutions {
-        question: question.to_owned(),
-        parameters: base.parameters.clone(),
-        inputs: base.inputs.clone(),
-        seed: settings.seed,
-        ..GenericSolutions::default()
-    };
+    let generic = |stream| family.generic_member(&mut generator(settings.seed, stream));
+    let given = base.is_some();
+    let mut base = base.unwrap_or_else(|| generic(0));
+    let mut six = six_rods::solved(family, &base, watch);
+    for stream in (1..BASES).map(|k| k << 44) {
+        if !matches!(six, Some(None)) || given || watch.is_stopped() {
+            break;
+        }
+        base = generic(stream);
+        six = six_rods::solved(family, &base, watch);
+    }
     let mut search = Search {
         watch,
         bound,
         family,
         settings,
-        base,
-        found,
-        traced: None,
+        given,
+        nodes: Vec::new(),
+        edges: Vec::new(),
+        found: GenericSolutions {
+            question: question.to_owned(),
+            seed: settings.seed,
+            ..GenericSolutions::default()
+        },
         cut: None,
         cuts: 0,
+        traced: 0,
         doubtful: DOUBTFUL,
     };
-    match six_rods::solved(family, &search.base, watch) {
+    search.add(base, 1.0)?;
+    match six.flatten() {
         Some((legwise, infinite)) => {
-            search.found.legwise = legwise;
+            search.nodes[0].legwise = legwise;
             search.found.general = Some(infinite);
         }
-        None => {
-            search.found.exhausted = search.run()?;
-            search.found.traced = search.is_traced();
-        }
+        None => search.found.exhausted = search.run(),
     }
-    if bound == Some(search.found.count()) {
-        // no more are possible, so that what seemed to be others were these
-        search.found.multiple = 0;
-    }
-    if search.found.endless {
-        search.found.legwise.clear();
-    }
-    Some(search.found)
+    Some(search.result())
 }
 
 /// The search for the smaller problem of a trace test.
@@ -113,74 +169,265 @@ fn smaller<'a>(
     move |family, bound, member| search_one(family, "", bound, &few, watch, Some(member))
 }
 
-/// Seeds started at once at the generic member, and at most at a corner of a loop.
+/// Members at which it is tried to reach the solutions of a platform on six rods.
+const BASES: u64 = 5;
+
+/// Seeds started at once at a node.
 const BATCH: usize = 32;
 
 /// Seeds after which a search that found nothing gives up.
 const HOPELESS: usize = 600;
 
 /// Number of known solutions from which on it is asked whether they are finite in number: more than the platforms and
-/// single
-/// loops that are studied have.
+/// single loops that are studied have.
 const DOUBTFUL: usize = 200;
 
-/// Loops for each one that goes through other dimensions.
-const RESIZED: usize = 6;
+/// Of so many nodes of a family that inputs make, one has other dimensions too: at special ones the inputs alone may not
+/// exchange all solutions.
+const RESIZED: usize = 3;
 
-/// Paths for each one that may be lost in a loop of hundreds that counts.
-const LOST_ONE_IN: usize = 4;
-
-impl Search<'_> {
-    /// Searches until nothing more is found; true if it ended at its limits, or was stopped, before. `None` if a
-    /// dimension has no value.
-    fn run(&mut self) -> Option<bool> {
-        let still = self.family.homotopy(&self.base, &self.base)?;
-        while self.found.legwise.is_empty() {
-            if self.found.seeds >= HOPELESS || self.found.quiet_seeds >= self.settings.quiet_seeds {
-                return Some(false);
+impl<'a> Search<'a> {
+    /// Searches until nothing more is found; true if it ended at its limits, or was stopped, before.
+    fn run(&mut self) -> bool {
+        while self.nodes[0].shown.is_empty() {
+            let seeds = [self.found.seeds, self.found.quiet_seeds];
+            if seeds[0] >= HOPELESS || seeds[1] >= self.settings.quiet_seeds {
+                return false;
             }
             if self.is_stopped_in_seeds() {
-                return Some(true);
+                return true;
             }
-            self.newton_seeds(&still);
+            self.newton_seeds(0);
         }
         loop {
-            while self.found.quiet_loops < self.enough_loops() {
-                if self.found.loops >= self.settings.most_loops || self.is_stopped_in_loops() {
-                    return Some(true);
-                }
-                self.spread();
-                if self.is_endless(&still) {
-                    return Some(false);
-                }
-                self.trace();
-                if self.found.complete {
-                    return Some(false);
-                }
+            if self.is_endless() || self.is_complete() {
+                return false;
             }
-            if self.bound == Some(self.found.count()) {
-                return Some(false);
+            if self.watch.at(self.in_loops()).is_break() {
+                return true;
             }
-            while self.found.quiet_loops > 0 && self.found.quiet_seeds < self.settings.quiet_seeds {
-                if self.found.seeds >= self.settings.most_seeds || self.is_stopped_in_seeds() {
-                    return Some(true);
+            match self.found.quiet_loops >= self.settings.quiet_loops.max(1) {
+                true if self.found.quiet_seeds >= self.settings.quiet_seeds => return false,
+                true if self.found.seeds >= self.settings.most_seeds => return true,
+                true => {
+                    self.newton_seeds(0);
+                    self.spread();
                 }
-                self.newton_seeds(&still);
+                false if self.found.loops >= self.settings.most_loops || !self.grow() => return true,
+                false => {}
             }
-            if self.found.quiet_loops > 0
-                && !self.mirror(&still)
-                && !self.close_legs(&still)
-                && (self.is_traced() || !self.look_far_out(&still))
-            {
-                return Some(false);
+            self.found.quiet_loops = self.quiet();
+        }
+    }
+
+    /// True if no more are possible.
+    fn is_complete(&mut self) -> bool {
+        let count = self.count();
+        if self.bound != Some(count) && self.traced != count {
+            self.traced = count;
+            self.trace(count);
+        }
+        self.bound == Some(count) || self.found.complete
+    }
+
+    /// Runs the trace test over the length of a rod.
+    fn trace(&mut self, count: usize) {
+        const MOST: usize = 5000;
+        const CUTS: usize = 3;
+        let watch = (self.watch, self.in_loops());
+        if self.cut.is_none() && self.cuts < CUTS {
+            self.cuts += 1;
+            let mut rng = generator(self.settings.seed, (1 << 45) + self.cuts as u64);
+            self.cut = RodTrace::new(
+                self.family,
+                &self.nodes[0].member,
+                (&smaller(self.settings, self.watch), &mut rng),
+                64 + 2 * count,
+            );
+        }
+        if let Some(cut) = self.cut.as_mut().filter(|_| count <= MOST) {
+            let points = self.nodes[0].legwise.iter();
+            let points = points.flat_map(|s| s.points(&self.family.coordinates));
+            match cut.holds(&points.collect::<Vec<_>>(), watch) {
+                Some(holds) => self.found.complete = holds,
+                None => self.cut = None,
             }
         }
+    }
+
+    /// The node with most solutions among those that will do.
+    fn best(&self) -> usize {
+        let own = |k: &usize| *k == 0 || !self.given && self.is_own(*k);
+        let places = (0..self.nodes.len()).rev().filter(own);
+        places.max_by_key(|k| self.nodes[*k].count()).unwrap_or(0)
+    }
+
+    /// True if a node has the mechanism's own dimensions, or these make the family.
+    fn is_own(&self, node: usize) -> bool {
+        let same = self.nodes[node].member.parameters == self.nodes[0].member.parameters;
+        self.family.by_dimensions || same
+    }
+
+    fn count(&self) -> usize {
+        self.nodes[self.best()].count()
+    }
+
+    fn result(mut self) -> GenericSolutions {
+        let best = self.best();
+        let node = self.nodes.swap_remove(best);
+        let mut found = self.found;
+        if self.bound == Some(node.count()) {
+            // no more are possible, so that what seemed to be others were these
+            found.multiple = 0;
+        }
+        if !found.endless {
+            found.legwise = node.legwise;
+        }
+        found.parameters = node.member.parameters;
+        found.inputs = node.member.inputs;
+        found
+    }
+
+    /// Adds a node, with edges to all nodes and their conjugates.
+    fn add(&mut self, member: Member, reach: f64) -> Option<()> {
+        let still = self.family.homotopy(&member, &member)?;
+        let resized = member.parameters != self.family.parameters;
+        self.found.related |= resized && !self.family.is_square;
+        let new = self.nodes.len();
+        self.nodes.push(Node {
+            member,
+            reach,
+            still,
+            legwise: Vec::new(),
+            shown: Vec::new(),
+        });
+        let plain = (0..new).map(|k| (k, false));
+        for (k, mirrored) in plain.chain((0..=new).map(|k| (k, true))) {
+            self.edges.push(Edge {
+                ends: [k, new],
+                mirrored,
+                matched: [Vec::new(), Vec::new()],
+                tried: [0; 2],
+            });
+        }
+        Some(())
+    }
+
+    /// Another node, to which all that is known is tracked; then what seeds find there is tracked everywhere. False if the
+    /// dimensions have no value there.
+    fn grow(&mut self) -> bool {
+        let new = self.nodes.len();
+        let mut rng = generator(self.settings.seed, (new as u64) << 1);
+        // solutions far out meet at inputs far out
+        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][new % 5];
+        let resize = self.family.by_dimensions || new.is_multiple_of(RESIZED);
+        let member = Member {
+            inputs: self.family.random_inputs(&mut rng, reach),
+            parameters: match resize {
+                true => self.family.random_parameters(&mut rng, reach),
+                false => self.nodes[0].member.parameters.clone(),
+            },
+        };
+        if self.add(member, reach).is_none() {
+            return false;
+        }
+        self.spread();
+        if self.bound != Some(self.count()) && !self.is_stopped_in_seeds() {
+            self.newton_seeds(new);
+            self.spread();
+        }
+        self.found.loops = self.edges.len() + 1 - self.nodes.len();
+        true
+    }
+
+    /// Tracks along all edges what was not.
+    fn spread(&mut self) {
+        loop {
+            let mut quiet = true;
+            for edge in 0..self.edges.len() {
+                for side in 0..self.edges[edge].sides() {
+                    if self.bound == Some(self.count()) || self.watch.is_stopped() {
+                        return;
+                    }
+                    quiet &= !self.follow(edge, side);
+                }
+            }
+            if quiet {
+                return;
+            }
+        }
+    }
+
+    /// Tracks what is shown at one end of an edge, and no path has come from, to the other end; true if there was any.
+    fn follow(&mut self, edge: usize, side: usize) -> bool {
+        let now = self.in_loops();
+        let edge = &mut self.edges[edge];
+        let other = if edge.sides() == 1 { 0 } else { 1 - side };
+        let [from, to] = [edge.ends[side], edge.ends[1 - side]];
+        let node = &self.nodes[from];
+        edge.matched[side].resize(node.shown.len(), false);
+        let waiting = (edge.tried[side]..node.shown.len()).filter(|k| !edge.matched[side][*k]);
+        let waiting: Vec<usize> = waiting.collect();
+        edge.tried[side] = node.shown.len();
+        let mut points: Vec<Option<Vec<C>>> =
+            waiting.iter().map(|k| Some(node.shown[*k].clone())).collect();
+        let conjugate = |of: &[C]| -> Vec<C> { of.iter().map(|z| z.conj()).collect() };
+        let mut end = self.nodes[to].member.clone();
+        if edge.mirrored {
+            end.parameters = conjugate(&end.parameters);
+            end.inputs = conjugate(&end.inputs);
+        }
+        let Some(way) = self.family.homotopy(&node.member, &end) else {
+            return false;
+        };
+        tracked(&way, &mut points, (self.watch, now));
+        let resized = node.member.parameters != self.nodes[to].member.parameters;
+        let node = &mut self.nodes[to];
+        for (start, x) in waiting.iter().zip(points) {
+            let Some(mut x) = x else { continue };
+            if edge.mirrored {
+                x = conjugate(&x);
+            }
+            if !stands_alone(&mut node.still, C::from_f64(0.0), &x) {
+                // other dimensions may have solutions that meet, or go away, at the mechanism's own
+                if resized && !self.family.by_dimensions {
+                    edge.mark(side, *start);
+                }
+                continue;
+            }
+            let (place, new) = node.learn(x);
+            if new {
+                self.found.quiet_seeds = 0;
+            }
+            edge.mark(side, *start);
+            if let Some(place) = place {
+                edge.mark(other, place);
+            }
+        }
+        !waiting.is_empty()
+    }
+
+    /// Number of independent closed ways on which no path was lost.
+    fn quiet(&self) -> usize {
+        let mut within = vec![false; self.nodes.len()];
+        within[self.best()] = true;
+        let whole = || self.edges.iter().filter(|edge| edge.lost() == 0);
+        for _ in 0..self.nodes.len() {
+            for edge in whole() {
+                if edge.ends.iter().any(|k| within[*k]) {
+                    edge.ends.iter().for_each(|k| within[*k] = true);
+                }
+            }
+        }
+        let edges = whole().filter(|edge| within[edge.ends[0]]).count();
+        let nodes = within.iter().filter(|within| **within).count();
+        edges + 1 - nodes
     }
 
     /// True if the solutions are not finite in number: with joints that never come back, or if seeds end at none that
     /// is known already. Were there N in all and known a part m/N of them, n seeds that end at a solution would miss
     /// all known ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.
-    fn is_endless(&mut self, still: &ParameterHomotopy<'_>) -> bool {
+    fn is_endless(&mut self) -> bool {
         const BATCHES: usize = 4;
         const ENDS: usize = 64;
         let zero = C::from_f64(0.0);
@@ -189,205 +436,91 @@ impl Search<'_> {
             incommensurate,
             ..
         } = &self.family.coordinates;
+        let node = &mut self.nodes[0];
         if !(screws.is_empty() && incommensurate.is_empty()) {
-            let mut still = still.clone();
-            let mut known = self.spanning().into_iter();
-            self.found.endless = known.any(|x| still.is_endless(zero, &x));
+            let mut known = node.shown.iter();
+            self.found.endless = known.any(|x| node.still.is_endless(zero, x));
         }
-        if self.found.endless || self.found.legwise.len() < self.doubtful {
+        if self.found.endless || self.nodes[0].legwise.len() < self.doubtful {
             return self.found.endless;
         }
-        self.doubtful = 2 * self.found.legwise.len();
+        self.doubtful = 2 * self.nodes[0].legwise.len();
         let (mut ends, mut known) = (0, 0);
         for _ in 0..BATCHES {
-            for x in self.seeds(still, 1.0, None) {
+            for x in self.seeds(0) {
                 ends += 1;
-                known += usize::from(!learn(
-                    &mut self.found.legwise,
-                    &self.family.coordinates,
-                    &x,
-                ));
+                known += usize::from(!self.nodes[0].learn(x).1);
             }
         }
         self.found.endless = ends >= ENDS && known <= ends / ENDS;
         self.found.endless
     }
 
-    /// Every known solution tracked to the member with conjugate inputs: its solutions are the conjugates of those here,
-    /// for the equations have real coefficients. True if one of them has a conjugate that is new.
-    ///
-    /// So a solution for real inputs and its conjugate are found both or not at all.
-    fn mirror(&mut self, still: &ParameterHomotopy<'_>) -> bool {
-        let conjugate = |of: &[C]| -> Vec<C> { of.iter().map(|z| z.conj()).collect() };
-        let mirrored = Member {
-            parameters: conjugate(&self.base.parameters),
-            inputs: conjugate(&self.base.inputs),
-        };
-        let Some(way) = self.family.homotopy(&self.base, &mirrored) else {
-            return false;
-        };
-        let mut points: Vec<Option<Vec<C>>> = self.spanning().into_iter().map(Some).collect();
-        tracked(&way, &mut points, (self.watch, self.in_loops()));
-        let (mut still, mut new) = (still.clone(), false);
-        for x in points.into_iter().flatten().map(|x| conjugate(&x)) {
-            if stands_alone(&mut still, C::from_f64(0.0), &x) {
-                new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
-            }
-        }
-        if new {
-            self.found.quiet_loops = 0;
-        }
-        new
-    }
-
-    fn is_traced(&self) -> bool {
-        self.traced == Some(self.found.count())
-    }
-
-    /// Runs the trace test where loops begin to bring nothing new.
-    fn trace(&mut self) {
-        const MOST: usize = 5000;
-        const CUTS: usize = 3;
-        let count = self.found.count();
-        let (expected, watch) = (self.bound != Some(count), (self.watch, self.in_loops()));
-        if expected && self.cut.is_none() && self.cuts < CUTS {
-            self.cuts += 1;
-            let mut rng = generator(self.settings.seed, (1 << 45) + self.cuts as u64);
-            self.cut = RodTrace::new(
-                self.family,
-                &self.base,
-                (&smaller(self.settings, self.watch), &mut rng),
-                64 + 2 * count,
-            );
-        }
-        if let Some(cut) = self.cut.as_mut().filter(|_| expected && count <= MOST) {
-            let points = self.found.legwise.iter();
-            let points = points.flat_map(|s| s.points(&self.family.coordinates));
-            match cut.holds(&points.collect::<Vec<_>>(), watch) {
-                Some(true) => {
-                    self.found.complete = true;
-                    self.traced = Some(count);
-                    return;
-                }
-                Some(false) => {}
-                None => self.cut = None,
-            }
-        }
-        // where a bound is known more are expected
-        let quiet = if self.bound.is_some() { [3, 6] } else { [1, 4] };
-        // combinations of ways of legs would be followed one by one
-        let combined = self.found.legwise.iter().any(|s| s.count() > s.spanning());
-        let most = if combined { MOST / 16 } else { MOST };
-        if quiet.contains(&self.found.quiet_loops)
-            && !self.is_traced()
-            && self.bound != Some(count)
-            && count <= most
-        {
-            let points = self.found.legwise.iter();
-            let points = points.flat_map(|s| s.points(&self.family.coordinates));
-            let points: Vec<Vec<C>> = points.collect();
-            let stream = (1 << 46) + self.found.loops as u64;
-            let mut rng = generator(self.settings.seed, stream);
-            let holds = trace::holds(self.family, &self.base, &points, &mut rng, watch);
-            self.traced = holds.then_some(count);
-        }
-    }
-
-    /// Number of loops without a discovery that end the search: one where the known bound is reached, half as many
-    /// again below it. If the trace test holds, only loops through other dimensions may bring more, every sixth one if
-    /// there are any.
-    fn enough_loops(&self) -> usize {
-        let quiet = self.settings.quiet_loops.max(1);
-        if self.is_traced() {
-            let resizes = !(self.family.by_dimensions || self.family.parameters.is_empty());
-            return quiet.min(if resizes { RESIZED } else { 1 });
-        }
-        match self.bound.map(|bound| self.found.count().cmp(&bound)) {
-            Some(std::cmp::Ordering::Equal) => 1,
-            Some(_) => quiet + quiet / 2,
-            None => quiet,
-        }
-    }
-
     fn is_stopped_in_seeds(&self) -> bool {
-        let found = self.found.count();
+        let found = self.count();
         (self.watch).stops(Stage::Seeds { found }, self.found.seeds, None)
-    }
-
-    fn is_stopped_in_loops(&self) -> bool {
-        self.watch.at(self.in_loops()).is_break()
     }
 
     fn in_loops(&self) -> Progress {
         Progress {
             stage: Stage::Loops {
-                found: self.found.count(),
+                found: self.count(),
             },
             done: self.found.loops,
             of: None,
         }
     }
 
-    /// One loop through two other random members, followed by every known solution and by what
-    /// seeds find there.
-    fn spread(&mut self) {
-        self.found.loops += 1;
-        let mut rng = generator(self.settings.seed, (self.found.loops as u64) << 1);
-        // at special dimensions the inputs alone may not exchange all solutions
-        let resize = self.found.loops.is_multiple_of(RESIZED) || self.family.by_dimensions;
-        // small loops go round few branch points, and solutions far out meet at inputs far out
-        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.found.loops % 5];
-        let mut member = || Member {
-            inputs: self.family.random_inputs(&mut rng, reach),
-            parameters: match resize {
-                true => self.family.random_parameters(&mut rng, reach),
-                false => self.base.parameters.clone(),
-            },
-        };
-        let corners = [self.base.clone(), member(), member(), self.base.clone()];
-        let coordinates = &self.family.coordinates;
-        let mut points: Vec<Option<Vec<C>>> = self.spanning().into_iter().map(Some).collect();
-        for pair in corners.windows(2) {
-            let Some(homotopy) = self.family.homotopy(&pair[0], &pair[1]) else {
-                return;
-            };
-            if pair[0] != self.base {
-                let own = pair[0].parameters == self.base.parameters;
-                self.newton_seeds_beside(&homotopy, (reach, own), &mut points);
-            }
-            tracked(&homotopy, &mut points, (self.watch, self.in_loops()));
-        }
-        let Some(mut still) = self.family.homotopy(&self.base, &self.base) else {
-            return;
-        };
-        let all = points.len();
-        let mut lost = points.iter().filter(|x| x.is_none()).count();
-        let mut new = false;
-        for x in points.into_iter().flatten() {
-            match stands_alone(&mut still, C::from_f64(0.0), &x) {
-                true => new |= learn(&mut self.found.legwise, coordinates, &x),
-                // other dimensions may have solutions that meet, or go away, at the mechanism's own
-                false => lost += usize::from(!resize),
+    /// Newton iterations from random complex points at a node; the isolated solutions they ended at.
+    ///
+    /// One that seems multiple counts if it is none of the known: far out rounding makes simple ones look so, for complex
+    /// rotations grow with every joint.
+    fn seeds(&mut self, node: usize) -> Vec<Vec<C>> {
+        const BLURRED: f64 = 1e-3;
+        let (first, seed) = (self.found.seeds, self.settings.seed);
+        let at = &self.nodes[node];
+        let reach = at.reach;
+        let ends = crate::solve::each(BATCH, &at.still, |homotopy, i| {
+            let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
+            // most solutions are near, some far out
+            let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
+            newton_seeds(homotopy, reach * further, &mut rng)
+        });
+        self.found.seeds += BATCH;
+        let mut isolated = Vec::new();
+        for end in ends {
+            match end {
+                Seed::Nothing => {}
+                Seed::Multiple(x) => {
+                    let near = |y: &Vec<C>| {
+                        let limit = BLURRED * (1.0 + size(y));
+                        self.family.coordinates.within(limit, &x, y)
+                    };
+                    let other = self.is_own(node) && !at.shown.iter().any(near);
+                    self.found.multiple += usize::from(other);
+                }
+                Seed::Isolated(x) => isolated.push(x),
+                Seed::Free(freedom) => {
+                    let found = &mut self.found;
+                    found.freedom = match found.not_isolated {
+                        0 => freedom,
+                        _ => found.freedom.min(freedom),
+                    };
+                    found.not_isolated += 1;
+                    found.quiet_seeds += 1;
+                }
             }
         }
-        let whole = lost == 0 || all >= DOUBTFUL && lost <= all / LOST_ONE_IN;
-        match (new, whole) {
-            (true, _) => self.found.quiet_loops = 0,
-            (false, true) => {
-                self.found.quiet_loops += 1;
-                self.found.lost_in_loops = self.found.lost_in_loops.max(lost);
-            }
-            (false, false) => {}
-        }
+        isolated
     }
 
-    /// Points that show every solution known.
-    fn spanning(&self) -> Vec<Vec<C>> {
-        let coordinates = &self.family.coordinates;
-        let points = self.found.legwise.iter();
-        points
-            .flat_map(|s| s.spanning_points(coordinates))
-            .collect()
+    fn newton_seeds(&mut self, node: usize) {
+        for x in self.seeds(node) {
+            match self.nodes[node].learn(x).1 {
+                true => self.found.quiet_seeds = 0,
+                false => self.found.quiet_seeds += 1,
+            }
+        }
     }
 }
 

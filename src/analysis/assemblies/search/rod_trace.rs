@@ -1,7 +1,11 @@
 //! A trace test with a cut that is a smaller problem, which shows that no solution is missing.
 //!
-//! While t, half the square of a rod's length, changes by itself, solutions run over a curve. The identity of
-//! [`trace`](super::trace) holds on it for f = e^{iθ} of any joint. Where f = c, the rod has whatever length it must have:
+//! While t, half the square of a rod's length, changes by itself, solutions run over a curve. For f = e^{iθ} of any joint,
+//! a level c and two places a and b of t the residues of dt/((t − a)(t − b)(f − c)) add up to zero, those at infinity being zero:
+//!
+//! Σ_{t=a} 1/(f − c) − Σ_{t=b} 1/(f − c) + (a − b) Σ_{f=c} 1/((t − a)(t − b) df/dt) = 0.
+//!
+//! Where f = c, the rod has whatever length it must have:
 //! these are the solutions without it and with the joint held, fewer than all and often of a known number. If all of them
 //! are in the sum, no solution can be missing from it, be there a loop that leads to it or not, whose f changes with t
 //! (the cut of Brysiewicz and Burr 2023, a sparse one, for the test of Leykin, Rodriguez and Sottile 2018).

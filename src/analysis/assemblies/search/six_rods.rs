@@ -27,13 +27,19 @@ struct General {
 const GENERAL: &str = include_str!("six_rods.ron");
 
 /// The solutions at a member, and how many of the 40 are at infinity there. `None` if the family is no platform on six rods, or
-/// some of them meet.
-pub(super) fn solved(
+/// within if some of them meet or a path is lost.
+pub(super) fn solved(family: &Family, member: &Member, watch: &Watch) -> Option<Option<Poses>> {
+    Some(reached(family, (member, &rods(family, member)?), watch))
+}
+
+/// Solutions, and a number of others at infinity.
+pub(super) type Poses = (Vec<LegwiseSolutions>, usize);
+
+fn reached(
     family: &Family,
-    member: &Member,
+    (member, rods): (&Member, &[[C; 7]]),
     watch: &Watch,
-) -> Option<(Vec<LegwiseSolutions>, usize)> {
-    let rods = rods(family, member)?;
+) -> Option<Poses> {
     let general: General = ron::from_str(GENERAL).ok()?;
     let size = family.coordinates.length;
     let from: Vec<[C; 7]> = general
@@ -41,7 +47,7 @@ pub(super) fn solved(
         .iter()
         .map(|rod| rod.map(|x| x * size))
         .collect();
-    let [from, to] = [from, rods].map(|rods| platform(family, &rods));
+    let [from, to] = [from.as_slice(), rods].map(|rods| platform(family, rods));
     let way = ParameterHomotopy::between(family, (&from, &to), member)?;
     let poses = general.poses.iter().map(|pose| LegwiseSolutions {
         pose: pose.to_vec(),

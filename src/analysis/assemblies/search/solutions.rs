@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count};
-use crate::analysis::assemblies::report::is_zero;
 
 /// All solutions of a generic member, kept to be tracked to any inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,24 +24,21 @@ pub struct GenericSolutions {
     /// Seeds that met a solution which is multiple at the generic member already. No path follows
     /// it.
     pub multiple: usize,
-    /// Monodromy loops, each followed by every solution known.
+    /// Independent loops of the graph of members, each followed by every solution known.
     pub loops: usize,
     /// Seeds since the last discovery.
     pub quiet_seeds: usize,
-    /// Loops since the last discovery in which no path was lost, or of 200 and more at most a quarter.
+    /// Those on which no path was lost.
     pub quiet_loops: usize,
-    /// True if the trace test holds: no loop of the inputs, or without inputs of the parameters, leads to others.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub traced: bool,
     /// True if the trace test over the length of one rod holds with a complete cut: there are no others.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub complete: bool,
     /// For a platform on six rods, whose solutions the 40 of a general one lead to: how many of these are at infinity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub general: Option<usize>,
-    /// The most paths lost in one of them.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub lost_in_loops: usize,
+    /// True if dimensions were varied with the relations between them that expressions of the file make.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub related: bool,
     /// True if every seed led to another solution: they are not finite in number, and none is kept.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub endless: bool,
