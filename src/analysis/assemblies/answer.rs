@@ -311,6 +311,7 @@ impl Question<'_> {
             related: generic.related,
             general: generic.general,
             flips: Some(self.flips).filter(|flips| *flips > 1),
+            lost_in_loops: generic.lost_in_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,
             ..AssembliesReport::default()

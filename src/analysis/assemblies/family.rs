@@ -14,6 +14,7 @@ pub(super) use rods::Rod;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use crate::analysis::assemblies::search::{Seed, newton_seeds};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
@@ -129,7 +130,10 @@ impl Family {
         let equations = family.varying_equations + system.hold_rows().len();
         family.is_square = system.unknowns().len() == equations;
         let is_rigid = family.is_square
-            && Mobility::near(mechanism, &family.home).is_some_and(|near| near.count() == 0);
+            && match Mobility::near(mechanism, &family.home) {
+                Some(near) => near.count() == 0,
+                None => family.is_isolated(),
+            };
         family.by_dimensions = is_rigid || family.coordinates.inputs.is_empty();
         if is_rigid {
             family.widen();
@@ -140,6 +144,23 @@ impl Family {
         family.own = family.system(&family.parameters);
         family.reduced = family.with_rods().map(Box::new);
         family
+    }
+
+    /// True if nothing is held and a complex solution is isolated.
+    fn is_isolated(&self) -> bool {
+        const SEEDS: u64 = 100;
+        let member = Member {
+            parameters: self.parameters.clone(),
+            inputs: Vec::new(),
+        };
+        let homotopy = self.homotopy(&member, &member);
+        let homotopy = homotopy.filter(|_| self.coordinates.inputs.is_empty());
+        homotopy.is_some_and(|mut own| {
+            (0..SEEDS).any(|seed| {
+                let mut rng = Pcg64::seed_from_u64(seed);
+                matches!(newton_seeds(&mut own, 1.0, &mut rng), Seed::Isolated(_))
+            })
+        })
     }
 
     /// The family with rods in place of all parts that are no more.
@@ -268,6 +289,11 @@ impl Family {
             false => self.parameters.clone(),
         };
         Member { parameters, inputs }
+    }
+
+    /// True if the family has more than one member.
+    pub fn varies(&self) -> bool {
+        !(self.parameters.is_empty() && self.coordinates.inputs.is_empty())
     }
 
     /// For each flat input, true if it is a length.

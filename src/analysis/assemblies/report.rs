@@ -248,8 +248,12 @@ pub struct AssembliesReport {
     pub quiet_seeds: usize,
     /// Independent monodromy loops through generic members.
     pub loops: usize,
-    /// Those on which no path was lost: they lead from what was found to nothing else.
+    /// Those on which no path was lost, or of 200 and more along each edge at most a quarter: they lead from what was found
+    /// to nothing else.
     pub quiet_loops: usize,
+    /// The most paths lost along one of their edges. If it is not 0, a solution whose path each of them lost may be missing.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub lost_in_loops: usize,
     /// True if the search ended at its limits and not because nothing more was found.
     pub exhausted: bool,
     /// The random seed.
@@ -367,7 +371,7 @@ impl AssembliesReport {
             _ => {}
         }
         // with a freedom left, multiple solutions are where the sets of solutions cross
-        let incomplete = self.multiple > 0 || self.exhausted;
+        let incomplete = self.multiple > 0 || self.lost_in_loops > 0 || self.exhausted;
         let doubted = self.fit == Fit::Finite && incomplete;
         let missed = self.lost + self.unexpected + self.conjugates > 0;
         let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
@@ -375,6 +379,6 @@ impl AssembliesReport {
     }
 }
 
-fn is_zero(count: &usize) -> bool {
+pub(super) fn is_zero(count: &usize) -> bool {
     *count == 0
 }

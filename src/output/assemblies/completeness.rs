@@ -65,10 +65,16 @@ fn searched(report: &AssembliesReport) -> String {
         }
     }
     let loops = count(report.quiet_loops, "loop");
-    let mut quiet = format!("{loops} without a lost path");
-    if report.quiet_seeds > 0 {
-        quiet += &format!(" and {}", count(report.quiet_seeds, "seed"));
-    }
+    let mut quiet = match report.lost_in_loops {
+        0 => format!("{loops} without a lost path"),
+        n => format!("{loops}, each with {} at most,", count(n, "lost path")),
+    };
+    let seeds = count(report.quiet_seeds, "seed");
+    quiet = match (report.loops, report.quiet_seeds) {
+        (0, _) => format!("no number of this mechanism can be varied to lead from one solution to another; {seeds}"),
+        (_, 0) => quiet,
+        _ => format!("{quiet} and {seeds}"),
+    };
     let bound = match report.bound {
         Some(bound) if bound == report.generic => {
             format!("equals the known bound of {bound} for this structure")
@@ -105,6 +111,9 @@ fn searched(report: &AssembliesReport) -> String {
         None if report.bound == Some(report.generic) => vec![found, bound],
         None => vec![found, format!("{quiet} found no more"), bound],
     };
+    if report.lost_in_loops > 0 {
+        parts.push("solutions whose paths every loop lost may be missing".into());
+    }
     if report.exhausted {
         parts.push("the search ended at its limits and there may be more".into());
     }

@@ -74,9 +74,12 @@ impl Edge {
         if self.ends[0] == self.ends[1] { 1 } else { 2 }
     }
 
-    fn lost(&self) -> usize {
+    /// Number of paths lost, if that is none, or few of hundreds: some of so many pass where double precision fails.
+    fn lost(&self) -> Option<usize> {
         let lost = |matched: &Vec<bool>| matched.iter().filter(|done| !**done).count();
-        self.matched.iter().map(lost).max().unwrap_or(0)
+        let lost = self.matched.iter().map(lost).max().unwrap_or(0);
+        let all = self.matched[0].len();
+        (lost == 0 || all >= DOUBTFUL && lost <= all / LOST_ONE_IN).then_some(lost)
     }
 
     fn mark(&mut self, side: usize, place: usize) {
@@ -182,6 +185,9 @@ const HOPELESS: usize = 600;
 /// single loops that are studied have.
 const DOUBTFUL: usize = 200;
 
+/// Paths along an edge for each one that may be lost where there are hundreds.
+const LOST_ONE_IN: usize = 4;
+
 /// Of so many nodes of a family that inputs make, one has other dimensions too: at special ones the inputs alone may not
 /// exchange all solutions.
 const RESIZED: usize = 3;
@@ -206,7 +212,9 @@ impl<'a> Search<'a> {
             if self.watch.at(self.in_loops()).is_break() {
                 return true;
             }
-            match self.found.quiet_loops >= self.settings.quiet_loops.max(1) {
+            // loops through a family of one member say nothing
+            let quiet = self.found.quiet_loops >= self.settings.quiet_loops.max(1);
+            match quiet || !self.family.varies() {
                 true if self.found.quiet_seeds >= self.settings.quiet_seeds => return false,
                 true if self.found.seeds >= self.settings.most_seeds => return true,
                 true => {
@@ -216,7 +224,7 @@ impl<'a> Search<'a> {
                 false if self.found.loops >= self.settings.most_loops || !self.grow() => return true,
                 false => {}
             }
-            self.found.quiet_loops = self.quiet();
+            (self.found.quiet_loops, self.found.lost_in_loops) = self.quiet();
         }
     }
 
@@ -407,11 +415,11 @@ impl<'a> Search<'a> {
         !waiting.is_empty()
     }
 
-    /// Number of independent closed ways on which no path was lost.
-    fn quiet(&self) -> usize {
+    /// Number of independent closed ways on which no path was lost, or few of hundreds, and how many at most.
+    fn quiet(&self) -> (usize, usize) {
         let mut within = vec![false; self.nodes.len()];
         within[self.best()] = true;
-        let whole = || self.edges.iter().filter(|edge| edge.lost() == 0);
+        let whole = || self.edges.iter().filter(|edge| edge.lost().is_some());
         for _ in 0..self.nodes.len() {
             for edge in whole() {
                 if edge.ends.iter().any(|k| within[*k]) {
@@ -419,9 +427,10 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        let edges = whole().filter(|edge| within[edge.ends[0]]).count();
+        let edges = whole().filter(|edge| within[edge.ends[0]]);
+        let lost = edges.clone().filter_map(Edge::lost).max().unwrap_or(0);
         let nodes = within.iter().filter(|within| **within).count();
-        edges + 1 - nodes
+        (edges.count() + 1 - nodes, lost)
     }
 
     /// True if the solutions are not finite in number: with joints that never come back, or if seeds end at none that

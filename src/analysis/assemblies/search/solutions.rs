@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count};
+use crate::analysis::assemblies::report::is_zero;
 
 /// All solutions of a generic member, kept to be tracked to any inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,8 +29,11 @@ pub struct GenericSolutions {
     pub loops: usize,
     /// Seeds since the last discovery.
     pub quiet_seeds: usize,
-    /// Those on which no path was lost.
+    /// Those on which no path was lost, or of 200 and more along each edge at most a quarter.
     pub quiet_loops: usize,
+    /// The most paths lost along one of their edges.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub lost_in_loops: usize,
     /// True if the trace test over the length of one rod holds with a complete cut: there are no others.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub complete: bool,
