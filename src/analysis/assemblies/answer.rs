@@ -14,9 +14,7 @@ use std::ops::Range;
 
 use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
-use super::report::{
-    AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named,
-};
+use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
 use super::search::GenericSolutions;
 use super::track::{End, Ends, Local, ParameterHomotopy, are_one};
 use crate::algebra::SiUnit;

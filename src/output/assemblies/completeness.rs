@@ -71,7 +71,9 @@ fn searched(report: &AssembliesReport) -> String {
     };
     let seeds = count(report.quiet_seeds, "seed");
     quiet = match (report.loops, report.quiet_seeds) {
-        (0, _) => format!("no number of this mechanism can be varied to lead from one solution to another; {seeds}"),
+        (0, _) => format!(
+            "no number of this mechanism can be varied to lead from one solution to another; {seeds}"
+        ),
         (_, 0) => quiet,
         _ => format!("{quiet} and {seeds}"),
     };

@@ -9,18 +9,19 @@
 //! probability ½ at most (those that do are a proper subgroup); what is known at the end is kept by all closed ways on
 //! which no path was lost. Other components are reached by seeds only, as the two operation modes of a 3-RPS.
 
+mod graph;
+mod seeds;
+
+use graph::{Edge, Node};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
-use super::newton_starts::{Seed, newton_seeds};
 use super::rod_trace::RodTrace;
 use super::six_rods;
 use super::solutions::GenericSolutions;
-use crate::analysis::assemblies::family::{
-    C, Coordinates, Family, LegwiseSolutions, Member, count, learn, size,
-};
-use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
+use crate::analysis::assemblies::family::{C, Family, Member};
+use crate::analysis::assemblies::track::{stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
 
@@ -29,64 +30,6 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
         seed.wrapping_mul(0x9E37_79B9_7F4A_7C15)
             .wrapping_add(stream),
     )
-}
-
-/// A member with what is known of its solutions.
-struct Node<'a> {
-    member: Member,
-    /// How far out its inputs are.
-    reach: f64,
-    still: ParameterHomotopy<'a>,
-    legwise: Vec<LegwiseSolutions>,
-    /// Solutions that brought something new, which show all that is known.
-    shown: Vec<Vec<C>>,
-}
-
-impl Node<'_> {
-    /// Adds a solution; its place among those shown, if it is one, and true if it brought something new.
-    fn learn(&mut self, x: Vec<C>) -> (Option<usize>, bool) {
-        let coordinates = &self.still.family.coordinates;
-        if learn(&mut self.legwise, coordinates, &x) {
-            self.shown.push(x);
-            return (Some(self.shown.len() - 1), true);
-        }
-        let mut shown = self.shown.iter();
-        (shown.position(|y| coordinates.same(&x, y)), false)
-    }
-
-    fn count(&self) -> usize {
-        count(&self.legwise)
-    }
-}
-
-/// A way between two nodes, or from one to the conjugate of another or of itself.
-struct Edge {
-    ends: [usize; 2],
-    mirrored: bool,
-    /// For what is shown at each end, true if it belongs to a path that arrived.
-    matched: [Vec<bool>; 2],
-    /// Numbers of those at each end that were tracked if they did not.
-    tried: [usize; 2],
-}
-
-impl Edge {
-    fn sides(&self) -> usize {
-        if self.ends[0] == self.ends[1] { 1 } else { 2 }
-    }
-
-    /// Number of paths lost, if that is none, or few of hundreds: some of so many pass where double precision fails.
-    fn lost(&self) -> Option<usize> {
-        let lost = |matched: &Vec<bool>| matched.iter().filter(|done| !**done).count();
-        let lost = self.matched.iter().map(lost).max().unwrap_or(0);
-        let all = self.matched[0].len();
-        (lost == 0 || all >= DOUBTFUL && lost <= all / LOST_ONE_IN).then_some(lost)
-    }
-
-    fn mark(&mut self, side: usize, place: usize) {
-        let matched = &mut self.matched[side];
-        matched.resize(matched.len().max(place + 1), false);
-        matched[place] = true;
-    }
 }
 
 struct Search<'a> {
@@ -215,13 +158,20 @@ impl<'a> Search<'a> {
             // loops through a family of one member say nothing
             let quiet = self.found.quiet_loops >= self.settings.quiet_loops.max(1);
             match quiet || !self.family.varies() {
-                true if self.found.quiet_seeds >= self.settings.quiet_seeds => return false,
+                true if self.found.quiet_seeds >= self.settings.quiet_seeds => {
+                    if !self.close_legs() {
+                        return false;
+                    }
+                    self.spread();
+                }
                 true if self.found.seeds >= self.settings.most_seeds => return true,
                 true => {
                     self.newton_seeds(0);
                     self.spread();
                 }
-                false if self.found.loops >= self.settings.most_loops || !self.grow() => return true,
+                false if self.found.loops >= self.settings.most_loops || !self.grow() => {
+                    return true;
+                }
                 false => {}
             }
             (self.found.quiet_loops, self.found.lost_in_loops) = self.quiet();
@@ -377,8 +327,10 @@ impl<'a> Search<'a> {
         let waiting = (edge.tried[side]..node.shown.len()).filter(|k| !edge.matched[side][*k]);
         let waiting: Vec<usize> = waiting.collect();
         edge.tried[side] = node.shown.len();
-        let mut points: Vec<Option<Vec<C>>> =
-            waiting.iter().map(|k| Some(node.shown[*k].clone())).collect();
+        let mut points: Vec<Option<Vec<C>>> = waiting
+            .iter()
+            .map(|k| Some(node.shown[*k].clone()))
+            .collect();
         let conjugate = |of: &[C]| -> Vec<C> { of.iter().map(|z| z.conj()).collect() };
         let mut end = self.nodes[to].member.clone();
         if edge.mirrored {
@@ -433,38 +385,6 @@ impl<'a> Search<'a> {
         (edges.count() + 1 - nodes, lost)
     }
 
-    /// True if the solutions are not finite in number: with joints that never come back, or if seeds end at none that
-    /// is known already. Were there N in all and known a part m/N of them, n seeds that end at a solution would miss
-    /// all known ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.
-    fn is_endless(&mut self) -> bool {
-        const BATCHES: usize = 4;
-        const ENDS: usize = 64;
-        let zero = C::from_f64(0.0);
-        let Coordinates {
-            screws,
-            incommensurate,
-            ..
-        } = &self.family.coordinates;
-        let node = &mut self.nodes[0];
-        if !(screws.is_empty() && incommensurate.is_empty()) {
-            let mut known = node.shown.iter();
-            self.found.endless = known.any(|x| node.still.is_endless(zero, x));
-        }
-        if self.found.endless || self.nodes[0].legwise.len() < self.doubtful {
-            return self.found.endless;
-        }
-        self.doubtful = 2 * self.nodes[0].legwise.len();
-        let (mut ends, mut known) = (0, 0);
-        for _ in 0..BATCHES {
-            for x in self.seeds(0) {
-                ends += 1;
-                known += usize::from(!self.nodes[0].learn(x).1);
-            }
-        }
-        self.found.endless = ends >= ENDS && known <= ends / ENDS;
-        self.found.endless
-    }
-
     fn is_stopped_in_seeds(&self) -> bool {
         let found = self.count();
         (self.watch).stops(Stage::Seeds { found }, self.found.seeds, None)
@@ -477,58 +397,6 @@ impl<'a> Search<'a> {
             },
             done: self.found.loops,
             of: None,
-        }
-    }
-
-    /// Newton iterations from random complex points at a node; the isolated solutions they ended at.
-    ///
-    /// One that seems multiple counts if it is none of the known: far out rounding makes simple ones look so, for complex
-    /// rotations grow with every joint.
-    fn seeds(&mut self, node: usize) -> Vec<Vec<C>> {
-        const BLURRED: f64 = 1e-3;
-        let (first, seed) = (self.found.seeds, self.settings.seed);
-        let at = &self.nodes[node];
-        let reach = at.reach;
-        let ends = crate::solve::each(BATCH, &at.still, |homotopy, i| {
-            let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
-            // most solutions are near, some far out
-            let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
-            newton_seeds(homotopy, reach * further, &mut rng)
-        });
-        self.found.seeds += BATCH;
-        let mut isolated = Vec::new();
-        for end in ends {
-            match end {
-                Seed::Nothing => {}
-                Seed::Multiple(x) => {
-                    let near = |y: &Vec<C>| {
-                        let limit = BLURRED * (1.0 + size(y));
-                        self.family.coordinates.within(limit, &x, y)
-                    };
-                    let other = self.is_own(node) && !at.shown.iter().any(near);
-                    self.found.multiple += usize::from(other);
-                }
-                Seed::Isolated(x) => isolated.push(x),
-                Seed::Free(freedom) => {
-                    let found = &mut self.found;
-                    found.freedom = match found.not_isolated {
-                        0 => freedom,
-                        _ => found.freedom.min(freedom),
-                    };
-                    found.not_isolated += 1;
-                    found.quiet_seeds += 1;
-                }
-            }
-        }
-        isolated
-    }
-
-    fn newton_seeds(&mut self, node: usize) {
-        for x in self.seeds(node) {
-            match self.nodes[node].learn(x).1 {
-                true => self.found.quiet_seeds = 0,
-                false => self.found.quiet_seeds += 1,
-            }
         }
     }
 }

@@ -35,11 +35,7 @@ pub(super) fn solved(family: &Family, member: &Member, watch: &Watch) -> Option<
 /// Solutions, and a number of others at infinity.
 pub(super) type Poses = (Vec<LegwiseSolutions>, usize);
 
-fn reached(
-    family: &Family,
-    (member, rods): (&Member, &[[C; 7]]),
-    watch: &Watch,
-) -> Option<Poses> {
+fn reached(family: &Family, (member, rods): (&Member, &[[C; 7]]), watch: &Watch) -> Option<Poses> {
     let general: General = ron::from_str(GENERAL).ok()?;
     let size = family.coordinates.length;
     let from: Vec<[C; 7]> = general
