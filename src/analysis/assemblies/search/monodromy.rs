@@ -118,18 +118,12 @@ fn smaller<'a>(
 /// Members at which it is tried to reach the solutions of a platform on six rods.
 const BASES: u64 = 5;
 
-/// Seeds started at once at a node.
-const BATCH: usize = 32;
-
 /// Seeds after which a search that found nothing gives up.
 const HOPELESS: usize = 600;
 
 /// Number of known solutions from which on it is asked whether they are finite in number: more than the platforms and
 /// single loops that are studied have.
 const DOUBTFUL: usize = 200;
-
-/// Paths along an edge for each one that may be lost where there are hundreds.
-const LOST_ONE_IN: usize = 4;
 
 /// Of so many nodes of a family that inputs make, one has other dimensions too: at special ones the inputs alone may not
 /// exchange all solutions.

@@ -1,6 +1,6 @@
 //! Members of a family as nodes, and ways between them as edges.
 
-use super::{DOUBTFUL, LOST_ONE_IN};
+use super::DOUBTFUL;
 use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count, learn};
 use crate::analysis::assemblies::track::ParameterHomotopy;
 
@@ -49,6 +49,7 @@ impl Edge {
 
     /// Number of paths lost, if that is none, or few of hundreds: some of so many pass where double precision fails.
     pub fn lost(&self) -> Option<usize> {
+        const LOST_ONE_IN: usize = 4;
         let lost = |matched: &Vec<bool>| matched.iter().filter(|done| !**done).count();
         let lost = self.matched.iter().map(lost).max().unwrap_or(0);
         let all = self.matched[0].len();

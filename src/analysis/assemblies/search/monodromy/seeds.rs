@@ -1,11 +1,14 @@
 //! Newton iterations from random complex points.
 
-use super::{BATCH, Search, generator};
+use super::{Search, generator};
 use crate::analysis::assemblies::family::{C, Coordinates, size};
 use crate::analysis::assemblies::search::newton_starts::{Seed, newton, newton_seeds, solution};
 use crate::analysis::assemblies::track::stands_alone;
 use crate::number::Number;
 use crate::system::System;
+
+/// Seeds started at once at a node.
+const BATCH: usize = 32;
 
 impl Search<'_> {
     /// True if the solutions are not finite in number: with joints that never come back, or if seeds end at none that
