@@ -14,10 +14,10 @@ pub(super) use rods::Rod;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::analysis::assemblies::search::{Seed, newton_seeds};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
+use crate::solve::{Equations, Newton, Stop};
 use crate::system::{Held, HeldPlatform, Mobility, System};
 
 /// A member of the family: values of the independent parameters, then factors of other lengths, and values of the
@@ -149,16 +149,18 @@ impl Family {
     /// True if nothing is held and a complex solution is isolated.
     fn is_isolated(&self) -> bool {
         const SEEDS: u64 = 100;
-        let member = Member {
-            parameters: self.parameters.clone(),
-            inputs: Vec::new(),
-        };
-        let homotopy = self.homotopy(&member, &member);
-        let homotopy = homotopy.filter(|_| self.coordinates.inputs.is_empty());
-        homotopy.is_some_and(|mut own| {
+        const TOLERANCE: f64 = 1e-5;
+        let system = self.system(&self.parameters);
+        let system = system.filter(|_| self.coordinates.inputs.is_empty());
+        system.is_some_and(|system| {
+            let mut work = system.work();
             (0..SEEDS).any(|seed| {
-                let mut rng = Pcg64::seed_from_u64(seed);
-                matches!(newton_seeds(&mut own, 1.0, &mut rng), Seed::Isolated(_))
+                let x = self.random_point(&mut Pcg64::seed_from_u64(seed), 1.0);
+                let mut at = self.coordinates.placed(&x, &self.home);
+                let mut trial = at.clone();
+                let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
+                system.linearise(&at, &mut work);
+                report.stop == Stop::Solved && system.nullity(TOLERANCE, &work) == 0
             })
         })
     }

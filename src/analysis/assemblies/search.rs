@@ -10,7 +10,6 @@ mod starts;
 mod store;
 
 pub(super) use members::search;
-pub(super) use newton_starts::{Seed, newton_seeds};
 pub use solutions::GenericSolutions;
 pub(super) use starts::solved;
 pub use store::StoredError;
