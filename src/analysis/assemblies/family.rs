@@ -3,6 +3,7 @@
 
 mod bound;
 mod coordinates;
+mod isolated;
 mod legwise;
 mod rods;
 
@@ -17,7 +18,6 @@ use rand_pcg::Pcg64;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
-use crate::solve::{Equations, Newton, Stop};
 use crate::system::{Held, HeldPlatform, Mobility, System};
 
 /// A member of the family: values of the independent parameters, then factors of other lengths, and values of the
@@ -144,25 +144,6 @@ impl Family {
         family.own = family.system(&family.parameters);
         family.reduced = family.with_rods().map(Box::new);
         family
-    }
-
-    /// True if nothing is held and a complex solution is isolated.
-    fn is_isolated(&self) -> bool {
-        const SEEDS: u64 = 100;
-        const TOLERANCE: f64 = 1e-5;
-        let system = self.system(&self.parameters);
-        let system = system.filter(|_| self.coordinates.inputs.is_empty());
-        system.is_some_and(|system| {
-            let mut work = system.work();
-            (0..SEEDS).any(|seed| {
-                let x = self.random_point(&mut Pcg64::seed_from_u64(seed), 1.0);
-                let mut at = self.coordinates.placed(&x, &self.home);
-                let mut trial = at.clone();
-                let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
-                system.linearise(&at, &mut work);
-                report.stop == Stop::Solved && system.nullity(TOLERANCE, &work) == 0
-            })
-        })
     }
 
     /// The family with rods in place of all parts that are no more.
