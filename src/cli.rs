@@ -6,6 +6,7 @@ mod check;
 mod compare;
 mod convert;
 mod draw;
+mod equilibrium;
 mod examples;
 mod export;
 mod format;
@@ -36,6 +37,7 @@ mod search;
 mod served;
 mod setup;
 mod shipped;
+mod simulate;
 mod singularities;
 mod snap;
 mod solve;
@@ -91,7 +93,8 @@ macro_rules! commands {
 commands! {
     check: Check, solve: Solve, assemblies: Assemblies, compare: Compare, convert: Convert, draw: Draw, frames: Frames,
     export: Export, import: Import, formulas: Formulas, generate: Generate, mobility: Mobility, velocity: Velocity,
-    view: View, statics: Statics, sweep: Sweep, singularities: Singularities, workspace: Workspace, study: Study,
+    view: View, statics: Statics, equilibrium: Equilibrium, simulate: Simulate, sweep: Sweep,
+    singularities: Singularities, workspace: Workspace, study: Study,
     merge: Merge, snap: Snap, handout: Handout, new: New, examples: Examples, setup: Setup,
 }
 

@@ -10,6 +10,7 @@
 //! | [`solve`] | the assembled configuration near a guess: direct, inverse and mixed kinematics |
 //! | [`assemblies`] | all assemblies, with certificates |
 //! | [`mobility`] | mobility, velocities and forces |
+//! | [`dynamics`] | motion under weights, springs and forces, rest positions |
 //! | [`motion`] | sweeps, circuits and branches |
 //! | [`suspensions`] | steering axis, caster, scrub radius, roll centre and anti-dive as quantities |
 //! | [`loads`] | masses, springs and friction: torques, reactions, energies |
@@ -49,6 +50,10 @@ pub mod coordinates {}
 /// Pictures of the mechanism in any configuration.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/drawing.md"))]
 pub mod drawing {}
+
+/// Motion under weights, springs and forces, and rest positions.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/dynamics.md"))]
+pub mod dynamics {}
 
 /// Exchange with other programs: URDF, MJCF and SDF.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/exchange.md"))]

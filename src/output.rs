@@ -26,6 +26,7 @@ mod coordinates;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
 pub mod drawing;
+pub mod equilibrium;
 pub mod formulas;
 pub mod frames;
 pub mod glb;
@@ -37,6 +38,7 @@ pub mod rounding;
 #[cfg(feature = "schema")]
 pub mod schema;
 mod screws;
+pub mod simulation;
 pub mod singularities;
 pub mod solution;
 pub mod solver;

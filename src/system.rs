@@ -12,6 +12,7 @@ mod branch;
 mod bundle;
 mod closed_form;
 mod curve;
+mod dynamics;
 mod enclosure;
 mod equations;
 mod equilibrium;
@@ -34,6 +35,7 @@ pub use curve::{
     MotionTracker, NoStart, Region, Segment, Singular, SweepEnd, Traced, Walk, met_at, neared,
     settled,
 };
+pub use dynamics::{Accelerated, Dynamics, NoDynamics};
 pub(crate) use enclosure::Enclosure;
 pub use equations::{
     ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use super::{AskError, Mode, Question, Role, Value};
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
+use crate::analysis::equilibrium::{EquilibriumReport, EquilibriumSettings, equilibrium};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
+use crate::analysis::simulation::{SimulationReport, SimulationSettings, simulation};
 use crate::analysis::statics::{StaticsReport, statics};
 use crate::analysis::velocity::{VelocityReport, velocity};
 use crate::mechanism::{Body, NamedPoint, Point, PoseCoordinate};
@@ -55,6 +57,39 @@ impl Question {
         let question = self.in_mode(watch)?;
         let load = self.load_of(&question)?;
         statics(&question, &load, watch).map_err(AskError::Question)
+    }
+
+    /// Rest positions under the loads of the question, with its locked coordinates at rest.
+    pub fn equilibrium(
+        &self,
+        settings: &EquilibriumSettings,
+        watch: &Watch,
+    ) -> Result<Analysed<EquilibriumReport>, AskError> {
+        self.takes("equilibrium")?;
+        let question = self.in_mode(watch)?;
+        let settings = EquilibriumSettings {
+            locked: self.locked(watch)?,
+            ..settings.clone()
+        };
+        let load = self.load_of(&question)?;
+        Ok(equilibrium(&question, &load, &settings, watch))
+    }
+
+    /// The motion of the mechanism when it is let go, with the rates, loads, locked coordinates and points of the question.
+    pub fn simulation(
+        &self,
+        settings: &SimulationSettings,
+        watch: &Watch,
+    ) -> Result<Analysed<SimulationReport>, AskError> {
+        self.takes("simulate")?;
+        let question = self.in_mode(watch)?;
+        let settings = SimulationSettings {
+            locked: self.locked(watch)?,
+            points: self.followed()?,
+            ..settings.clone()
+        };
+        let (drive, load) = (self.drive(&question)?, self.load_of(&question)?);
+        Ok(simulation(&question, &drive, &load, &settings, watch))
     }
 
     /// The question near its start, or near the configuration of the mode that is asked for.

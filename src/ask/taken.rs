@@ -3,7 +3,7 @@
 use super::{AskError, Item, Question, Role};
 
 /// The roles of demands that each analysis takes beside those that hold, free and guess.
-const TAKES: [(&str, &[Role]); 11] = {
+const TAKES: [(&str, &[Role]); 13] = {
     use Role::*;
     [
         ("solve", &[]),
@@ -11,6 +11,8 @@ const TAKES: [(&str, &[Role]); 11] = {
         ("mobility", &[Lock]),
         ("velocity", &[Rate, Acceleration, Point]),
         ("statics", &[Wrench, Load, Without]),
+        ("equilibrium", &[Lock, Wrench, Load, Without]),
+        ("simulate", &[Rate, Lock, Point, Wrench, Load, Without]),
         ("singularities", &[Output, Point]),
         ("singularities along inputs", &[Input, Output, Point]),
         (

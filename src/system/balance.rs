@@ -164,7 +164,12 @@ impl<T: Factorable> Balance<T> {
             let sign = instant
                 .impending
                 .unwrap_or_else(|| instant.pace[0].real().signum());
+            let without = self.acting.efforts.clone();
             self.rub(motion, &rates, sign);
+            for (joint, without) in without.into_iter().enumerate() {
+                let rate = rates[joint].scale(self.loaded.joint_scale(joint)) * instant.pace[0];
+                self.acting.supplied += (self.acting.efforts[joint] - without) * rate;
+            }
             self.react(motion);
         }
         let placement = motion.placement();

@@ -179,6 +179,11 @@ impl<T: Number> Loaded<T> {
         }
     }
 
+    /// rad or m in one unit of a joint's dimensionless variable.
+    pub fn joint_scale(&self, joint: usize) -> f64 {
+        self.columns[joint].1
+    }
+
     /// The points at which something acts.
     pub fn points(&self) -> &[Point] {
         &self.points
@@ -218,6 +223,16 @@ impl<T: Number> Loaded<T> {
             placement,
             moving,
         };
+        for (i, force, moment) in &self.constant {
+            if let Some([omega, velocity]) = here.motion(*i) {
+                acting.supplied += velocity.dot(&constant(force)) + omega.dot(&constant(moment));
+            }
+        }
+        for &(joint, effort) in &self.joints {
+            acting.supplied += here
+                .rate(joint)
+                .map_or(T::zero(), |rate| rate.scale(effort));
+        }
         self.weigh(&here, acting);
         for (spring, place) in self.own.springs.iter().zip(&self.springs) {
             let (x, rate) = here.extension(*place);

@@ -17,6 +17,7 @@ mod formulas;
 mod frames;
 mod gimbal_lock;
 mod lengths;
+mod let_go;
 mod loads;
 mod many;
 mod mobility;

@@ -1,0 +1,261 @@
+//! Rest positions under weights, springs and forces, with stability and small oscillations.
+
+mod descent;
+mod oscillation;
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+use serde::{Deserialize, Serialize};
+
+use crate::algebra::SiUnit;
+use crate::mechanism::{Configuration, Mechanism, turn_near};
+use crate::number::sorting::sort_by;
+use crate::solve::{Newton, Stage, Watch};
+use crate::system::{
+    Analysed, Closing, Coordinate, Dynamics, GivenPose, Load, Mobility, Named, Neighbourhood,
+    NoDynamics, PlatformRecord, Question, Still, random_configuration,
+};
+
+pub use oscillation::{Mode, Stability, Stiffness};
+
+/// Settings of a search for rest positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquilibriumSettings {
+    /// True for all rest positions that random starts lead to, not only the one nearest downhill.
+    pub all: bool,
+    /// Number of random starts.
+    pub starts: usize,
+    /// Their seed.
+    pub seed: u64,
+    /// Coordinates that stay where they are.
+    pub locked: Vec<Coordinate>,
+}
+
+impl Default for EquilibriumSettings {
+    fn default() -> Self {
+        EquilibriumSettings {
+            all: false,
+            starts: 100,
+            seed: 1,
+            locked: Vec::new(),
+        }
+    }
+}
+
+/// Rest positions of a mechanism.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EquilibriumReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// Freedoms in which it can move.
+    pub freedoms: usize,
+    /// Units of the joints, rad or m.
+    pub units: Named<SiUnit>,
+    /// The rest positions, that of least potential energy first.
+    pub positions: Vec<RestPosition>,
+    /// The reason for which there is none.
+    pub none: Option<NoRest>,
+    /// Random starts that were closed and followed to a rest position or not; 0 if only the given pose was.
+    pub starts: usize,
+    /// Their seed.
+    pub seed: u64,
+    /// True if the search was interrupted.
+    pub interrupted: bool,
+    /// Correction of the given pose.
+    #[serde(flatten)]
+    pub pose: GivenPose,
+}
+
+/// A rest position.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RestPosition {
+    /// Values of the joints, in rad and m.
+    pub joints: Named<f64>,
+    /// Poses of the platforms.
+    pub platforms: Named<PlatformRecord>,
+    /// Potential energy of weights and springs, in J.
+    pub potential: f64,
+    /// The force that is left along any independent coordinate, in N or N·m: rounding.
+    pub left: f64,
+    /// Its stability.
+    pub stability: Stability,
+    /// Small oscillations about it, slowest first; empty where bodies have no mass.
+    pub modes: Vec<Mode>,
+    /// Compliance of each platform, and stiffness where it moves in all six directions.
+    pub stiffness: Vec<Stiffness>,
+    /// Joints outside their limits.
+    pub outside_limits: Vec<String>,
+}
+
+/// Reasons for which no rest position is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoRest {
+    /// Nothing can move.
+    Structure,
+    /// The start is singular: branches of motion meet.
+    Singular,
+    /// The potential energy falls without end, or to a configuration beyond which nothing closes.
+    Endless,
+    /// A force has no value.
+    NoForce,
+}
+
+/// Finds rest positions near the assembled configuration of a question: configurations at which the forces that act are
+/// in balance along every motion.
+///
+/// Without `all` it walks down the potential energy from the start (argmin) and then solves Q(q) = 0 by Newton's method.
+/// With it, it does so from random assembled starts, up as well as down, and from each by Newton's method alone.
+/// A position is stable if the Hessian of the energy on the closed configurations, −∂Q/∂q, is positive definite.
+pub fn equilibrium(
+    question: &Question,
+    load: &Load,
+    settings: &EquilibriumSettings,
+    watch: &Watch,
+) -> Analysed<EquilibriumReport> {
+    let mechanism = question.mechanism();
+    let closed = match Closing::seeded(settings.seed).start(question, watch) {
+        Ok(closed) => closed,
+        Err(answer) => return answer,
+    };
+    let at = &closed.configuration;
+    let mut report = EquilibriumReport {
+        mechanism: mechanism.name().into(),
+        freedoms: 0,
+        units: (mechanism.joints().iter())
+            .map(|joint| {
+                (
+                    joint.name.clone(),
+                    SiUnit::of_coordinate(joint.kind.is_angle()),
+                )
+            })
+            .collect(),
+        positions: Vec::new(),
+        none: None,
+        starts: 0,
+        seed: settings.seed,
+        interrupted: false,
+        pose: closed.pose(mechanism),
+    };
+    let still = Question::locking(mechanism, &settings.locked, at).with_spins_still();
+    let held = (settings.locked.clone(), still.still().to_vec());
+    let freedoms = Mobility::near(mechanism, at).map(|found| found.count() + found.idle());
+    let freedoms = freedoms.unwrap_or(0);
+    let left = freedoms.checked_sub(held.0.len() + held.1.len());
+    let Some(left) = left.filter(|left| *left > 0) else {
+        report.none = Some(NoRest::Structure);
+        return Analysed::Closed(report);
+    };
+    report.freedoms = left;
+    let from = Start {
+        mechanism,
+        load,
+        held: &held,
+        freedoms: left,
+    };
+    match from.fall(at, 1.0) {
+        Ok(position) => report.positions.push(position),
+        Err(why) => report.none = Some(why),
+    }
+    if settings.all {
+        from.search(settings, watch, at, &mut report);
+        sort_by(&mut report.positions, |a, b| {
+            a.potential.total_cmp(&b.potential)
+        });
+        if !report.positions.is_empty() {
+            report.none = None;
+        }
+    }
+    Analysed::Closed(report)
+}
+
+/// What every start of a search shares.
+struct Start<'a> {
+    mechanism: &'a Mechanism,
+    load: &'a Load,
+    held: &'a (Vec<Coordinate>, Vec<Still>),
+    freedoms: usize,
+}
+
+impl<'a> Start<'a> {
+    fn dynamics(&self, at: &Configuration<f64>) -> Result<Dynamics<'a>, NoRest> {
+        let held = self.held.clone();
+        let found = Dynamics::new(self.mechanism, self.load, held, self.freedoms, at);
+        found.map_err(|why| match why {
+            NoDynamics::Singular | NoDynamics::NoCoordinates => NoRest::Singular,
+        })
+    }
+
+    /// The rest position downhill, or uphill for −1.
+    fn fall(&self, at: &Configuration<f64>, sign: f64) -> Result<RestPosition, NoRest> {
+        let mut dynamics = self.dynamics(at)?;
+        descent::fall(&mut dynamics, sign)?;
+        self.position(&mut dynamics)
+    }
+
+    /// The rest position to which Newton's method leads, of whatever kind.
+    fn settle(&self, at: &Configuration<f64>) -> Result<RestPosition, NoRest> {
+        let mut dynamics = self.dynamics(at)?;
+        descent::settle(&mut dynamics)?;
+        self.position(&mut dynamics)
+    }
+
+    fn position(&self, dynamics: &mut Dynamics) -> Result<RestPosition, NoRest> {
+        oscillation::position(self.mechanism, dynamics).ok_or(NoRest::NoForce)
+    }
+
+    /// Adds the rest positions to which random starts lead.
+    fn search(
+        &self,
+        settings: &EquilibriumSettings,
+        watch: &Watch,
+        home: &Configuration<f64>,
+        report: &mut EquilibriumReport,
+    ) {
+        let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
+        let mut near = Neighbourhood::new(self.mechanism);
+        for start in 0..settings.starts {
+            if watch.stops(Stage::Starts, start, Some(settings.starts)) {
+                report.interrupted = true;
+                return;
+            }
+            let random = random_configuration(self.mechanism, home, &mut rng);
+            let Some(at) = near.solve(&Newton::default(), random) else {
+                continue;
+            };
+            report.starts += 1;
+            let found = [self.fall(&at, 1.0), self.fall(&at, -1.0), self.settle(&at)];
+            for position in found.into_iter().flatten() {
+                let known = report.positions.iter();
+                if !known.clone().any(|known| self.is_same(known, &position)) {
+                    report.positions.push(position);
+                }
+            }
+        }
+    }
+
+    /// True if two rest positions are one: every joint is, angles modulo a turn, and every platform.
+    fn is_same(&self, a: &RestPosition, b: &RestPosition) -> bool {
+        const SAME: f64 = 1e-5;
+        let length = self.mechanism.characteristic_length();
+        let joints = self.mechanism.joints().iter();
+        let values = a.joints.values().zip(b.joints.values());
+        let mut joints = joints
+            .zip(values)
+            .map(|(joint, (a, b))| match joint.kind.is_angle() {
+                true => turn_near(a - b, 0.0).abs(),
+                false => (a - b).abs() / length,
+            });
+        let mut platforms = a.platforms.values().zip(b.platforms.values());
+        joints.all(|apart| apart < SAME)
+            && platforms.all(|(a, b)| {
+                let place = a.frame.position.iter().zip(b.frame.position);
+                let turn = a.frame.rotation.iter().flatten();
+                let turn = turn.zip(b.frame.rotation.iter().flatten());
+                place
+                    .map(|(x, y)| (x - y).abs() / length)
+                    .all(|apart| apart < SAME)
+                    && turn.map(|(x, y)| (x - y).abs()).all(|apart| apart < SAME)
+            })
+    }
+}

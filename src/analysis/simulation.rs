@@ -1,0 +1,316 @@
+//! Motion by itself: a mechanism let go under its loads.
+
+mod run;
+
+use serde::{Deserialize, Serialize};
+
+use crate::algebra::SiUnit;
+use crate::linear::{Decomposition, add, dot};
+use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::solve::Watch;
+use crate::system::{
+    Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, Mobility, NoDynamics, Question,
+};
+
+use run::Run;
+
+/// Settings of a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationSettings {
+    /// Time simulated, in s.
+    pub duration: f64,
+    /// Number of equal intervals at the ends of which rows are given.
+    pub rows: usize,
+    /// Error of one step, relative to the values, in rad, characteristic lengths and these per s.
+    pub tolerance: f64,
+    /// Part of its speed with which a joint comes back from a limit; `None` ends the simulation there.
+    pub restitution: Option<f64>,
+    /// True if the motion goes on straight through configurations at which branches of motion meet.
+    pub through: bool,
+    /// Coordinates that stay where they are.
+    pub locked: Vec<Coordinate>,
+    /// Points followed.
+    pub points: Vec<Point>,
+}
+
+impl Default for SimulationSettings {
+    fn default() -> Self {
+        SimulationSettings {
+            duration: 1.0,
+            rows: 100,
+            tolerance: 1e-10,
+            restitution: None,
+            through: false,
+            locked: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+}
+
+/// The motion of a mechanism that is let go.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulationReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// Freedoms with which it moves.
+    pub freedoms: usize,
+    /// Names and units of the columns: time, joints with their rates, platforms and points, energies.
+    pub columns: Vec<SimulationColumn>,
+    /// Values at equal times, and at the end.
+    pub rows: Vec<Vec<f64>>,
+    /// The time reached, in s.
+    pub reached: f64,
+    /// The end of the simulation.
+    pub end: SimulationEnd,
+    /// Passages and impacts on the way.
+    pub events: Vec<SimulationEvent>,
+    /// Balance of energies.
+    pub energy: EnergyBalance,
+    /// The largest residual of the closure equations at any row, dimensionless.
+    pub residual: f64,
+    /// Steps of the integrator.
+    pub steps: usize,
+    /// True if the problem was found to be stiff.
+    pub stiff: bool,
+    /// Correction of the given pose.
+    #[serde(flatten)]
+    pub pose: GivenPose,
+}
+
+/// A column of a simulation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulationColumn {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: SiUnit,
+}
+
+/// The end of a simulation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SimulationEnd {
+    /// The time asked for is over.
+    Over,
+    /// It was interrupted.
+    Interrupted,
+    /// The joint of that name came to a limit, in m or rad.
+    Limit {
+        /// The joint.
+        joint: String,
+        /// The limit.
+        limit: f64,
+        /// rad or m.
+        unit: SiUnit,
+    },
+    /// Branches of motion meet.
+    Singular,
+    /// Steps became too short: a force has no value, or the motion none.
+    Stuck,
+    /// It could not begin.
+    NotBegun(NoSimulation),
+}
+
+/// An event on the way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulationEvent {
+    /// In s.
+    pub time: f64,
+    /// What happened.
+    pub event: Happened,
+}
+
+/// What can happen on the way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Happened {
+    /// The joint of that name came back from a limit.
+    Impact {
+        /// The joint.
+        joint: String,
+        /// Its speed before, in m/s or rad/s.
+        speed: f64,
+        /// Kinetic energy lost, in J.
+        loss: f64,
+    },
+    /// Branches of motion meet, and it went straight through.
+    Singular,
+}
+
+/// Balance of the energies of a simulation, in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyBalance {
+    /// Kinetic and potential energy at the start.
+    pub start: f64,
+    /// The same at the end.
+    pub end: f64,
+    /// Work of given forces and dampers until then.
+    pub supplied: f64,
+    /// Energy lost in impacts.
+    pub lost: f64,
+    /// The largest deviation from balance at any row.
+    pub error: f64,
+    /// The largest kinetic energy after any step.
+    pub kinetic: f64,
+}
+
+/// Reasons for which a mechanism cannot be let go.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoSimulation {
+    /// Nothing can move.
+    Structure,
+    /// Branches of motion meet at the start.
+    Singular,
+    /// No coordinates determine the motion.
+    NoCoordinates,
+    /// These coordinates can move without moving any mass.
+    NoMass(Vec<String>),
+    /// The rates given cannot be had together.
+    Rates,
+    /// A force has no value at the start.
+    NoForce,
+}
+
+/// Lets a mechanism go from the assembled configuration near the start of a question, with the rates of a drive, under
+/// loads.
+///
+/// M(q)·q̈ = Q(q, q̇, t) is integrated in independent coordinates ([`Dynamics`]) with closures solved at every evaluation,
+/// so that positions and velocities stay closed to rounding. Held coordinates without a rate start at rest; where these
+/// leave freedoms, the motion begins with the least kinetic energy that has their rates.
+pub fn simulation(
+    question: &Question,
+    drive: &Drive,
+    load: &Load,
+    settings: &SimulationSettings,
+    watch: &Watch,
+) -> Analysed<SimulationReport> {
+    let mechanism = question.mechanism();
+    let closed = match Closing::default().start(question, watch) {
+        Ok(closed) => closed,
+        Err(answer) => return answer,
+    };
+    let pose = closed.pose(mechanism);
+    let begun = begin(question, drive, load, settings, &closed.configuration);
+    let report = begun.and_then(|(mut dynamics, rates)| {
+        let run = Run::new(mechanism, &mut dynamics, settings, rates);
+        run.map(|run| run.report(watch, pose.clone()))
+            .ok_or(NoSimulation::NoForce)
+    });
+    Analysed::Closed(report.unwrap_or_else(|why| SimulationReport {
+        end: SimulationEnd::NotBegun(why),
+        mechanism: mechanism.name().into(),
+        freedoms: 0,
+        columns: Vec::new(),
+        rows: Vec::new(),
+        reached: 0.0,
+        events: Vec::new(),
+        energy: EnergyBalance::default(),
+        residual: 0.0,
+        steps: 0,
+        stiff: false,
+        pose,
+    }))
+}
+
+/// The equations at the start, and the rates there.
+fn begin<'a>(
+    question: &Question<'a>,
+    drive: &Drive,
+    load: &'a Load,
+    settings: &SimulationSettings,
+    at: &Configuration<f64>,
+) -> Result<(Dynamics<'a>, Vec<f64>), NoSimulation> {
+    let mechanism = question.mechanism();
+    let locking = Question::locking(mechanism, &settings.locked, at);
+    let mobility = Mobility::near(mechanism, at).ok_or(NoSimulation::Singular)?;
+    let all = mobility.count() + mobility.idle();
+    let locked = settings.locked.len();
+    let freedoms = all.checked_sub(locked).filter(|left| *left > 0);
+    let freedoms = freedoms.ok_or(NoSimulation::Structure)?;
+    let begin = |still, freedoms| {
+        let held = (settings.locked.clone(), still);
+        Dynamics::new(mechanism, load, held, freedoms, at).map_err(|why| match why {
+            NoDynamics::Singular => NoSimulation::Singular,
+            NoDynamics::NoCoordinates => NoSimulation::NoCoordinates,
+        })
+    };
+    let mut dynamics = begin(Vec::new(), freedoms)?;
+    let mut massless = massless(mechanism, &mut dynamics)?;
+    // links of no inertia about their own line do not spin
+    if !massless.is_empty() && mobility.idle() > 0 {
+        let still = locking.with_spins_still().still().to_vec();
+        let left = freedoms - still.len();
+        if left > 0 {
+            dynamics = begin(still, left)?;
+            massless = self::massless(mechanism, &mut dynamics)?;
+        }
+    }
+    if !massless.is_empty() {
+        return Err(NoSimulation::NoMass(massless));
+    }
+    let rates = initial(question, drive, &mut dynamics).ok_or(NoSimulation::Rates)?;
+    Ok((dynamics, rates))
+}
+
+/// Independent coordinates of motions that move no mass.
+fn massless(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Result<Vec<String>, NoSimulation> {
+    let free = dynamics.coordinates().len();
+    let Some(mass) = dynamics.mass() else {
+        return Err(NoSimulation::Singular);
+    };
+    let decomposition = Decomposition::of(free, free, &mass);
+    let largest = mass.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest > 0.0 && decomposition.rank() == free {
+        return Ok(Vec::new());
+    }
+    let motions = match largest > 0.0 {
+        true => decomposition.null_space(),
+        false => (0..free)
+            .map(|i| (0..free).map(|j| f64::from(u8::from(i == j))).collect())
+            .collect(),
+    };
+    let moves = |i: usize| {
+        motions
+            .iter()
+            .any(|motion: &Vec<f64>| motion[i].abs() > 1e-6)
+    };
+    let coordinates = dynamics.coordinates().iter().enumerate();
+    let names = coordinates.filter(|(i, _)| moves(*i));
+    Ok(names.map(|(_, of)| of.name(mechanism)).collect())
+}
+
+/// Rates of the independent coordinates for those of a drive: of many those of least kinetic energy, M⁻¹Aᵀ(A M⁻¹Aᵀ)⁺r.
+fn initial(question: &Question, drive: &Drive, dynamics: &mut Dynamics) -> Option<Vec<f64>> {
+    const MET: f64 = 1e-9;
+    let free = dynamics.coordinates().len();
+    let still = vec![0.0; free];
+    if !drive.given {
+        return Some(still);
+    }
+    let mass = Decomposition::of(free, free, &dynamics.mass()?);
+    let held = question.held_coordinates().len() >= free;
+    let given = drive.coordinates.iter().zip(&drive.rates);
+    let given: Vec<(Coordinate, f64)> = given
+        .map(|(of, rate)| (*of, *rate))
+        .filter(|(_, rate)| held || *rate != 0.0)
+        .collect();
+    let rows: Vec<Vec<f64>> = (given.iter())
+        .map(|(of, _)| dynamics.rates_of(*of))
+        .collect();
+    let solved: Vec<Vec<f64>> = rows.iter().map(|row| mass.solve(row)).collect();
+    let square = rows
+        .iter()
+        .flat_map(|row| solved.iter().map(|other| dot(row, other)));
+    let square = Decomposition::of(rows.len(), rows.len(), &square.collect::<Vec<f64>>());
+    let wanted: Vec<f64> = given.iter().map(|(_, rate)| *rate).collect();
+    let shares = square.solve(&wanted);
+    let mut rates = still;
+    for (share, column) in shares.iter().zip(&solved) {
+        add(&mut rates, *share, column);
+    }
+    let size = wanted.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let met = rows.iter().zip(&wanted);
+    let met = met.map(|(row, wanted)| (dot(row, &rates) - wanted).abs());
+    met.fold(0.0, f64::max).le(&(MET * size)).then_some(rates)
+}

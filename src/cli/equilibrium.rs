@@ -1,0 +1,62 @@
+//! `linkwork equilibrium`
+
+use clap::Args;
+use linkwork::analysis::equilibrium::EquilibriumSettings;
+use linkwork::ask::{Question, Role};
+
+use super::asked::{Asked, Forces};
+use super::format::{Format, readable};
+use super::search::seed;
+use super::source::Source;
+use super::{Answer, Refusal};
+
+/// Find where the mechanism rests under weights, springs and forces, whether it is stable, and how it swings about it.
+///
+/// The mechanism is closed first, at the values the options ask for; then every joint is free, held or not, except those
+/// of --lock, and moves downhill in potential energy.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork equilibrium mechanisms/loads/four_bar_let_go.ron\n  \
+    linkwork equilibrium mechanisms/loads/four_bar_let_go.ron --all")]
+pub struct Equilibrium {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    asked: Asked,
+    #[command(flatten)]
+    forces: Forces,
+    /// Look for all rest positions, stable or not, from random starts
+    #[arg(long)]
+    all: bool,
+    /// Number of random starts of --all
+    #[arg(long, value_name = "STARTS", default_value_t = EquilibriumSettings::default().starts)]
+    starts: usize,
+    /// Keep a joint, a platform coordinate or a platform where it is; `actuated` keeps all actuated joints
+    #[arg(long, value_name = "NAME")]
+    lock: Vec<String>,
+    /// Seed of the random starts
+    #[arg(long, value_parser = seed, allow_negative_numbers = true)]
+    #[arg(default_value_t = EquilibriumSettings::default().seed)]
+    seed: u64,
+    /// Format of the answer; errors are always text on stderr
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
+}
+
+impl Equilibrium {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let mut posed = self.asked.pose(&self.source)?;
+        self.forces.pose(&mut posed);
+        posed.names(Role::Lock, &self.lock);
+        posed.ask_with(|question| question.seed(self.seed));
+        let settings = EquilibriumSettings {
+            all: self.all,
+            starts: self.starts,
+            seed: self.seed,
+            ..EquilibriumSettings::default()
+        };
+        posed.answer(self.format, |question: &Question, watch| {
+            question.equilibrium(&settings, watch)
+        })
+    }
+}

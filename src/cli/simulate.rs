@@ -1,0 +1,75 @@
+//! `linkwork simulate`
+
+use clap::Args;
+use linkwork::analysis::simulation::SimulationSettings;
+use linkwork::ask::Role;
+
+use super::asked::{Asked, Forces};
+use super::format::{Format, with_rows};
+use super::source::{Assignment, Source};
+use super::{Answer, Refusal};
+
+/// Let the mechanism go: its motion under weights, springs, forces and inertia.
+///
+/// The mechanism is closed first, at the values the options ask for; then every joint is free, held or not, except those
+/// of --lock. Positions and velocities stay closed to rounding. Held coordinates without a rate start at rest.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork simulate mechanisms/loads/four_bar_let_go.ron --time 1\n  \
+    linkwork simulate mechanisms/loads/four_bar_let_go.ron --time 5 --rate theta=2 --format csv")]
+pub struct Simulate {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    asked: Asked,
+    #[command(flatten)]
+    forces: Forces,
+    /// Time simulated, in s
+    #[arg(long, value_name = "SECONDS", default_value_t = SimulationSettings::default().duration)]
+    time: f64,
+    /// Number of rows after the first, equal in time
+    #[arg(long, value_name = "ROWS", default_value_t = SimulationSettings::default().rows)]
+    rows: usize,
+    /// Rate of a held joint or coordinate at the start, e.g. --rate theta1=2
+    #[arg(long, value_name = "NAME=RATE")]
+    rate: Vec<Assignment>,
+    /// Keep a joint, a platform coordinate or a platform where it is; `actuated` keeps all actuated joints
+    #[arg(long, value_name = "NAME")]
+    lock: Vec<String>,
+    /// Also give the position of a frame's origin, or of a point beside it in its axes, e.g. --point left+0.5,0.2
+    #[arg(long, value_name = "FRAME[+X,Y,Z]")]
+    point: Vec<String>,
+    /// Let joints come back from their limits with this part of their speed, instead of ending there
+    #[arg(long, value_name = "FACTOR")]
+    restitution: Option<f64>,
+    /// Go on straight through configurations at which branches of motion meet
+    #[arg(long)]
+    through: bool,
+    /// Error of one step of the integrator, relative, and absolute in rad, characteristic lengths and these per s
+    #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance)]
+    error: f64,
+    /// Format of the answer; errors are always text on stderr
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
+    format: Format,
+}
+
+impl Simulate {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let mut posed = self.asked.pose(&self.source)?;
+        self.forces.pose(&mut posed);
+        posed.values(Role::Rate, &self.rate);
+        posed.names(Role::Lock, &self.lock);
+        posed.names(Role::Point, &self.point);
+        let settings = SimulationSettings {
+            duration: self.time,
+            rows: self.rows,
+            tolerance: self.error,
+            restitution: self.restitution,
+            through: self.through,
+            ..SimulationSettings::default()
+        };
+        posed.answer(self.format, |question, watch| {
+            question.simulation(&settings, watch)
+        })
+    }
+}

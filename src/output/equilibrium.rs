@@ -1,0 +1,177 @@
+//! Rest positions as documents.
+
+use super::closing;
+use super::document::{Cell, Document, Section, Table};
+use super::quantity::{number, quantity, size};
+use super::report::Report;
+use crate::algebra::SiUnit;
+use crate::analysis::equilibrium::{
+    EquilibriumReport, Mode, NoRest, RestPosition, Stability, Stiffness,
+};
+use crate::description::{count, listed};
+
+impl Report for EquilibriumReport {
+    fn document(&self) -> Document {
+        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
+        let several = self.positions.len() > 1;
+        let sections = self.positions.iter().enumerate().map(|(i, of)| {
+            let title = match several {
+                true => format!("Rest position {}: {}", i + 1, stability(of)),
+                false => "Rest position".into(),
+            };
+            position(self, of, Section::new(title))
+        });
+        Document::new(&self.mechanism, answer)
+            .yes_if(!self.positions.is_empty())
+            .interrupted(self.interrupted, "")
+            .notes(closing::notes(&self.pose))
+            .sections(sections)
+    }
+}
+
+fn sentence(report: &EquilibriumReport) -> String {
+    if let Some(why) = report.none {
+        return none(why).into();
+    }
+    match (&report.positions[..], report.starts) {
+        ([one], 0) => format!(
+            "Rests {}, with {} of potential energy.",
+            stability(one),
+            joules(one.potential)
+        ),
+        (all, starts) => {
+            let stable = all
+                .iter()
+                .filter(|of| of.stability == Stability::Stable)
+                .count();
+            format!(
+                "{} found from {starts} random starts (seed {}), {stable} stable; there may be others.",
+                count(all.len(), "rest position"),
+                report.seed
+            )
+        }
+    }
+}
+
+fn none(why: NoRest) -> &'static str {
+    match why {
+        NoRest::Structure => "Nothing can move.",
+        NoRest::Singular => {
+            "The start is singular: branches of motion meet there. Start slightly away from it."
+        }
+        NoRest::Endless => {
+            "No rest position was reached: the potential energy falls without end, or to where nothing closes."
+        }
+        NoRest::NoForce => "A force has no value.",
+    }
+}
+
+fn stability(of: &RestPosition) -> String {
+    let directions = |directions: usize| count(directions, "direction");
+    match of.stability {
+        Stability::Stable => "in stable equilibrium".into(),
+        Stability::Unstable { directions: n } => format!(
+            "in unstable equilibrium: the energy falls in {}",
+            directions(n)
+        ),
+        Stability::Undecided { directions: n } => format!(
+            "in equilibrium of undecided stability: to second order the energy does not change in {}",
+            directions(n)
+        ),
+    }
+}
+
+fn joules(energy: f64) -> String {
+    format!("{} J", number(energy))
+}
+
+fn position(report: &EquilibriumReport, of: &RestPosition, section: Section) -> Section {
+    let unit = |name: &str| {
+        let joint = report.units.get(name).copied();
+        joint.unwrap_or(SiUnit::RADIAN)
+    };
+    let joints = Table::of(&of.joints.0).words("joint", |(name, _)| name.as_str());
+    let joints = joints.numbers("value", |(name, value)| Cell::quantity(*value, unit(name)));
+    let platforms = Table::of(&of.platforms.0).words("platform", |(name, _)| name.as_str());
+    let platforms = ["x", "y", "z"]
+        .into_iter()
+        .enumerate()
+        .fold(platforms, |table, (i, name)| {
+            table.numbers(name, move |(_, pose)| {
+                Cell::quantity(pose.frame.position[i], SiUnit::METRE)
+            })
+        });
+    let names = ["roll", "pitch", "yaw"].into_iter().enumerate();
+    let platforms = names.fold(platforms, |table, (i, name)| {
+        table.numbers(name, move |(_, pose)| {
+            Cell::quantity(pose.roll_pitch_yaw[i], SiUnit::RADIAN)
+        })
+    });
+    let mut section = section.table(joints);
+    if !of.platforms.is_empty() {
+        section = section.table(platforms);
+    }
+    section = section.text(format!(
+        "potential energy {}, forces left over {} N or N·m at most",
+        joules(of.potential),
+        size(of.left)
+    ));
+    if !of.outside_limits.is_empty() {
+        section = section.text(format!(
+            "outside their limits: {}",
+            listed(&of.outside_limits)
+        ));
+    }
+    if !of.modes.is_empty() {
+        section = section.section(modes(&of.modes, unit));
+    }
+    of.stiffness
+        .iter()
+        .fold(section, |section, of| section.section(matrix(of)))
+}
+
+fn modes(modes: &[Mode], unit: impl Fn(&str) -> SiUnit) -> Section {
+    let pace = |mode: &Mode| match (mode.frequency, mode.departure) {
+        (Some(frequency), _) => format!("{} Hz", number(frequency)),
+        (None, Some(rate)) => format!("departs at {} 1/s", number(rate)),
+        (None, None) => String::new(),
+    };
+    let shape = |mode: &Mode| {
+        let parts = mode.shape.0.iter().filter(|(_, x)| x.abs() > 1e-6);
+        let parts = parts.map(|(name, x)| format!("{name} {}", quantity(*x, unit(name))));
+        parts.collect::<Vec<_>>().join(", ")
+    };
+    let table = Table::of(modes).words("frequency", pace);
+    Section::new("Small oscillations, without damping").table(table.words("shape", shape))
+}
+
+fn matrix(of: &Stiffness) -> Section {
+    let (title, matrix, columns) = match &of.stiffness {
+        Some(stiffness) => (
+            format!(
+                "Stiffness of {} at its origin, in N, N·m, m and rad",
+                of.name
+            ),
+            stiffness,
+            ["x", "y", "z", "turn x", "turn y", "turn z"],
+        ),
+        None => (
+            format!(
+                "Compliance of {} at its origin, in m, rad, N and N·m",
+                of.name
+            ),
+            &of.compliance,
+            ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
+        ),
+    };
+    let rows = match of.stiffness {
+        Some(_) => ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
+        None => ["x", "y", "z", "turn x", "turn y", "turn z"],
+    };
+    let table = Table::of(rows.iter().zip(matrix)).words("", |(name, _)| *name);
+    let columns = columns.into_iter().enumerate();
+    let table = columns.fold(table, |table, (i, name)| {
+        table.numbers(name, move |(_, row)| row[i])
+    });
+    Section::new(title).table(table)
+}

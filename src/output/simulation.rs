@@ -1,0 +1,141 @@
+//! Simulated motions as documents and rows.
+
+use super::closing;
+use super::document::{Cell, Document, Section, Table};
+use super::quantity::{number, quantity, size};
+use super::report::{Report, Rows};
+use crate::algebra::SiUnit;
+use crate::analysis::simulation::{
+    Happened, NoSimulation, SimulationEnd, SimulationEvent, SimulationReport,
+};
+use crate::description::{count, listed};
+
+impl Report for SimulationReport {
+    fn document(&self) -> Document {
+        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
+        let document = Document::new(&self.mechanism, answer)
+            .yes_if(self.end == SimulationEnd::Over)
+            .warnings(closing::outside_limits(&self.pose.outside_limits))
+            .notes(closing::notes(&self.pose));
+        if self.rows.is_empty() {
+            return document;
+        }
+        let kind = match self.stiff {
+            true => " (stiff: implicit steps of order 5)",
+            false => "",
+        };
+        document
+            .note(balance(self))
+            .sections((!self.events.is_empty()).then(|| events(&self.events)))
+            .sections([motion(self)])
+            .method(format!(
+                "{} of the integrator{kind}; closures open by {} at most at the rows",
+                count(self.steps, "step"),
+                size(self.residual)
+            ))
+    }
+
+    fn rows(&self) -> Option<Rows<'_>> {
+        let columns = self.columns.iter();
+        let columns = columns.map(|column| format!("{} ({})", column.name, column.unit));
+        let rows = self.rows.iter();
+        Some(Rows::new(
+            columns,
+            rows.map(|row| row.iter().map(|x| Cell::from(*x)).collect()),
+        ))
+    }
+}
+
+fn sentence(report: &SimulationReport) -> String {
+    let time = quantity(report.reached, SiUnit::SECOND);
+    let freedoms = count(report.freedoms, "freedom");
+    match &report.end {
+        SimulationEnd::Over => format!("Moves for {time} with {freedoms}."),
+        SimulationEnd::Interrupted => format!("Interrupted after {time} of motion."),
+        SimulationEnd::Limit { joint, limit, unit } => {
+            let limit = quantity(*limit, *unit);
+            format!("After {time} {joint} is at its limit of {limit}, and the simulation ends.")
+        }
+        SimulationEnd::Singular => format!(
+            "After {time} the configuration is singular: branches of motion meet, and which one is taken is \
+             not determined. `--through` goes on straight."
+        ),
+        SimulationEnd::Stuck => format!(
+            "After {time} no further step is possible: a force has no value there, or the motion ends."
+        ),
+        SimulationEnd::NotBegun(why) => not_begun(why),
+    }
+}
+
+fn not_begun(why: &NoSimulation) -> String {
+    match why {
+        NoSimulation::Structure => "Nothing can move.".into(),
+        NoSimulation::Singular => {
+            "The start is singular: branches of motion meet there, and which one is taken \
+             is not determined. Start slightly away from it, e.g. with --hold."
+                .into()
+        }
+        NoSimulation::NoCoordinates => {
+            "No joints and platform coordinates determine the motion near the start.".into()
+        }
+        NoSimulation::NoMass(names) => format!(
+            "{} can move without moving any mass, so that the accelerations are not determined. Give the bodies \
+             that move a mass, or lock these with --lock.",
+            listed(names)
+        ),
+        NoSimulation::Rates => {
+            "The rates cannot be had together: the closures tie these coordinates.".into()
+        }
+        NoSimulation::NoForce => "A force has no value at the start.".into(),
+    }
+}
+
+fn balance(report: &SimulationReport) -> String {
+    let energy = &report.energy;
+    let joules = |x: f64| format!("{} J", number(x));
+    let lost = match energy.lost > 0.0 {
+        true => format!(", {} lost in impacts", joules(energy.lost)),
+        false => String::new(),
+    };
+    format!(
+        "kinetic and potential energy {} at the start, {} at the end, work of forces and dampers {}{lost}; \
+         the balance is kept to {} J at every row; kinetic energy up to {}",
+        joules(energy.start),
+        joules(energy.end),
+        joules(energy.supplied),
+        size(energy.error),
+        joules(energy.kinetic)
+    )
+}
+
+fn events(events: &[SimulationEvent]) -> Section {
+    let words = |of: &SimulationEvent| match &of.event {
+        Happened::Impact { joint, loss, .. } => {
+            format!(
+                "{joint} comes back from its limit; {} J lost",
+                number(*loss)
+            )
+        }
+        Happened::Singular => "branches of motion meet; it goes straight through".into(),
+    };
+    let table = Table::of(events);
+    let table = table.numbers("t", |of| Cell::quantity(of.time, SiUnit::SECOND));
+    Section::new("Events").table(table.words("", words))
+}
+
+/// Rows shown at most; more are thinned evenly.
+const SHOWN: usize = 21;
+
+fn motion(report: &SimulationReport) -> Section {
+    let every = report.rows.len().div_ceil(SHOWN).max(1);
+    let last = report.rows.len() - 1;
+    let rows = report.rows.iter().enumerate();
+    let rows = rows.filter(|(i, _)| i % every == 0 || *i == last);
+    let columns = report.columns.iter().enumerate();
+    let table = columns.fold(Table::of(rows), |table, (i, column)| {
+        table.numbers(column.name.clone(), |(_, row)| {
+            Cell::quantity(row[i], column.unit)
+        })
+    });
+    Section::new("Motion").table(table)
+}

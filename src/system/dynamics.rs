@@ -1,0 +1,393 @@
+//! Motion of a mechanism under its loads, in independent coordinates.
+
+mod chart;
+
+use super::{Coordinate, Freedoms, Instant, Load, Motion, Still, System};
+use crate::geometry::Vector3;
+use crate::linear::{add, dot, norm};
+use crate::mechanism::{Configuration, Mechanism};
+use chart::{Base, Chart, accelerations};
+
+/// The equations of motion of an assembled mechanism, M(q)·q̈ = Q(q, q̇, t), in independent coordinates q: joints and
+/// platform coordinates that determine all others near a configuration.
+///
+/// M and Q are the inertia and the power of what acts for unit rates of q, with everything else moved along by the
+/// closures (Kane and Levinson 1985; coordinate partitioning: Wehage and Haug 1982). Other coordinates are
+/// [chosen](Dynamics::choose) where these no longer lead well.
+pub struct Dynamics<'a> {
+    mechanism: &'a Mechanism,
+    load: &'a Load,
+    /// Coordinates that keep their values.
+    locked: Vec<Coordinate>,
+    still: Vec<Still>,
+    chart: Chart,
+    /// Rates of all unknowns for unit rates of each independent coordinate.
+    responses: Vec<Vec<f64>>,
+    residual: f64,
+    /// An assembled configuration with the values and responses there: closing begins from it along its path, so that
+    /// no branch is changed where branches come near.
+    base: Base,
+    /// Rates of the independent coordinates as last evaluated, and the accelerations of all unknowns while these stay.
+    latest: (Vec<f64>, Vec<f64>),
+}
+
+/// Forces, inertia and energies at an instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Accelerated {
+    /// Second derivatives of the independent coordinates, in m/s² and rad/s².
+    pub accelerations: Vec<f64>,
+    /// The power of what acts, inertia included, for a unit rate of each with no acceleration of these, in N and N·m.
+    pub forces: Vec<f64>,
+    /// The mass matrix, row by row, in kg, kg·m and kg·m².
+    pub mass: Vec<f64>,
+    /// Kinetic energy, in J.
+    pub kinetic: f64,
+    /// Potential energy of weights and springs, in J.
+    pub potential: f64,
+    /// The power of given forces less that of dampers, in W.
+    pub supplied: f64,
+}
+
+/// Reasons for which a mechanism has no equations of motion at a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoDynamics {
+    /// It has more freedoms there than nearby: branches of motion meet.
+    Singular,
+    /// No coordinates determine it.
+    NoCoordinates,
+}
+
+/// Corrections of accelerations for friction.
+const SETTLING: usize = 30;
+/// Faster than this, in rad and characteristic lengths, nothing may move for a unit rate of an independent coordinate.
+const FASTEST: f64 = 4.0;
+
+impl<'a> Dynamics<'a> {
+    /// The equations near an assembled configuration with so many freedoms left by what is locked.
+    ///
+    /// # Errors
+    /// If it is singular.
+    pub fn new(
+        mechanism: &'a Mechanism,
+        load: &'a Load,
+        (locked, still): (Vec<Coordinate>, Vec<Still>),
+        freedoms: usize,
+        at: &Configuration<f64>,
+    ) -> Result<Self, NoDynamics> {
+        let mut dynamics = Dynamics {
+            chart: Chart::at(mechanism, load, (&locked, &still), freedoms, at)?,
+            responses: Vec::new(),
+            residual: 0.0,
+            base: Base {
+                at: at.clone(),
+                values: Vec::new(),
+                responses: Vec::new(),
+                rates: Vec::new(),
+                curvature: Vec::new(),
+            },
+            latest: (Vec::new(), Vec::new()),
+            mechanism,
+            load,
+            locked,
+            still,
+        };
+        dynamics.mass().ok_or(NoDynamics::Singular)?;
+        dynamics.stand();
+        Ok(dynamics)
+    }
+
+    /// The independent coordinates.
+    pub fn coordinates(&self) -> &[Coordinate] {
+        &self.chart.coordinates[..self.chart.free]
+    }
+
+    /// The configuration last closed.
+    pub fn configuration(&self) -> &Configuration<f64> {
+        self.chart.tracker.configuration()
+    }
+
+    /// Rates of all unknowns ([`Motion::unknowns`]), dimensionless, as last evaluated.
+    pub fn rates(&self) -> &[f64] {
+        self.chart.motion.known()[0]
+    }
+
+    /// Rates of all unknowns for unit rates of each independent coordinate, as last evaluated.
+    pub fn responses(&self) -> &[Vec<f64>] {
+        &self.responses
+    }
+
+    /// The motion in which rates are.
+    pub fn motion(&self) -> &Motion {
+        &self.chart.motion
+    }
+
+    /// Values of the independent coordinates at a configuration, in m and rad.
+    pub fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
+        let coordinates = self.coordinates().iter();
+        coordinates.map(|of| of.of(self.mechanism, at)).collect()
+    }
+
+    /// The sizes of the independent coordinates' dimensionless units, in m and rad.
+    pub fn units(&self) -> Vec<f64> {
+        let coordinates = self.coordinates().iter();
+        coordinates.map(|of| of.scale(self.mechanism)).collect()
+    }
+
+    /// The configuration from which the mechanism is closed.
+    pub fn base(&self) -> &Configuration<f64> {
+        &self.base.at
+    }
+
+    /// Makes the configuration last evaluated that from which the mechanism is closed.
+    pub fn stand(&mut self) {
+        let at = self.configuration().clone();
+        self.base = Base {
+            values: self.values(&at),
+            responses: self.responses.clone(),
+            rates: std::mem::take(&mut self.latest.0),
+            curvature: std::mem::take(&mut self.latest.1),
+            at,
+        };
+    }
+
+    /// Goes to the assembled configuration with these values of the independent coordinates that is reached from the
+    /// [base](Dynamics::stand) along its path. False if there is none.
+    pub fn close(&mut self, values: &[f64]) -> bool {
+        let mechanism = self.mechanism;
+        let Base {
+            at: base,
+            values: from,
+            responses,
+            rates,
+            curvature,
+        } = &self.base;
+        let mut start = base.clone();
+        let mut move_all = vec![0.0; self.chart.motion.unknowns().len()];
+        let change: Vec<f64> = values
+            .iter()
+            .zip(from)
+            .map(|(to, from)| to - from)
+            .collect();
+        for (change, response) in change.iter().zip(responses) {
+            add(&mut move_all, *change, response);
+        }
+        // the time that the motion takes for as much of the way as it goes
+        let square = dot(rates, rates);
+        if square > 0.0 {
+            let time = dot(&change, rates) / square;
+            add(&mut move_all, 0.5 * time * time, curvature);
+        }
+        let dimensions = mechanism.dimensions();
+        let (joints, twists) = move_all.split_at(start.joints.len());
+        let joints = joints.iter().zip(&dimensions.joint_scales);
+        for (value, (change, scale)) in start.joints.iter_mut().zip(joints) {
+            *value += change * scale;
+        }
+        let length = dimensions.characteristic_length;
+        for (pose, twist) in start.platforms.iter_mut().zip(twists.chunks_exact(6)) {
+            let shift = Vector3([3, 4, 5].map(|k| twist[k] * length));
+            *pose = pose.moved_by(&Vector3([twist[0], twist[1], twist[2]]), shift);
+        }
+        let Chart {
+            coordinates,
+            free,
+            tracker,
+            ..
+        } = &mut self.chart;
+        let locked = coordinates[*free..].iter();
+        let locked: Vec<f64> = locked.map(|of| of.of(mechanism, base)).collect();
+        let value = |i: usize| values.get(i).copied().unwrap_or_else(|| locked[i - *free]);
+        tracker.restart(&start);
+        let found = tracker.solve_at(coordinates.iter().copied(), value);
+        self.residual = found.residual;
+        if !found.solved {
+            tracker.restart(base);
+        }
+        found.solved
+    }
+
+    /// The largest dimensionless residual of the closure equations where they were last solved.
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Chooses other independent coordinates if something moves much faster than these, and returns the rates of the new
+    /// ones for those of the old.
+    ///
+    /// # Errors
+    /// If the configuration is singular.
+    pub fn choose(&mut self, rates: &[f64]) -> Result<Option<Vec<f64>>, NoDynamics> {
+        let largest = |of: &Vec<f64>| of.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let units = self.coordinates().iter();
+        let mut units = units
+            .map(|of| of.scale(self.mechanism))
+            .zip(&self.responses);
+        if units.all(|(unit, of)| largest(of) * unit <= FASTEST) {
+            return Ok(None);
+        }
+        let (at, free) = (self.configuration().clone(), self.chart.free);
+        let fixed = (&self.locked[..], &self.still[..]);
+        let others = Chart::choice(self.mechanism, fixed, free, &at)?;
+        if others == self.chart.coordinates {
+            return Ok(None);
+        }
+        let rate = |of: &Coordinate| dot(&self.rates_of(*of), rates);
+        let rates = others[..free].iter().map(rate).collect();
+        self.chart = Chart::of(self.mechanism, self.load, &self.still, others, free, &at);
+        self.mass().ok_or(NoDynamics::Singular)?;
+        self.stand();
+        Ok(Some(rates))
+    }
+
+    /// The rate of a coordinate for unit rates of each independent coordinate where these were last evaluated.
+    pub fn rates_of(&self, of: Coordinate) -> Vec<f64> {
+        let joints = self.mechanism.joints().len();
+        let scale = of.scale(self.mechanism);
+        let slope: Vec<(usize, f64)> = match of {
+            Coordinate::Joint(joint) => vec![(joint, 1.0)],
+            Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
+                let pose = self.configuration().platforms[platform].pose();
+                let slope = of.slope(&pose, self.mechanism.characteristic_length());
+                (joints + 6 * platform..).zip(slope).collect()
+            }
+        };
+        let rate = |response: &Vec<f64>| {
+            let parts = slope.iter().map(|&(place, slope)| slope * response[place]);
+            scale * parts.sum::<f64>()
+        };
+        self.responses.iter().map(rate).collect()
+    }
+
+    /// The smallest singular value of the closure equations over the largest: 0 where branches of motion meet, 1 without
+    /// equations.
+    pub fn margin(&self) -> f64 {
+        let fixed = (&self.locked[..], &self.still[..]);
+        let at = self.configuration();
+        let held = Chart::held(self.mechanism, fixed, at);
+        let system = System::new(self.mechanism.dimensions(), &held);
+        let found = Freedoms::of(&system, at, &mut system.work());
+        match found.motions.len() > self.chart.free {
+            true => 0.0,
+            false => 1.0 / found.condition_of_determined(),
+        }
+    }
+
+    /// The mass matrix at the configuration last closed, row by row; `None` if the coordinates do not determine the
+    /// motion.
+    pub fn mass(&mut self) -> Option<Vec<f64>> {
+        let Chart {
+            free,
+            motion,
+            tracker,
+            balance,
+            ..
+        } = &mut self.chart;
+        motion.at(tracker.configuration());
+        if !motion.is_determined() {
+            return None;
+        }
+        let free = *free;
+        self.responses.resize(free, Vec::new());
+        for (i, response) in self.responses.iter_mut().enumerate() {
+            response.clear();
+            response.extend_from_slice(motion.response(i));
+        }
+        let mut mass = vec![0.0; free * free];
+        for i in 0..free {
+            for j in 0..=i {
+                let [a, b] = [&self.responses[i], &self.responses[j]];
+                let entry = balance.inertia(motion, a, b);
+                (mass[i * free + j], mass[j * free + i]) = (entry, entry);
+            }
+        }
+        Some(mass)
+    }
+
+    /// The power of what acts at rest for unit rates of the independent coordinates, in N and N·m, and the potential
+    /// energy, in J; `None` where coordinates do not determine the motion, or a force has no value.
+    pub fn at_rest(&mut self) -> Option<(Vec<f64>, f64)> {
+        self.mass()?;
+        let forces = self.powers(0.0, Some(0.0));
+        let potential = self.chart.balance.acting.potential;
+        let known = forces.iter().chain([&potential]).all(|x| x.is_finite());
+        known.then_some((forces, potential))
+    }
+
+    /// The size of all forces that act as last evaluated, times the characteristic length, and moments, in N·m.
+    pub fn size(&self) -> f64 {
+        let length = self.mechanism.characteristic_length();
+        let acting = &self.chart.balance.acting;
+        let wrenches = acting.wrenches.iter();
+        let wrenches = wrenches.map(|[force, moment]| force.norm() * length + moment.norm());
+        let scales = &self.mechanism.dimensions().joint_scales;
+        let efforts = acting.efforts.iter().zip(scales);
+        wrenches
+            .chain(efforts.map(|(x, scale)| x.abs() * scale))
+            .sum()
+    }
+
+    /// The power of all that acts for unit rates of the independent coordinates.
+    fn powers(&mut self, time: f64, impending: Option<f64>) -> Vec<f64> {
+        let Chart {
+            motion,
+            tracker,
+            balance,
+            ..
+        } = &mut self.chart;
+        let responses = self.responses.iter().map(|of| (&of[..], true));
+        let instant = Instant {
+            pace: [1.0, 0.0],
+            time,
+            impending,
+        };
+        balance.at(
+            motion,
+            tracker.configuration(),
+            &responses.collect::<Vec<_>>(),
+            instant,
+        );
+        balance.forces.iter().map(|held| -held).collect()
+    }
+
+    /// Evaluates the equations of motion at the configuration last closed, for rates of the independent coordinates in
+    /// m/s and rad/s. `None` if they do not determine the motion, or a force has no value.
+    pub fn evaluate(&mut self, rates: &[f64], time: f64) -> Option<Accelerated> {
+        let mass = self.mass()?;
+        let motion = &mut self.chart.motion;
+        let mut given = vec![0.0; self.chart.coordinates.len()];
+        given[..rates.len()].copy_from_slice(rates);
+        motion.rates(&given);
+        given.fill(0.0);
+        motion.accelerations(&given);
+        self.latest = (rates.to_vec(), motion.known()[1].to_vec());
+        let forces = self.powers(time, None);
+        let mut found = accelerations(&mass, &forces);
+        // friction depends on reactions, and these on accelerations: what is left unbalanced corrects them
+        for _ in 0..if self.load.has_friction() {
+            SETTLING
+        } else {
+            0
+        } {
+            given[..found.len()].copy_from_slice(&found);
+            self.chart.motion.accelerations(&given);
+            let correction = accelerations(&mass, &self.powers(time, None));
+            let (size, change) = (norm(&found), norm(&correction));
+            add(&mut found, 1.0, &correction);
+            if change <= 1e-13 * size || change == 0.0 {
+                break;
+            }
+        }
+        let acting = &self.chart.balance.acting;
+        let now = Accelerated {
+            accelerations: found,
+            kinetic: acting.kinetic,
+            potential: acting.potential,
+            supplied: acting.supplied,
+            forces,
+            mass,
+        };
+        let numbers = now.accelerations.iter().chain(&now.forces);
+        let known = numbers.chain([&now.potential]).all(|x| x.is_finite());
+        known.then_some(now)
+    }
+}

@@ -1,0 +1,373 @@
+//! Mechanisms that are let go, and rest positions, against published motions computed by two routes each.
+
+use std::fmt::Write as _;
+
+use linkwork::analysis::equilibrium::{EquilibriumReport, EquilibriumSettings, NoRest, Stability};
+use linkwork::analysis::simulation::{
+    Happened, NoSimulation, SimulationEnd, SimulationReport, SimulationSettings,
+};
+use linkwork::ask::Question;
+use linkwork::description::Description;
+use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
+use serde_json::Value;
+
+fn known() -> Value {
+    serde_json::from_str(include_str!("../data/let_go.json")).unwrap()
+}
+
+fn rows(of: &Value) -> Vec<Vec<f64>> {
+    let numbers = |row: &Value| {
+        row.as_array()
+            .unwrap()
+            .iter()
+            .map(|x| x.as_f64().unwrap())
+            .collect()
+    };
+    of["rows"].as_array().unwrap().iter().map(numbers).collect()
+}
+
+fn question(text: &str) -> Question {
+    Question::new(Mechanism::new(&Description::read(text).unwrap()).unwrap())
+}
+
+fn let_go(question: &Question, duration: f64, rows: usize) -> SimulationReport {
+    let settings = SimulationSettings {
+        duration,
+        rows,
+        ..SimulationSettings::default()
+    };
+    simulated(question, &settings)
+}
+
+fn simulated(question: &Question, settings: &SimulationSettings) -> SimulationReport {
+    question
+        .simulation(settings, &Watch::none())
+        .unwrap()
+        .closed()
+        .unwrap()
+}
+
+fn rest(question: &Question, all: bool) -> EquilibriumReport {
+    let settings = EquilibriumSettings {
+        all,
+        starts: 40,
+        ..EquilibriumSettings::default()
+    };
+    question
+        .equilibrium(&settings, &Watch::none())
+        .unwrap()
+        .closed()
+        .unwrap()
+}
+
+/// The values of columns at a time that is a row.
+fn at(report: &SimulationReport, time: f64, names: &[&str]) -> Vec<f64> {
+    let row = report
+        .rows
+        .iter()
+        .find(|row| (row[0] - time).abs() < 1e-9)
+        .unwrap();
+    let place = |name: &&str| {
+        report
+            .columns
+            .iter()
+            .position(|of| of.name == **name)
+            .unwrap()
+    };
+    names.iter().map(|name| row[place(name)]).collect()
+}
+
+fn near(found: &[f64], expected: &[f64], within: f64) {
+    for (a, b) in found.iter().zip(expected) {
+        assert!((a - b).abs() < within, "{found:?} instead of {expected:?}");
+    }
+}
+
+/// A four-bar with crank 0.1, coupler 0.3, rocker 0.2 and ground 0.38 m, its crank at 1 rad.
+const FOUR_BAR: &str = r#"Mechanism(
+    version: 1, name: "four-bar", convention: Modified,
+    joints: {
+        "theta": Actuated(home: 1, LIMITS), "A": Passive(home: -0.62364), "B": Passive(home: 1.8078),
+    },
+    chains: {
+        "left": Chain(rows: [(theta: "theta", link: "crank"), (a: 0.1, theta: "A", link: "coupler")], tip: [Tx(0.3)]),
+        "right": Chain(base: [Tx(0.38)], rows: [(theta: "B", link: "rocker")], tip: [Tx(0.2)]),
+    },
+    closures: { "pin": Revolute("left", "right") },
+    gravity: (0, -9.81, 0),
+    masses: {
+        "crank": (mass: 0.6, centre: ("0.03*cos(30 deg)", "0.03*sin(30 deg)", 0), inertia: 0.0012),
+        "coupler": (mass: 2, centre: ("0.16*cos(15 deg)", "0.16*sin(15 deg)", 0), inertia: 0.018),
+        "rocker": (mass: 1.5, centre: (0.1, 0, 0), inertia: 0.009),
+    },
+)"#;
+
+fn four_bar(limits: &str) -> Question {
+    question(&FOUR_BAR.replace("LIMITS", limits))
+}
+
+#[test]
+fn a_four_bar_that_is_let_go_keeps_its_energy_and_stays_closed() {
+    let report = let_go(&four_bar(""), 1.0, 10);
+    assert_eq!(
+        (report.end.clone(), report.freedoms),
+        (SimulationEnd::Over, 1)
+    );
+    for row in rows(&known()["four_bar"]) {
+        near(
+            &at(&report, row[0], &["theta", "rate:theta"]),
+            &row[1..],
+            1e-6,
+        );
+    }
+    assert!(
+        report.energy.error < 1e-8 && report.residual < 1e-11,
+        "{report:?}"
+    );
+    // with another mass the motion is another one
+    let heavier = question(
+        &FOUR_BAR
+            .replace("LIMITS", "")
+            .replace("mass: 2,", "mass: 2.1,"),
+    );
+    let heavier = at(&let_go(&heavier, 1.0, 10), 1.0, &["theta"]);
+    assert!((heavier[0] - at(&report, 1.0, &["theta"])[0]).abs() > 1e-3);
+}
+
+#[test]
+fn a_limit_ends_the_motion_or_sends_it_back_with_a_loss_of_energy() {
+    let stopped = four_bar("limits: (0, 2)");
+    let report = let_go(&stopped, 1.0, 10);
+    let SimulationEnd::Limit { joint, limit, .. } = &report.end else {
+        panic!("{:?}", report.end);
+    };
+    assert_eq!((joint.as_str(), *limit), ("theta", 0.0));
+    // the crank passes 0 between 0.2 and 0.3 s
+    assert!((0.2..0.21).contains(&report.reached), "{}", report.reached);
+    let settings = SimulationSettings {
+        restitution: Some(0.5),
+        ..SimulationSettings::default()
+    };
+    let report = simulated(&stopped, &settings);
+    let Some(Happened::Impact { loss, .. }) = report.events.first().map(|of| &of.event) else {
+        panic!("{:?}", report.events);
+    };
+    // three quarters of the kinetic energy of one freedom are lost
+    let gone = 5.127_766_561_725_37 - at_zero();
+    assert!((loss - 0.75 * gone).abs() < 1e-6, "{loss} of {gone}");
+    assert!(report.energy.error < 1e-8);
+}
+
+/// The potential energy of the four-bar with its crank along ground.
+fn at_zero() -> f64 {
+    let still = four_bar("").hold("theta", 0.0);
+    let report = let_go(&still, 1e-9, 1);
+    at(&report, 0.0, &["potential energy"])[0]
+}
+
+/// N four-bars side by side.
+fn four_bars(n: usize) -> Question {
+    let (mut joints, mut points, mut masses) = (String::new(), String::new(), String::new());
+    for i in 0..=n {
+        let role = if i == 0 { ", role: Actuated" } else { "" };
+        let _ = write!(
+            joints,
+            r#""v{i}": Revolute(point: ({i}, 0, 0), direction: (0, 0, 1), between: ("ground", "V{i}"){role}),"#
+        );
+        let _ = write!(points, r#""m{i}": (body: "V{i}", at: ({i}, 0.5, 0)),"#);
+        let _ = write!(
+            masses,
+            r#""m{i}": (mass: 1, shape: Rod(1), turned: [Rz("90 deg")]),"#
+        );
+    }
+    for (i, j) in (0..n).map(|i| (i, i + 1)) {
+        let _ = write!(
+            joints,
+            r#""a{i}": Revolute(point: ({i}, 1, 0), direction: (0, 0, 1), between: ("V{i}", "C{i}")),"#
+        );
+        let _ = write!(
+            joints,
+            r#""b{i}": Revolute(point: ({j}, 1, 0), direction: (0, 0, 1), between: ("C{i}", "V{j}")),"#
+        );
+        let _ = write!(points, r#""n{i}": (body: "C{i}", at: ({i}.5, 1, 0)),"#);
+        let _ = write!(masses, r#""n{i}": (mass: 1, shape: Rod(1)),"#);
+    }
+    question(&format!(
+        r#"Axes(version: 1, name: "four-bars", gravity: (0, -9.81, 0), joints: {{{joints}}}, points: {{{points}}}, masses: {{{masses}}})"#
+    ))
+}
+
+#[test]
+fn singular_positions_end_the_motion_or_are_passed_straight() {
+    for case in known()["n_four_bar"]["cases"].as_array().unwrap() {
+        let n = case["N"].as_u64().unwrap() as usize;
+        let question = four_bars(n).rate("v0", -1.0);
+        let ended = let_go(&question, 5.0, 20);
+        assert_eq!(ended.end, SimulationEnd::Singular);
+        let time = case["first_horizontal_time"].as_f64().unwrap();
+        assert!(
+            (ended.reached - time).abs() < 1e-6,
+            "{} instead of {time}",
+            ended.reached
+        );
+        let settings = SimulationSettings {
+            duration: 5.0,
+            rows: 20,
+            through: true,
+            ..SimulationSettings::default()
+        };
+        let report = simulated(&question, &settings);
+        assert_eq!(report.end, SimulationEnd::Over, "{n}");
+        // each crossing costs accuracy: two four-bars have crossed six times after 4 s
+        let until = if n == 1 { 5.0 } else { 3.0 };
+        for row in rows(case).iter().filter(|row| row[0] <= until) {
+            near(&at(&report, row[0], &["v0"]), &[-row[1]], 1e-6);
+        }
+    }
+}
+
+const BRICARD: &str = r#"Axes(version: 1, name: "Bricard", gravity: (0, -9.81, 0),
+    joints: {
+        "j0": Revolute(point: (0, 0, 0), direction: (0, 1, 0), between: ("ground", "b1"), role: Actuated),
+        "j1": Revolute(point: (1, 0, 0), direction: (0, 0, 1), between: ("b1", "b2")),
+        "j2": Revolute(point: (1, -1, 0), direction: (1, 0, 0), between: ("b2", "b3")),
+        "j3": Revolute(point: (1, -1, 1), direction: (0, 1, 0), between: ("b3", "b4")),
+        "j4": Revolute(point: (0, -1, 1), direction: (0, 0, 1), between: ("b4", "b5")),
+        "j5": Revolute(point: (0, 0, 1), direction: (1, 0, 0), between: ("b5", "ground")),
+    },
+    points: {
+        "m1": (body: "b1", at: (0.5, 0, 0)), "m2": (body: "b2", at: (1, -0.5, 0)), "m3": (body: "b3", at: (1, -1, 0.5)),
+        "m4": (body: "b4", at: (0.5, -1, 1)), "m5": (body: "b5", at: (0, -0.5, 1)),
+        "P2": (body: "b2", at: (1, -1, 0)), "P3": (body: "b3", at: (1, -1, 1)),
+    },
+    masses: {
+        "m1": (mass: 1, inertia: (0, "1/12", "1/12", 0, 0, 0)), "m2": (mass: 1, inertia: ("1/12", 0, "1/12", 0, 0, 0)),
+        "m3": (mass: 1, inertia: ("1/12", "1/12", 0, 0, 0, 0)), "m4": (mass: 1, inertia: (0, "1/12", "1/12", 0, 0, 0)),
+        "m5": (mass: 1, inertia: ("1/12", 0, "1/12", 0, 0, 0)),
+    },
+)"#;
+
+#[test]
+fn an_overconstrained_loop_falls() {
+    let report = let_go(&question(BRICARD).point("P2").point("P3"), 5.0, 50);
+    for row in rows(&known()["bricard"]) {
+        near(
+            &at(
+                &report,
+                row[0],
+                &["P2.x", "P2.y", "P2.z", "P3.x", "P3.y", "P3.z"],
+            ),
+            &row[1..7],
+            1e-6,
+        );
+    }
+    assert!(report.energy.error < 1e-8);
+}
+
+#[test]
+fn a_stiff_governor_is_simulated_by_implicit_steps() {
+    let folder = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/mechanisms/loads/flyball_governor.ron"
+    );
+    let question =
+        Question::new(Mechanism::load(folder).unwrap()).rate("spin", std::f64::consts::TAU);
+    let report = let_go(&question, 1.0, 10);
+    for row in rows(&known()["governor"])
+        .iter()
+        .filter(|row| row[0] <= 1.0)
+    {
+        near(&at(&report, row[0], &["s"]), &row[1..2], 1e-6);
+    }
+    assert!(report.stiff);
+}
+
+#[test]
+fn a_platform_rests_on_its_springs() {
+    let text = std::fs::read_to_string(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/mechanisms/three_rps.ron"
+    ))
+    .unwrap();
+    let spring =
+        |i: usize| format!(r#""k{i}": Spring(joint: "l{i}", stiffness: 2000, rest: 0.8),"#);
+    let loads = (1..=3).map(spring).collect::<String>();
+    let end = text.rfind(')').unwrap();
+    let text = format!(
+        r#"{}    gravity: (0, 0, -9.81), masses: {{ "top": (mass: 20, centre: (0.05, -0.03, 0.02)) }}, loads: {{ {loads} }},
+)"#,
+        &text[..end]
+    );
+    let report = rest(&question(&text), false);
+    let [position] = &report.positions[..] else {
+        panic!("{report:?}");
+    };
+    let known = &known()["three_rps"];
+    let numbers = |of: &Value| {
+        of.as_array()
+            .unwrap()
+            .iter()
+            .map(|x| x.as_f64().unwrap())
+            .collect::<Vec<f64>>()
+    };
+    let lengths = ["l1", "l2", "l3"].map(|name| *position.joints.get(name).unwrap());
+    near(&lengths, &numbers(&known["leg_lengths"]), 1e-8);
+    let top = position.platforms.get("top").unwrap();
+    near(
+        &top.frame.position,
+        &numbers(&known["position_of_platform_origin"]),
+        1e-8,
+    );
+    near(
+        &[position.potential],
+        &[known["energy"].as_f64().unwrap()],
+        1e-6,
+    );
+    assert_eq!(position.stability, Stability::Stable);
+    assert_eq!(position.modes.len(), 3);
+}
+
+#[test]
+fn rest_positions_of_a_pendulum_and_what_has_none() {
+    // a rod on a pin: it hangs, with ω² = 3g/(2l), or stands and departs at that rate
+    let pendulum = |masses: &str| {
+        question(&format!(
+            r#"Axes(version: 1, name: "pendulum", gravity: (0, -9.81, 0),
+                joints: {{ "pin": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: ("ground", "rod"), role: Actuated) }},
+                points: {{ "middle": (body: "rod", at: (1, 0, 0)) }}, masses: {{ {masses} }})"#
+        ))
+    };
+    let rod = pendulum(r#""middle": (mass: 3, shape: Rod(2))"#);
+    let report = rest(&rod, true);
+    let [hangs, stands] = &report.positions[..] else {
+        panic!("{report:?}");
+    };
+    let pace = (3.0 * 9.81 / 4.0f64).sqrt();
+    near(
+        &[
+            hangs.modes[0].frequency.unwrap() * std::f64::consts::TAU,
+            stands.modes[0].departure.unwrap(),
+        ],
+        &[pace, pace],
+        1e-6,
+    );
+    assert_eq!(
+        (hangs.stability, stands.stability),
+        (Stability::Stable, Stability::Unstable { directions: 1 })
+    );
+    assert_eq!(
+        rest(&rod.clone().lock("pin"), false).none,
+        Some(NoRest::Structure)
+    );
+    let massless = let_go(&pendulum(""), 1.0, 2);
+    assert_eq!(
+        massless.end,
+        SimulationEnd::NotBegun(NoSimulation::NoMass(vec!["pin".into()]))
+    );
+    // T = 2π·√(2l/(3g))·(1 + θ²/16 + 11θ⁴/3072 + …) for a swing of θ = 0.1
+    let swing = 0.1 - std::f64::consts::FRAC_PI_2;
+    let period = std::f64::consts::TAU / pace * (1.0 + 0.01 / 16.0 + 11.0e-4 / 3072.0);
+    let report = let_go(&rod.hold("pin", swing), period, 2);
+    near(&at(&report, period, &["pin"]), &[swing], 1e-7);
+}
