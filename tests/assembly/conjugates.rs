@@ -91,7 +91,10 @@ fn partners_that_the_search_missed_are_added_and_told() {
             };
             let report = report(name, &settings);
             assert_paired(&report);
-            assert!(report.exhausted && report.may_lack_some(), "{name}");
+            // where the seeds alone reach the known bound nothing is left to search for
+            let all = report.bound == Some(report.generic);
+            assert_eq!(report.exhausted, !all, "{name}, seed {seed}");
+            assert!(all || report.may_lack_some(), "{name}");
             missed += report.conjugates;
             let completeness = linkwork::output::assemblies::completeness(&report);
             let told = completeness.contains("conjugate");
