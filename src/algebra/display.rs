@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Expression, Node, Operator};
+use super::vocabulary::continues_name;
+use super::{Expression, Node, Operator, Unit};
 
 /// The precedence of the outermost operation of an expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -88,8 +89,14 @@ impl<N: Display> Display for Expression<N> {
                 if let Some(unit) = joined_unit(*operator, x, y) {
                     return write!(f, "{x}{}{unit}", operator.symbol());
                 }
+                let adjoins = ends_with_unit(x);
                 let (x, y) = (OperandPart(x, left), OperandPart(y, right));
                 match operator {
+                    Operator::Multiply | Operator::Divide
+                        if adjoins && begins_with_unit_word(&y.to_string()) =>
+                    {
+                        write!(f, "{x}{}({})", operator.symbol(), y.0)
+                    }
                     Operator::Add | Operator::Subtract => {
                         write!(f, "{x} {} {y}", operator.symbol())
                     }
@@ -106,6 +113,22 @@ impl<N: Display> Display for Expression<N> {
             }
         }
     }
+}
+
+/// True if the text of an expression ends with a unit, to which a further one would belong.
+fn ends_with_unit<N>(of: &Expression<N>) -> bool {
+    match &of.node {
+        Node::Quantity(..) => true,
+        Node::Negate(x) => ends_with_unit(x),
+        Node::Binary(operator, x, y) => joined_unit(*operator, x, y).is_some() || ends_with_unit(y),
+        _ => false,
+    }
+}
+
+/// True if a text begins with a word that would be read as a unit behind a quantity.
+fn begins_with_unit_word(text: &str) -> bool {
+    let end = text.find(|c| !continues_name(c)).unwrap_or(text.len());
+    Unit::from_word(&text[..end]).is_some()
 }
 
 /// The unit, with its power, that a number with a unit is multiplied with or divided by: `N/mm`, `m/s^2`.

@@ -112,7 +112,8 @@ impl<N> Expression<N> {
     ///
     /// Units decide in a number with its unit, in sums, and in products with plain numbers. What
     /// has a name without a unit as a factor, products and quotients of two units, powers and
-    /// inverse functions are not followed further: they fit anywhere.
+    /// inverse functions are not followed further: they fit anywhere,
+    /// but for forces and times in an angle or a length.
     ///
     /// # Errors
     /// With the first part whose unit does not fit.
@@ -122,9 +123,19 @@ impl<N> Expression<N> {
         of: &impl Fn(&N) -> Measure,
     ) -> Result<(), MeasureError> {
         let found = self.measure(of)?;
-        match found == wanted || matches!(found, Measure::Number | Measure::Open) {
-            true => Ok(()),
-            false => Err(self.refused(MeasureErrorKind::Wrong { wanted, found })),
+        let wrong = |found| Err(self.refused(MeasureErrorKind::Wrong { wanted, found }));
+        match found {
+            _ if found == wanted => Ok(()),
+            Measure::Number => Ok(()),
+            // an angle or a length has neither forces nor times in it
+            Measure::Open if matches!(wanted, Measure::Angle | Measure::Length) => {
+                match self.unit(&|name| of(name).si_unit()) {
+                    Ok(Some(unit)) if !unit.is_spatial() => wrong(Measure::Other(unit)),
+                    _ => Ok(()),
+                }
+            }
+            Measure::Open => Ok(()),
+            found => wrong(found),
         }
     }
 

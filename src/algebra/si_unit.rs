@@ -69,6 +69,12 @@ impl SiUnit {
         self.0[1] != 0
     }
 
+    /// True for products of angles and lengths.
+    pub fn is_spatial(self) -> bool {
+        let [_, force, _, time] = self.0;
+        force == 0 && time == 0
+    }
+
     /// True for rad.
     pub fn is_angle(self) -> bool {
         self == Self::RADIAN
