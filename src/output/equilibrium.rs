@@ -2,7 +2,7 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
-use super::quantity::{number, quantity, size};
+use super::quantity::{bound, number, quantity};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::equilibrium::{
@@ -112,9 +112,9 @@ fn position(report: &EquilibriumReport, of: &RestPosition, section: Section) -> 
         section = section.table(platforms);
     }
     section = section.text(format!(
-        "potential energy {}, forces left over {} N or N·m at most",
+        "potential energy {}, forces left over below {} N and N·m",
         joules(of.potential),
-        size(of.left)
+        bound(of.left)
     ));
     if !of.outside_limits.is_empty() {
         section = section.text(format!(

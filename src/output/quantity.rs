@@ -123,6 +123,13 @@ pub(super) fn if_any<S: AsRef<str>>(names: &[S], said: impl FnOnce(String) -> St
     }
 }
 
+/// The power of ten above a size that is rounding, whose digits say nothing.
+pub(super) fn bound(value: f64) -> String {
+    const LEAST: i32 = -12;
+    let power = (LEAST..300).find(|&power| value.abs() < 10f64.powi(power));
+    power.map_or("infinity".into(), |power| format!("1e{power}"))
+}
+
 pub(super) fn size(value: f64) -> String {
     match value {
         0.0 => "0".into(),

@@ -2,7 +2,7 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
-use super::quantity::{number, quantity, size};
+use super::quantity::{bound, number, quantity};
 use super::report::{Report, Rows};
 use crate::algebra::SiUnit;
 use crate::analysis::simulation::{
@@ -29,9 +29,9 @@ impl Report for SimulationReport {
             .sections((!self.events.is_empty()).then(|| events(&self.events)))
             .sections([motion(self)])
             .method(format!(
-                "{} of the integrator{kind}; closures open by {} at most at the rows",
+                "{} of the integrator{kind}; closures open by less than {} at the rows",
                 count(self.steps, "step"),
-                size(self.residual)
+                bound(self.residual)
             ))
     }
 
@@ -99,11 +99,11 @@ fn balance(report: &SimulationReport) -> String {
     };
     format!(
         "kinetic and potential energy {} at the start, {} at the end, work of forces and dampers {}{lost}; \
-         the balance is kept to {} J at every row; kinetic energy up to {}",
+         the balance is kept within {} J at every row; kinetic energy up to {}",
         joules(energy.start),
         joules(energy.end),
         joules(energy.supplied),
-        size(energy.error),
+        bound(energy.error),
         joules(energy.kinetic)
     )
 }
