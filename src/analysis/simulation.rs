@@ -240,8 +240,8 @@ fn begin<'a>(
     // links of no inertia about their own line do not spin
     if !massless.is_empty() && mobility.idle() > 0 {
         let still = locking.with_spins_still().still().to_vec();
-        let left = freedoms - still.len();
-        if left > 0 {
+        let left = freedoms.checked_sub(still.len());
+        if let Some(left) = left.filter(|left| *left > 0) {
             dynamics = begin(still, left)?;
             massless = self::massless(mechanism, &mut dynamics)?;
         }

@@ -26,6 +26,7 @@ pub struct Simulate {
     forces: Forces,
     /// Time simulated, in s
     #[arg(long, value_name = "SECONDS", default_value_t = SimulationSettings::default().duration)]
+    #[arg(value_parser = |text: &str| within(text, f64::MIN_POSITIVE, 1e9), allow_negative_numbers = true)]
     time: f64,
     /// Number of rows after the first, equal in time
     #[arg(long, value_name = "ROWS", default_value_t = SimulationSettings::default().rows)]
@@ -40,13 +41,15 @@ pub struct Simulate {
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     point: Vec<String>,
     /// Let joints come back from their limits with this part of their speed, instead of ending there
-    #[arg(long, value_name = "FACTOR")]
+    #[arg(long, value_name = "FACTOR", value_parser = |text: &str| within(text, 0.0, 1.0))]
+    #[arg(allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Go on straight through configurations at which branches of motion meet
     #[arg(long)]
     through: bool,
     /// Error of one step of the integrator, relative, and absolute in rad, characteristic lengths and these per s
     #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance)]
+    #[arg(value_parser = |text: &str| within(text, 1e-14, 1e-2), allow_negative_numbers = true)]
     error: f64,
     /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
@@ -71,5 +74,15 @@ impl Simulate {
         posed.answer(self.format, |question, watch| {
             question.simulation(&settings, watch)
         })
+    }
+}
+
+/// A number between two others.
+fn within(text: &str, least: f64, most: f64) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
+    match (least..=most).contains(&number) {
+        true => Ok(number),
+        false if least == f64::MIN_POSITIVE => Err(format!("it is more than 0 and at most {most}")),
+        false => Err(format!("it is between {least} and {most}")),
     }
 }
