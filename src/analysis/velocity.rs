@@ -3,6 +3,7 @@
 mod accuracy;
 mod centres;
 mod cut;
+mod determinant;
 mod frames;
 mod jacobian;
 mod planar;

@@ -205,7 +205,13 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
         rows if rows == jacobian.rows.len() => "",
         _ => "without the points followed: ",
     };
-    section.table(matrix).text(format!(
+    let directions = jacobian.directions.map(|[first, second, normal]| {
+        let [first, second, normal] = [&first, &second, &normal].map(triple);
+        format!(
+            "1 and 2 are components along {first} and {second} in the plane of motion, n is that along its normal {normal}"
+        )
+    });
+    section.table(matrix).list(directions).text(format!(
         "{without}rank {}, condition number {condition}, manipulability {}, with lengths divided by {}",
         jacobian.rank,
         number(jacobian.manipulability),

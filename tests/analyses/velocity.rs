@@ -925,3 +925,44 @@ fn a_planar_mechanism_has_a_square_jacobian_without_rows_of_zeros() {
     // a spatial mechanism keeps all rows
     assert_eq!(names(&load("three_rps"), &[]).0.len(), 6);
 }
+
+#[test]
+fn a_plane_that_is_turned_in_ground_has_the_same_square_jacobian() {
+    let text = std::fs::read_to_string(folder().join("planar_3rpr.ron")).unwrap();
+    let told = |text: &str| {
+        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let length = mechanism.characteristic_length();
+        let question = Question::new(&mechanism);
+        let answer = velocity(&question, &Drive::still(&question), &[], &Watch::none());
+        (answer.unwrap().closed().unwrap().jacobian.unwrap(), length)
+    };
+    let (own, length) = told(&text);
+    assert_eq!((own.rows.len(), own.directions), (3, None));
+    // every base and home, and so all of it, turned about x
+    for angle in [90.0, 30.0, -75.0] {
+        let turned = text.replace("base: [", &format!("base: [Rx(\"{angle} deg\"), "));
+        let turned = turned.replace("home: [", &format!("home: [Rx(\"{angle} deg\"), "));
+        let (found, size) = told(&turned);
+        assert!((size - length).abs() < 1e-12 * length);
+        assert_eq!((found.rows.len(), found.rank), (3, own.rank), "{angle}");
+        let pairs = [
+            (found.condition, own.condition),
+            (Some(found.manipulability), Some(own.manipulability)),
+            (
+                found.determinant.map(f64::abs),
+                own.determinant.map(f64::abs),
+            ),
+        ];
+        for (a, b) in pairs {
+            let (a, b) = (a.unwrap(), b.unwrap());
+            assert!((a - b).abs() < 1e-9 * b, "{a} for {b} at {angle}°");
+        }
+        let [first, second, normal] = match found.directions {
+            Some(directions) => directions.map(Vector3),
+            None => continue,
+        };
+        // right-handed, and n across x, about which it was turned
+        let apart = first.cross(&second) - normal;
+        assert!(apart.norm() < 1e-12 && normal.0[0].abs() < 1e-12);
+    }
+}

@@ -2,20 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::determinant::determinant;
 use super::frames::Spins;
+use super::plane::{Directions, in_plane};
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
 use crate::linear::{CANCELLED, Factorable, RANK_TOLERANCE, rank, singular_values};
 use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
 use crate::number::Number;
-use crate::number::tolerance::ROUNDING;
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
-/// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane of ground it
-/// has no rows across that plane: a platform has two velocities and one angular velocity.
+/// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane it has no
+/// rows across that plane: a platform has two velocities and one angular velocity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct InputOutput {
+    /// Ground directions of components 1, 2 (in the plane) and n (normal) where it is not along two axes of ground.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub directions: Option<[[f64; 3]; 3]>,
     /// The outputs.
     pub rows: Vec<Axis>,
     /// The inputs.
@@ -68,9 +72,13 @@ pub(super) fn followed(outputs: &[Lock], points: &[Point]) -> Vec<Lock> {
 }
 
 /// Names of the rows of an output, each true if it is the rate of an angle.
-fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
+fn rows_of(mechanism: &Mechanism, output: Lock, directions: &Directions) -> Vec<(String, bool)> {
+    let letters = match directions.skew {
+        Some(_) => ["1", "2", "n"],
+        None => ["x", "y", "z"],
+    };
     let components = |point: Point, kind: &str| {
-        ["x", "y", "z"].map(|axis| {
+        letters.map(|axis| {
             let name = format!("{} {kind}{axis}", point.name(mechanism));
             (name, kind == "ω")
         })
@@ -88,29 +96,25 @@ fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
     }
 }
 
-/// For each row of an output false if it is zero in every motion, as across the plane of a planar mechanism; `normal` is
-/// the axis of ground along the normal of the plane, if it is one.
-fn kept(output: Lock, normal: Option<usize>) -> Vec<bool> {
-    let in_plane =
-        |is_turn: bool, axis: usize| normal.is_none_or(|normal| is_turn == (axis == normal));
-    let three = |is_turn| [0, 1, 2].map(|axis| in_plane(is_turn, axis));
+/// For each row of an output false if it is zero in every motion, as across the plane of a planar mechanism.
+fn kept(output: Lock, directions: &Directions) -> Vec<bool> {
+    let three = |is_turn| [0, 1, 2].map(|axis| in_plane(is_turn, axis, directions.normal));
+    let normal = directions.normal_axis();
     match output {
         Lock::Frame(_) => [three(true), three(false)].concat(),
         Lock::Point(_) => three(false).to_vec(),
-        Lock::Coordinate(Coordinate::Turn(_, axis)) => vec![in_plane(true, axis as usize)],
+        Lock::Coordinate(Coordinate::Turn(_, axis)) => vec![in_plane(true, axis as usize, normal)],
         // roll and pitch may both change where the plane is not across z
         Lock::Coordinate(Coordinate::Pose(_, c)) if !c.is_angle() || normal == Some(2) => {
-            vec![in_plane(c.is_angle(), c as usize % 3)]
+            vec![in_plane(c.is_angle(), c as usize % 3, normal)]
         }
         Lock::Coordinate(_) => vec![true],
     }
 }
 
 /// For each row of some outputs true if the Jacobian has it.
-fn rows_kept(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<bool> {
-    let plane = mechanism.plane_of_motion();
-    let normal = plane.and_then(|normal| (0..3).find(|&k| normal.0[k].abs() > 1.0 - ROUNDING));
-    let rows = outputs.iter().flat_map(|&output| kept(output, normal));
+fn rows_kept(directions: &Directions, outputs: &[Lock]) -> Vec<bool> {
+    let rows = outputs.iter().flat_map(|&output| kept(output, directions));
     rows.collect()
 }
 
@@ -120,10 +124,11 @@ pub(crate) fn axes(
     outputs: &[Lock],
     inputs: &[Coordinate],
 ) -> [Vec<Axis>; 2] {
-    let rows = outputs
-        .iter()
-        .flat_map(|&output| rows_of(mechanism, output));
-    let kept = rows.zip(rows_kept(mechanism, outputs)).filter(|row| row.1);
+    let directions = Directions::of(mechanism);
+    let rows = (outputs.iter()).flat_map(|&output| rows_of(mechanism, output, &directions));
+    let kept = rows
+        .zip(rows_kept(&directions, outputs))
+        .filter(|row| row.1);
     let inputs = inputs.iter();
     [
         kept.map(|((name, is_angle), _)| Axis::new(name, is_angle))
@@ -138,7 +143,8 @@ pub(crate) fn axes(
 pub(crate) fn row_count(mechanism: &Mechanism, outputs: &[Lock]) -> usize {
     let is_point = |output: &Lock| matches!(output, Lock::Point(_));
     let (points, others): (Vec<Lock>, Vec<Lock>) = outputs.iter().copied().partition(is_point);
-    let [points, others] = [points, others].map(|of| rows_kept(mechanism, &of));
+    let directions = Directions::of(mechanism);
+    let [points, others] = [points, others].map(|of| rows_kept(&directions, &of));
     let count = |rows: Vec<bool>| rows.into_iter().filter(|kept| *kept).count();
     match count(others) {
         0 => count(points),
@@ -146,48 +152,15 @@ pub(crate) fn row_count(mechanism: &Mechanism, outputs: &[Lock]) -> usize {
     }
 }
 
-/// The determinant of a square matrix, by elimination with the largest pivot of each column; none where such a pivot is
-/// small, if many matrices are eliminated in the order of one.
-fn determinant<T: Number>(size: usize, entries: &[T]) -> Option<T> {
-    /// Pivots below this part of their size where the order was chosen are small.
-    const SMALL: f64 = 1e-3;
-    let mut matrix = entries.to_vec();
-    let mut product = T::one();
-    for k in 0..size {
-        let size_of = |row: &usize| matrix[k * size + row].real().abs();
-        let pivot = (k..size).max_by(|a, b| size_of(a).total_cmp(&size_of(b)));
-        let pivot = pivot.unwrap_or(k);
-        if pivot != k {
-            (0..size).for_each(|column| matrix.swap(column * size + k, column * size + pivot));
-            product = -product;
-        }
-        let top = matrix[k * size + k];
-        product *= top;
-        if k + 1 == size || top == T::zero() {
-            break;
-        }
-        if (top.abs()).less(T::from_f64(SMALL * top.real().abs())) {
-            return None;
-        }
-        for row in k + 1..size {
-            let factor = matrix[k * size + row] / top;
-            for column in k..size {
-                let change = factor * matrix[column * size + k];
-                matrix[column * size + row] -= change;
-            }
-        }
-    }
-    Some(product)
-}
-
 /// The map from rates of the inputs to those of the outputs, planned once.
 pub(crate) struct Outputs<'m, T = f64> {
     mechanism: &'m Mechanism,
     outputs: Vec<Lock>,
+    directions: Directions,
     twists: FrameTwists<T>,
     /// For each row of all outputs, true if the Jacobian has it.
     kept: Vec<bool>,
-    /// Scales of the rows, then of the columns.
+    /// Of the rows, then of the columns.
     scales: [Vec<f64>; 2],
     /// Number of rows at the end that belong to points followed.
     followed: usize,
@@ -197,7 +170,7 @@ pub(crate) struct Outputs<'m, T = f64> {
 pub(crate) struct Normalised<T = f64> {
     rows: usize,
     columns: usize,
-    /// With units and all rows, column by column.
+    /// With units, column by column.
     given: Vec<T>,
     /// Column by column.
     entries: Vec<T>,
@@ -273,10 +246,11 @@ impl<'m, T: Factorable> Outputs<'m, T> {
         let twists = FrameTwists::sharing(motion.kinematics(), &dimensions, unknowns, &points);
         let length = mechanism.characteristic_length();
         let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
-        let kept = rows_kept(mechanism, &outputs);
+        let directions = Directions::of(mechanism);
+        let kept = rows_kept(&directions, &outputs);
         let rows = outputs
             .iter()
-            .flat_map(|&output| rows_of(mechanism, output))
+            .flat_map(|&output| rows_of(mechanism, output, &directions))
             .zip(&kept)
             .filter_map(|(row, kept)| kept.then_some(row));
         let followed: Vec<Lock> = (outputs.iter().copied())
@@ -288,11 +262,12 @@ impl<'m, T: Factorable> Outputs<'m, T> {
                 rows.map(|(_, is_angle)| scale(is_angle)).collect(),
                 columns.map(|of| scale(of.is_angle(mechanism))).collect(),
             ],
-            followed: rows_kept(mechanism, &followed)
+            followed: rows_kept(&directions, &followed)
                 .iter()
                 .filter(|kept| **kept)
                 .count(),
             kept,
+            directions,
             twists,
             outputs,
             mechanism,
@@ -316,15 +291,16 @@ impl<'m, T: Factorable> Outputs<'m, T> {
             let twist = place.map(|i| self.twists.twist(i, placement, rates));
             match (*output, twist) {
                 (Lock::Frame(of), Some(Twist { omega, velocity })) => {
-                    column.extend(without(&omega, spins.lines_of(of)).0);
-                    column.extend(velocity.0);
+                    let omega = without(&omega, spins.lines_of(of));
+                    column.extend(self.directions.components(omega));
+                    column.extend(self.directions.components(velocity));
                 }
                 (Lock::Point(point), Some(Twist { omega, velocity })) => {
                     let spin = omega - without(&omega, spins.lines_of(point.frame));
                     let frame = place.map(|i| self.twists.frame(i, placement).rotation);
                     let arm = frame.map(|frame| frame * Vector3(point.offset.map(T::from_f64)));
                     let turned = arm.map_or(Vector3::zero(), |arm| spin.cross(&arm));
-                    column.extend((velocity - turned).0);
+                    column.extend(self.directions.components(velocity - turned));
                 }
                 (Lock::Coordinate(Coordinate::Turn(_, axis)), Some(twist)) => {
                     column.push(twist.omega.0[axis as usize]);
@@ -395,6 +371,7 @@ impl Outputs<'_> {
         let columns = normalised.given.chunks_exact(count.max(1));
         let entries = (0..count).map(|row| columns.clone().map(|column| column[row]).collect());
         InputOutput {
+            directions: (self.directions.skew).map(|ways| ways.map(|way| way.0)),
             followed: self.followed,
             rank: rank(&values),
             loss: values.len() - rank(&values),
