@@ -8,7 +8,7 @@ use linkwork::ask::Question;
 use linkwork::solve::Watch;
 
 use crate::generator::Dice;
-use crate::invariants::{Broken, read};
+use crate::invariants::{Broken, Budget, mobility, read};
 
 type Point = [f64; 2];
 
@@ -34,8 +34,9 @@ struct Linkage {
     lengths: Option<[f64; 4]>,
 }
 
-fn linkage(dice: &mut Dice) -> Linkage {
-    let mut point = |reach: f64| [reach * dice.signed(), reach * dice.signed()];
+/// With `width` 0 all its points lie on one line.
+fn linkage(dice: &mut Dice, width: f64) -> Linkage {
+    let mut point = |reach: f64| [reach * dice.signed(), width * reach * dice.signed()];
     let (ground, a, b) = (point(2.0), point(1.5), point(2.0));
     let (c, d, second) = (point(2.0), point(2.0), point(2.0));
     let origin = [0.0; 2];
@@ -163,7 +164,7 @@ fn passes(report: &CircuitsReport, value: f64, period: f64) -> usize {
 
 /// Circuits are whole, as many as Grashof says, and pass each value of the input as often as there are assemblies.
 pub fn check(seed: u64) -> Result<(), (String, String)> {
-    let linkage = linkage(&mut Dice::new(seed));
+    let linkage = linkage(&mut Dice::new(seed), 1.0);
     kept(&linkage, seed).map_err(|broken| (broken, linkage.text))
 }
 
@@ -204,6 +205,65 @@ fn kept(linkage: &Linkage, seed: u64) -> Broken {
                 "q0 = {value}: {found} assemblies, passed {passes} times"
             ));
         }
+    }
+    Ok(())
+}
+
+/// Freedoms add up at and beside singular poses: dead points of the input, and poses in which all bars lie on one line.
+pub fn check_singular(seed: u64) -> Result<(), (String, String)> {
+    let flat = linkage(&mut Dice::new(seed), 0.0);
+    let bent = linkage(&mut Dice::new(seed), 1.0);
+    beside_dead_points(&bent, seed).map_err(|broken| (broken, bent.text))?;
+    beside_home(&flat).map_err(|broken| (broken, flat.text))
+}
+
+/// Distances from a singular pose.
+const BESIDE: [f64; 6] = [0.0, 1e-1, 1e-3, 1e-5, 1e-7, 1e-9];
+
+/// Answers are given up after as many calls of a watch.
+const BUDGET: Budget = Budget { steps: 20_000 };
+
+fn beside_home(linkage: &Linkage) -> Broken {
+    let mechanism = read(&linkage.text)?;
+    for (joint, home) in mechanism.home().joints.iter().enumerate() {
+        let name = mechanism.joints()[joint].name.as_str();
+        for distance in BESIDE {
+            let question = Question::new(mechanism.clone()).hold(name, home + distance);
+            mobility(&question, &BUDGET)
+                .map_err(|e| format!("{name} at home + {distance:e}: {e}"))?;
+        }
+    }
+    Ok(())
+}
+
+fn beside_dead_points(linkage: &Linkage, seed: u64) -> Broken {
+    let mechanism = read(&linkage.text)?;
+    let question = Question::new(mechanism.clone());
+    let report = question.circuits(&Watch::none());
+    let report = report.map_err(|e| format!("circuits: {e}"))?;
+    let circuits = report.circuits.iter().filter(|of| !of.branches[0].turns);
+    // one of them, for each takes its time
+    let circuits: Vec<_> = circuits.collect();
+    let Some(circuit) = circuits.get(seed as usize % circuits.len().max(1)) else {
+        return Ok(());
+    };
+    let inward = |row: &&Vec<f64>| row[0];
+    let lowest = circuit
+        .course
+        .iter()
+        .min_by(|a, b| inward(a).total_cmp(&inward(b)));
+    let row = lowest.ok_or("a circuit without a course")?;
+    let low = circuit.branches.iter().map(|of| of.low);
+    let low = low.fold(f64::INFINITY, f64::min);
+    for distance in BESIDE {
+        // the others are as far away as its square root
+        let value = low + distance * distance;
+        let names = mechanism.joints().iter().map(|joint| &joint.name);
+        let guessed = names.zip(row).skip(1);
+        let near = guessed.fold(question.clone().hold("q0", value), |question, (name, x)| {
+            question.guess(name, *x)
+        });
+        mobility(&near, &BUDGET).map_err(|e| format!("dead point + {distance:e}: {e}"))?;
     }
     Ok(())
 }

@@ -92,7 +92,7 @@ fn said(report: &impl Report) -> (String, bool) {
     (words.join("\n"), report.is_yes())
 }
 
-fn mobility(question: &Question, budget: &Budget) -> Broken {
+pub fn mobility(question: &Question, budget: &Budget) -> Broken {
     let mut reports: Vec<MobilityReport> = Vec::new();
     for seed in [1, 2] {
         let (answer, left) = budget.spend(|watch| question.clone().seed(seed).mobility(watch));
@@ -118,6 +118,13 @@ fn mobility(question: &Question, budget: &Budget) -> Broken {
             report.rank,
             report.redundant,
             report.equations
+        );
+        hold!(
+            report.rank + report.infinitesimal == report.unknowns || report.gimbal_locked > 0,
+            "rank {} and {} infinitesimal freedoms of {} unknowns: {words}",
+            report.rank,
+            report.infinitesimal,
+            report.unknowns
         );
         let regular = matches!(report.character, Character::Regular | Character::Structure);
         hold!(

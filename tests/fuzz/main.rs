@@ -65,10 +65,20 @@ fn circuits_of_random_linkages_hold_every_assembly() {
 }
 
 #[test]
+fn freedoms_add_up_beside_singular_poses() {
+    for seed in 0..12 {
+        if let Err((broken, text)) = circuits::check_singular(seed) {
+            panic!("seed {seed}: {broken}\n{text}");
+        }
+    }
+}
+
+#[test]
 #[ignore = "takes as long as one likes: FUZZ=0..1000"]
 fn circuits_of_many_random_linkages_hold_every_assembly() {
     let seeds = range(&std::env::var("FUZZ").unwrap_or("0..200".into()));
-    let broken = seeds.filter_map(|seed| Some((seed, circuits::check(seed).err()?)));
+    let checked = |seed| circuits::check(seed).and_then(|()| circuits::check_singular(seed));
+    let broken = seeds.filter_map(|seed| Some((seed, checked(seed).err()?)));
     let broken: Vec<_> = broken.collect();
     for (seed, (said, text)) in &broken {
         eprintln!("seed {seed}: {said}\n{text}");
