@@ -101,6 +101,15 @@ pub enum NoRest {
     NoForce,
 }
 
+impl From<NoDynamics> for NoRest {
+    fn from(why: NoDynamics) -> Self {
+        match why {
+            NoDynamics::Singular | NoDynamics::NoCoordinates => NoRest::Singular,
+            NoDynamics::NoForce => NoRest::NoForce,
+        }
+    }
+}
+
 /// Finds rest positions near the assembled configuration of a question: configurations at which the forces that act are
 /// in balance along every motion.
 ///
@@ -180,10 +189,7 @@ struct Start<'a> {
 impl<'a> Start<'a> {
     fn dynamics(&self, at: &Configuration<f64>) -> Result<Dynamics<'a>, NoRest> {
         let held = self.held.clone();
-        let found = Dynamics::new(self.mechanism, self.load, held, self.freedoms, at);
-        found.map_err(|why| match why {
-            NoDynamics::Singular | NoDynamics::NoCoordinates => NoRest::Singular,
-        })
+        Ok(Dynamics::new(self.mechanism, self.load, held, self.freedoms, at)?)
     }
 
     /// The rest position downhill, or uphill for −1.
@@ -201,7 +207,7 @@ impl<'a> Start<'a> {
     }
 
     fn position(&self, dynamics: &mut Dynamics) -> Result<RestPosition, NoRest> {
-        oscillation::position(self.mechanism, dynamics).ok_or(NoRest::NoForce)
+        oscillation::position(self.mechanism, dynamics)
     }
 
     /// Adds the rest positions to which random starts lead.

@@ -233,6 +233,7 @@ fn begin<'a>(
         Dynamics::new(mechanism, load, held, freedoms, at).map_err(|why| match why {
             NoDynamics::Singular => NoSimulation::Singular,
             NoDynamics::NoCoordinates => NoSimulation::NoCoordinates,
+            NoDynamics::NoForce => NoSimulation::NoForce,
         })
     };
     let mut dynamics = begin(Vec::new(), freedoms)?;

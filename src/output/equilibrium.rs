@@ -34,11 +34,17 @@ fn sentence(report: &EquilibriumReport) -> String {
         return none(why).into();
     }
     match (&report.positions[..], report.starts) {
-        ([one], 0) => format!(
-            "Rests {}, with {} of potential energy.",
-            stability(one),
-            joules(one.potential)
-        ),
+        ([one], 0) => {
+            let outside = match &one.outside_limits[..] {
+                [] => String::new(),
+                joints => format!("; outside the limits of {}", listed(joints)),
+            };
+            format!(
+                "Rests {}, with {} of potential energy{outside}.",
+                stability(one),
+                joules(one.potential)
+            )
+        }
         (all, starts) => {
             let stable = all
                 .iter()

@@ -255,17 +255,6 @@ impl Integrator {
         }
     }
 
-    /// Begins at a time and state with a step of this length.
-    pub fn restart(
-        &mut self,
-        flow: &mut dyn Flow,
-        (time, state): (f64, &[f64]),
-        step: f64,
-    ) -> Result<(), TooShort> {
-        self.step = step;
-        self.start(flow, time, state)
-    }
-
     /// True once the problem was found to be stiff.
     pub fn is_stiff(&self) -> bool {
         self.stiff

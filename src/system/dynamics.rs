@@ -55,6 +55,8 @@ pub enum NoDynamics {
     Singular,
     /// No coordinates determine it.
     NoCoordinates,
+    /// A force has no value.
+    NoForce,
 }
 
 /// Corrections of accelerations for friction.
@@ -304,13 +306,18 @@ impl<'a> Dynamics<'a> {
     }
 
     /// The power of what acts at rest for unit rates of the independent coordinates, in N and N·m, and the potential
-    /// energy, in J; `None` where coordinates do not determine the motion, or a force has no value.
-    pub fn at_rest(&mut self) -> Option<(Vec<f64>, f64)> {
-        self.mass()?;
+    /// energy, in J.
+    ///
+    /// # Errors
+    /// Where coordinates do not determine the motion, or a force has no value.
+    pub fn at_rest(&mut self) -> Result<(Vec<f64>, f64), NoDynamics> {
+        self.mass().ok_or(NoDynamics::Singular)?;
         let forces = self.powers(0.0, Some(0.0));
         let potential = self.chart.balance.acting.potential;
         let known = forces.iter().chain([&potential]).all(|x| x.is_finite());
-        known.then_some((forces, potential))
+        known
+            .then_some((forces, potential))
+            .ok_or(NoDynamics::NoForce)
     }
 
     /// The size of all forces that act as last evaluated, times the characteristic length, and moments, in N·m.

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use super::NoRest;
 use crate::linear::{Decomposition, dot, norm};
+use crate::number::tolerance::SUMMED;
 use crate::solve::walk_down;
 use crate::system::Dynamics;
 
@@ -14,11 +15,14 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
     /// The first step of a walk, in rad and characteristic lengths.
     const FIRST: f64 = 0.3;
     for _ in 0..ROUNDS {
-        let (forces, potential) = dynamics.at_rest().ok_or(NoRest::NoForce)?;
+        let (forces, potential) = dynamics.at_rest()?;
         dynamics.stand();
         let units = dynamics.units();
         let slope = norm(&scaled(&forces, &units));
-        if slope == 0.0 || is_near_rest(dynamics, &forces) {
+        if is_balanced(dynamics, &forces) {
+            return Ok(());
+        }
+        if is_near_rest(dynamics, &forces) {
             return settle(dynamics);
         }
         let start = dynamics.values(dynamics.configuration());
@@ -29,7 +33,7 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
         let here = |x: &[f64]| {
             let mut dynamics = shared.borrow_mut();
             let closed = dynamics.close(&scaled(x, &units));
-            closed.then(|| dynamics.at_rest()).flatten()
+            closed.then(|| dynamics.at_rest().ok()).flatten()
         };
         let cost = |x: &[f64]| match here(x) {
             Some((_, energy)) => sign * (energy - potential) * size,
@@ -47,7 +51,7 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
         let lowest = walk_down(start.clone(), cost, gradient);
         let gone = lowest.iter().zip(&start).map(|(a, b)| (a - b).abs());
         let gone = gone.fold(0.0, f64::max);
-        if !dynamics.close(&scaled(&lowest, &units)) || dynamics.at_rest().is_none() {
+        if !dynamics.close(&scaled(&lowest, &units)) || dynamics.at_rest().is_err() {
             return Err(NoRest::Endless);
         }
         dynamics.stand();
@@ -55,7 +59,7 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
             return settle(dynamics);
         }
         let rates = vec![0.0; units.len()];
-        dynamics.choose(&rates).map_err(|_| NoRest::Singular)?;
+        dynamics.choose(&rates)?;
     }
     Err(NoRest::Endless)
 }
@@ -67,11 +71,14 @@ pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
     /// A step shorter than this arrives.
     const ARRIVED: f64 = 1e-11;
     for _ in 0..STEPS {
-        let (forces, _) = dynamics.at_rest().ok_or(NoRest::NoForce)?;
+        let (forces, _) = dynamics.at_rest()?;
         dynamics.stand();
+        if is_balanced(dynamics, &forces) {
+            return Ok(());
+        }
         let units = dynamics.units();
         let free = units.len();
-        let hessian = hessian(dynamics).ok_or(NoRest::NoForce)?;
+        let hessian = hessian(dynamics)?;
         let mut step = Decomposition::of(free, free, &hessian).solve(&forces);
         let long = step.iter().zip(&units).map(|(x, unit)| (x / unit).abs());
         let long = long.fold(0.0, f64::max);
@@ -80,7 +87,7 @@ pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
         }
         let values = dynamics.values(dynamics.configuration());
         let to: Vec<f64> = values.iter().zip(&step).map(|(a, b)| a + b).collect();
-        if !dynamics.close(&to) || dynamics.at_rest().is_none() {
+        if !dynamics.close(&to) || dynamics.at_rest().is_err() {
             return Err(NoRest::Endless);
         }
         dynamics.stand();
@@ -88,20 +95,25 @@ pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
             return Ok(());
         }
         let still = vec![0.0; free];
-        dynamics.choose(&still).map_err(|_| NoRest::Singular)?;
+        dynamics.choose(&still)?;
     }
-    let (forces, _) = dynamics.at_rest().ok_or(NoRest::NoForce)?;
+    let (forces, _) = dynamics.at_rest()?;
     match is_near_rest(dynamics, &forces) {
         true => Ok(()),
         false => Err(NoRest::Endless),
     }
 }
 
+/// True if the forces left over are rounding of those that act.
+fn is_balanced(dynamics: &Dynamics, forces: &[f64]) -> bool {
+    norm(&scaled(forces, &dynamics.units())) <= SUMMED * dynamics.size()
+}
+
 /// True if the forces are so small that the rest position is within 1e-6 rad and characteristic lengths.
 fn is_near_rest(dynamics: &mut Dynamics, forces: &[f64]) -> bool {
     const NEAR: f64 = 1e-6;
     let units = dynamics.units();
-    let Some(hessian) = hessian(dynamics) else {
+    let Ok(hessian) = hessian(dynamics) else {
         return false;
     };
     let step = Decomposition::of(units.len(), units.len(), &hessian).solve(forces);
@@ -118,7 +130,7 @@ fn is_near_rest(dynamics: &mut Dynamics, forces: &[f64]) -> bool {
 }
 
 /// −∂Q/∂q at the base, row by row and symmetric, by central differences of fourth order.
-pub(super) fn hessian(dynamics: &mut Dynamics) -> Option<Vec<f64>> {
+pub(super) fn hessian(dynamics: &mut Dynamics) -> Result<Vec<f64>, NoRest> {
     const STEP: f64 = 1e-3;
     let units = dynamics.units();
     let free = units.len();
@@ -129,7 +141,7 @@ pub(super) fn hessian(dynamics: &mut Dynamics) -> Option<Vec<f64>> {
             let mut to = base.clone();
             to[i] += steps * STEP * unit;
             if !dynamics.close(&to) {
-                return None;
+                return Err(NoRest::Endless);
             }
             let (forces, _) = dynamics.at_rest()?;
             for (row, force) in forces.iter().enumerate() {
@@ -141,7 +153,10 @@ pub(super) fn hessian(dynamics: &mut Dynamics) -> Option<Vec<f64>> {
     let hessian = (0..free * free)
         .map(|k| entry(k / free, k % free))
         .collect();
-    dynamics.close(&base).then_some(hessian)
+    dynamics
+        .close(&base)
+        .then_some(hessian)
+        .ok_or(NoRest::Endless)
 }
 
 fn scaled(values: &[f64], units: &[f64]) -> Vec<f64> {

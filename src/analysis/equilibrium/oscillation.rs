@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::{RestPosition, descent};
+use super::{NoRest, RestPosition, descent};
 use crate::linear::add;
 use crate::mechanism::{Mechanism, turn_near};
 use crate::system::{Dynamics, Named, PlatformRecord};
@@ -52,11 +52,11 @@ pub struct Stiffness {
 }
 
 /// The rest position at which the dynamics stand.
-pub(super) fn position(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Option<RestPosition> {
+pub(super) fn position(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Result<RestPosition, NoRest> {
     /// A curvature smaller than this part of the forces that act, times the normalising length, is none.
     const FLAT: f64 = 1e-8;
     let hessian = descent::hessian(dynamics)?;
-    let mass = dynamics.mass()?;
+    let mass = dynamics.mass().ok_or(NoRest::Singular)?;
     let (forces, potential) = dynamics.at_rest()?;
     let units = dynamics.units();
     let free = units.len();
@@ -79,13 +79,13 @@ pub(super) fn position(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Option
         let pose = mechanism.in_ground(&at.platforms[i]);
         (platform.name.clone(), PlatformRecord::of(&pose))
     });
-    Some(RestPosition {
+    Ok(RestPosition {
         joints: mechanism.named_joints(&turned(mechanism, &at.joints)),
         platforms: platforms.collect(),
         potential,
         left,
         stability,
-        modes: modes(mechanism, dynamics, &hessian, &mass),
+        modes: modes(mechanism, dynamics, (&hessian, &mass), flat),
         stiffness: match stability {
             Stability::Stable => stiffness(mechanism, dynamics, &hessian),
             _ => Vec::new(),
@@ -106,9 +106,16 @@ fn turned(mechanism: &Mechanism, joints: &[f64]) -> Vec<f64> {
     turned.collect()
 }
 
-/// Solutions of H·v = ω²·M·v, slowest first; none where some motion moves no mass.
-fn modes(mechanism: &Mechanism, dynamics: &Dynamics, hessian: &[f64], mass: &[f64]) -> Vec<Mode> {
-    let free = dynamics.units().len();
+/// Solutions of H·v = ω²·M·v, slowest first; none where some motion moves no mass. Of a motion that changes the energy by
+/// no more than `flat` for its largest dimensionless amplitude ω is 0.
+fn modes(
+    mechanism: &Mechanism,
+    dynamics: &Dynamics,
+    (hessian, mass): (&[f64], &[f64]),
+    flat: f64,
+) -> Vec<Mode> {
+    let units = dynamics.units();
+    let free = units.len();
     let mass = DMatrix::from_row_slice(free, free, mass);
     let Some(factor) = mass.cholesky() else {
         return Vec::new();
@@ -121,8 +128,14 @@ fn modes(mechanism: &Mechanism, dynamics: &Dynamics, hessian: &[f64], mass: &[f6
     let mut order: Vec<usize> = (0..free).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
     let mode = |i: usize| {
-        let square = eigen.eigenvalues[i];
         let amplitudes = inverse.transpose() * eigen.eigenvectors.column(i);
+        let sizes = amplitudes.iter().zip(&units).map(|(x, unit)| (x / unit).abs());
+        let largest = sizes.fold(0.0, f64::max);
+        // amplitudes have M-norm one, so that ω² is the change of the energy
+        let square = match eigen.eigenvalues[i] {
+            square if square.abs() <= flat * largest * largest => 0.0,
+            square => square,
+        };
         Mode {
             frequency: (square >= 0.0).then(|| square.sqrt() / TAU),
             departure: (square < 0.0).then(|| (-square).sqrt()),

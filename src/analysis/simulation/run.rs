@@ -1,6 +1,6 @@
 //! A simulation from step to step.
 
-mod crossing;
+mod across;
 mod events;
 mod rows;
 
@@ -8,10 +8,11 @@ use super::{
     EnergyBalance, Happened, SimulationColumn, SimulationEnd, SimulationEvent, SimulationReport,
     SimulationSettings,
 };
+use across::across;
 use events::Met;
 
 use crate::algebra::SiUnit;
-use crate::linear::{Decomposition, add, dot};
+use crate::linear::{Decomposition, add, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate};
 use crate::solve::{Flow, Integrator, Stage, Watch, edge};
 use crate::system::{Accelerated, Coordinate, Dynamics, FrameTwists, GivenPose};
@@ -31,9 +32,7 @@ pub(super) struct Run<'a, 'd> {
     events: Vec<SimulationEvent>,
     residual: f64,
     steps: usize,
-    /// Times, states and steps of late at which the closure equations were far from singular.
-    sound: Vec<(f64, Vec<f64>, f64)>,
-    /// The largest margin so far.
+    /// The largest margin of the closure equations so far.
     widest: f64,
 }
 
@@ -41,20 +40,25 @@ pub(super) struct Run<'a, 'd> {
 struct Equations<'d, 'a> {
     dynamics: &'d mut Dynamics<'a>,
     units: &'d [f64],
+    /// The margin below which they are taken from both sides.
+    sick: f64,
 }
 
 impl Flow for Equations<'_, '_> {
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) -> bool {
-        let Some((_, instant)) = at(self.dynamics, self.units, time, state) else {
+        let (units, free) = (self.units, self.units.len());
+        let found = across(self.dynamics, units, state, self.sick, |dynamics, state| {
+            let (_, instant) = at(dynamics, units, time, state)?;
+            let mut changes = instant.accelerations;
+            changes.iter_mut().zip(units).for_each(|(a, unit)| *a /= unit);
+            changes.push(instant.supplied);
+            Some(changes)
+        });
+        let Some(found) = found else {
             return false;
         };
-        let free = self.units.len();
         rates[..free].copy_from_slice(&state[free..2 * free]);
-        let accelerations = instant.accelerations.iter().zip(self.units);
-        for (to, (a, unit)) in rates[free..].iter_mut().zip(accelerations) {
-            *to = a / unit;
-        }
-        rates[2 * free] = instant.supplied;
+        rates[free..].copy_from_slice(&found);
         true
     }
 }
@@ -106,7 +110,6 @@ impl<'a, 'd> Run<'a, 'd> {
             events: Vec::new(),
             residual: 0.0,
             steps: 0,
-            sound: Vec::new(),
             widest: 0.0,
             dynamics,
         };
@@ -125,7 +128,6 @@ impl<'a, 'd> Run<'a, 'd> {
             .chain(rates.iter().zip(&self.units));
         self.state = both.map(|(x, unit)| x / unit).collect();
         self.state.push(supplied);
-        self.sound.clear();
     }
 
     /// Integrates to the end.
@@ -150,38 +152,29 @@ impl<'a, 'd> Run<'a, 'd> {
                 break SimulationEnd::Interrupted;
             }
             let before = (time, margin);
-            let made = integrator.step(&mut self.equations());
-            let sick = (self.settings.through || made.is_err()) && {
-                let state = integrator.state().to_vec();
-                at(self.dynamics, &self.units, integrator.time(), &state);
-                self.dynamics.margin() < self.sick()
-            };
-            let made = match made {
-                Ok(after) if !sick => Ok(after),
-                _ if self.settings.through => self.cross(&mut integrator),
-                Ok(after) => Ok(after),
-                Err(_) if sick => Err(SimulationEnd::Singular),
-                Err(_) => Err(SimulationEnd::Stuck),
-            };
-            let after = match made {
-                Ok(after) => after,
-                Err(end) => break end,
+            let Ok(after) = integrator.step(&mut self.equations()) else {
+                break self.stuck(&integrator);
             };
             self.steps += 1;
             let met = self.met(&mut integrator, before, after, &mut margin);
             let until = met.as_ref().map_or(after, |(time, _)| *time);
-            self.rows_until(&mut integrator, until);
+            if !self.rows_until(&mut integrator, until) {
+                break SimulationEnd::Stuck;
+            }
             time = until;
             self.state = match met {
                 Some(_) => integrator.reached(&mut self.equations(), until),
                 None => integrator.state().to_vec(),
             };
+            self.widest = self.widest.max(margin);
+            if met.is_none() && margin < self.sick() {
+                continue;
+            }
             let Some((rates, instant)) = at(self.dynamics, &self.units, time, &self.state) else {
                 break SimulationEnd::Stuck;
             };
-            self.balance(&instant);
+            self.energy.kinetic = self.energy.kinetic.max(instant.kinetic);
             self.dynamics.stand();
-            self.remember(time, time - before.0, margin);
             let ends = match met {
                 None => None,
                 Some((_, Met::Singular)) => Some(SimulationEnd::Singular),
@@ -230,17 +223,22 @@ impl<'a, 'd> Run<'a, 'd> {
 
     fn equations(&mut self) -> Equations<'_, 'a> {
         Equations {
+            sick: self.sick(),
             dynamics: self.dynamics,
             units: &self.units,
         }
     }
 
-    /// Takes the energies of an instant into the balance.
-    fn balance(&mut self, instant: &Accelerated) {
-        let supplied = self.state.last().copied().unwrap_or(0.0);
-        let energy = &mut self.energy;
-        energy.end = instant.kinetic + instant.potential;
-        energy.supplied = supplied;
-        energy.kinetic = energy.kinetic.max(instant.kinetic);
+    /// The reason for which no further step is possible.
+    fn stuck(&mut self, integrator: &Integrator) -> SimulationEnd {
+        /// Less than this part of the largest margin is a singular configuration.
+        const SINGULAR: f64 = 0.03;
+        let state = integrator.state();
+        let values = state.iter().zip(&self.units).map(|(x, unit)| x * unit);
+        self.dynamics.close(&values.collect::<Vec<f64>>());
+        match self.dynamics.margin() < SINGULAR * self.widest {
+            true => SimulationEnd::Singular,
+            false => SimulationEnd::Stuck,
+        }
     }
 }

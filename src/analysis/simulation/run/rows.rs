@@ -5,16 +5,23 @@ use super::*;
 impl Run<'_, '_> {
     /// The time of a row.
     pub(super) fn time_of(&self, row: usize) -> f64 {
-        self.settings.duration * (row as f64 / self.settings.rows as f64)
+        let (duration, rows) = (self.settings.duration, self.settings.rows);
+        match row == rows {
+            true => duration,
+            false => duration * row as f64 / rows as f64,
+        }
     }
 
-    /// Adds the rows up to a time within the last step.
-    pub(super) fn rows_until(&mut self, integrator: &mut Integrator, until: f64) {
+    /// Adds the rows up to a time within the last step; false if one has no values.
+    pub(super) fn rows_until(&mut self, integrator: &mut Integrator, until: f64) -> bool {
         while self.rows.len() <= self.settings.rows && self.time_of(self.rows.len()) <= until {
             let at = self.time_of(self.rows.len());
             let state = integrator.reached(&mut self.equations(), at);
-            self.row(at, &state);
+            if !self.row(at, &state) {
+                return false;
+            }
         }
+        true
     }
 
     pub(super) fn columns(&self) -> Vec<SimulationColumn> {
@@ -43,39 +50,59 @@ impl Run<'_, '_> {
         columns
     }
 
-    /// Adds the row of a state.
-    pub(super) fn row(&mut self, time: f64, state: &[f64]) {
-        let Some((_, instant)) = at(self.dynamics, &self.units, time, state) else {
-            return;
+    /// Adds the row of a state, and takes its energies into the balance; false if it has no values.
+    pub(super) fn row(&mut self, time: f64, state: &[f64]) -> bool {
+        let (mechanism, units, points, sick) =
+            (self.mechanism, &self.units, &self.points, self.sick());
+        let found = across(self.dynamics, units, state, sick, |dynamics, state| {
+            values(mechanism, dynamics, units, points, (time, state))
+        });
+        let Some(values) = found else {
+            return false;
         };
-        let at = self.dynamics.configuration();
-        let rates = self.dynamics.rates();
-        let mut row = vec![time];
-        let scales = &self.mechanism.dimensions().joint_scales;
-        for (joint, value) in at.joints.iter().enumerate() {
-            row.extend([*value, rates[joint] * scales[joint]]);
-        }
-        for platform in 0..at.platforms.len() {
-            let of = PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c));
-            row.extend(of.map(|of| of.of(self.mechanism, at)));
-        }
-        let twists = FrameTwists::new(self.mechanism.dimensions(), &[], &self.points);
-        let placement = twists.placed(at);
-        let centre = self.mechanism.dimensions().centre;
-        for i in 0..self.points.len() {
-            let place = twists.origin(i, &placement).0;
-            row.extend(place.iter().zip(centre).map(|(x, c)| x + c));
-        }
-        row.extend([
-            instant.kinetic,
-            instant.potential,
-            state[2 * self.units.len()],
-        ]);
-        let energy = &mut self.energy;
         let supplied = state[2 * self.units.len()];
-        let balance = instant.kinetic + instant.potential - energy.start - supplied + energy.lost;
+        let energy = &mut self.energy;
+        let [.., kinetic, potential] = values[..] else {
+            return false;
+        };
+        (energy.end, energy.supplied) = (kinetic + potential, supplied);
+        energy.kinetic = energy.kinetic.max(kinetic);
+        let balance = energy.end - energy.start - supplied + energy.lost;
         energy.error = energy.error.max(balance.abs());
         self.residual = self.residual.max(self.dynamics.residual());
-        self.rows.push(row);
+        let row = [time].into_iter().chain(values).chain([supplied]);
+        self.rows.push(row.collect());
+        true
     }
+}
+
+/// Values of joints with their rates, platforms and points at a state, and its kinetic and potential energy.
+fn values(
+    mechanism: &Mechanism,
+    dynamics: &mut Dynamics,
+    units: &[f64],
+    points: &[Point],
+    (time, state): (f64, &[f64]),
+) -> Option<Vec<f64>> {
+    let (_, instant) = at(dynamics, units, time, state)?;
+    let at = dynamics.configuration();
+    let rates = dynamics.rates();
+    let mut row = Vec::new();
+    let scales = &mechanism.dimensions().joint_scales;
+    for (joint, value) in at.joints.iter().enumerate() {
+        row.extend([*value, rates[joint] * scales[joint]]);
+    }
+    for platform in 0..at.platforms.len() {
+        let of = PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c));
+        row.extend(of.map(|of| of.of(mechanism, at)));
+    }
+    let twists = FrameTwists::new(mechanism.dimensions(), &[], points);
+    let placement = twists.placed(at);
+    let centre = mechanism.dimensions().centre;
+    for i in 0..points.len() {
+        let place = twists.origin(i, &placement).0;
+        row.extend(place.iter().zip(centre).map(|(x, c)| x + c));
+    }
+    row.extend([instant.kinetic, instant.potential]);
+    Some(row)
 }
