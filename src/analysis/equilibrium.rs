@@ -189,7 +189,13 @@ struct Start<'a> {
 impl<'a> Start<'a> {
     fn dynamics(&self, at: &Configuration<f64>) -> Result<Dynamics<'a>, NoRest> {
         let held = self.held.clone();
-        Ok(Dynamics::new(self.mechanism, self.load, held, self.freedoms, at)?)
+        Ok(Dynamics::new(
+            self.mechanism,
+            self.load,
+            held,
+            self.freedoms,
+            at,
+        )?)
     }
 
     /// The rest position downhill, or uphill for −1.

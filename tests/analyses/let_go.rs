@@ -171,7 +171,11 @@ fn a_limit_that_is_passed_only_for_a_moment_is_seen() {
         let_go(&question(&text).hold("pin", -0.1), 3.0, 2)
     };
     let ended = swings(0.1 - 1e-7);
-    assert!(matches!(ended.end, SimulationEnd::Limit { .. }), "{:?}", ended.end);
+    assert!(
+        matches!(ended.end, SimulationEnd::Limit { .. }),
+        "{:?}",
+        ended.end
+    );
     assert_eq!(swings(0.1 + 1e-7).end, SimulationEnd::Over);
 }
 
@@ -291,8 +295,15 @@ fn singular_positions_end_the_motion_or_are_passed_straight() {
         let report = simulated(&question, &settings);
         assert_eq!(report.end, SimulationEnd::Over, "{n}");
         assert!(!report.events.is_empty());
-        let met = report.events.iter().all(|of| of.event == Happened::Singular);
-        assert!(met && (report.events[0].time - time).abs() < 1e-6, "{:?}", report.events);
+        let met = report
+            .events
+            .iter()
+            .all(|of| of.event == Happened::Singular);
+        assert!(
+            met && (report.events[0].time - time).abs() < 1e-6,
+            "{:?}",
+            report.events
+        );
         for row in rows(case).iter().filter(|row| row[0] <= 5.0) {
             near(&at(&report, row[0], &["v0"]), &[-row[1]], 1e-6);
         }

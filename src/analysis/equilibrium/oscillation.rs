@@ -52,7 +52,10 @@ pub struct Stiffness {
 }
 
 /// The rest position at which the dynamics stand.
-pub(super) fn position(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Result<RestPosition, NoRest> {
+pub(super) fn position(
+    mechanism: &Mechanism,
+    dynamics: &mut Dynamics,
+) -> Result<RestPosition, NoRest> {
     /// A curvature smaller than this part of the forces that act, times the normalising length, is none.
     const FLAT: f64 = 1e-8;
     let hessian = descent::hessian(dynamics)?;
@@ -129,7 +132,10 @@ fn modes(
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
     let mode = |i: usize| {
         let amplitudes = inverse.transpose() * eigen.eigenvectors.column(i);
-        let sizes = amplitudes.iter().zip(&units).map(|(x, unit)| (x / unit).abs());
+        let sizes = amplitudes
+            .iter()
+            .zip(&units)
+            .map(|(x, unit)| (x / unit).abs());
         let largest = sizes.fold(0.0, f64::max);
         // amplitudes have M-norm one, so that ω² is the change of the energy
         let square = match eigen.eigenvalues[i] {

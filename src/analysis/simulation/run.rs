@@ -50,7 +50,10 @@ impl Flow for Equations<'_, '_> {
         let found = across(self.dynamics, units, state, self.sick, |dynamics, state| {
             let (_, instant) = at(dynamics, units, time, state)?;
             let mut changes = instant.accelerations;
-            changes.iter_mut().zip(units).for_each(|(a, unit)| *a /= unit);
+            changes
+                .iter_mut()
+                .zip(units)
+                .for_each(|(a, unit)| *a /= unit);
             changes.push(instant.supplied);
             Some(changes)
         });
