@@ -21,18 +21,7 @@ mod mobility;
 mod new;
 mod pictures;
 mod read;
-#[cfg(feature = "schema")]
 mod schema;
-#[cfg(not(feature = "schema"))]
-mod schema {
-    pub fn has_one(_: &str) -> bool {
-        false
-    }
-
-    pub fn written(_: &str) -> String {
-        String::new()
-    }
-}
 mod search;
 mod served;
 mod setup;
@@ -166,8 +155,9 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, clap:
     if let Some((name, of)) = matches.subcommand()
         && schema::has_one(name)
         && of.get_flag("schema")
+        && let Some(schema) = schema::of(name)
     {
-        return Ok(Parsed::Schema(schema::written(name)));
+        return Ok(Parsed::Schema(schema));
     }
     match Arguments::from_arg_matches_mut(&mut matches) {
         Ok(arguments) => Ok(Parsed::Command(Box::new(arguments.command))),

@@ -44,6 +44,7 @@ impl Default for EquilibriumSettings {
 
 /// Rest positions of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EquilibriumReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -68,6 +69,7 @@ pub struct EquilibriumReport {
 
 /// A rest position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RestPosition {
     /// Values of the joints, in rad and m.
     pub joints: Named<f64>,
@@ -89,6 +91,7 @@ pub struct RestPosition {
 
 /// Reasons for which no rest position is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NoRest {
     /// Nothing can move.

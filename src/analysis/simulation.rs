@@ -49,6 +49,7 @@ impl Default for SimulationSettings {
 
 /// The motion of a mechanism that is let go.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SimulationReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -79,6 +80,7 @@ pub struct SimulationReport {
 
 /// A column of a simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SimulationColumn {
     /// Its name.
     pub name: String,
@@ -88,6 +90,7 @@ pub struct SimulationColumn {
 
 /// The end of a simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SimulationEnd {
     /// The time asked for is over.
@@ -113,6 +116,7 @@ pub enum SimulationEnd {
 
 /// An event on the way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SimulationEvent {
     /// In s.
     pub time: f64,
@@ -122,6 +126,7 @@ pub struct SimulationEvent {
 
 /// What can happen on the way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Happened {
     /// The joint of that name came back from a limit.
@@ -139,6 +144,7 @@ pub enum Happened {
 
 /// Balance of the energies of a simulation, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EnergyBalance {
     /// Kinetic and potential energy at the start.
     pub start: f64,
@@ -156,6 +162,7 @@ pub struct EnergyBalance {
 
 /// Reasons for which a mechanism cannot be let go.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NoSimulation {
     /// Nothing can move.

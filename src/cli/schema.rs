@@ -1,52 +1,33 @@
 //! `--schema`: the form of each command's JSON.
 
-use linkwork::analysis::assemblies::{AssembliesReport, LostMode};
-use linkwork::analysis::assembly::AssemblyReport;
-use linkwork::analysis::compare::CompareReport;
-use linkwork::analysis::convert::Conversion;
-use linkwork::analysis::formulas::FormulasReport;
-use linkwork::analysis::frames::{AxesReport, FramesReport};
-use linkwork::analysis::mobility::MobilityReport;
-use linkwork::analysis::overview::Overview;
-use linkwork::analysis::rounding::Snap;
-use linkwork::analysis::singularities::{AlongReport, LocusReport, SingularitiesReport};
-use linkwork::analysis::statics::StaticsReport;
-use linkwork::analysis::sweep::{CircuitsReport, MotionsReport};
-use linkwork::analysis::velocity::VelocityReport;
-use linkwork::analysis::workspace::WorkspaceReport;
-use linkwork::output::schema::{Part, of, schema};
-use linkwork::system::Analysed;
+#[cfg(feature = "schema")]
+mod generated;
 
-/// Reports of a command; none if it has no `--format json`.
-fn parts(command: &str) -> &'static [Part] {
-    match command {
-        "assemblies" => &[of::<AssembliesReport>],
-        "check" => &[of::<Overview>],
-        "compare" => &[of::<CompareReport>],
-        "convert" => &[of::<Conversion>, of::<AxesReport>],
-        "formulas" => &[of::<FormulasReport>],
-        "frames" => &[of::<FramesReport>, of::<AxesReport>],
-        "mobility" => &[of::<Analysed<MobilityReport>>],
-        "singularities" => &[
-            of::<Analysed<SingularitiesReport>>,
-            of::<AlongReport>,
-            of::<LocusReport>,
-        ],
-        "snap" => &[of::<Snap>],
-        "solve" => &[of::<AssemblyReport>, of::<LostMode>],
-        "statics" => &[of::<Analysed<StaticsReport>>],
-        "sweep" => &[of::<MotionsReport>, of::<CircuitsReport>],
-        "velocity" => &[of::<Analysed<VelocityReport>>],
-        "workspace" => &[of::<WorkspaceReport>],
-        _ => &[],
-    }
+/// Schemas as the feature `schema` generates them; built with it, the program prints those of its own types instead.
+macro_rules! shipped {
+    ($($command:literal)+) => {
+        const SHIPPED: &[(&str, &str)] =
+            &[$(($command, include_str!(concat!("schemas/", $command, ".json")))),+];
+    };
 }
 
+shipped! {
+    "assemblies" "check" "compare" "convert" "equilibrium" "formulas" "frames" "mobility"
+    "simulate" "singularities" "snap" "solve" "statics" "sweep" "velocity" "workspace"
+}
+
+/// True for commands with `--format json`.
 pub fn has_one(command: &str) -> bool {
-    !parts(command).is_empty()
+    SHIPPED.iter().any(|(name, _)| *name == command)
 }
 
-/// The schema as text.
-pub fn written(command: &str) -> String {
-    schema(parts(command))
+/// The schema of a command's JSON; none if it has no `--format json`.
+pub fn of(command: &str) -> Option<String> {
+    #[cfg(feature = "schema")]
+    if let Some(schema) = generated::of(command) {
+        return Some(schema);
+    }
+    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == command)?;
+    let schema: serde_json::Value = serde_json::from_str(text).expect("written by serde_json");
+    Some(format!("{schema:#}\n"))
 }

@@ -1,7 +1,6 @@
 //! The first hour with the program: files to begin from, standard input, help, schemas, what is handed out.
 #![cfg(feature = "cli")]
 
-#[cfg(feature = "schema")]
 mod schemas;
 
 use std::fs;

@@ -138,7 +138,7 @@ fn compare<'v>(
 }
 
 /// Questions whose answers together have most fields that reports can have.
-const ASKED: [&str; 35] = [
+const ASKED: [&str; 39] = [
     "assemblies four_bar.ron --all-complex",
     "assemblies four_bar.ron --prove --hold theta1=1",
     "assemblies two_rhombi.ron",
@@ -150,6 +150,8 @@ const ASKED: [&str; 35] = [
     "convert four_bar.ron --cut phi2",
     "convert four_bar.ron --to axes",
     "convert four_bar.ron --cognate left+0.5,0.2=1",
+    "equilibrium loads/wishbone.ron",
+    "equilibrium loads/toggle_press.ron",
     "formulas four_bar.ron",
     "formulas four_bar.ron --solve",
     "formulas puma560_modified.ron --of arm.3",
@@ -158,6 +160,8 @@ const ASKED: [&str; 35] = [
     "mobility bennett.ron",
     "mobility triangle.ron",
     "mobility rssr.ron",
+    "simulate loads/four_bar_let_go.ron --time 0.2",
+    "simulate loads/trebuchet.ron --time 0.2",
     "singularities three_rps.ron",
     "singularities four_bar.ron --input theta1=0deg..360deg",
     "singularities five_bar_hand.ron --locus hand.x=-0.6..0.8 --locus hand.y=-0.1..0.7 --starts 2",
@@ -197,6 +201,27 @@ fn reports_are_what_the_schemas_say() {
         );
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Built with the feature `schema`, the program prints the schemas of its types: those that are shipped are the same.
+#[cfg(feature = "schema")]
+#[test]
+fn shipped_schemas_are_those_of_the_types() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/cli/schemas");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let command = path.file_stem().unwrap().to_str().unwrap();
+        let generated: Value = serde_json::from_str(&answer(&[command, "--schema"])).unwrap();
+        if std::env::var_os("UPDATE_SCHEMAS").is_some() {
+            std::fs::write(&path, format!("{generated}\n")).unwrap();
+        }
+        let shipped: Value =
+            serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        assert_eq!(
+            shipped, generated,
+            "{command}: UPDATE_SCHEMAS=1 writes it anew"
+        );
+    }
 }
 
 /// The comparison finds what is wrong.

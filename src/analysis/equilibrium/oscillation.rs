@@ -12,6 +12,7 @@ use crate::system::{Dynamics, Named, PlatformRecord};
 
 /// Stability of a rest position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
     /// The energy is least.
@@ -30,6 +31,7 @@ pub enum Stability {
 
 /// A small oscillation, or the departure from an unstable position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Mode {
     /// Its frequency without damping, in Hz; `None` if the position is left.
     pub frequency: Option<f64>,
@@ -42,6 +44,7 @@ pub struct Mode {
 /// Compliance and stiffness of a platform about its origin along the axes of ground: displacement and turn for force and
 /// moment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Stiffness {
     /// The platform.
     pub name: String,

@@ -11,6 +11,7 @@ use crate::system::{Balance, Coordinate, Instant, Load, Motion, Question};
 /// At each end the mechanism is about to move, and every joint resists with all its friction: in a hinge
 /// M = M₀ + ρ·sin(atan μ)·F with the force F across a pin of radius ρ, in a slide F = F₀ + μ·N.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rest {
     /// The coordinate.
     pub name: String,

@@ -1,0 +1,53 @@
+//! Schemas of the report types of each command.
+
+use linkwork::analysis::assemblies::{AssembliesReport, LostMode};
+use linkwork::analysis::assembly::AssemblyReport;
+use linkwork::analysis::compare::CompareReport;
+use linkwork::analysis::convert::Conversion;
+use linkwork::analysis::equilibrium::EquilibriumReport;
+use linkwork::analysis::formulas::FormulasReport;
+use linkwork::analysis::frames::{AxesReport, FramesReport};
+use linkwork::analysis::mobility::MobilityReport;
+use linkwork::analysis::overview::Overview;
+use linkwork::analysis::rounding::Snap;
+use linkwork::analysis::simulation::SimulationReport;
+use linkwork::analysis::singularities::{AlongReport, LocusReport, SingularitiesReport};
+use linkwork::analysis::statics::StaticsReport;
+use linkwork::analysis::sweep::{CircuitsReport, MotionsReport};
+use linkwork::analysis::velocity::VelocityReport;
+use linkwork::analysis::workspace::WorkspaceReport;
+use linkwork::output::schema::{Part, of as report, schema};
+use linkwork::system::Analysed;
+
+/// Reports of a command; none if it has no `--format json`.
+fn parts(command: &str) -> &'static [Part] {
+    match command {
+        "assemblies" => &[report::<AssembliesReport>],
+        "check" => &[report::<Overview>],
+        "compare" => &[report::<CompareReport>],
+        "convert" => &[report::<Conversion>, report::<AxesReport>],
+        "equilibrium" => &[report::<EquilibriumReport>],
+        "formulas" => &[report::<FormulasReport>],
+        "frames" => &[report::<FramesReport>, report::<AxesReport>],
+        "mobility" => &[report::<Analysed<MobilityReport>>],
+        "singularities" => &[
+            report::<Analysed<SingularitiesReport>>,
+            report::<AlongReport>,
+            report::<LocusReport>,
+        ],
+        "snap" => &[report::<Snap>],
+        "solve" => &[report::<AssemblyReport>, report::<LostMode>],
+        "simulate" => &[report::<SimulationReport>],
+        "statics" => &[report::<Analysed<StaticsReport>>],
+        "sweep" => &[report::<MotionsReport>, report::<CircuitsReport>],
+        "velocity" => &[report::<Analysed<VelocityReport>>],
+        "workspace" => &[report::<WorkspaceReport>],
+        _ => &[],
+    }
+}
+
+/// The schema of a command's JSON; none if no report is named.
+pub fn of(command: &str) -> Option<String> {
+    let parts = parts(command);
+    (!parts.is_empty()).then(|| schema(parts))
+}
