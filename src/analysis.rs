@@ -7,6 +7,7 @@ pub mod assemblies;
 pub mod assembly;
 pub mod compare;
 pub mod convert;
+pub mod design;
 pub mod equilibrium;
 pub mod formulas;
 pub mod frames;

@@ -20,6 +20,7 @@
 
 mod at_configuration;
 mod circuits;
+mod design;
 mod error;
 mod live;
 mod many;
@@ -44,6 +45,7 @@ use rustc_hash::FxHashMap;
 
 pub use crate::analysis::quantities::Motions;
 pub use crate::system::{Demand, Role, Value};
+pub use design::{Design, DesignError};
 pub use error::{AskError, Item, Unmeasured};
 pub use live::{Gained, Reading};
 pub use many::{Jacobians, Many, ManyMeasured, Unreached};

@@ -5,6 +5,7 @@ mod assemblies;
 mod check;
 mod compare;
 mod convert;
+mod design;
 mod draw;
 mod equilibrium;
 mod examples;
@@ -84,7 +85,7 @@ commands! {
     export: Export, import: Import, formulas: Formulas, generate: Generate, mobility: Mobility, velocity: Velocity,
     view: View, statics: Statics, equilibrium: Equilibrium, simulate: Simulate, sweep: Sweep,
     singularities: Singularities, workspace: Workspace, study: Study,
-    merge: Merge, snap: Snap, handout: Handout, new: New, examples: Examples, setup: Setup,
+    merge: Merge, snap: Snap, handout: Handout, new: New, examples: Examples, setup: Setup, design: Design,
 }
 
 /// Answer of a command.

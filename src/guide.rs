@@ -23,6 +23,7 @@
 //! | [`frames`] | tables from joint axes and back, conventions and cuts |
 //! | [`exchange`] | URDF, MJCF and SDF |
 //! | [`conventions`] | units, frames, angles, names, exit status |
+//! | [`design`] | dimensions from what the mechanism shall do |
 //! | [`library`] | use from Rust |
 //! | [`studies`] | quantities over many dimensions and inputs, tolerances, on any number of machines |
 //! | [`python`] | use from Python |
@@ -46,6 +47,10 @@ pub mod conventions {}
 /// Joint coordinates: points and directions as a drawing gives them; gears, cylinders, rods, slots.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/coordinates.md"))]
 pub mod coordinates {}
+
+/// Dimensions from what the mechanism shall do, each design judged over its whole motion.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/design.md"))]
+pub mod design {}
 
 /// Pictures of the mechanism in any configuration.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/drawing.md"))]

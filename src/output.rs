@@ -23,6 +23,7 @@ pub mod comparison;
 pub mod complaint;
 pub mod conversion;
 mod coordinates;
+pub mod design;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
 pub mod drawing;

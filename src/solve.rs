@@ -12,6 +12,7 @@ mod homotopy;
 mod integrator;
 mod least_squares;
 mod minimum;
+pub mod monodromy;
 mod newton;
 mod summit;
 mod threads;

@@ -119,7 +119,7 @@ fn parameter<'m>(
 }
 
 /// A value that a parameter is given, with any unit that fits where it stands.
-fn number(
+pub(super) fn number(
     mechanism: &Mechanism,
     parameter: usize,
     value: &system::Value,

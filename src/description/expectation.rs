@@ -26,6 +26,8 @@ words! {
         Output = "an output",
         Mass = "a mass",
         Load = "a load",
+        Varied = "a number that varies",
+        Target = "a target",
     }
 }
 
@@ -49,6 +51,7 @@ pub enum Structure {
     BodyFrame,
     Mass,
     Load(LoadKind),
+    Design,
 }
 
 /// The value expected at a place of the file.
@@ -94,6 +97,10 @@ pub enum Expected {
     YesOrNo,
     Table,
     TableRow,
+    Range,
+    Positions,
+    Coordinates,
+    Order,
 }
 
 /// The value found at a place of the file.
@@ -132,6 +139,7 @@ impl Structure {
             Self::BodyFrame => "Body",
             Self::Mass => "Mass",
             Self::Load(kind) => kind.word(),
+            Self::Design => "Design",
         }
     }
 
@@ -165,6 +173,7 @@ impl Structure {
             Self::BodyFrame => "origin frame",
             Self::Mass => "mass centre inertia shape density turned",
             Self::Load(kind) => kind.fields(),
+            Self::Design => "version name mechanism vary positions motion at_least at_most order",
             Self::Chain => "on convention base rows tip",
             Self::Row => "alpha a d theta link",
             Self::Platform => "home frames",

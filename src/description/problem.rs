@@ -3,12 +3,14 @@
 mod advice;
 mod coordinates;
 mod loads;
+mod design;
 mod parts;
 
 use std::ops::Range;
 
 pub use coordinates::AxesProblem;
 pub use loads::LoadProblem;
+pub use design::DesignProblem;
 use thiserror::Error;
 
 use super::words::{count, cycle, syntax};
@@ -233,6 +235,9 @@ pub enum ProblemKind {
     /// A problem of a mass, a spring, a force or friction.
     #[error("{0}")]
     Load(Box<LoadProblem>),
+    /// A problem of a design file.
+    #[error("{0}")]
+    Design(Box<DesignProblem>),
     #[error("nothing is attached to the platform `{name}`")]
     UnusedPlatform { name: String },
 }

@@ -4,6 +4,7 @@
 
 mod axes;
 mod closed_form;
+mod design;
 mod leaves;
 mod loads;
 mod shapes;
@@ -43,6 +44,11 @@ fn first_word(text: &str) -> Option<&str> {
 /// True if a text seems to be a mechanism file, false for a file of joint axes.
 pub fn is_mechanism(text: &str) -> bool {
     first_word(text).is_some_and(|word| word == "Mechanism")
+}
+
+/// True if a text seems to be a design file.
+pub fn is_design(text: &str) -> bool {
+    first_word(text).is_some_and(|word| word == Structure::Design.word())
 }
 
 impl AxesDescription {

@@ -22,7 +22,7 @@ impl<T: Field> Factorable for Dual<T> {
     type Sparse = NoFactors<true>;
 }
 
-impl Factorable for Gradient {
+impl<T: Field> Factorable for Gradient<T> {
     type Sparse = NoFactors<true>;
 }
 

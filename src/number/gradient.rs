@@ -4,44 +4,55 @@ use super::{Field, Number, functions, operators};
 ///
 /// One evaluation of the kinematics gives [`LANES`](Gradient::LANES) columns of a Jacobian, where duals give one each.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gradient {
+pub struct Gradient<T = f64> {
     /// The value a.
-    pub value: f64,
+    pub value: T,
     /// The derivatives aᵢ.
-    pub slopes: [f64; Gradient::LANES],
+    pub slopes: [T; LANES],
 }
 
+/// The directions of one evaluation.
+const LANES: usize = 8;
+
 #[inline(always)]
-fn lanes(f: impl FnMut(usize) -> f64) -> [f64; Gradient::LANES] {
+fn lanes<T>(f: impl FnMut(usize) -> T) -> [T; LANES] {
     std::array::from_fn(f)
 }
 
 impl Gradient {
     /// The directions of one evaluation.
-    pub const LANES: usize = 8;
+    pub const LANES: usize = LANES;
+}
 
+impl<T: Number> Gradient<T> {
     /// The variable of differentiation of a direction, at `value`.
-    pub fn variable(value: f64, direction: usize) -> Self {
-        let slopes = lanes(|i| f64::from(u8::from(i == direction)));
+    pub fn variable(value: T, direction: usize) -> Self {
+        let slopes = lanes(|i| T::from_f64(f64::from(u8::from(i == direction))));
+        Gradient { value, slopes }
+    }
+
+    /// A constant: its derivatives are zero.
+    pub fn constant(value: T) -> Self {
+        let slopes = [T::zero(); LANES];
         Gradient { value, slopes }
     }
 
     /// f(a) + f′(a) Σ aᵢ εᵢ.
     #[inline]
-    fn chain(self, value: f64, derivative: f64) -> Self {
+    fn chain(self, value: T, derivative: T) -> Self {
         let slopes = lanes(|i| derivative * self.slopes[i]);
         Gradient { value, slopes }
     }
 
     /// p a + q b as derivatives of a value.
     #[inline(always)]
-    fn combined(value: f64, (p, a): (f64, &Self), (q, b): (f64, &Self)) -> Self {
+    fn combined(value: T, (p, a): (T, &Self), (q, b): (T, &Self)) -> Self {
         let slopes = lanes(|i| p * a.slopes[i] + q * b.slopes[i]);
         Gradient { value, slopes }
     }
 }
 
-operators!([Gradient]
+operators!([Gradient<T>; T]
     #[inline] Add add |a, b| Gradient {
         value: a.value + b.value,
         slopes: lanes(|i| a.slopes[i] + b.slopes[i]),
@@ -52,46 +63,58 @@ operators!([Gradient]
     };
     #[inline] Mul mul |a, b| Gradient::combined(a.value * b.value, (b.value, &a), (a.value, &b));
     #[inline] Div div |a, b| {
-        let (inverse, value) = (1.0 / b.value, a.value / b.value);
+        let (inverse, value) = (T::one() / b.value, a.value / b.value);
         Gradient::combined(value, (inverse, &a), (-value * inverse, &b))
     };
-    #[inline] Neg neg |a| a.chain(-a.value, -1.0);
+    #[inline] Neg neg |a| a.chain(-a.value, -T::one());
 );
 
-impl Number for Gradient {
+impl<T: Number> Number for Gradient<T> {
+    const REAL: bool = T::REAL;
+
     #[inline]
     fn from_f64(value: f64) -> Self {
-        let slopes = [0.0; Gradient::LANES];
-        Gradient { value, slopes }
+        Gradient::constant(T::from_f64(value))
     }
     #[inline]
     fn real(self) -> f64 {
-        self.value
+        self.value.real()
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = Number::sin_cos(self.value);
+        let (sin, cos) = self.value.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))
     }
     functions!(|x|
         sqrt: {
             let root = x.value.sqrt();
-            x.chain(root, 0.5 / root)
+            x.chain(root, T::from_f64(0.5) / root)
         },
-        asin: x.chain(Number::asin(x.value), 1.0 / (1.0 - x.value * x.value).sqrt()),
-        acos: x.chain(Number::acos(x.value), -1.0 / (1.0 - x.value * x.value).sqrt()),
-        atan: x.chain(Number::atan(x.value), 1.0 / (1.0 + x.value * x.value)),
+        asin: x.chain(x.value.asin(), T::one() / (T::one() - x.value * x.value).sqrt()),
+        acos: x.chain(x.value.acos(), -(T::one() / (T::one() - x.value * x.value).sqrt())),
+        atan: x.chain(x.value.atan(), T::one() / (T::one() + x.value * x.value)),
         exp: {
-            let e = Number::exp(x.value);
+            let e = x.value.exp();
             x.chain(e, e)
         },
-        ln: x.chain(Number::ln(x.value), 1.0 / x.value),
+        ln: x.chain(x.value.ln(), T::one() / x.value),
     );
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let square = self.value * self.value + x.value * x.value;
-        let value = Number::atan2(self.value, x.value);
-        Gradient::combined(value, (x.value / square, &self), (-self.value / square, &x))
+        let value = self.value.atan2(x.value);
+        Gradient::combined(
+            value,
+            (x.value / square, &self),
+            (-(self.value / square), &x),
+        )
+    }
+    #[inline]
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+        let chosen = |then, otherwise| self.value.if_less(other.value, then, otherwise);
+        let slopes = lanes(|i| chosen(then.slopes[i], otherwise.slopes[i]));
+        let value = chosen(then.value, otherwise.value);
+        Gradient { value, slopes }
     }
     #[inline]
     fn is_finite(self) -> bool {
@@ -99,22 +122,26 @@ impl Number for Gradient {
     }
     #[inline]
     fn scale(self, factor: f64) -> Self {
-        self.chain(self.value * factor, factor)
+        let slopes = lanes(|i| self.slopes[i].scale(factor));
+        let value = self.value.scale(factor);
+        Gradient { value, slopes }
     }
 }
 
-impl Field for Gradient {
+impl<T: Field> Field for Gradient<T> {
     #[inline]
     fn conjugate(self) -> Self {
-        self
+        let slopes = lanes(|i| self.slopes[i].conjugate());
+        let value = self.value.conjugate();
+        Gradient { value, slopes }
     }
     #[inline]
     fn norm_squared(self) -> f64 {
-        self.value * self.value
+        self.value.norm_squared()
     }
     #[inline]
     fn phase(self) -> Self {
-        Gradient::from_f64(if self.value < 0.0 { -1.0 } else { 1.0 })
+        Gradient::constant(self.value.phase())
     }
 }
 

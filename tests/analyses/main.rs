@@ -13,6 +13,7 @@ mod cusps;
 mod cut_joints;
 mod cycles;
 mod cylinders;
+mod design;
 mod formulas;
 mod frames;
 mod gimbal_lock;

@@ -95,6 +95,7 @@ fn readings<'m>(mechanism: &'m Mechanism, names: &[&str]) -> (Bundle<'m>, Bundle
             quantity,
             value: rocker,
             weight: 1.0 / 5e-4,
+            exact: false,
         };
         bundle = bundle.target(target).unwrap();
         let (x, y) = (

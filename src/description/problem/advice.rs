@@ -107,6 +107,7 @@ impl ProblemKind {
             LimitsReversed { .. } => "write the lowest value first".into(),
             Axes(problem) => return axes::help(problem),
             Load(problem) => return problem.help(),
+            Design(problem) => return problem.help(),
             DefinitionCycle { .. } => "define one of them without the others".into(),
             ChainCycle { .. } => "attach one of them to `ground` and close the loop with a closure".into(),
             _ => return None,

@@ -23,6 +23,7 @@ impl Display for Structure {
             Self::SecondPlace => "the place on the second body",
             Self::Point => "a point",
             Self::BodyFrame => "a body",
+            Self::Design => "a design",
             Self::Chain => "a chain",
             Self::Row => "a row",
             Self::Platform => "a platform",
@@ -118,6 +119,10 @@ impl Display for Expected {
             Self::Body => "the name of a body",
             Self::Bodies => "two bodies `(\"ground\", \"crank\")`",
             Self::Cuts => "a list of joints",
+            Self::Range => "a range `(least, greatest)`",
+            Self::Positions => "a list of positions `{…}`",
+            Self::Coordinates => "coordinates `(x, y)` or `(x, y, z)`",
+            Self::Order => "`Kept` or `Any`",
         })
     }
 }
@@ -127,6 +132,8 @@ fn content(noun: Noun) -> &'static str {
         Noun::Parameter | Noun::LocalName | Noun::MatrixEntry | Noun::Identity | Noun::Output => {
             "a number or an expression"
         }
+        Noun::Varied => "a range `(least, greatest)`",
+        Noun::Target => "a value or the coordinates of a point",
         Noun::Joint => "`Passive(…)` or `Actuated(…)`",
         Noun::Axis => "a joint such as `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`",
         Noun::Body => "`(origin: (x, y, z))`",

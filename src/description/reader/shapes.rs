@@ -147,9 +147,19 @@ impl FileReader {
         noun: Noun,
         read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
     ) -> Vec<Named<T>> {
-        let Some(piece) = fields.take(field) else {
-            return Vec::new();
-        };
+        match fields.take(field) {
+            Some(piece) => self.map(piece, noun, read),
+            None => Vec::new(),
+        }
+    }
+
+    /// A map from names to things.
+    pub(super) fn map<'a, T>(
+        &mut self,
+        piece: Piece<'a>,
+        noun: Noun,
+        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+    ) -> Vec<Named<T>> {
         let Shape::Map = piece.shape() else {
             self.wrong_type(piece, Expected::MapOf(noun));
             return Vec::new();

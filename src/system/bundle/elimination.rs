@@ -1,5 +1,7 @@
 //! A configuration of a bundle, linearised and eliminated.
 
+use nalgebra::{DMatrix, DVector};
+
 use crate::linear::{Svd, add, complement, dot, rank};
 
 /// Closures and targets of one configuration, linearised; matrices are dense and column-major.
@@ -39,6 +41,45 @@ impl Eliminated {
 }
 
 impl Linear {
+    /// Makes some targets equations.
+    pub(super) fn impose(&mut self, exact: &[bool]) {
+        if !exact.contains(&true) {
+            return;
+        }
+        let rows = self.closures.len();
+        let mut places = exact.iter();
+        let (met, targets): (Vec<_>, Vec<_>) = std::mem::take(&mut self.targets)
+            .into_iter()
+            .partition(|_| places.next() == Some(&true));
+        let taller = |column: usize, from: &[f64]| -> Vec<f64> {
+            let more = met.iter().map(|row| row[column]);
+            from.iter().copied().chain(more).collect()
+        };
+        let (unknowns, numbers) = (self.unknowns, self.numbers);
+        let of = |all: &[f64], i: usize| all[i * rows..(i + 1) * rows].to_vec();
+        let by_unknowns = (0..unknowns).flat_map(|i| taller(i, &of(&self.by_unknowns, i)));
+        let by_unknowns = by_unknowns.collect();
+        let by_numbers = (0..numbers).flat_map(|i| taller(unknowns + i, &of(&self.by_numbers, i)));
+        self.by_numbers = by_numbers.collect();
+        self.by_unknowns = by_unknowns;
+        self.closures = taller(unknowns + numbers, &self.closures);
+        self.targets = targets;
+    }
+
+    /// The step of the configuration alone, of least length.
+    pub(super) fn alone(&self, given: Option<usize>) -> Vec<f64> {
+        let size = self.unknowns;
+        if self.closures.len() != size || given.is_some() {
+            return self.eliminated(given).0.step(&[]);
+        }
+        let matrix = DMatrix::from_column_slice(size, size, &self.by_unknowns);
+        let side = DVector::from_iterator(size, self.closures.iter().map(|x| -x));
+        match matrix.lu().solve(&side) {
+            Some(step) if step.iter().all(|x| x.abs() < 1e3) => step.as_slice().to_vec(),
+            _ => self.eliminated(given).0.step(&[]),
+        }
+    }
+
     /// Eliminates the configuration, whose closures have a given rank or that of their singular values.
     pub(super) fn eliminated(&self, given: Option<usize>) -> (Eliminated, Left) {
         let (rows, unknowns) = (self.closures.len(), self.unknowns);

@@ -81,6 +81,21 @@ impl Reduced {
         self.square(&row);
     }
 
+    /// Lengths of the columns of the squares.
+    pub(super) fn sensitivities(&self) -> Vec<f64> {
+        let (count, coefficients, _) = self.squares.parts();
+        let columns = (0..self.numbers).map(|i| &coefficients[i * count..(i + 1) * count]);
+        columns.map(crate::linear::norm).collect()
+    }
+
+    /// Lets a number stand still.
+    pub(super) fn without(&mut self, number: usize) {
+        for triangle in [&mut self.conditions, &mut self.squares] {
+            let rows = triangle.rows.chunks_exact_mut(triangle.width);
+            rows.for_each(|row| row[number] = 0.0);
+        }
+    }
+
     /// The conditions decomposed: their rank, and what is left.
     fn decomposed(&self) -> (Svd, usize, Vec<f64>) {
         let (count, coefficients, left) = self.conditions.parts();

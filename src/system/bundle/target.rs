@@ -1,13 +1,14 @@
 //! Targets of a bundle: quantities of a configuration that should have given values.
 
+use std::f64::consts::TAU;
+
 use thiserror::Error;
 
-use super::elimination::Linear;
-use super::{Bundle, Bundled};
+use super::{Bundle, Lanes};
+use crate::algebra::SiUnit;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Measured, Mechanism, Order, Quantity};
 use crate::number::{Gradient, Number};
-use crate::solve::Equations;
 use crate::system::{System, Work};
 
 /// A quantity of one configuration that should have a value.
@@ -21,6 +22,8 @@ pub struct Target {
     pub value: f64,
     /// Weight of a unit of difference: 1 over the uncertainty of the value.
     pub weight: f64,
+    /// True if it must be met: it is then an equation of the configuration, as its closures are.
+    pub exact: bool,
 }
 
 /// Reasons for which a quantity cannot be a target.
@@ -49,6 +52,35 @@ impl Target {
     pub(super) fn left<T: Factorable>(
         &self,
         mechanism: &Mechanism,
+        evaluated: (&System<T>, &Work<T>),
+        parameters: &[T],
+        at: &Configuration<T>,
+    ) -> Option<T> {
+        let value = T::from_f64(self.value);
+        self.left_of(mechanism, evaluated, parameters, at, value)
+    }
+
+    /// As [`Target::left`], with another value.
+    pub(super) fn left_of<T: Factorable>(
+        &self,
+        mechanism: &Mechanism,
+        evaluated: (&System<T>, &Work<T>),
+        parameters: &[T],
+        at: &Configuration<T>,
+        value: T,
+    ) -> Option<T> {
+        let left = self.quantity(mechanism, evaluated, parameters, at)? - value;
+        let turns = match self.turns(mechanism) {
+            true => (left.real() / TAU).round(),
+            false => 0.0,
+        };
+        Some((left - T::from_f64(turns * TAU)).scale(self.weight))
+    }
+
+    /// The quantity q where the equations were last evaluated.
+    pub(super) fn quantity<T: Factorable>(
+        &self,
+        mechanism: &Mechanism,
         (system, work): (&System<T>, &Work<T>),
         parameters: &[T],
         at: &Configuration<T>,
@@ -71,49 +103,51 @@ impl Target {
             }
             _ => unreachable!("targets of anything else are refused"),
         });
-        Some((value.ok()? - T::from_f64(self.value)).scale(self.weight))
+        value.ok()
+    }
+
+    /// True for an angle that means the same after a turn.
+    fn turns(&self, mechanism: &Mechanism) -> bool {
+        self.quantity.unit == SiUnit::RADIAN
+            && self.quantity.measured().all(|of| match of {
+                Measured::Joint(joint, _) => {
+                    !mechanism.joints()[*joint].kind.is_angle()
+                        || mechanism.turns_to_repeat(*joint) == Some(1.0)
+                }
+                _ => true,
+            })
     }
 }
 
 impl Bundle<'_> {
-    /// Linearises the targets: all their derivatives are taken through the kinematics.
-    pub(super) fn linear_targets(&self, at: &Bundled, all: &mut [Linear]) -> Option<()> {
-        if self.targets.is_empty() {
-            return Some(());
-        }
-        let (unknowns, numbers) = (all.first()?.unknowns, self.numbers.len());
-        for (&k, targets) in &self.targets {
-            let row = vec![0.0; unknowns + numbers + 1];
-            all.get_mut(k)?.targets = vec![row; targets.len()];
-        }
-        let lanes = |count: usize| (0..count).step_by(Gradient::LANES);
-        let by_unknowns = lanes(unknowns).map(|from| (from, None));
-        let by_numbers = lanes(numbers).map(|from| (unknowns + from, Some(from)));
-        for (place, number) in by_unknowns.chain(by_numbers) {
-            let mut lanes = self.lanes(&at.numbers, number.unwrap_or(numbers))?;
-            let end = if number.is_none() {
-                unknowns
-            } else {
-                unknowns + numbers
-            };
-            let count = Gradient::LANES.min(end - place);
+    /// Rows of some targets of a configuration: derivatives by the unknowns, then what is left.
+    pub(super) fn rows_by_unknowns(
+        &self,
+        targets: &[&Target],
+        lanes: &mut Lanes,
+        at: &Configuration<f64>,
+    ) -> Option<Vec<Vec<f64>>> {
+        let unknowns = lanes.system.unknowns().len();
+        let mut names = targets.iter().flat_map(|target| target.quantity.measured());
+        let placed = names.any(|of| matches!(of, Measured::Place(..)));
+        let mut rows = vec![vec![0.0; unknowns + 1]; targets.len()];
+        let at = at.map(Gradient::from_f64);
+        for from in (0..unknowns).step_by(Gradient::LANES) {
+            let count = Gradient::LANES.min(unknowns - from);
             let mut step = vec![Gradient::zero(); unknowns];
-            if number.is_none() {
-                let moved = step[place..place + count].iter_mut().enumerate();
-                moved.for_each(|(lane, x)| *x = Gradient::variable(0.0, lane));
+            let moved = step[from..from + count].iter_mut().enumerate();
+            moved.for_each(|(lane, x)| *x = Gradient::variable(0.0, lane));
+            let at = lanes.system.displaced(&at, &step);
+            if placed {
+                lanes.system.place(&at, &mut lanes.work);
             }
-            for (&k, targets) in &self.targets {
-                let at = at.configurations.get(k)?.map(Gradient::from_f64);
-                let at = lanes.system.displaced(&at, &step);
-                lanes.system.residual(&at, &mut lanes.work);
-                for (target, row) in targets.iter().zip(&mut all[k].targets) {
-                    let system = (&lanes.system, &lanes.work);
-                    let left = target.left(self.mechanism, system, &lanes.parameters, &at)?;
-                    row[unknowns + numbers] = left.value;
-                    row[place..place + count].copy_from_slice(&left.slopes[..count]);
-                }
+            for (target, row) in targets.iter().zip(&mut rows) {
+                let system = (&lanes.system, &lanes.work);
+                let left = target.left(self.mechanism, system, &lanes.parameters, &at)?;
+                row[unknowns] = left.value;
+                row[from..from + count].copy_from_slice(&left.slopes[..count]);
             }
         }
-        Some(())
+        Some(rows)
     }
 }

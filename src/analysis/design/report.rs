@@ -1,0 +1,153 @@
+//! Answer of a design question.
+
+use serde::{Deserialize, Serialize};
+
+use super::exact::Exact;
+use crate::algebra::SiUnit;
+
+/// A number of the mechanism that is sought, with the range in which it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VariedNumber {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: SiUnit,
+    /// The least value.
+    pub from: f64,
+    /// The greatest value.
+    pub to: f64,
+}
+
+/// A target in one position.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deviation {
+    /// The position, from 1.
+    pub position: usize,
+    /// The quantity.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: SiUnit,
+    /// By how much it differs from its target.
+    pub deviation: f64,
+}
+
+/// A reason for which a design does not do what it shall although it passes through its positions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "defect", rename_all = "snake_case")]
+pub enum Defect {
+    /// Positions that lie on another circuit than the first: it would have to be taken apart.
+    Circuit {
+        /// The positions, from 1.
+        positions: Vec<usize>,
+    },
+    /// Positions that the driving joint does not reach without passing a dead position.
+    Branch {
+        /// The joint.
+        driver: String,
+        /// The positions, from 1.
+        positions: Vec<usize>,
+    },
+    /// Positions are met in another order.
+    Order {
+        /// The order, from 1.
+        order: Vec<usize>,
+    },
+    /// Positions lie beyond the limit of a joint.
+    Limit {
+        /// The joints.
+        joints: Vec<String>,
+        /// The positions, from 1.
+        positions: Vec<usize>,
+    },
+    /// Branches cross on the way.
+    Crossing,
+    /// It does not move as far as it shall.
+    Motion {
+        /// The input.
+        input: String,
+        /// Its unit.
+        unit: SiUnit,
+        /// The value at which it stops.
+        at: Option<f64>,
+    },
+    /// A quantity leaves its range during the motion.
+    Condition {
+        /// The quantity.
+        quantity: String,
+        /// Its unit.
+        unit: SiUnit,
+        /// The bound.
+        bound: f64,
+        /// The worst value; `None` if it is not determined everywhere.
+        worst: Option<f64>,
+        /// True for a bound from below.
+        at_least: bool,
+    },
+    /// It could not be judged: a position is singular, or leaves more than one freedom.
+    NotJudged,
+}
+
+/// The driving joint of a design along the whole curve of its mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Moves {
+    /// It turns fully.
+    Turns,
+    /// It goes to and fro between dead positions or limits.
+    Rocks,
+    /// Not known, or there is none.
+    Unknown,
+}
+
+/// A design.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Design {
+    /// The values of the numbers, in the order of [`DesignReport::varied`].
+    pub values: Vec<f64>,
+    /// Σ (w·deviation)² over all targets.
+    pub sum_of_squares: f64,
+    /// All targets.
+    pub deviations: Vec<Deviation>,
+    /// For each number the root of the sum of squares of the weighted changes of all targets, for a change of it by one unit.
+    pub sensitivities: Vec<f64>,
+    /// Defects; none for a design that does what it shall.
+    pub defects: Vec<Defect>,
+    /// How the driving joint moves.
+    pub driver: Moves,
+    /// Number of starts that led to it.
+    pub reached: usize,
+    /// The mechanism file.
+    pub file: String,
+}
+
+/// Answer of a design question.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DesignReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The numbers that are sought.
+    pub varied: Vec<VariedNumber>,
+    /// Number of positions.
+    pub positions: usize,
+    /// Number of targets beyond given inputs, and how many numbers they leave open at the best design.
+    pub targets: usize,
+    /// Number of directions in which the numbers of the best design may change without any target changing.
+    pub undetermined: usize,
+    /// The joint that drives, by which branches are judged.
+    pub driver: Option<String>,
+    /// Different designs: first those without defects, each group by its sum of squares.
+    pub designs: Vec<Design>,
+    /// Number of different designs found beyond those listed.
+    pub more: usize,
+    /// Counts of an exact synthesis, where there are as many targets as unknowns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exact: Option<Exact>,
+    /// Number of random starts from which a search ran.
+    pub starts: usize,
+    /// Number of random dimensions that could not be assembled in all positions.
+    pub not_assembled: usize,
+    /// Seed of the search.
+    pub seed: u64,
+    /// True if the work was stopped early.
+    pub interrupted: bool,
+}

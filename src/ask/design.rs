@@ -1,0 +1,201 @@
+//! Design questions.
+
+mod judge;
+mod read;
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use crate::analysis::design::{self, DesignReport, Found, Task, VariedNumber};
+use crate::description::{Description, DesignDescription, DesignPart, DesignProblem, Problem};
+use crate::mechanism::Mechanism;
+use crate::solve::{LeastSquares, Watch};
+use judge::Judge;
+use read::Read;
+
+/// A design question: a mechanism, what it shall do, and which of its numbers may vary.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The mechanism.
+    pub mechanism: Description,
+    /// What it shall do.
+    pub asked: DesignDescription,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Random starts at most.
+    pub starts: usize,
+    /// True for a search from random starts where all solutions could be found too.
+    pub approximate: bool,
+    /// Generic solutions of an exact synthesis at most; where there are more it is searched from random starts.
+    pub solutions: usize,
+    /// Designs listed at most.
+    pub most: usize,
+}
+
+impl Default for Design {
+    fn default() -> Self {
+        Design {
+            mechanism: Description::default(),
+            asked: DesignDescription::default(),
+            seed: 1,
+            starts: 400,
+            approximate: false,
+            solutions: 100,
+            most: 10,
+        }
+    }
+}
+
+/// Reasons for which a design question has no answer.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum DesignError {
+    /// The mechanism has problems.
+    #[error("the mechanism has problems")]
+    Mechanism(Vec<Problem>),
+    /// Part of the question is wrong: its name, or with `value` what it is given.
+    #[error("{problem}")]
+    Part {
+        part: DesignPart,
+        value: bool,
+        problem: DesignProblem,
+    },
+}
+
+impl DesignProblem {
+    /// The error of a part of the question.
+    fn at(self, part: DesignPart) -> DesignError {
+        DesignError::Part {
+            part,
+            value: false,
+            problem: self,
+        }
+    }
+
+    /// The error of the value of a part.
+    fn of_value(self, part: DesignPart) -> DesignError {
+        DesignError::Part {
+            part,
+            value: true,
+            problem: self,
+        }
+    }
+}
+
+impl Design {
+    /// Searches for designs, and judges each along its whole motion.
+    ///
+    /// # Errors
+    /// If the question is wrong, or no mechanism in the ranges can be assembled.
+    pub fn report(&self, watch: &Watch) -> Result<DesignReport, DesignError> {
+        let description = self.extended();
+        let mechanism = Mechanism::new(&description).map_err(DesignError::Mechanism)?;
+        let mechanism = Arc::new(mechanism);
+        let read = Read::new(&self.asked, &mechanism)?;
+        let task = Task {
+            mechanism: &mechanism,
+            held: read.held.clone(),
+            bundle: read.bundle(&mechanism),
+            ranges: read.ranges(),
+            angles: read.varied.iter().map(|of| of.angle).collect(),
+            size: read.size,
+            positions: self.asked.positions.len(),
+            free_driver: read.driver.filter(|_| !read.driven),
+            seed: self.seed,
+            // without unknowns one start finds every position
+            starts: if read.varied.is_empty() {
+                1
+            } else {
+                self.starts.max(1)
+            },
+        };
+        let judge = Judge {
+            asked: &self.asked,
+            read: &read,
+            description: &description,
+            mechanism: &mechanism,
+            watch,
+        };
+        judge.check()?;
+        let exact = match self.approximate {
+            true => None,
+            false => task.exact(self.solutions, watch),
+        };
+        let (exact, searched) = match exact {
+            Some((exact, searched)) => (Some(exact), searched),
+            None => {
+                let good = |found: &Found| judge.defects(found).0.is_empty();
+                (None, task.search(&good, watch))
+            }
+        };
+        if exact.is_none() && searched.found.is_empty() && !searched.interrupted {
+            let tried = searched.not_assembled;
+            return Err(DesignProblem::NothingAssembles { tried }.at(DesignPart::Whole));
+        }
+        // all of a complete list
+        let most = if exact.is_some() {
+            usize::MAX
+        } else {
+            self.most
+        };
+        let found = &searched.found[..searched.found.len().min(most.saturating_mul(4))];
+        let mut designs: Vec<design::Design> = found
+            .iter()
+            .filter_map(|found| self.design(&task, &judge, found))
+            .collect();
+        designs.sort_by_key(|design| !design.defects.is_empty());
+        designs.truncate(most);
+        let undetermined = searched.found.first().and_then(|found| {
+            let model = task.bundle.model(&found.at)?;
+            Some(model.undetermined())
+        });
+        let parameters = mechanism.parameters();
+        Ok(DesignReport {
+            mechanism: mechanism.name().to_owned(),
+            varied: (read.varied.iter())
+                .map(|of| VariedNumber {
+                    name: parameters[of.parameter].name.to_string(),
+                    unit: of.unit,
+                    from: of.range.0,
+                    to: of.range.1,
+                })
+                .collect(),
+            positions: task.positions,
+            targets: read.targets.iter().filter(|of| !of.exact).count(),
+            undetermined: undetermined.unwrap_or(0),
+            driver: read.driver.map(|i| mechanism.joints()[i].name.clone()),
+            more: searched.found.len() - designs.len(),
+            designs,
+            exact,
+            starts: searched.starts,
+            not_assembled: searched.not_assembled,
+            seed: self.seed,
+            interrupted: searched.interrupted,
+        })
+    }
+
+    fn design(&self, task: &Task, judge: &Judge, found: &Found) -> Option<design::Design> {
+        let (defects, driver) = judge.defects(found);
+        let deviations = task.bundle.deviations(&found.at)?.into_iter();
+        let deviations = deviations.filter(|(target, _)| !target.exact);
+        let model = task.bundle.model(&found.at)?;
+        Some(design::Design {
+            values: found.at.numbers.clone(),
+            sum_of_squares: found.squares,
+            deviations: deviations
+                .map(|(target, deviation)| design::Deviation {
+                    position: target.configuration + 1,
+                    quantity: target.quantity.name.clone(),
+                    unit: target.quantity.unit,
+                    deviation,
+                })
+                .collect(),
+            sensitivities: model.sensitivities(),
+            defects,
+            driver,
+            reached: found.reached,
+            file: judge.file(found),
+        })
+    }
+}

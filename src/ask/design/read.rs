@@ -1,0 +1,289 @@
+//! The parts of a design question, resolved.
+
+use super::{Design, DesignError};
+use crate::algebra::{Measure, SiUnit};
+use crate::ask::{Question, study};
+use crate::description::{
+    Description, DesignDescription, DesignPart, DesignProblem, Entry, Named, Problem, ProblemKind,
+    Role, nearest,
+};
+use crate::mechanism::{Measured, Mechanism, Quantity};
+use crate::system::{Bundle, Held, Target, Value};
+
+/// A number that varies.
+pub(super) struct Varied {
+    pub parameter: usize,
+    pub range: (f64, f64),
+    pub unit: SiUnit,
+    pub angle: bool,
+}
+
+/// A design question about a mechanism, its names resolved.
+pub(super) struct Read {
+    pub varied: Vec<Varied>,
+    pub targets: Vec<Target>,
+    pub held: Held<f64>,
+    /// The first driven joint.
+    pub driver: Option<usize>,
+    /// True if the positions give its values.
+    pub driven: bool,
+    /// The size of what the targets describe, in m.
+    pub size: f64,
+}
+
+impl Design {
+    /// The mechanism file with the further unknowns among its parameters.
+    pub(super) fn extended(&self) -> Description {
+        let mut description = self.mechanism.clone();
+        for varied in &self.asked.vary {
+            let known =
+                (description.parameters.iter()).any(|of| of.name.value == varied.name.value);
+            if known {
+                continue;
+            }
+            // amid its range, whose unit it has
+            let [from, to] = &varied.value;
+            let text = format!("(({}) + ({}))/2", from.expression, to.expression);
+            let value = Entry::read(&text).unwrap_or_else(|_| from.clone());
+            let named = Named::new(varied.name.value.clone(), value);
+            if let Some(coordinates) = &mut description.coordinates {
+                coordinates.axes.parameters.push(named.clone());
+            }
+            description.parameters.push(named);
+        }
+        description
+    }
+}
+
+impl Read {
+    pub(super) fn new(
+        asked: &DesignDescription,
+        mechanism: &std::sync::Arc<Mechanism>,
+    ) -> Result<Self, DesignError> {
+        let varied = varied(asked, mechanism)?;
+        if asked.positions.is_empty() {
+            return Err(DesignProblem::NoPositions.at(DesignPart::Whole));
+        }
+        let mut targets = Vec::new();
+        for (k, position) in asked.positions.iter().enumerate() {
+            if position.is_empty() {
+                let position = k + 1;
+                return Err(DesignProblem::NoTargets { position }.at(DesignPart::Whole));
+            }
+            for (i, named) in position.iter().enumerate() {
+                let part = DesignPart::Position(k, i);
+                targets.extend(targets_of(mechanism, k, named, part)?);
+            }
+            let same = |other: &Vec<Named<Vec<Entry>>>| {
+                let pairs = other.iter().zip(position);
+                other.len() == position.len()
+                    && pairs.clone().all(|(a, b)| {
+                        a.name.value == b.name.value && texts(&a.value) == texts(&b.value)
+                    })
+            };
+            if let Some(first) = asked.positions[..k].iter().position(same) {
+                let (first, second) = (first + 1, k + 1);
+                let problem = DesignProblem::SamePositions { first, second };
+                return Err(problem.at(DesignPart::Position(k, 0)));
+            }
+        }
+        let used = |parameter: usize| {
+            let of = |target: &Target| {
+                let mut names = target.quantity.measured();
+                names.any(|name| *name == Measured::Parameter(parameter))
+            };
+            let name = &*mechanism.parameters()[parameter].name;
+            let idle = |problem: &Problem| matches!(&problem.kind, ProblemKind::UnusedParameter { name: idle } if idle == name);
+            targets.iter().any(of) || !mechanism.warnings().iter().any(idle)
+        };
+        for (i, of) in varied.iter().enumerate() {
+            if !used(of.parameter) {
+                let name = asked.vary[i].name.value.clone();
+                let known = (0..mechanism.parameters().len()).filter(|i| *i != of.parameter);
+                let known = known.map(|i| &*mechanism.parameters()[i].name);
+                let suggestion = nearest(&name, known).map(str::to_owned);
+                return Err(DesignProblem::Unused { name, suggestion }.at(DesignPart::Vary(i)));
+            }
+        }
+        let question = Question::new(mechanism.clone());
+        let held = match question.released() {
+            Ok(question) => question.with_spins_still().held(),
+            Err(_) => Held::nothing(mechanism),
+        };
+        let roles = mechanism.joints().iter();
+        let driver = roles.clone().position(|joint| joint.role == Role::Actuated);
+        let given = |target: &Target| target.exact;
+        Ok(Read {
+            driven: targets.iter().any(given),
+            size: size(mechanism, &targets),
+            varied,
+            targets,
+            held,
+            driver,
+        })
+    }
+
+    pub(super) fn ranges(&self) -> Vec<(f64, f64)> {
+        self.varied.iter().map(|of| of.range).collect()
+    }
+
+    /// Closures and targets of all positions.
+    pub(super) fn bundle<'m>(&self, mechanism: &'m Mechanism) -> Bundle<'m> {
+        // one unit is a metre or a radian, or for lengths the size of the task
+        let unit = |of: &Varied| match of.unit {
+            unit if unit == SiUnit::METRE => (of.parameter, self.size),
+            _ => (of.parameter, 1.0),
+        };
+        let numbers: Vec<(usize, f64)> = self.varied.iter().map(unit).collect();
+        let bundle = Bundle::new(mechanism, self.held.clone(), &numbers).within(self.ranges());
+        self.targets.iter().fold(bundle, |bundle, target| {
+            let with = bundle.target(target.clone());
+            with.expect("rates and forces were refused")
+        })
+    }
+}
+
+fn texts(entries: &[Entry]) -> Vec<String> {
+    entries.iter().map(|of| of.expression.to_string()).collect()
+}
+
+fn varied(asked: &DesignDescription, mechanism: &Mechanism) -> Result<Vec<Varied>, DesignError> {
+    let independent = mechanism.independent_parameters();
+    let added = |i: usize| mechanism.parameters()[i].name.to_string();
+    let mut all = Vec::new();
+    for (i, named) in asked.vary.iter().enumerate() {
+        let (part, name) = (DesignPart::Vary(i), &named.name.value);
+        if mechanism.joint(name).is_some() {
+            return Err(DesignProblem::VariesJoint { name: name.clone() }.at(part));
+        }
+        let parameters = 0..mechanism.parameters().len();
+        let Some(parameter) = parameters.clone().find(|of| added(*of) == *name) else {
+            let names: Vec<String> = parameters.map(added).collect();
+            let suggestion = nearest(name, names.iter().map(String::as_str)).map(str::to_owned);
+            let name = name.clone();
+            return Err(DesignProblem::NotAName { name, suggestion }.at(part));
+        };
+        if !independent.contains(&parameter) {
+            return Err(DesignProblem::VariesFormula { name: name.clone() }.at(part));
+        }
+        let number = |entry: &Entry| {
+            let text = entry.expression.to_string();
+            let value = Value::Text(text.clone());
+            study::number(mechanism, parameter, &value).map_err(|error| {
+                let why = error.to_string();
+                DesignProblem::Value { text, why }.of_value(part)
+            })
+        };
+        let [from, to] = &named.value;
+        let range = (number(from)?, number(to)?);
+        if range.0 > range.1 {
+            return Err(DesignProblem::Reversed { name: name.clone() }.of_value(part));
+        }
+        let measure = match mechanism.measure_in_use(parameter) {
+            Measure::Open | Measure::Number => mechanism.parameters()[parameter].measure,
+            known => known,
+        };
+        all.push(Varied {
+            parameter,
+            range,
+            unit: measure.si_unit().unwrap_or(SiUnit::ONE),
+            angle: measure == Measure::Angle,
+        });
+    }
+    Ok(all)
+}
+
+/// The coordinate of a point in ground as an expression: its offsets may be expressions of unknowns.
+fn coordinate(of: &str, axis: &str) -> String {
+    let (frame, offsets) = of.split_once('+').unwrap_or((of, ""));
+    let frame = frame.trim();
+    let numbers = offsets
+        .split(',')
+        .all(|text| text.trim().parse::<f64>().is_ok());
+    if offsets.is_empty() || numbers {
+        return format!("[{}].{axis}", of.trim());
+    }
+    let mut text = format!("[{frame}].{axis}");
+    let along = ["1", "0,1", "0,0,1"];
+    for (offset, along) in offsets.split(',').zip(along) {
+        text += &format!(" + ({offset})*([{frame}+{along}].{axis} - [{frame}].{axis})/(1 m)");
+    }
+    text
+}
+
+fn targets_of(
+    mechanism: &Mechanism,
+    configuration: usize,
+    named: &Named<Vec<Entry>>,
+    part: DesignPart,
+) -> Result<Vec<Target>, DesignError> {
+    let name = &named.name.value;
+    let values = &named.value;
+    let point = match values.len() {
+        1 => None,
+        count => {
+            let frame = name.split('+').next().unwrap_or(name).trim();
+            if mechanism.frame(frame).is_none() {
+                let name = name.clone();
+                return Err(DesignProblem::NotAPoint { name, count }.at(part));
+            }
+            Some(["x", "y", "z"])
+        }
+    };
+    let mut targets = Vec::new();
+    for (i, value) in values.iter().enumerate() {
+        let (label, text) = match point {
+            None => (name.clone(), name.clone()),
+            Some(axes) => (format!("{name}.{}", axes[i]), coordinate(name, axes[i])),
+        };
+        let number = value.expression.as_number();
+        let read = |text: &str| {
+            Quantity::read(mechanism, &label, text).map_err(|error| {
+                let why = error.to_string();
+                let help = None;
+                DesignProblem::Quantity { why, help }.at(part)
+            })
+        };
+        let (quantity, value) = match number {
+            Some(number) => (read(&text)?, number),
+            None => (read(&format!("({text}) - ({})", value.expression))?, 0.0),
+        };
+        let of_position = |of: &Measured| {
+            use crate::mechanism::Order::Value;
+            matches!(
+                of,
+                Measured::Parameter(_) | Measured::Joint(_, Value) | Measured::Place(_, _, Value)
+            )
+        };
+        if !quantity.measured().all(of_position) {
+            return Err(DesignProblem::NotOfPosition { name: label }.at(part));
+        }
+        let exact = (mechanism.joint(name))
+            .is_some_and(|joint| mechanism.joints()[joint].role == Role::Actuated);
+        let length = mechanism.characteristic_length();
+        let weight = match exact && quantity.unit == SiUnit::METRE {
+            true => 1.0 / length,
+            false => 1.0,
+        };
+        targets.push(Target {
+            configuration,
+            quantity,
+            value,
+            weight,
+            exact,
+        });
+    }
+    Ok(targets)
+}
+
+/// The extent of the lengths among the targets, or without any the mechanism's own.
+fn size(mechanism: &Mechanism, targets: &[Target]) -> f64 {
+    let lengths = targets
+        .iter()
+        .filter(|of| of.quantity.unit == SiUnit::METRE);
+    let most = lengths.map(|of| of.value.abs()).fold(0.0, f64::max);
+    match most > 0.0 && most.is_finite() {
+        true => most,
+        false => mechanism.characteristic_length(),
+    }
+}

@@ -1,0 +1,83 @@
+//! The design file: what a mechanism shall do, and which of its dimensions may vary.
+
+use std::ops::Range;
+
+use super::{Entry, Named, Spanned};
+use crate::algebra::{Expression, ParseError};
+
+/// What a mechanism shall do, and which of its numbers may vary. Everything is in the order of the file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct DesignDescription {
+    /// Name of the design.
+    pub name: Spanned<String>,
+    /// The mechanism file, from the folder of the design file.
+    pub mechanism: Spanned<String>,
+    /// The parameters that vary, with their ranges. A name that the mechanism file does not have is a further unknown, for
+    /// expressions of the positions.
+    pub vary: Vec<Named<[Entry; 2]>>,
+    /// The positions: values of quantities, or two or three coordinates of a point in ground.
+    pub positions: Vec<Vec<Named<Vec<Entry>>>>,
+    /// Inputs with the ranges through which they shall move.
+    pub motion: Vec<Named<[Entry; 2]>>,
+    /// Quantities with the least values that they may have during the motion.
+    pub at_least: Vec<Named<Entry>>,
+    /// Quantities with the greatest values that they may have during the motion.
+    pub at_most: Vec<Named<Entry>>,
+    /// True if positions without given inputs may be passed in any order.
+    pub any_order: bool,
+}
+
+/// Part of a design file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DesignPart {
+    /// The file as a whole.
+    Whole,
+    /// A number that varies.
+    Vary(usize),
+    /// A quantity of a position.
+    Position(usize, usize),
+    /// A range of the motion.
+    Motion(usize),
+    /// A least value.
+    AtLeast(usize),
+    /// A greatest value.
+    AtMost(usize),
+}
+
+impl DesignDescription {
+    /// The place of a part: its name, or with `value` what it is given.
+    pub fn span(&self, part: DesignPart, value: bool) -> Range<usize> {
+        let of = |name: &Spanned<String>, entries: &[Entry]| match entries {
+            [first, .., last] if value => first.span.start..last.span.end,
+            [one] if value => one.span.clone(),
+            _ => name.span.clone(),
+        };
+        match part {
+            DesignPart::Whole => 0..1,
+            DesignPart::Vary(i) => of(&self.vary[i].name, &self.vary[i].value),
+            DesignPart::Position(k, i) => {
+                let named = &self.positions[k][i];
+                of(&named.name, &named.value)
+            }
+            DesignPart::Motion(i) => of(&self.motion[i].name, &self.motion[i].value),
+            DesignPart::AtLeast(i) => of(
+                &self.at_least[i].name,
+                std::slice::from_ref(&self.at_least[i].value),
+            ),
+            DesignPart::AtMost(i) => of(
+                &self.at_most[i].name,
+                std::slice::from_ref(&self.at_most[i].value),
+            ),
+        }
+    }
+}
+
+impl Entry {
+    /// The entry of a text, as in a file.
+    ///
+    /// # Errors
+    /// If it is no expression.
+    pub fn read(text: &str) -> Result<Self, ParseError> {
+        Expression::parse(text).map(Entry::from)
+    }
+}

@@ -1,0 +1,82 @@
+//! Problems of design questions.
+
+use thiserror::Error;
+
+/// Reasons for which a design question has no answer. Lengths are in m, angles in rad.
+#[derive(Debug, Clone, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum DesignProblem {
+    #[error("the design has no positions")]
+    NoPositions,
+    #[error("position {position} has no targets")]
+    NoTargets { position: usize },
+    #[error("positions {first} and {second} are the same")]
+    SamePositions { first: usize, second: usize },
+    #[error("`{name}` is a joint, which each position has a value of its own for")]
+    VariesJoint { name: String },
+    #[error("the parameter `{name}` follows from others")]
+    VariesFormula { name: String },
+    #[error("`{name}` cannot be the name of a further unknown")]
+    NotAName {
+        name: String,
+        suggestion: Option<String>,
+    },
+    #[error("nothing uses `{name}`")]
+    Unused {
+        name: String,
+        suggestion: Option<String>,
+    },
+    #[error("`{text}` has no value: {why}")]
+    Value { text: String, why: String },
+    #[error("the range of `{name}` is reversed")]
+    Reversed { name: String },
+    #[error("{why}")]
+    Quantity { why: String, help: Option<String> },
+    #[error("`{name}` is no point, and has {count} coordinates")]
+    NotAPoint { name: String, count: usize },
+    #[error("`{name}` is a rate, a force or a figure, which a position alone does not have")]
+    NotOfPosition { name: String },
+    #[error("no mechanism in these ranges can be assembled in all positions ({tried} were tried)")]
+    NothingAssembles { tried: usize },
+    #[error("{why}")]
+    Motion { why: String, help: Option<String> },
+}
+
+impl DesignProblem {
+    /// Remedy, if there is one worth saying.
+    pub fn help(&self) -> Option<String> {
+        let near =
+            |name: &Option<String>| name.as_ref().map(|name| format!("did you mean `{name}`?"));
+        Some(match self {
+            Self::NoPositions => {
+                "give positions, such as `positions: [{ \"coupler\": (0.5, 1.1) }, …]`".into()
+            }
+            Self::NoTargets { .. } => {
+                "give it the coordinates of a point or values of quantities, or leave it out".into()
+            }
+            Self::SamePositions { .. } => {
+                "leave one of them out, or give them different inputs".into()
+            }
+            Self::VariesJoint { .. } => {
+                "name parameters of the file, or new names for further unknowns".into()
+            }
+            Self::VariesFormula { .. } => "vary the parameters in its definition".into(),
+            Self::NotAName { suggestion, .. } => near(suggestion)
+                .unwrap_or_else(|| "begin it with a letter, without spaces or dots".into()),
+            Self::Unused { suggestion, .. } => near(suggestion)
+                .unwrap_or_else(|| "use it in a position, or vary a parameter of the file".into()),
+            Self::Value { .. } => "write a number or an expression such as `60 deg`".into(),
+            Self::Reversed { .. } => "write the least value first".into(),
+            Self::Quantity { help, .. } | Self::Motion { help, .. } => help.clone()?,
+            Self::NotAPoint { .. } => {
+                "give coordinates to a frame or a body, such as `coupler` or `coupler+u,v`".into()
+            }
+            Self::NotOfPosition { .. } => {
+                "bound it over the motion instead, by `at_least` or `at_most`".into()
+            }
+            Self::NothingAssembles { .. } => {
+                "widen the ranges, or give inputs that the mechanism can reach".into()
+            }
+        })
+    }
+}

@@ -1,0 +1,320 @@
+//! Designs in words.
+
+use super::document::{Align, Block, Cell, Column, Document, Section, Table, cells};
+use super::quantity::quantity;
+use super::report::{Report, Rows};
+use crate::algebra::SiUnit;
+use crate::analysis::design::{Defect, Design, DesignReport, Exact, Moves};
+use crate::description::{count, listed};
+
+/// A sum of squares below this part of what was asked is met exactly.
+const MET: f64 = 1e-18;
+
+impl DesignReport {
+    fn largest(&self, design: &Design) -> String {
+        let mut largest: Vec<(SiUnit, f64)> = Vec::new();
+        for of in &design.deviations {
+            match largest.iter_mut().find(|(unit, _)| *unit == of.unit) {
+                Some((_, most)) => *most = most.max(of.deviation.abs()),
+                None => largest.push((of.unit, of.deviation.abs())),
+            }
+        }
+        let words = largest.iter().map(|(unit, most)| quantity(*most, *unit));
+        let words: Vec<String> = words.collect();
+        match words.is_empty() {
+            true => "0".into(),
+            false => words.join(" and "),
+        }
+    }
+
+    fn answer(&self) -> String {
+        let good = self
+            .designs
+            .iter()
+            .filter(|of| of.defects.is_empty())
+            .count();
+        let asked = match self.targets {
+            0 => count(self.positions, "position"),
+            targets => format!(
+                "{} in {}",
+                count(targets, "target"),
+                count(self.positions, "position")
+            ),
+        };
+        let Some(first) = self.designs.first() else {
+            return match &self.exact {
+                Some(exact) if exact.real == 0 => {
+                    format!("No real mechanism meets {asked}: all exact solutions are complex.")
+                }
+                Some(exact) => format!(
+                    "No mechanism in the ranges meets {asked}: {} outside.",
+                    match exact.real {
+                        1 => "the one that does lies".to_owned(),
+                        real => format!("all {real} that do lie"),
+                    }
+                ),
+                None => format!("Nothing was found for {asked} before the search was stopped."),
+            };
+        };
+        let met = match first.sum_of_squares < MET {
+            true => "meets all of them".to_owned(),
+            false => format!(
+                "misses them by at most {}, with a sum of squares of {}",
+                self.largest(first),
+                squares(first.sum_of_squares)
+            ),
+        };
+        if self.varied.is_empty() {
+            return match good {
+                0 => format!(
+                    "This mechanism {met} ({asked}), but {}.",
+                    defects(&first.defects)
+                ),
+                _ => format!("This mechanism {met} ({asked}), in one motion without defects."),
+            };
+        }
+        match good {
+            0 => format!(
+                "No design without defects was found for {asked}; the nearest {met}, but {}.",
+                defects(&first.defects)
+            ),
+            _ => format!(
+                "{} without defects for {asked}; the best {met}.",
+                count(good, "design")
+            ),
+        }
+    }
+}
+
+fn squares(sum: f64) -> String {
+    match sum < 1e-30 {
+        true => "0".into(),
+        false => format!("{sum:.6e}"),
+    }
+}
+
+/// The completeness of an exact synthesis, in sentences.
+fn all_of(exact: &Exact) -> Vec<String> {
+    let linkages = match exact.classes == exact.generic {
+        true => String::new(),
+        false => format!(
+            ", {} without those that differ by signs of lengths and half turns only",
+            exact.classes
+        ),
+    };
+    let lost = match exact.lost {
+        0 => String::new(),
+        lost => format!(", {} lost", count(lost, "path")),
+    };
+    vec![
+        format!(
+            "For generic targets there are {}{linkages}: monodromy found them, and {} through other targets brought none beside \
+             them, each of which would with probability ½ at least if any were missing.",
+            count(exact.generic, "complex solution"),
+            count(exact.quiet, "random way"),
+        ),
+        format!(
+            "For these targets: {} arrived, {} went to infinity{lost}; {} different, {} real, {} of these outside the ranges.",
+            count(exact.arrived, "path"),
+            exact.at_infinity,
+            exact.different,
+            exact.real,
+            exact.outside,
+        ),
+    ]
+}
+
+/// What a design does not do, in words.
+fn defects(all: &[Defect]) -> String {
+    let words: Vec<String> = all.iter().map(defect).collect();
+    words.join("; ")
+}
+
+fn positions(of: &[usize]) -> String {
+    let numbers = listed(of.iter().map(usize::to_string));
+    match of.len() {
+        1 => format!("position {numbers}"),
+        _ => format!("positions {numbers}"),
+    }
+}
+
+fn defect(defect: &Defect) -> String {
+    match defect {
+        Defect::Circuit { positions: of } => {
+            format!(
+                "circuit defect: {} on another circuit than the first",
+                are(of)
+            )
+        }
+        Defect::Branch {
+            driver,
+            positions: of,
+        } => {
+            format!(
+                "branch defect: {} beyond a dead position of `{driver}`",
+                are(of)
+            )
+        }
+        Defect::Order { order } => {
+            let order: Vec<String> = order.iter().map(usize::to_string).collect();
+            format!(
+                "order defect: the positions are passed in the order {}",
+                order.join(" ")
+            )
+        }
+        Defect::Limit {
+            joints,
+            positions: of,
+        } => format!(
+            "{} not reached within the limits of {}",
+            are(of),
+            listed(joints.iter().map(|name| format!("`{name}`")))
+        ),
+        Defect::Crossing => {
+            "branches cross on the way: it can change into another motion there".into()
+        }
+        Defect::Motion { input, unit, at } => match at {
+            Some(at) => format!("`{input}` stops at {}", quantity(*at, *unit)),
+            None => format!("`{input}` does not move through its range"),
+        },
+        Defect::Condition {
+            quantity: name,
+            unit,
+            bound,
+            worst,
+            at_least,
+        } => {
+            let bound = quantity(*bound, *unit);
+            let (sign, end) = match at_least {
+                true => ("at least", "least"),
+                false => ("at most", "greatest"),
+            };
+            match worst {
+                Some(worst) => format!(
+                    "`{name}` shall be {sign} {bound}, and its {end} value is {}",
+                    quantity(*worst, *unit)
+                ),
+                None => format!("`{name}` shall be {sign} {bound}, and is not bounded everywhere"),
+            }
+        }
+        Defect::NotJudged => "its motion could not be judged".into(),
+    }
+}
+
+fn are(of: &[usize]) -> String {
+    format!(
+        "{} {}",
+        positions(of),
+        if of.len() == 1 { "is" } else { "are" }
+    )
+}
+
+impl Report for DesignReport {
+    fn document(&self) -> Document {
+        let mut document = Document::new(&self.mechanism, self.answer());
+        document.no = !self.designs.iter().any(|of| of.defects.is_empty());
+        let column = |title: &str, unit| Column {
+            title: title.into(),
+            unit,
+            align: Align::Right,
+        };
+        let mut columns = vec![column("design", SiUnit::ONE)];
+        columns.extend(self.varied.iter().map(|of| column(&of.name, SiUnit::ONE)));
+        columns.push(column("sum of squares", SiUnit::ONE));
+        columns.push(Column {
+            title: "verdict".into(),
+            unit: SiUnit::ONE,
+            align: Align::Left,
+        });
+        let rows = self.designs.iter().enumerate().map(|(i, design)| {
+            let mut row = cells![i + 1];
+            let values = design.values.iter().zip(&self.varied);
+            row.extend(values.map(|(value, of)| Cell::quantity(*value, of.unit)));
+            let driver = self.driver.as_deref().unwrap_or_default();
+            let moves = match design.driver {
+                Moves::Turns => format!("good; `{driver}` turns fully"),
+                Moves::Rocks => format!("good; `{driver}` rocks"),
+                Moves::Unknown => "good".to_owned(),
+            };
+            row.push(squares(design.sum_of_squares).into());
+            row.push(match design.defects.is_empty() {
+                true => moves.into(),
+                false => defects(&design.defects).into(),
+            });
+            row
+        });
+        if !self.varied.is_empty() {
+            document.sections.push(Section {
+                title: "Designs".into(),
+                blocks: vec![Block::Table(Table {
+                    columns,
+                    rows: rows.collect(),
+                    ruled: false,
+                })],
+            });
+        }
+        if let Some(first) = self.designs.first() {
+            let titles = ["position", "quantity", "deviation"];
+            let columns = titles.map(|title| column(title, SiUnit::ONE));
+            let rows = first.deviations.iter().map(|of| {
+                cells![
+                    of.position,
+                    format!("`{}`", of.quantity),
+                    quantity(of.deviation, of.unit)
+                ]
+            });
+            document.sections.push(Section {
+                title: "Deviations of the first".into(),
+                blocks: vec![Block::Table(Table {
+                    columns: columns.into(),
+                    rows: rows.collect(),
+                    ruled: false,
+                })],
+            });
+        }
+        if self.undetermined > 0 && !self.varied.is_empty() {
+            document.notes.push(format!(
+                "The targets leave {} of the numbers open: more positions would fit, and these designs are some of infinitely many.",
+                count(self.undetermined, "combination")
+            ));
+        }
+        if self.more > 0 {
+            document
+                .notes
+                .push(format!("{} not listed.", count(self.more, "further end")));
+        }
+        match &self.exact {
+            Some(exact) => document.method.extend(all_of(exact)),
+            None if self.varied.is_empty() => {}
+            None => document.method.push(format!(
+                "Least squares from {} (seed {}); {} could not be assembled in all positions. What random starts do not reach is not found.",
+                count(self.starts, "random start"),
+                self.seed,
+                count(self.not_assembled, "further start"),
+            )),
+        }
+        document.method.push(
+            "Circuits, order and dead positions from the whole curve of each mechanism, followed in steps that cannot change branch."
+                .into(),
+        );
+        document
+    }
+
+    fn rows(&self) -> Option<Rows<'_>> {
+        let names = self.varied.iter().map(|of| of.name.clone());
+        let columns = ["design".to_owned()].into_iter().chain(names);
+        let columns = columns.chain(["sum_of_squares".into(), "defects".into()]);
+        let rows = self.designs.iter().enumerate().map(|(i, design)| {
+            let mut row = cells![i + 1];
+            row.extend(design.values.iter().map(|value| (*value).into()));
+            row.push(design.sum_of_squares.into());
+            row.push(design.defects.len().into());
+            row
+        });
+        Some(Rows::new(columns, rows))
+    }
+
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        self.designs.first().map(|design| Ok(design.file.clone()))
+    }
+}
