@@ -2,15 +2,15 @@
 
 mod advice;
 mod coordinates;
-mod loads;
 mod design;
+mod loads;
 mod parts;
 
 use std::ops::Range;
 
 pub use coordinates::AxesProblem;
-pub use loads::LoadProblem;
 pub use design::DesignProblem;
+pub use loads::LoadProblem;
 use thiserror::Error;
 
 use super::words::{count, cycle, syntax};

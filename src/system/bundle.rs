@@ -9,19 +9,24 @@
 //! redundant closures leave for the shared numbers is U₂ᵀ(r + B p) = 0; of the targets what no y meets is left. The cost is
 //! linear in the number of configurations. Columns of B come from the one kinematics over [`Gradient`]s.
 
+mod along;
+mod closer;
 mod copies;
 mod elimination;
+mod linear;
 mod shared;
 mod target;
 
 use std::collections::BTreeMap;
 
-pub use copies::{Along, Copies};
-use elimination::{Eliminated, Linear};
+pub use along::Along;
+pub use closer::Closer;
+pub use copies::Copies;
+use elimination::Eliminated;
 use shared::Reduced;
 pub use target::{Target, TargetError};
 
-use crate::linear::{Factorable, RANK_TOLERANCE, norm};
+use crate::linear::{Factorable, RANK_TOLERANCE};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Frame, Kept, Mechanism};
 use crate::number::{Gradient, Number};
 use crate::solve::{Equations, LeastSquares, Misfit};
@@ -207,230 +212,11 @@ impl<'m> Bundle<'m> {
         })
     }
 
-    /// ∂r/∂p of the closures at each of some configurations: dense and column-major, each column times the unit of its number.
-    pub fn by_numbers(&self, at: &Bundled) -> Option<Vec<Vec<f64>>> {
-        let mut columns = vec![Vec::new(); at.configurations.len()];
-        self.over_numbers(at, |lanes, k, _, (_, width)| {
-            let residual = lanes.system.residual_of(&lanes.work);
-            for lane in 0..width {
-                columns[k].extend(residual.iter().map(|row| row.slopes[lane]));
-            }
-            Some(())
-        })?;
-        Some(columns)
-    }
-
-    /// Evaluates every configuration over the shared numbers, so many of them at once.
-    fn over_numbers(
-        &self,
-        at: &Bundled,
-        mut visit: impl FnMut(&Lanes, usize, &Configuration<Gradient>, (usize, usize)) -> Option<()>,
-    ) -> Option<()> {
-        for from in (0..self.numbers.len()).step_by(Gradient::LANES) {
-            let mut lanes = self.lanes(&at.numbers, from)?;
-            let width = Gradient::LANES.min(self.numbers.len() - from);
-            for (k, at) in at.configurations.iter().enumerate() {
-                let at = at.map(Gradient::from_f64);
-                lanes.system.residual(&at, &mut lanes.work);
-                visit(&lanes, k, &at, (from, width))?;
-            }
-        }
-        Some(())
-    }
-
-    /// Closures and targets of every configuration, linearised.
-    fn linear(&self, at: &Bundled) -> Option<Vec<Linear>> {
-        let system = self.equations::<f64>(&at.numbers)?;
-        let mut work = system.work();
-        let (unknowns, numbers) = (system.unknowns().len(), self.numbers.len());
-        let mut lanes = self.lanes(&at.numbers, numbers)?;
-        let mut all = Vec::new();
-        for (k, at) in at.configurations.iter().enumerate() {
-            system.linearise(at, &mut work);
-            let mut targets = self.rows_by_unknowns(&self.targets_of(k), &mut lanes, at)?;
-            for row in &mut targets {
-                let left = row.pop().expect("what is left is at the end");
-                row.resize(unknowns + numbers, 0.0);
-                row.push(left);
-            }
-            all.push(Linear {
-                unknowns,
-                numbers,
-                closures: system.residual_of(&work).to_vec(),
-                by_unknowns: system.dense_jacobian(&work),
-                by_numbers: Vec::new(),
-                targets,
-            });
-        }
-        self.over_numbers(at, |lanes, k, at, (from, width)| {
-            let residual = lanes.system.residual_of(&lanes.work);
-            let linear = &mut all[k];
-            for lane in 0..width {
-                let column = residual.iter().map(|row| row.slopes[lane]);
-                linear.by_numbers.extend(column);
-            }
-            for (target, row) in self.targets_of(k).iter().zip(&mut linear.targets) {
-                let evaluated = (&lanes.system, &lanes.work);
-                let left = target.left(self.mechanism, evaluated, &lanes.parameters, at)?;
-                row[unknowns + from..][..width].copy_from_slice(&left.slopes[..width]);
-            }
-            Some(())
-        })?;
-        for (k, linear) in all.iter_mut().enumerate() {
-            let exact: Vec<bool> = self.targets_of(k).iter().map(|of| of.exact).collect();
-            linear.impose(&exact);
-        }
-        Some(all)
-    }
-
     fn targets_of(&self, configuration: usize) -> Vec<&Target> {
         let of = self.targets.get(&configuration);
         of.into_iter().flatten().collect()
     }
-
-    /// The configurations that close, and meet what they must, near those of a point with the shared numbers as they are;
-    /// `None` if one of them does not.
-    pub fn closed(&self, at: Bundled) -> Option<Bundled> {
-        let mut closer = self.closer(&at.numbers)?;
-        let configurations = at.configurations.into_iter().enumerate();
-        let closed = configurations.map(|(k, at)| closer.closed(k, at));
-        Some(Bundled {
-            configurations: closed.collect::<Option<_>>()?,
-            numbers: at.numbers,
-        })
-    }
-
-    /// Closes configurations with given shared numbers.
-    pub fn closer(&self, numbers: &[f64]) -> Option<Closer<'_, '_>> {
-        let system = self.equations::<f64>(numbers)?;
-        let exact = self.targets.values().flatten().any(|target| target.exact);
-        Some(Closer {
-            bundle: self,
-            work: system.work(),
-            system,
-            lanes: match exact {
-                true => Some(self.lanes(numbers, numbers.len())?),
-                false => None,
-            },
-        })
-    }
-
-    /// The bundle without targets, and with something else held.
-    pub fn alone(&self, held: Held<f64>) -> Self {
-        Bundle {
-            held,
-            targets: BTreeMap::new(),
-            ..self.clone()
-        }
-    }
-
-    /// The sum of squares of the targets of one place at each of some configurations.
-    pub fn squares_at(
-        &self,
-        place: usize,
-        numbers: &[f64],
-        configurations: &[Configuration<f64>],
-    ) -> Vec<f64> {
-        let each = configurations.iter();
-        let (Some(system), Some((parameters, _))) =
-            (self.equations::<f64>(numbers), self.dimensions(numbers))
-        else {
-            return each.map(|_| f64::INFINITY).collect();
-        };
-        let mut work = system.work();
-        each.map(|at| {
-            system.residual(at, &mut work);
-            let targets = self.targets.get(&place).into_iter().flatten();
-            let left = targets.map(|target| {
-                let left = target.left(self.mechanism, (&system, &work), &parameters, at);
-                left.map_or(f64::INFINITY, |x| x * x)
-            });
-            left.sum()
-        })
-        .collect()
-    }
-
-    /// For each target what is left of it, without its weight.
-    pub fn deviations(&self, at: &Bundled) -> Option<Vec<(&Target, f64)>> {
-        let system = self.equations::<f64>(&at.numbers)?;
-        let (parameters, _) = self.dimensions(&at.numbers)?;
-        let mut work = system.work();
-        let mut all = Vec::new();
-        for (k, at) in at.configurations.iter().enumerate() {
-            system.residual(at, &mut work);
-            for target in self.targets.get(&k).into_iter().flatten() {
-                let left = target.left(self.mechanism, (&system, &work), &parameters, at)?;
-                all.push((target, left / target.weight));
-            }
-        }
-        Some(all)
-    }
 }
-
-/// Closes configurations of a bundle with given shared numbers.
-pub struct Closer<'b, 'm> {
-    bundle: &'b Bundle<'m>,
-    system: System<f64>,
-    work: Work<f64>,
-    lanes: Option<Lanes>,
-}
-
-impl Closer<'_, '_> {
-    /// The configuration of one place that closes, and meets what it must, near another one, by Newton's method in steps of
-    /// least length.
-    pub fn closed(
-        &mut self,
-        place: usize,
-        mut at: Configuration<f64>,
-    ) -> Option<Configuration<f64>> {
-        const ROUNDS: usize = 25;
-        const LONGEST: f64 = 0.5;
-        let exact = self.bundle.targets_of(place).into_iter();
-        let exact: Vec<&Target> = exact.filter(|target| target.exact).collect();
-        let unknowns = self.system.unknowns().len();
-        let (mut before, mut slow) = (f64::INFINITY, 0);
-        for _ in 0..ROUNDS {
-            self.system.linearise(&at, &mut self.work);
-            let mut linear = Linear {
-                unknowns,
-                numbers: 0,
-                closures: self.system.residual_of(&self.work).to_vec(),
-                by_unknowns: self.system.dense_jacobian(&self.work),
-                by_numbers: Vec::new(),
-                targets: Vec::new(),
-            };
-            if let Some(lanes) = self.lanes.as_mut().filter(|_| !exact.is_empty()) {
-                linear.targets = self.bundle.rows_by_unknowns(&exact, lanes, &at)?;
-                linear.impose(&vec![true; exact.len()]);
-            }
-            let open = linear
-                .closures
-                .iter()
-                .fold(0.0f64, |most, x| most.max(x.abs()));
-            let mut step = linear.alone(self.bundle.rank);
-            let size = norm(&step);
-            if !(open.is_finite() && size.is_finite()) {
-                return None;
-            }
-            if open < CLOSED && (size < 1e-10 || size >= 0.5 * before) {
-                return Some(at);
-            }
-            let factor = (LONGEST / size).min(1.0);
-            step.iter_mut().for_each(|x| *x *= factor);
-            self.system.displace(&mut at, &step);
-            // steps that do not become smaller lead nowhere
-            slow = if size > 0.7 * before { slow + 1 } else { 0 };
-            if slow > 8 {
-                return None;
-            }
-            before = size;
-        }
-        None
-    }
-}
-
-/// A configuration is closed when no row exceeds this, in rad or characteristic lengths.
-const CLOSED: f64 = 1e-12;
 
 impl LeastSquares for Bundle<'_> {
     type Point = Bundled;

@@ -6,7 +6,7 @@ use crate::description::DesignDescription;
 impl DesignDescription {
     /// Reads the text of a design file, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, Reader { mut problems, .. }) = read_with(text, Reader::design);
+        let (description, FileReader { mut problems, .. }) = read_with(text, FileReader::design);
         sort_by_key(&mut problems, |problem| {
             (problem.span.start, problem.span.end)
         });
@@ -24,7 +24,7 @@ enum Order {
     Any,
 }
 
-impl Reader {
+impl FileReader {
     fn design(&mut self, piece: Piece) -> Option<DesignDescription> {
         let mut fields = self.fields(piece, Structure::Design)?;
         if !self.known_version(&mut fields) {

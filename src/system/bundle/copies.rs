@@ -5,11 +5,12 @@
 //! alone, with row exchanges; what is left of all is a square system of the shared numbers, so that the cost is linear in the
 //! number of configurations.
 
+use super::along::{Along, Rows};
 use super::{Bundle, Bundled, Target};
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
 use crate::number::{Complex, Gradient, Number};
-use crate::solve::{Equations, Homotopy};
+use crate::solve::Equations;
 use crate::system::System;
 
 type C = Complex<f64>;
@@ -18,88 +19,17 @@ type G = Gradient<C>;
 /// The square system of a bundle.
 #[derive(Clone, Debug)]
 pub struct Copies<'b, 'm> {
-    bundle: &'b Bundle<'m>,
+    pub(super) bundle: &'b Bundle<'m>,
     /// Targets of each configuration with the place of each among the values.
     targets: Vec<Vec<(usize, Target)>>,
     /// The values that the bundle asks for.
     values: Vec<f64>,
-    home: Configuration<f64>,
+    pub(super) home: Configuration<f64>,
     /// The equations for the numbers of the file, by which configurations are moved.
-    shape: System<C>,
+    pub(super) shape: System<C>,
     /// Unknowns and rows of the closures of one configuration.
-    unknowns: usize,
+    pub(super) unknowns: usize,
     closures: usize,
-}
-
-/// A straight way through the values of the targets.
-pub struct Along<'c, 'b, 'm> {
-    copies: &'c Copies<'b, 'm>,
-    from: Vec<C>,
-    to: Vec<C>,
-    /// The step that cancels the residual, and that along the way, of the last linearisation.
-    steps: [Vec<C>; 2],
-    largest: f64,
-}
-
-/// Rows of a matrix with two right-hand sides at their ends.
-struct Rows {
-    width: usize,
-    entries: Vec<C>,
-}
-
-impl Rows {
-    fn row(&self, i: usize) -> &[C] {
-        &self.entries[i * self.width..(i + 1) * self.width]
-    }
-
-    /// Eliminates the first columns with row exchanges; false if a pivot is none.
-    fn eliminate(&mut self, columns: usize) -> bool {
-        let (width, count) = (self.width, self.entries.len() / self.width);
-        for k in 0..columns {
-            let size = |i: usize| self.entries[i * width + k].norm_sqr();
-            let Some(best) = (k..count).max_by(|&i, &j| size(i).total_cmp(&size(j))) else {
-                return false;
-            };
-            let pivot = size(best);
-            if !(pivot > 0.0 && pivot.is_finite()) {
-                return false;
-            }
-            if best != k {
-                let (above, below) = self.entries.split_at_mut(best * width);
-                above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
-            }
-            let inverse = C::new(1.0, 0.0) / self.entries[k * width + k];
-            let (above, below) = self.entries.split_at_mut((k + 1) * width);
-            let pivot = &above[k * width..];
-            for row in below.chunks_exact_mut(width) {
-                let factor = row[k] * inverse;
-                if factor.norm_sqr() > 0.0 {
-                    for (x, y) in row[k..].iter_mut().zip(&pivot[k..]) {
-                        *x -= factor * *y;
-                    }
-                }
-            }
-        }
-        true
-    }
-
-    /// Solves the upper triangle of the first columns for one of the two right-hand sides, with the values of the columns
-    /// between them and the sides known.
-    fn back(&self, columns: usize, known: &[C], side: usize) -> Vec<C> {
-        let mut x = vec![C::new(0.0, 0.0); columns];
-        for k in (0..columns).rev() {
-            let row = self.row(k);
-            let mut sum = row[self.width - 2 + side];
-            for (entry, value) in row[k + 1..columns].iter().zip(&x[k + 1..]) {
-                sum -= *entry * *value;
-            }
-            for (entry, value) in row[columns..].iter().zip(known) {
-                sum -= *entry * *value;
-            }
-            x[k] = sum / row[k];
-        }
-        x
-    }
 }
 
 impl<'b, 'm> Copies<'b, 'm> {
@@ -147,7 +77,7 @@ impl<'b, 'm> Copies<'b, 'm> {
     }
 
     /// Coordinates of one configuration in a flat point.
-    fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         self.home.joints.len() + 7 * self.home.platforms.len()
     }
 
@@ -156,7 +86,7 @@ impl<'b, 'm> Copies<'b, 'm> {
         self.bundle.numbers.len() + self.targets.len() * self.width()
     }
 
-    fn flat_into(at: &Configuration<C>, x: &mut [C]) {
+    pub(super) fn flat_into(at: &Configuration<C>, x: &mut [C]) {
         let joints = at.joints.len();
         x[..joints].copy_from_slice(&at.joints);
         for (x, of) in x[joints..].chunks_exact_mut(7).zip(&at.platforms) {
@@ -165,7 +95,7 @@ impl<'b, 'm> Copies<'b, 'm> {
         }
     }
 
-    fn placed(&self, x: &[C]) -> Configuration<C> {
+    pub(super) fn placed(&self, x: &[C]) -> Configuration<C> {
         let mut at = self.home.map(C::from_f64);
         let joints = at.joints.len();
         at.joints.copy_from_slice(&x[..joints]);
@@ -257,17 +187,11 @@ impl<'b, 'm> Copies<'b, 'm> {
 
     /// The way between values of the targets.
     pub fn along(&self, from: Vec<C>, to: Vec<C>) -> Along<'_, 'b, 'm> {
-        Along {
-            copies: self,
-            from,
-            to,
-            steps: [Vec::new(), Vec::new()],
-            largest: f64::NAN,
-        }
+        Along::new(self, from, to)
     }
 
     /// Rows of all configurations at a flat point: derivatives by the unknowns of each, by the numbers, and the two sides.
-    fn rows(&self, x: &[C], values: &[C], rates: &[C]) -> Option<Vec<Rows>> {
+    pub(super) fn rows(&self, x: &[C], values: &[C], rates: &[C]) -> Option<Vec<Rows>> {
         let numbers = self.numbers(x);
         let (count, unknowns) = (numbers.len(), self.unknowns);
         let width = unknowns + count + 2;
@@ -335,115 +259,5 @@ impl<'b, 'm> Copies<'b, 'm> {
             }
         }
         Some(all)
-    }
-}
-
-impl Along<'_, '_, '_> {
-    fn linear(&mut self, s: C, x: &[C]) -> bool {
-        self.steps = [Vec::new(), Vec::new()];
-        self.largest = f64::NAN;
-        let ends = self.from.iter().zip(&self.to);
-        let values: Vec<C> = ends.clone().map(|(a, b)| *a + s * (*b - *a)).collect();
-        let rates: Vec<C> = ends.map(|(a, b)| *b - *a).collect();
-        let Some(mut all) = self.copies.rows(x, &values, &rates) else {
-            return false;
-        };
-        let (unknowns, count) = (self.copies.unknowns, self.copies.bundle.numbers.len());
-        self.largest = 0.0;
-        let mut shared = Rows {
-            width: count + 2,
-            entries: Vec::new(),
-        };
-        for rows in &mut all {
-            let sides = rows.entries.chunks_exact(rows.width);
-            let largest = sides.map(|row| row[row.len() - 2].norm_sqr().sqrt());
-            self.largest = largest.fold(self.largest, f64::max);
-            if !rows.eliminate(unknowns) {
-                return false;
-            }
-            let left = rows.entries.chunks_exact(rows.width).skip(unknowns);
-            left.for_each(|row| shared.entries.extend(&row[unknowns..]));
-        }
-        if !shared.eliminate(count) {
-            return false;
-        }
-        for (side, steps) in self.steps.iter_mut().enumerate() {
-            let numbers = shared.back(count, &[], side);
-            let each = all
-                .iter()
-                .flat_map(|rows| rows.back(unknowns, &numbers, side));
-            let each: Vec<C> = each.collect();
-            *steps = numbers;
-            steps.extend(each);
-        }
-        self.steps.iter().flatten().all(|x| x.is_finite())
-    }
-
-    /// A flat point moved by a step of the unknowns.
-    fn moved(&self, x: &mut [C], step: &[C], factor: f64) {
-        let count = self.copies.bundle.numbers.len();
-        let (numbers, rest) = x.split_at_mut(count);
-        for (x, step) in numbers.iter_mut().zip(step) {
-            *x += *step * factor;
-        }
-        let steps = step[count..].chunks_exact(self.copies.unknowns.max(1));
-        for (x, step) in rest.chunks_exact_mut(self.copies.width().max(1)).zip(steps) {
-            let step: Vec<C> = step.iter().map(|x| *x * factor).collect();
-            let mut at = self.copies.placed(x);
-            self.copies.shape.displace(&mut at, &step);
-            Copies::flat_into(&at, x);
-        }
-    }
-
-    fn flow(&self, x: &[C], out: &mut [C]) -> bool {
-        const SHORT: f64 = 1e-6;
-        if self.steps[1].is_empty() {
-            return false;
-        }
-        out.copy_from_slice(x);
-        self.moved(out, &self.steps[1], SHORT);
-        for (out, x) in out.iter_mut().zip(x) {
-            *out = (*out - *x) / SHORT;
-        }
-        true
-    }
-}
-
-impl Homotopy for Along<'_, '_, '_> {
-    fn settle(&self, x: &mut [C]) {
-        let (count, width) = (self.copies.bundle.numbers.len(), self.copies.width());
-        let joints = self.copies.home.joints.len();
-        for x in x[count..].chunks_exact_mut(width.max(1)) {
-            for q in x[joints..].chunks_exact_mut(7) {
-                let unit = Quaternion([q[0], q[1], q[2], q[3]]).normalised();
-                q[..4].copy_from_slice(&unit.0);
-            }
-        }
-    }
-
-    fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.linear(s, x) && self.flow(x, out)
-    }
-
-    fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
-        if !self.linear(s, x) {
-            return f64::NAN;
-        }
-        let step = std::mem::take(&mut self.steps[0]);
-        self.moved(x, &step, 1.0);
-        let size = step.iter().map(|x| x.norm_sqr()).fold(0.0, f64::max).sqrt();
-        self.steps[0] = step;
-        size
-    }
-
-    fn residual(&mut self, s: C, x: &[C]) -> f64 {
-        match self.linear(s, x) || self.largest.is_finite() {
-            true => self.largest,
-            false => f64::NAN,
-        }
-    }
-
-    fn velocity_again(&mut self, _: C, x: &[C], out: &mut [C]) -> bool {
-        self.flow(x, out)
     }
 }

@@ -1,0 +1,201 @@
+//! Ways through the values of the targets of a square bundle.
+
+use super::copies::Copies;
+use crate::geometry::Quaternion;
+use crate::number::Complex;
+use crate::solve::Homotopy;
+
+type C = Complex<f64>;
+
+/// A straight way through the values of the targets.
+pub struct Along<'c, 'b, 'm> {
+    copies: &'c Copies<'b, 'm>,
+    from: Vec<C>,
+    to: Vec<C>,
+    /// The step that cancels the residual, and that along the way, of the last linearisation.
+    steps: [Vec<C>; 2],
+    largest: f64,
+}
+
+/// Rows of a matrix with two right-hand sides at their ends.
+pub(super) struct Rows {
+    pub width: usize,
+    pub entries: Vec<C>,
+}
+
+impl Rows {
+    fn row(&self, i: usize) -> &[C] {
+        &self.entries[i * self.width..(i + 1) * self.width]
+    }
+
+    /// Eliminates the first columns with row exchanges; false if a pivot is none.
+    fn eliminate(&mut self, columns: usize) -> bool {
+        let (width, count) = (self.width, self.entries.len() / self.width);
+        for k in 0..columns {
+            let size = |i: usize| self.entries[i * width + k].norm_sqr();
+            let Some(best) = (k..count).max_by(|&i, &j| size(i).total_cmp(&size(j))) else {
+                return false;
+            };
+            let pivot = size(best);
+            if !(pivot > 0.0 && pivot.is_finite()) {
+                return false;
+            }
+            if best != k {
+                let (above, below) = self.entries.split_at_mut(best * width);
+                above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
+            }
+            let inverse = C::new(1.0, 0.0) / self.entries[k * width + k];
+            let (above, below) = self.entries.split_at_mut((k + 1) * width);
+            let pivot = &above[k * width..];
+            for row in below.chunks_exact_mut(width) {
+                let factor = row[k] * inverse;
+                if factor.norm_sqr() > 0.0 {
+                    for (x, y) in row[k..].iter_mut().zip(&pivot[k..]) {
+                        *x -= factor * *y;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Solves the upper triangle of the first columns for one of the two right-hand sides, with the values of the columns
+    /// between them and the sides known.
+    fn back(&self, columns: usize, known: &[C], side: usize) -> Vec<C> {
+        let mut x = vec![C::new(0.0, 0.0); columns];
+        for k in (0..columns).rev() {
+            let row = self.row(k);
+            let mut sum = row[self.width - 2 + side];
+            for (entry, value) in row[k + 1..columns].iter().zip(&x[k + 1..]) {
+                sum -= *entry * *value;
+            }
+            for (entry, value) in row[columns..].iter().zip(known) {
+                sum -= *entry * *value;
+            }
+            x[k] = sum / row[k];
+        }
+        x
+    }
+}
+
+impl<'c, 'b, 'm> Along<'c, 'b, 'm> {
+    pub(super) fn new(copies: &'c Copies<'b, 'm>, from: Vec<C>, to: Vec<C>) -> Self {
+        Along {
+            copies,
+            from,
+            to,
+            steps: [Vec::new(), Vec::new()],
+            largest: f64::NAN,
+        }
+    }
+}
+
+impl Along<'_, '_, '_> {
+    fn linear(&mut self, s: C, x: &[C]) -> bool {
+        self.steps = [Vec::new(), Vec::new()];
+        self.largest = f64::NAN;
+        let ends = self.from.iter().zip(&self.to);
+        let values: Vec<C> = ends.clone().map(|(a, b)| *a + s * (*b - *a)).collect();
+        let rates: Vec<C> = ends.map(|(a, b)| *b - *a).collect();
+        let Some(mut all) = self.copies.rows(x, &values, &rates) else {
+            return false;
+        };
+        let (unknowns, count) = (self.copies.unknowns, self.copies.bundle.numbers.len());
+        self.largest = 0.0;
+        let mut shared = Rows {
+            width: count + 2,
+            entries: Vec::new(),
+        };
+        for rows in &mut all {
+            let sides = rows.entries.chunks_exact(rows.width);
+            let largest = sides.map(|row| row[row.len() - 2].norm_sqr().sqrt());
+            self.largest = largest.fold(self.largest, f64::max);
+            if !rows.eliminate(unknowns) {
+                return false;
+            }
+            let left = rows.entries.chunks_exact(rows.width).skip(unknowns);
+            left.for_each(|row| shared.entries.extend(&row[unknowns..]));
+        }
+        if !shared.eliminate(count) {
+            return false;
+        }
+        for (side, steps) in self.steps.iter_mut().enumerate() {
+            let numbers = shared.back(count, &[], side);
+            let each = all
+                .iter()
+                .flat_map(|rows| rows.back(unknowns, &numbers, side));
+            let each: Vec<C> = each.collect();
+            *steps = numbers;
+            steps.extend(each);
+        }
+        self.steps.iter().flatten().all(|x| x.is_finite())
+    }
+
+    /// A flat point moved by a step of the unknowns.
+    fn moved(&self, x: &mut [C], step: &[C], factor: f64) {
+        let count = self.copies.bundle.numbers.len();
+        let (numbers, rest) = x.split_at_mut(count);
+        for (x, step) in numbers.iter_mut().zip(step) {
+            *x += *step * factor;
+        }
+        let steps = step[count..].chunks_exact(self.copies.unknowns.max(1));
+        for (x, step) in rest.chunks_exact_mut(self.copies.width().max(1)).zip(steps) {
+            let step: Vec<C> = step.iter().map(|x| *x * factor).collect();
+            let mut at = self.copies.placed(x);
+            self.copies.shape.displace(&mut at, &step);
+            Copies::flat_into(&at, x);
+        }
+    }
+
+    fn flow(&self, x: &[C], out: &mut [C]) -> bool {
+        const SHORT: f64 = 1e-6;
+        if self.steps[1].is_empty() {
+            return false;
+        }
+        out.copy_from_slice(x);
+        self.moved(out, &self.steps[1], SHORT);
+        for (out, x) in out.iter_mut().zip(x) {
+            *out = (*out - *x) / SHORT;
+        }
+        true
+    }
+}
+
+impl Homotopy for Along<'_, '_, '_> {
+    fn settle(&self, x: &mut [C]) {
+        let (count, width) = (self.copies.bundle.numbers.len(), self.copies.width());
+        let joints = self.copies.home.joints.len();
+        for x in x[count..].chunks_exact_mut(width.max(1)) {
+            for q in x[joints..].chunks_exact_mut(7) {
+                let unit = Quaternion([q[0], q[1], q[2], q[3]]).normalised();
+                q[..4].copy_from_slice(&unit.0);
+            }
+        }
+    }
+
+    fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.linear(s, x) && self.flow(x, out)
+    }
+
+    fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
+        if !self.linear(s, x) {
+            return f64::NAN;
+        }
+        let step = std::mem::take(&mut self.steps[0]);
+        self.moved(x, &step, 1.0);
+        let size = step.iter().map(|x| x.norm_sqr()).fold(0.0, f64::max).sqrt();
+        self.steps[0] = step;
+        size
+    }
+
+    fn residual(&mut self, s: C, x: &[C]) -> f64 {
+        match self.linear(s, x) || self.largest.is_finite() {
+            true => self.largest,
+            false => f64::NAN,
+        }
+    }
+
+    fn velocity_again(&mut self, _: C, x: &[C], out: &mut [C]) -> bool {
+        self.flow(x, out)
+    }
+}

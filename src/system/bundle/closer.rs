@@ -1,0 +1,155 @@
+//! Configurations of a bundle with its shared numbers as they are.
+
+use std::collections::BTreeMap;
+
+use super::elimination::Linear;
+use super::{Bundle, Bundled, Lanes, Target};
+use crate::linear::norm;
+use crate::mechanism::Configuration;
+use crate::solve::Equations;
+use crate::system::{Held, System, Work};
+
+impl<'m> Bundle<'m> {
+    /// The configurations that close, and meet what they must, near those of a point with the shared numbers as they are;
+    /// `None` if one of them does not.
+    pub fn closed(&self, at: Bundled) -> Option<Bundled> {
+        let mut closer = self.closer(&at.numbers)?;
+        let configurations = at.configurations.into_iter().enumerate();
+        let closed = configurations.map(|(k, at)| closer.closed(k, at));
+        Some(Bundled {
+            configurations: closed.collect::<Option<_>>()?,
+            numbers: at.numbers,
+        })
+    }
+
+    /// Closes configurations with given shared numbers.
+    pub fn closer(&self, numbers: &[f64]) -> Option<Closer<'_, '_>> {
+        let system = self.equations::<f64>(numbers)?;
+        let exact = self.targets.values().flatten().any(|target| target.exact);
+        Some(Closer {
+            bundle: self,
+            work: system.work(),
+            system,
+            lanes: match exact {
+                true => Some(self.lanes(numbers, numbers.len())?),
+                false => None,
+            },
+        })
+    }
+
+    /// The bundle without targets, and with something else held.
+    pub fn alone(&self, held: Held<f64>) -> Self {
+        Bundle {
+            held,
+            targets: BTreeMap::new(),
+            ..self.clone()
+        }
+    }
+
+    /// The sum of squares of the targets of one place at each of some configurations.
+    pub fn squares_at(
+        &self,
+        place: usize,
+        numbers: &[f64],
+        configurations: &[Configuration<f64>],
+    ) -> Vec<f64> {
+        let each = configurations.iter();
+        let (Some(system), Some((parameters, _))) =
+            (self.equations::<f64>(numbers), self.dimensions(numbers))
+        else {
+            return each.map(|_| f64::INFINITY).collect();
+        };
+        let mut work = system.work();
+        each.map(|at| {
+            system.residual(at, &mut work);
+            let targets = self.targets.get(&place).into_iter().flatten();
+            let left = targets.map(|target| {
+                let left = target.left(self.mechanism, (&system, &work), &parameters, at);
+                left.map_or(f64::INFINITY, |x| x * x)
+            });
+            left.sum()
+        })
+        .collect()
+    }
+
+    /// For each target what is left of it, without its weight.
+    pub fn deviations(&self, at: &Bundled) -> Option<Vec<(&Target, f64)>> {
+        let system = self.equations::<f64>(&at.numbers)?;
+        let (parameters, _) = self.dimensions(&at.numbers)?;
+        let mut work = system.work();
+        let mut all = Vec::new();
+        for (k, at) in at.configurations.iter().enumerate() {
+            system.residual(at, &mut work);
+            for target in self.targets.get(&k).into_iter().flatten() {
+                let left = target.left(self.mechanism, (&system, &work), &parameters, at)?;
+                all.push((target, left / target.weight));
+            }
+        }
+        Some(all)
+    }
+}
+
+/// Closes configurations of a bundle with given shared numbers.
+pub struct Closer<'b, 'm> {
+    bundle: &'b Bundle<'m>,
+    system: System<f64>,
+    work: Work<f64>,
+    lanes: Option<Lanes>,
+}
+
+impl Closer<'_, '_> {
+    /// The configuration of one place that closes, and meets what it must, near another one, by Newton's method in steps of
+    /// least length.
+    pub fn closed(
+        &mut self,
+        place: usize,
+        mut at: Configuration<f64>,
+    ) -> Option<Configuration<f64>> {
+        const ROUNDS: usize = 25;
+        const LONGEST: f64 = 0.5;
+        let exact = self.bundle.targets_of(place).into_iter();
+        let exact: Vec<&Target> = exact.filter(|target| target.exact).collect();
+        let unknowns = self.system.unknowns().len();
+        let (mut before, mut slow) = (f64::INFINITY, 0);
+        for _ in 0..ROUNDS {
+            self.system.linearise(&at, &mut self.work);
+            let mut linear = Linear {
+                unknowns,
+                numbers: 0,
+                closures: self.system.residual_of(&self.work).to_vec(),
+                by_unknowns: self.system.dense_jacobian(&self.work),
+                by_numbers: Vec::new(),
+                targets: Vec::new(),
+            };
+            if let Some(lanes) = self.lanes.as_mut().filter(|_| !exact.is_empty()) {
+                linear.targets = self.bundle.rows_by_unknowns(&exact, lanes, &at)?;
+                linear.impose(&vec![true; exact.len()]);
+            }
+            let open = linear
+                .closures
+                .iter()
+                .fold(0.0f64, |most, x| most.max(x.abs()));
+            let mut step = linear.alone(self.bundle.rank);
+            let size = norm(&step);
+            if !(open.is_finite() && size.is_finite()) {
+                return None;
+            }
+            if open < CLOSED && (size < 1e-10 || size >= 0.5 * before) {
+                return Some(at);
+            }
+            let factor = (LONGEST / size).min(1.0);
+            step.iter_mut().for_each(|x| *x *= factor);
+            self.system.displace(&mut at, &step);
+            // steps that do not become smaller lead nowhere
+            slow = if size > 0.7 * before { slow + 1 } else { 0 };
+            if slow > 8 {
+                return None;
+            }
+            before = size;
+        }
+        None
+    }
+}
+
+/// A configuration is closed when no row exceeds this, in rad or characteristic lengths.
+const CLOSED: f64 = 1e-12;
