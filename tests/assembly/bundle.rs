@@ -173,6 +173,7 @@ fn a_rate_is_no_target() {
         quantity,
         value: 0.0,
         weight: 1.0,
+        exact: false,
     };
     let refused = Bundle::new(&mechanism, Held::nothing(&mechanism), &[]).target(target);
     assert_eq!(
