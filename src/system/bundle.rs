@@ -15,6 +15,7 @@ mod copies;
 mod elimination;
 mod linear;
 mod shared;
+mod sides;
 mod target;
 
 use std::collections::BTreeMap;

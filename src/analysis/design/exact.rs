@@ -120,7 +120,7 @@ impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     }
 
     fn way(&self, from: &[C], to: &[C]) -> Self::Way<'_> {
-        self.copies.along(from.to_vec(), to.to_vec())
+        Along::new(&self.copies, from.to_vec(), to.to_vec())
     }
 
     fn member(&self, rng: &mut Pcg64) -> Vec<C> {

@@ -5,7 +5,7 @@
 //! alone, with row exchanges; what is left of all is a square system of the shared numbers, so that the cost is linear in the
 //! number of configurations.
 
-use super::along::{Along, Rows};
+use super::sides::Rows;
 use super::{Bundle, Bundled, Target};
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
@@ -183,11 +183,6 @@ impl<'b, 'm> Copies<'b, 'm> {
             }
         }
         Some(values)
-    }
-
-    /// The way between values of the targets.
-    pub fn along(&self, from: Vec<C>, to: Vec<C>) -> Along<'_, 'b, 'm> {
-        Along::new(self, from, to)
     }
 
     /// Rows of all configurations at a flat point: derivatives by the unknowns of each, by the numbers, and the two sides.

@@ -1,0 +1,66 @@
+//! Gaussian elimination of rows with two right-hand sides.
+
+use crate::number::Complex;
+
+type C = Complex<f64>;
+
+/// Rows of a matrix with two right-hand sides at their ends.
+pub(super) struct Rows {
+    pub width: usize,
+    pub entries: Vec<C>,
+}
+
+impl Rows {
+    pub fn row(&self, i: usize) -> &[C] {
+        &self.entries[i * self.width..(i + 1) * self.width]
+    }
+
+    /// Eliminates the first columns with row exchanges; false if a pivot is none.
+    pub fn eliminate(&mut self, columns: usize) -> bool {
+        let (width, count) = (self.width, self.entries.len() / self.width);
+        for k in 0..columns {
+            let size = |i: usize| self.entries[i * width + k].norm_sqr();
+            let Some(best) = (k..count).max_by(|&i, &j| size(i).total_cmp(&size(j))) else {
+                return false;
+            };
+            let pivot = size(best);
+            if !(pivot > 0.0 && pivot.is_finite()) {
+                return false;
+            }
+            if best != k {
+                let (above, below) = self.entries.split_at_mut(best * width);
+                above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
+            }
+            let inverse = C::new(1.0, 0.0) / self.entries[k * width + k];
+            let (above, below) = self.entries.split_at_mut((k + 1) * width);
+            let pivot = &above[k * width..];
+            for row in below.chunks_exact_mut(width) {
+                let factor = row[k] * inverse;
+                if factor.norm_sqr() > 0.0 {
+                    for (x, y) in row[k..].iter_mut().zip(&pivot[k..]) {
+                        *x -= factor * *y;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Solves the upper triangle of the first columns for one of the two right-hand sides, with the values of the columns
+    /// between them and the sides known.
+    pub fn back(&self, columns: usize, known: &[C], side: usize) -> Vec<C> {
+        let mut x = vec![C::new(0.0, 0.0); columns];
+        for k in (0..columns).rev() {
+            let row = self.row(k);
+            let mut sum = row[self.width - 2 + side];
+            for (entry, value) in row[k + 1..columns].iter().zip(&x[k + 1..]) {
+                sum -= *entry * *value;
+            }
+            for (entry, value) in row[columns..].iter().zip(known) {
+                sum -= *entry * *value;
+            }
+            x[k] = sum / row[k];
+        }
+        x
+    }
+}
