@@ -49,8 +49,6 @@ pub struct Bundle<'m> {
     /// Targets by configuration.
     targets: BTreeMap<usize, Vec<Target>>,
     frames: Vec<Frame>,
-    /// Rows of closures that are evaluated.
-    kept: Vec<Kept>,
     rank: Option<usize>,
     cut: f64,
     /// Ranges of the shared numbers, where every configuration is kept closed.
@@ -103,7 +101,6 @@ impl<'m> Bundle<'m> {
             near: None,
             targets: BTreeMap::new(),
             frames: Vec::new(),
-            kept: vec![EVERY_ROW; mechanism.dimensions().closures.len()],
             rank: None,
             cut: RANK_TOLERANCE,
             ranges: None,
