@@ -27,7 +27,7 @@ pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
 pub use straight_line::{
     BATCH, Batch, Decision, LEAST_PIVOT, Operation, Pivot, Place, Recorded, Registers, eliminate,
-    evaluate, record,
+    evaluate, needed, record, run,
 };
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, ByUnknowns, Key, Monomial, Powers, Trigonometric, Wave};

@@ -64,12 +64,60 @@ pub fn record<R>(sample: Vec<f64>, work: impl FnOnce() -> R) -> (R, Vec<Operatio
 
 /// The values of all operations.
 pub fn evaluate(operations: &[Operation], inputs: &[f64]) -> Vec<f64> {
-    let mut values: Vec<f64> = Vec::with_capacity(operations.len());
-    for operation in operations {
-        let input = |i: u32| inputs.get(i as usize).copied().unwrap_or(0.0);
-        values.push(operation.value(|x| values[x as usize], input));
-    }
+    let mut values = Vec::with_capacity(operations.len());
+    run(operations, inputs, &mut values);
     values
+}
+
+/// The values of all operations over any number, in storage that is kept. Inputs that are not given are 0.
+pub fn run<T: Number>(operations: &[Operation], inputs: &[T], values: &mut Vec<T>) {
+    values.clear();
+    // a cosine follows the sine of its angle
+    let mut turn = None;
+    for operation in operations {
+        let value = match *operation {
+            Operation::Sin(x) => {
+                let (sin, cos) = values[x as usize].sin_cos();
+                turn = Some((x, cos));
+                sin
+            }
+            Operation::Cos(x) if turn.is_some_and(|(of, _)| of == x) => {
+                turn.map_or(T::zero(), |(_, cos)| cos)
+            }
+            other => {
+                let input = |i: u32| inputs.get(i as usize).copied().unwrap_or(T::zero());
+                other.value(|x| values[x as usize], input)
+            }
+        };
+        values.push(value);
+    }
+}
+
+/// The operations that some places need, with the places in them.
+pub fn needed(operations: &[Operation], places: &mut [Place]) -> Vec<Operation> {
+    let mut used = vec![false; operations.len()];
+    places.iter().for_each(|place| used[*place as usize] = true);
+    let mut at = vec![0; operations.len()];
+    let mut kept = Vec::new();
+    for place in (0..operations.len()).rev() {
+        if used[place] {
+            operations[place]
+                .operands()
+                .for_each(|of| used[of as usize] = true);
+        }
+    }
+    for (place, operation) in operations
+        .iter()
+        .enumerate()
+        .filter(|(place, _)| used[*place])
+    {
+        at[place] = kept.len() as Place;
+        kept.push(operation.placed(|of| at[of as usize]));
+    }
+    places
+        .iter_mut()
+        .for_each(|place| *place = at[*place as usize]);
+    kept
 }
 
 impl List {

@@ -11,6 +11,6 @@ mod report;
 mod search;
 
 pub use course::{Course, course};
-pub use exact::Exact;
+pub use exact::{Exact, NotAll};
 pub use report::{Defect, Design, DesignReport, Deviation, Moves, VariedNumber};
 pub use search::{Found, Searched, Task};

@@ -119,8 +119,12 @@ impl Design {
         };
         judge.check()?;
         let exact = match self.approximate {
-            true => None,
+            true => Ok(None),
             false => task.exact(self.solutions, watch),
+        };
+        let (exact, not_all) = match exact {
+            Ok(exact) => (exact, None),
+            Err(why) => (None, Some(why)),
         };
         let (exact, searched) = match exact {
             Some((exact, searched)) => (Some(exact), searched),
@@ -140,10 +144,22 @@ impl Design {
             self.most
         };
         let found = &searched.found[..searched.found.len().min(most.saturating_mul(4))];
-        let mut designs: Vec<design::Design> = found
-            .iter()
-            .filter_map(|found| self.design(&task, &judge, found))
-            .collect();
+        // of a linkage with links exchanged the one that drives without defects
+        let mut classes: Vec<(usize, design::Design)> = Vec::new();
+        for found in found {
+            let Some(design) = self.design(&task, &judge, found) else {
+                continue;
+            };
+            match classes.iter_mut().find(|(of, _)| *of == found.class) {
+                Some((_, known)) if design.defects.len() < known.defects.len() => *known = design,
+                Some(_) => {}
+                None => classes.push((found.class, design)),
+            }
+        }
+        let mut distinct: Vec<usize> = searched.found.iter().map(|of| of.class).collect();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let mut designs: Vec<design::Design> = classes.into_iter().map(|(_, of)| of).collect();
         designs.sort_by_key(|design| !design.defects.is_empty());
         designs.truncate(most);
         let undetermined = searched.found.first().and_then(|found| {
@@ -165,9 +181,10 @@ impl Design {
             targets: read.targets.iter().filter(|of| !of.exact).count(),
             undetermined: undetermined.unwrap_or(0),
             driver: read.driver.map(|i| mechanism.joints()[i].name.clone()),
-            more: searched.found.len() - designs.len(),
+            more: distinct.len() - designs.len(),
             designs,
             exact,
+            not_all,
             starts: searched.starts,
             not_assembled: searched.not_assembled,
             seed: self.seed,

@@ -4,7 +4,7 @@ use super::document::{Align, Block, Cell, Column, Document, Section, Table, cell
 use super::quantity::quantity;
 use super::report::{Report, Rows};
 use crate::algebra::SiUnit;
-use crate::analysis::design::{Defect, Design, DesignReport, Exact, Moves};
+use crate::analysis::design::{Defect, Design, DesignReport, Exact, Moves, NotAll};
 use crate::description::{count, listed};
 
 /// A sum of squares below this part of what was asked is met exactly.
@@ -43,8 +43,16 @@ impl DesignReport {
         };
         let Some(first) = self.designs.first() else {
             return match &self.exact {
+                _ if self.interrupted => {
+                    format!("Nothing was found for {asked} before the search was stopped.")
+                }
+                Some(exact) if exact.real == 0 && exact.lost > 0 => {
+                    format!("No real mechanism that meets {asked} was found.")
+                }
                 Some(exact) if exact.real == 0 => {
-                    format!("No real mechanism meets {asked}: all exact solutions are complex.")
+                    format!(
+                        "No real mechanism meets {asked}: all exact solutions found are complex."
+                    )
                 }
                 Some(exact) => format!(
                     "No mechanism in the ranges meets {asked}: {} outside.",
@@ -53,7 +61,7 @@ impl DesignReport {
                         real => format!("all {real} that do lie"),
                     }
                 ),
-                None => format!("Nothing was found for {asked} before the search was stopped."),
+                None => format!("Nothing was found for {asked}."),
             };
         };
         let met = match first.sum_of_squares < MET {
@@ -95,33 +103,59 @@ fn squares(sum: f64) -> String {
 
 /// The completeness of an exact synthesis, in sentences.
 fn all_of(exact: &Exact) -> Vec<String> {
+    if exact.quiet == 0 {
+        return vec![format!(
+            "Stopped while all solutions for generic targets were sought, of which {} had been found; none was followed to these \
+             targets.",
+            exact.classes,
+        )];
+    }
     let linkages = match exact.classes == exact.generic {
         true => String::new(),
         false => format!(
-            ", {} without those that differ by signs of lengths and half turns only",
-            exact.classes
+            " ({} with those that differ by signs of lengths, half turns of angles or an exchange of links only)",
+            count(exact.generic, "complex solution"),
         ),
     };
     let lost = match exact.lost {
         0 => String::new(),
-        lost => format!(", {} lost", count(lost, "path")),
+        lost => format!(
+            ", {} to a singular solution or lost on {} ways",
+            count(lost, "path"),
+            Exact::WAYS
+        ),
     };
     vec![
         format!(
-            "For generic targets there are {}{linkages}: monodromy found them, and {} through other targets brought none beside \
-             them, each of which would with probability ½ at least if any were missing.",
-            count(exact.generic, "complex solution"),
+            "For generic targets {}{linkages}: found by monodromy, and {} through other targets, on which no path was lost, \
+             brought none beside them. A random way finds more with probability ½ at least if any that are connected with these \
+             are missing; no bound is known.",
+            count(exact.classes, "linkage"),
             count(exact.quiet, "random way"),
         ),
         format!(
-            "For these targets: {} arrived, {} went to infinity{lost}; {} different, {} real, {} of these outside the ranges.",
+            "For these targets {} arrived, {} went to infinity{lost}: {} different, {} real, {} of these outside the ranges.",
             count(exact.arrived, "path"),
             exact.at_infinity,
-            exact.different,
+            count(exact.different, "linkage"),
             exact.real,
             exact.outside,
         ),
     ]
+}
+
+/// Why random starts were searched although there are as many targets as unknowns.
+fn not_all(why: NotAll) -> String {
+    match why {
+        NotAll::More { than } => format!(
+            "There are more than {than} linkages for generic targets: not all were sought, but least squares were made small."
+        ),
+        NotAll::Lost { found } => format!(
+            "The search for all solutions lost paths on every way through other targets, with {} found for generic targets: least \
+             squares were made small instead.",
+            count(found, "linkage")
+        ),
+    }
 }
 
 /// What a design does not do, in words.
@@ -283,6 +317,7 @@ impl Report for DesignReport {
                 .notes
                 .push(format!("{} not listed.", count(self.more, "further end")));
         }
+        document.method.extend(self.not_all.map(not_all));
         match &self.exact {
             Some(exact) => document.method.extend(all_of(exact)),
             None if self.varied.is_empty() => {}

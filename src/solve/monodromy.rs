@@ -29,6 +29,10 @@ pub trait Family: Sync {
     fn member(&self, rng: &mut Pcg64) -> Vec<C>;
     /// Numbers that tell solutions apart; the same for those that are one.
     fn key(&self, x: &[C]) -> Vec<C>;
+    /// Size of a point, by which one that goes to infinity is told.
+    fn size(&self, x: &[C]) -> f64 {
+        x.iter().map(|x| x.norm_sqr()).fold(0.0, f64::max).sqrt()
+    }
 }
 
 /// All known solutions of a generic member.
@@ -123,8 +127,7 @@ pub fn followed<F: Family>(
             Arrival::Diverged(_) => return Err(true),
             // towards the end of a path a solution goes to infinity or meets another one
             Arrival::Stuck(done) => {
-                let size = x.iter().map(|x| x.norm_sqr()).fold(0.0, f64::max).sqrt();
-                return Err(done > 0.9 && size > 1e3);
+                return Err(done > 0.9 && family.size(&x) > 1e3);
             }
         }
     }

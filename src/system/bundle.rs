@@ -14,6 +14,7 @@ mod closer;
 mod copies;
 mod elimination;
 mod linear;
+mod program;
 mod shared;
 mod sides;
 mod target;

@@ -211,6 +211,328 @@ fn three_precision_points_have_freudensteins_linkage() {
     assert!(design.defects.is_empty(), "{:?}", design.defects);
 }
 
+/// As many pairs of crank and rocker angles as four-bars with a ground link of 1 m determine when the zeros of both angles are
+/// free: increments of both.
+fn function(crank: &[f64], rocker: &[f64], start: &str) -> DesignReport {
+    let positions = crank.iter().zip(rocker).map(|(crank, rocker)| {
+        let rocker = match start {
+            "" => format!("{rocker:?}"),
+            _ => format!("out + {rocker:?}"),
+        };
+        format!("{{ \"theta1\": \"start + {crank:?}\", \"phi1\": \"{rocker}\" }}")
+    });
+    let positions: Vec<String> = positions.collect();
+    let text = format!(
+        r#"vary: {{ "l1": (-50, 50), "l2": (0, 50), "l3": (-50, 50), "start": (-4, 4) {start} }}, positions: [{}]"#,
+        positions.join(", ")
+    );
+    asked(four_bar([1.0, 0.5, 0.9, 0.8], [0.0, 0.0], false), &text).unwrap()
+}
+
+/// The lengths of crank, coupler and rocker of all designs without their signs, in order.
+fn lengths(report: &DesignReport) -> Vec<[f64; 3]> {
+    let lengths =
+        |design: &linkwork::analysis::design::Design| [0, 1, 2].map(|i| design.values[i].abs());
+    let mut all: Vec<[f64; 3]> = report.designs.iter().map(lengths).collect();
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    all
+}
+
+fn assert_near(found: &[[f64; 3]], expected: &[[f64; 3]], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < tolerance * b;
+        assert!(
+            found.iter().zip(expected).all(near),
+            "{found:?} {expected:?}"
+        );
+    }
+}
+
+/// With the zero of the crank free Freudenstein's determinant is quadratic in the tangent of half of it: two four-bars for four
+/// pairs. The first case has two real ones, whose lengths come from that quadratic in 40 digits; the second a complex pair.
+#[test]
+fn four_pairs_of_angles_have_two_four_bars() {
+    let degrees = |of: [f64; 4]| of.map(f64::to_radians);
+    let report = function(
+        &degrees([0.0, 25.0, 55.0, 90.0]),
+        &degrees([60.0, 66.0, 93.0, 150.0]),
+        "",
+    );
+    let exact = report.exact.as_ref().unwrap();
+    assert_eq!((exact.classes, exact.different, exact.real), (2, 2, 2));
+    let expected = [
+        [0.734621957784136, 0.73004713982668, 0.667040508022703],
+        [2.43034687611198, 1.29934125287445, 1.23574794168034],
+    ];
+    assert_near(&lengths(&report), &expected, 1e-9);
+    // branch signs of the second are equal, those of the first are not
+    let good: Vec<bool> = report
+        .designs
+        .iter()
+        .map(|of| of.defects.is_empty())
+        .collect();
+    assert_eq!(good, [true, false]);
+    let none = function(
+        &degrees([0.0, 20.0, 45.0, 70.0]),
+        &degrees([80.0, 98.0, 127.0, 160.0]),
+        "",
+    );
+    let exact = none.exact.as_ref().unwrap();
+    assert_eq!((exact.different, exact.real, none.designs.len()), (2, 0, 0));
+}
+
+/// Of the four dyads of the inverted motion one is the ground link itself, so that five pairs have three four-bars (Freudenstein
+/// 1955); lengths from those dyads. The pairs of y = x² at Chebyshev's five points are symmetric, and have two.
+#[test]
+fn five_pairs_of_angles_have_three_four_bars() {
+    let both = r#", "out": (-4, 4)"#;
+    let made = function(
+        &[0.0, 0.5, 1.1, 1.7, 2.2],
+        &[
+            0.0,
+            0.0289155924444422,
+            0.275527761858062,
+            0.581663440603021,
+            0.820663901964104,
+        ],
+        both,
+    );
+    let exact = made.exact.as_ref().unwrap();
+    assert_eq!((exact.classes, exact.different, exact.real), (3, 3, 3));
+    assert_near(
+        &lengths(&made),
+        &[
+            [0.359486359101991, 1.1617671171202, 0.74157389596373],
+            [0.4499999999999, 1.10000000000015, 0.899999999999848],
+            [0.486476180309431, 0.193064352343388, 1.2946049207336],
+        ],
+        1e-8,
+    );
+    let good = made.designs.iter().filter(|of| of.defects.is_empty());
+    assert_eq!(good.count(), 2);
+    let square = function(
+        &[
+            0.0,
+            0.285312583562775,
+            0.746958041185389,
+            1.208603498808,
+            1.49391608237078,
+        ],
+        &[
+            0.0,
+            0.0657871232177521,
+            0.391758384951175,
+            0.98907803846298,
+            1.49391608237078,
+        ],
+        both,
+    );
+    let exact = square.exact.as_ref().unwrap();
+    assert_eq!((exact.classes, exact.different, exact.real), (3, 2, 2));
+    assert_near(
+        &lengths(&square),
+        &[
+            [2.04587539550094, 2.85197406263573, 0.522407596627801],
+            [2.23230117378354, 0.838850023203653, 1.73620605199865],
+        ],
+        1e-8,
+    );
+    let logarithm = function(
+        &[
+            0.0,
+            0.19020838904185,
+            0.497972027456926,
+            0.805735665872002,
+            0.995944054913852,
+        ],
+        &[
+            0.0,
+            0.369888225966175,
+            0.864067271798454,
+            1.26953856012862,
+            1.48810692534892,
+        ],
+        both,
+    );
+    let exact = logarithm.exact.as_ref().unwrap();
+    assert_eq!((exact.classes, exact.different, exact.real), (3, 3, 1));
+    assert_near(
+        &lengths(&logarithm),
+        &[[3.05718150038116, 6.36625470116019, 8.5291912282668]],
+        1e-8,
+    );
+}
+
+/// A body on two links, each from a hinge on the ground to one on the body.
+const LID: &str = r#"Mechanism(version: 1, name: "lid", convention: Modified,
+    parameters: { "x0": -1, "y0": 0.3, "x1": 1.1, "y1": 0.4, "a": 1.2, "b": 1.3, "ax": -0.7, "ay": -0.15, "bx": 0.6, "by": 0.2 },
+    joints: { "theta": Actuated(home: "60 deg"), "hinge": Passive(home: "-40 deg"), "second": Passive(home: "60 deg") },
+    chains: {
+        "first link": Chain(base: [Tx("x0"), Ty("y0")], rows: [(theta: "theta"), (a: "a", theta: "hinge")]),
+        "lid": Chain(on: "first link.2", base: [Tx("-ax"), Ty("-ay")]),
+        "lid hinge": Chain(on: "lid", base: [Tx("bx"), Ty("by")]),
+        "second link": Chain(base: [Tx("x1"), Ty("y1")], rows: [(theta: "second")], tip: [Tx("b")]),
+    },
+    closures: { "pin": Revolute("lid hinge", "second link") })"#;
+
+/// Burmester 1888: five poses have up to four dyads, and each two of them are a four-bar. Dyads (hinge on the body, hinge on the
+/// ground, length) from resultants of the cubic minors.
+#[test]
+fn five_poses_have_a_four_bar_for_each_two_dyads() {
+    type Dyad = [f64; 5];
+    let cases: [([[f64; 3]; 5], &[Dyad]); 3] = [
+        (
+            [
+                [0.0, 0.0, 0.0],
+                [-0.727, -1.571, -0.224],
+                [1.697, -1.582, 0.347],
+                [-0.116, -1.192, 0.432],
+                [0.775, 1.538, 0.838],
+            ],
+            &[
+                [
+                    -6.35126991092406,
+                    0.927517757176211,
+                    -5.59005582252671,
+                    -1.02617759236291,
+                    2.09675282453259,
+                ],
+                [
+                    -4.17650497369629,
+                    5.77753660134326,
+                    -5.36351263518035,
+                    4.11083279161138,
+                    2.04618884216404,
+                ],
+                [
+                    -1.71042119071683,
+                    5.4776998297715,
+                    -2.82411550011902,
+                    4.26037685412991,
+                    1.64990613121465,
+                ],
+                [
+                    -1.42772691170985,
+                    0.712529487914711,
+                    -0.671129352179278,
+                    -0.352174744335043,
+                    1.30615273580778,
+                ],
+            ],
+        ),
+        (
+            [
+                [0.0, 0.0, 0.0],
+                [-0.954, 0.4, -0.84],
+                [-0.806, 0.914, -0.54],
+                [1.257, -1.248, 0.149],
+                [-1.632, -1.779, 0.378],
+            ],
+            &[
+                [
+                    2.00950904926752,
+                    3.21828912716618,
+                    0.943068040610558,
+                    1.61556344557334,
+                    1.9251041622163,
+                ],
+                [
+                    2.44648534644319,
+                    -0.195009206990549,
+                    2.20401526613818,
+                    -1.87982235158441,
+                    1.70217128163982,
+                ],
+            ],
+        ),
+        (
+            [
+                [0.0, 0.0, 0.0],
+                [-1.597, 1.591, -0.729],
+                [-1.846, 1.341, -0.223],
+                [0.808, -0.46, 0.221],
+                [-0.174, 1.895, 0.638],
+            ],
+            &[],
+        ),
+    ];
+    for (poses, dyads) in cases {
+        let positions =
+            poses.map(|[x, y, yaw]| format!("{{ \"lid\": ({x:?}, {y:?}), \"lid.yaw\": {yaw:?} }}"));
+        let text = format!(
+            r#"vary: {{ "ax": (-99, 99), "ay": (-99, 99), "x0": (-99, 99), "y0": (-99, 99), "a": (0, 99),
+                "bx": (-99, 99), "by": (-99, 99), "x1": (-99, 99), "y1": (-99, 99), "b": (0, 99) }}, positions: [{}]"#,
+            positions.join(", ")
+        );
+        let report = asked(Description::read(LID).unwrap(), &text).unwrap();
+        let exact = report.exact.as_ref().unwrap();
+        let pairs = dyads.len() * dyads.len().saturating_sub(1) / 2;
+        assert_eq!((exact.classes, exact.different, exact.real), (6, 6, pairs));
+        let mut found: Vec<[usize; 2]> = Vec::new();
+        for design in &report.designs {
+            let dyad = |values: &[f64]| {
+                let near = |dyad: &Dyad| {
+                    values
+                        .iter()
+                        .zip(dyad)
+                        .all(|(a, b)| (a - b).abs() < 1e-8 * (1.0 + b.abs()))
+                };
+                dyads.iter().position(near).expect("it is a dyad")
+            };
+            let mut pair = [dyad(&design.values[..5]), dyad(&design.values[5..])];
+            pair.sort_unstable();
+            assert!(pair[0] != pair[1] && !found.contains(&pair));
+            found.push(pair);
+        }
+        assert_eq!(found.len(), pairs);
+    }
+}
+
+/// Five points of a path with both ground hinges given: 36 four-bars (Morgan and Wampler 1990), of which for their problem 7,
+/// points on a straight line, 33 are finite and 15 real.
+#[test]
+fn five_points_with_given_hinges_have_36_four_bars() {
+    let points = [
+        [0.5, 1.06],
+        [-0.83, -0.27],
+        [-0.34, 0.22],
+        [-0.13, 0.43],
+        [0.22, 0.78],
+    ];
+    let positions = points.map(|[x, y]| format!("{{ \"point\": ({x:?}, {y:?}) }}"));
+    let text = format!(
+        r#"vary: {{ "l1": (0, 99), "l2": (0, 99), "l3": (0, 99), "u": (-99, 99), "v": (-99, 99) }}, positions: [{}]"#,
+        positions.join(", ")
+    );
+    let report = asked(four_bar([1.0, 0.5, 0.9, 0.8], [0.1, 0.2], false), &text).unwrap();
+    let exact = report.exact.as_ref().unwrap();
+    assert_eq!((exact.classes, exact.different, exact.real), (36, 33, 15));
+    let expected = [
+        [0.424767500762557, 3.77000968622504, 3.07119590572142],
+        [0.432697509997436, 1.05724628889181, 0.499331972200385],
+        [0.433339231265195, 1.14087802965775, 1.70013467902323],
+        [0.45321440555463, 1.40695512074033, 0.858928521126119],
+        [0.461986497801167, 0.653386693926028, 0.445709725389774],
+        [0.467097541381181, 1.34649631393892, 1.37819506259649],
+        [0.533528961919035, 1.21164955898578, 0.722628075611673],
+        [0.541513952459698, 2.13856283026625, 2.64675880827057],
+        [0.64149358846535, 0.83630093281276, 0.465833704924168],
+        [0.918083633724, 1.74832879366211, 1.75722695913213],
+        [1.25802373027036, 0.978303745131973, 1.37833144623726],
+        [2.07858986200151, 2.7494016317028, 1.58713716043008],
+        [2.4707296614514, 0.368773501056797, 3.0073809242766],
+        [10.6998234318352, 10.8000457520795, 0.896393544636829],
+        [15.7410182339295, 16.2220713519575, 1.49524480405377],
+    ];
+    assert_near(&lengths(&report), &expected, 1e-8);
+    let on_one_circuit = report.designs.iter().filter(|design| {
+        let circuit = |of: &Defect| matches!(of, Defect::Circuit { .. });
+        !design.defects.iter().any(circuit)
+    });
+    assert_eq!(on_one_circuit.count(), 7);
+}
+
 #[test]
 fn wrong_questions_are_refused_where_they_are_wrong() {
     let wrong = |text: &str| {

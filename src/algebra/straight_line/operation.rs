@@ -71,6 +71,31 @@ impl Operation {
         both.into_iter().flatten()
     }
 
+    /// The operation with other places of its operands.
+    pub(super) fn placed(self, at: impl Fn(Place) -> Place) -> Self {
+        use Operation::{
+            Add, Angle, Call, Constant, Cos, Divide, Input, Larger, Multiply, Near, Negate, Root,
+            RootOrZero, Sign, Sin, Subtract,
+        };
+        match self {
+            Constant(_) | Input(_) => self,
+            Add(x, y) => Add(at(x), at(y)),
+            Subtract(x, y) => Subtract(at(x), at(y)),
+            Multiply(x, y) => Multiply(at(x), at(y)),
+            Divide(x, y) => Divide(at(x), at(y)),
+            Negate(x) => Negate(at(x)),
+            Root(x) => Root(at(x)),
+            Sin(x) => Sin(at(x)),
+            Cos(x) => Cos(at(x)),
+            RootOrZero(x) => RootOrZero(at(x)),
+            Angle(y, x) => Angle(at(y), at(x)),
+            Near(x, y) => Near(at(x), at(y)),
+            Sign(x) => Sign(at(x)),
+            Larger(x, y) => Larger(at(x), at(y)),
+            Call(function, x) => Call(function, at(x)),
+        }
+    }
+
     /// Key of equal operations: kind and operands; constants by their bits.
     pub(super) fn key(self) -> OperationKey {
         let mut operands = self.operands().map(u64::from);
@@ -86,10 +111,10 @@ impl Operation {
         (std::mem::discriminant(&self), first, second)
     }
 
-    /// Its value, from those of its operands and of the inputs.
-    pub(super) fn value(self, at: impl Fn(Place) -> f64, input: impl Fn(u32) -> f64) -> f64 {
+    /// Its value over any number, from those of its operands and of the inputs.
+    pub(super) fn value<T: Number>(self, at: impl Fn(Place) -> T, input: impl Fn(u32) -> T) -> T {
         match self {
-            Operation::Constant(x) => x,
+            Operation::Constant(x) => T::from_f64(x),
             Operation::Input(i) => input(i),
             Operation::Add(x, y) => at(x) + at(y),
             Operation::Subtract(x, y) => at(x) - at(y),
@@ -97,13 +122,17 @@ impl Operation {
             Operation::Divide(x, y) => at(x) / at(y),
             Operation::Negate(x) => -at(x),
             Operation::Root(x) => at(x).sqrt(),
-            Operation::Sin(x) => Number::sin_cos(at(x)).0,
-            Operation::Cos(x) => Number::sin_cos(at(x)).1,
-            Operation::RootOrZero(x) => at(x).max(0.0).sqrt(),
-            Operation::Angle(y, x) => Number::atan2(at(y), at(x)),
-            Operation::Near(x, y) => at(x) + TAU * ((at(y) - at(x)) / TAU).round_ties_even(),
-            Operation::Sign(x) if at(x) < 0.0 => -1.0,
-            Operation::Sign(_) => 1.0,
+            Operation::Sin(x) => at(x).sin_cos().0,
+            Operation::Cos(x) => at(x).sin_cos().1,
+            Operation::RootOrZero(x) if T::zero().less(at(x)) => at(x).sqrt(),
+            Operation::RootOrZero(_) => T::zero(),
+            Operation::Angle(y, x) => at(y).atan2(at(x)),
+            Operation::Near(x, y) => {
+                let turns = ((at(y) - at(x)).real() / TAU).round_ties_even();
+                at(x) + T::from_f64(TAU * turns)
+            }
+            Operation::Sign(x) if at(x).less(T::zero()) => -T::one(),
+            Operation::Sign(_) => T::one(),
             Operation::Larger(x, y) => at(x).greater(at(y)),
             Operation::Call(function, x) => call(function, at(x), at(x)),
         }

@@ -36,12 +36,35 @@ pub struct Exact {
     pub outside: usize,
 }
 
+impl Exact {
+    /// Ways from generic targets that are tried where one loses paths.
+    pub const WAYS: usize = 4;
+}
+
+/// A search for all solutions that did not come to its end: least squares are left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NotAll {
+    /// Generic targets have more solutions than are kept.
+    More {
+        /// The most that are kept.
+        than: usize,
+    },
+    /// Paths were lost on every way through other targets, so that nothing shows that the list is complete.
+    Lost {
+        /// Solutions for generic targets found so far.
+        found: usize,
+    },
+}
+
 /// The targets as parameters of a family.
 struct Synthesis<'t, 'b, 'm> {
     task: &'t Task<'m>,
     copies: Copies<'b, 'm>,
     /// Changes under which a linkage stays the same: all of a group, the first of which changes nothing.
     group: Vec<Flip>,
+    /// Exchanges of numbers that carry each solution to another one, as of two links alike; the first exchanges nothing.
+    exchanges: Vec<Vec<usize>>,
 }
 
 /// A change of the signs of lengths, and half turns of angles and joints.
@@ -59,6 +82,18 @@ impl Flip {
             joints: both(&self.joints, &other.joints),
         }
     }
+
+    /// The numbers of a key after the change.
+    fn of(&self, key: &[C]) -> Vec<C> {
+        let pairs = key.iter().zip(&self.numbers);
+        pairs
+            .map(|(x, flip)| if *flip { -*x } else { *x })
+            .collect()
+    }
+}
+
+fn exchanged(key: &[C], by: &[usize]) -> Vec<C> {
+    by.iter().map(|of| key[*of]).collect()
 }
 
 impl Synthesis<'_, '_, '_> {
@@ -138,42 +173,106 @@ impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     /// The numbers, angles as points of the unit circle; of all linkages that are the same the one furthest in a direction without
     /// meaning.
     fn key(&self, x: &[C]) -> Vec<C> {
+        self.furthest(&self.plain(x))
+    }
+
+    fn size(&self, x: &[C]) -> f64 {
+        let angles = self.task.angles.iter().copied();
+        let joints = self.task.mechanism.joints().iter();
+        let joints: Vec<bool> = joints.map(|joint| joint.kind.is_angle()).collect();
+        let platforms = 7 * self.task.mechanism.platforms().len();
+        let of_place = (joints.iter().copied()).chain(std::iter::repeat_n(false, platforms));
+        let of_places = std::iter::repeat_n(of_place, self.task.positions).flatten();
+        let sizes = x.iter().zip(angles.chain(of_places));
+        let sizes = sizes.map(|(x, angle)| match angle {
+            true => Number::exp(x.im.abs().min(100.0)),
+            false => x.norm_sqr().sqrt(),
+        });
+        sizes.fold(0.0, |a, b| if b <= a { a } else { b })
+    }
+}
+
+impl Synthesis<'_, '_, '_> {
+    /// The numbers, angles as points of the unit circle.
+    fn plain(&self, x: &[C]) -> Vec<C> {
         let numbers = x.iter().zip(&self.task.angles);
         let key = numbers.map(|(x, angle)| match angle {
             true => Number::exp(*x * C::new(0.0, 1.0)),
             false => *x,
         });
-        let key: Vec<C> = key.collect();
-        let images = self.group.iter().map(|flip| {
-            let pairs = key.iter().zip(&flip.numbers);
-            let image: Vec<C> = pairs
-                .map(|(x, flip)| if *flip { -*x } else { *x })
-                .collect();
-            let parts = image.iter().enumerate();
-            let along = parts.map(|(i, x)| {
+        key.collect()
+    }
+
+    /// Of all images of a key under exchanges and changes the furthest.
+    fn furthest(&self, key: &[C]) -> Vec<C> {
+        let exchanges = self.exchanges.iter().map(|by| exchanged(key, by));
+        let images = exchanges.flat_map(|key| {
+            let images = self.group.iter().map(|flip| flip.of(&key));
+            images.collect::<Vec<_>>()
+        });
+        let images = images.map(|image| {
+            let along = image.iter().enumerate().map(|(i, x)| {
                 let weight = 1.0 + (0.618_034 * (i + 1) as f64).fract();
                 (x.re + 0.37 * x.im) * weight
             });
             (along.sum::<f64>(), image)
         });
         let furthest = images.max_by(|a, b| a.0.total_cmp(&b.0));
-        furthest.map_or(key, |(_, image)| image)
+        furthest.map_or_else(|| key.to_vec(), |(_, image)| image)
+    }
+
+    /// The exchanges of numbers that carry every solution of a generic member to another one.
+    fn exchanges(&self, solutions: &[Vec<C>]) -> Vec<Vec<usize>> {
+        let keys: Vec<Vec<C>> = solutions.iter().map(|x| self.key(x)).collect();
+        let count = self.task.angles.len();
+        let mut all = self.exchanges.clone();
+        let Some(first) = keys.first() else {
+            return all;
+        };
+        for other in &keys[1..] {
+            for flip in &self.group {
+                let image = flip.of(other);
+                // generic numbers differ, so that each is found once
+                let near = |a: C, b: C| (a - b).norm_sqr() < 1e-12 * (1.0 + a.norm_sqr());
+                let angles = &self.task.angles;
+                let of = |i: usize| {
+                    let mut places = (0..count).filter(|j| angles[*j] == angles[i]);
+                    places.find(|j| near(first[*j], image[i]))
+                };
+                let Some(by) = (0..count).map(of).collect::<Option<Vec<usize>>>() else {
+                    continue;
+                };
+                let distinct = (0..count).all(|i| by.contains(&i));
+                let carries =
+                    |key: &Vec<C>| place(&keys, &self.furthest(&exchanged(key, &by))).is_some();
+                if distinct && !all.contains(&by) && keys.iter().all(carries) {
+                    all.push(by);
+                    break;
+                }
+            }
+        }
+        all
     }
 }
 
 impl Task<'_> {
-    /// All exact solutions; `None` if there are not as many targets as unknowns, or the search for generic solutions found more
-    /// than it keeps or was stopped.
-    pub fn exact(&self, most: usize, watch: &Watch) -> Option<(Exact, Searched)> {
-        let count = self.angles.len();
+    /// All exact solutions, as far as the search came before it was stopped; `None` if there are not as many targets as unknowns.
+    ///
+    /// # Errors
+    /// If the search for generic solutions found more than it keeps, or lost paths on every way.
+    pub fn exact(&self, most: usize, watch: &Watch) -> Result<Option<(Exact, Searched)>, NotAll> {
         let nothing = Flip {
-            numbers: vec![false; count],
+            numbers: vec![false; self.angles.len()],
             joints: vec![false; self.mechanism.joints().len()],
+        };
+        let Some(copies) = Copies::new(&self.bundle, self.positions) else {
+            return Ok(None);
         };
         let mut synthesis = Synthesis {
             task: self,
-            copies: Copies::new(&self.bundle, self.positions)?,
+            copies,
             group: vec![nothing],
+            exchanges: vec![(0..self.angles.len()).collect()],
         };
         let settings = Monodromy {
             seed: self.seed,
@@ -181,13 +280,31 @@ impl Task<'_> {
             ..Monodromy::default()
         };
         let mut rng = <Pcg64 as rand::SeedableRng>::seed_from_u64(self.seed);
-        let (member, x) = synthesis.generic(&mut rng)?;
+        let Some((member, x)) = synthesis.generic(&mut rng) else {
+            return Ok(None);
+        };
         synthesis.group = synthesis.symmetries(&member, &x);
         let spread = settings.spread(&synthesis, &member, x, watch);
-        if spread.quiet == 0 {
-            return None;
+        let found = spread.solutions.len();
+        if watch.is_stopped() {
+            let exact = Exact {
+                classes: found,
+                ..Exact::default()
+            };
+            let searched = Searched {
+                interrupted: true,
+                ..Searched::default()
+            };
+            return Ok(Some((exact, searched)));
         }
-        Some(synthesis.at_targets(&spread, &mut rng, watch))
+        if found > most {
+            return Err(NotAll::More { than: most });
+        }
+        if spread.quiet == 0 {
+            return Err(NotAll::Lost { found });
+        }
+        synthesis.exchanges = synthesis.exchanges(&spread.solutions);
+        Ok(Some(synthesis.at_targets(&spread, &mut rng, watch)))
     }
 }
 
@@ -195,62 +312,63 @@ impl Synthesis<'_, '_, '_> {
     /// Solutions for the targets of the task, from those for generic ones.
     fn at_targets(&self, spread: &Spread, rng: &mut Pcg64, watch: &Watch) -> (Exact, Searched) {
         let values = self.copies.values();
-        let middle = self.member(rng);
         let count = spread.solutions.len();
         let tracker = Tracker {
             largest: 1e6,
             ..Tracker::default()
         };
-        let direct = [&spread.member[..], &values[..]];
-        let round = [&spread.member[..], &middle[..], &values[..]];
-        let ends = each(count, &(), |(), i| {
-            if watch.stops(Stage::Paths, i, Some(count)) {
-                return Err(false);
-            }
-            let start = &spread.solutions[i];
-            let first = followed(self, &direct, start, &tracker, watch);
-            first.or_else(|_| followed(self, &direct, start, &tracker.tightened(0.03), watch))
-        });
         let mut exact = Exact {
             generic: count * self.group.len(),
-            classes: count,
+            classes: count / self.exchanges.len(),
             quiet: spread.quiet,
             ..Exact::default()
         };
+        // different keys, with all points that have them
         let mut known: Vec<Vec<C>> = Vec::new();
-        let mut different: Vec<Vec<C>> = Vec::new();
-        let mut missing = false;
-        let mut add = |x: Vec<C>, known: &mut Vec<Vec<C>>| {
-            let key = self.key(&x);
-            if place(known, &key).is_none() {
-                known.push(key);
-                different.push(x);
-            }
-        };
-        for end in &ends {
-            match end {
-                Ok(x) => {
-                    exact.arrived += 1;
-                    add(x.clone(), &mut known);
+        let mut different: Vec<Vec<Vec<C>>> = Vec::new();
+        let mut members = vec![&spread.member[..], &values[..]];
+        let mut middle;
+        for way in 0..Exact::WAYS {
+            let ends = each(count, &(), |(), i| {
+                if watch.stops(Stage::Paths, i, Some(count)) {
+                    return Err(false);
                 }
-                Err(true) => exact.at_infinity += 1,
-                Err(false) => {
-                    exact.lost += 1;
-                    missing = true;
-                }
-            }
-        }
-        // what one way loses another one may bring
-        if missing && !watch.is_stopped() {
-            let again = each(count, &(), |(), i| {
-                followed(self, &round, &spread.solutions[i], &tracker, watch).ok()
+                let start = &spread.solutions[i];
+                let first = followed(self, &members, start, &tracker, watch);
+                first.or_else(|_| followed(self, &members, start, &tracker.tightened(0.03), watch))
             });
-            again.into_iter().flatten().for_each(|x| add(x, &mut known));
+            let (mut arrived, mut at_infinity) = (0, 0);
+            for end in ends {
+                match end {
+                    Ok(x) => {
+                        arrived += 1;
+                        let key = self.key(&x);
+                        match place(&known, &key) {
+                            Some(place) => different[place].push(x),
+                            None => {
+                                known.push(key);
+                                different.push(vec![x]);
+                            }
+                        }
+                    }
+                    Err(infinite) => at_infinity += usize::from(infinite),
+                }
+            }
+            if way == 0 || arrived + at_infinity > exact.arrived + exact.at_infinity {
+                (exact.arrived, exact.at_infinity) = (arrived, at_infinity);
+            }
+            exact.lost = count - exact.arrived - exact.at_infinity;
+            if exact.lost == 0 || watch.is_stopped() {
+                break;
+            }
+            // what one way loses another one may bring
+            middle = self.member(rng);
+            members = vec![&spread.member, &middle, &values];
         }
         let mut searched = Searched::default();
-        for x in &different {
+        for alike in &different {
             exact.different += 1;
-            self.real(x, &mut exact, &mut searched);
+            self.real(alike, &mut exact, &mut searched);
         }
         searched.found.sort_by(|a, b| {
             let pairs = a.at.numbers.iter().zip(&b.at.numbers);
@@ -263,11 +381,15 @@ impl Synthesis<'_, '_, '_> {
         (exact, searched)
     }
 
-    /// Takes in a solution if it is real: of those that are the same linkage the first that lies in the ranges.
-    fn real(&self, x: &[C], exact: &mut Exact, searched: &mut Searched) {
+    /// Takes in a solution if it is real: of those that differ by signs and half turns the first that lies in the ranges, and each
+    /// exchange.
+    fn real(&self, alike: &[Vec<C>], exact: &mut Exact, searched: &mut Searched) {
         const REAL: f64 = 1e-7;
-        let size = x.iter().map(|x| x.norm_sqr()).fold(1.0, f64::max).sqrt();
-        if x.iter().any(|x| x.im.abs() > REAL * size) {
+        let is_real = |x: &[C]| {
+            let size = x.iter().map(|x| x.norm_sqr()).fold(1.0, f64::max).sqrt();
+            x.iter().all(|x| x.im.abs() <= REAL * size)
+        };
+        if !alike.iter().any(|x| is_real(x)) {
             return;
         }
         exact.real += 1;
@@ -275,7 +397,7 @@ impl Synthesis<'_, '_, '_> {
             let mut pairs = at.numbers.iter().zip(&self.task.ranges);
             pairs.all(|(x, (low, high))| (*low..=*high).contains(x))
         };
-        let mut images = self.group.iter().map(|flip| {
+        let image = |x: &Vec<C>, flip: &Flip| {
             let mut at = self.copies.real(&self.flipped(x, flip));
             // an angle is in its range after whole turns
             let angles = self.task.angles.iter().zip(&self.task.ranges);
@@ -285,23 +407,33 @@ impl Synthesis<'_, '_, '_> {
                 }
             }
             at
-        });
-        let Some(at) = images.find(within) else {
-            exact.outside += 1;
-            return;
         };
         let polish = LevenbergMarquardt {
             damping: 0.0,
             tolerance: 1e-13,
             steps: 10,
         };
-        let end = polish.solve(&self.task.bundle, at);
-        searched.starts += 1;
-        searched.found.push(Found {
-            at: end.point,
-            squares: end.misfit.squares,
-            reached: 1,
-        });
+        let class = exact.real;
+        let first = searched.found.len();
+        for x in alike.iter().filter(|x| is_real(x)) {
+            let mut images = self.group.iter().map(|flip| image(x, flip));
+            let Some(at) = images.find(within) else {
+                continue;
+            };
+            let end = polish.solve(&self.task.bundle, at);
+            let mut known = searched.found[first..].iter();
+            if !known.any(|of| self.task.same(&of.at, &end.point)) {
+                searched.found.push(Found {
+                    at: end.point,
+                    squares: end.misfit.squares,
+                    reached: 1,
+                    class,
+                });
+            }
+        }
+        if searched.found.len() == first {
+            exact.outside += 1;
+        }
     }
 
     /// A flat point with other signs of lengths and half turns.
@@ -326,33 +458,41 @@ impl Synthesis<'_, '_, '_> {
     /// The changes that carry a generic solution to another one of the same member. They are the same for all its solutions: each
     /// is a map of the equations to themselves.
     fn symmetries(&self, member: &[C], x: &[C]) -> Vec<Flip> {
-        /// Bits at most: each change is tried at one point.
-        const MOST: usize = 12;
+        /// Numbers changed together at most, and changes tried at most: each is tried at one point.
+        const WEIGHT: u32 = 4;
+        const MOST: usize = 40_000;
         const CLOSED: f64 = 1e-9;
         let joints = self.task.mechanism.joints().iter();
         let turns: Vec<bool> = joints.map(|joint| joint.kind.is_angle()).collect();
         let places: Vec<usize> = (0..turns.len()).filter(|i| turns[*i]).collect();
         let numbers = self.task.angles.len();
         let mut group = self.group.clone();
-        if numbers + places.len() > MOST || !self.task.mechanism.platforms().is_empty() {
+        if numbers + places.len() > 20 || !self.task.mechanism.platforms().is_empty() {
             return group;
         }
+        let masks = (1..1usize << numbers).filter(|mask| mask.count_ones() <= WEIGHT);
+        let mut masks: Vec<usize> = masks.collect();
+        masks.sort_by_key(|mask| mask.count_ones());
+        masks.truncate(MOST >> places.len());
         let mut way = self.way(member, member);
-        for mask in 1..1usize << (numbers + places.len()) {
-            let mut flip = Flip {
-                numbers: (0..numbers).map(|i| mask >> i & 1 == 1).collect(),
-                joints: vec![false; turns.len()],
-            };
-            for (bit, joint) in places.iter().enumerate() {
-                flip.joints[*joint] = mask >> (numbers + bit) & 1 == 1;
-            }
-            let known = group.iter().any(|of| of.numbers == flip.numbers);
-            if known || !flip.numbers.contains(&true) {
+        for mask in masks {
+            let changed: Vec<bool> = (0..numbers).map(|i| mask >> i & 1 == 1).collect();
+            if group.iter().any(|of| of.numbers == changed) {
                 continue;
             }
-            if way.residual(C::from_f64(0.0), &self.flipped(x, &flip)) < CLOSED {
-                let more: Vec<Flip> = group.iter().map(|of| of.after(&flip)).collect();
-                group.extend(more);
+            for turned in 0..1usize << places.len() {
+                let mut flip = Flip {
+                    numbers: changed.clone(),
+                    joints: vec![false; turns.len()],
+                };
+                for (bit, joint) in places.iter().enumerate() {
+                    flip.joints[*joint] = turned >> bit & 1 == 1;
+                }
+                if way.residual(C::from_f64(0.0), &self.flipped(x, &flip)) < CLOSED {
+                    let more: Vec<Flip> = group.iter().map(|of| of.after(&flip)).collect();
+                    group.extend(more);
+                    break;
+                }
             }
         }
         group

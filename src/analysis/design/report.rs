@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::exact::Exact;
+use super::exact::{Exact, NotAll};
 use crate::algebra::SiUnit;
 
 /// A number of the mechanism that is sought, with the range in which it is.
@@ -142,6 +142,9 @@ pub struct DesignReport {
     /// Counts of an exact synthesis, where there are as many targets as unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<Exact>,
+    /// Why not all exact solutions were sought where there are as many targets as unknowns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_all: Option<NotAll>,
     /// Number of random starts from which a search ran.
     pub starts: usize,
     /// Number of random dimensions that could not be assembled in all positions.

@@ -44,6 +44,8 @@ pub struct Found {
     pub squares: f64,
     /// Number of starts that led to it.
     pub reached: usize,
+    /// The linkage that it is: those of one class differ by an exchange of links only, so that another one drives.
+    pub class: usize,
 }
 
 /// All different ends of a search, by their sums of squares.
@@ -128,7 +130,7 @@ impl Task<'_> {
         all
     }
 
-    fn same(&self, a: &Bundled, b: &Bundled) -> bool {
+    pub(super) fn same(&self, a: &Bundled, b: &Bundled) -> bool {
         let pairs = a.numbers.iter().zip(&b.numbers).zip(&self.angles);
         let mut near = pairs.map(|((a, b), angle)| match angle {
             true => {
@@ -189,6 +191,7 @@ impl Task<'_> {
                 at: end.point,
                 squares: end.misfit.squares,
                 reached: 1,
+                class: number,
             }
         });
         (failed, end)

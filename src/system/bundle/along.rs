@@ -1,6 +1,7 @@
 //! Ways through the values of the targets of a square bundle.
 
-use super::copies::Copies;
+use super::copies::{Copies, RowsWork};
+use super::program::coordinates;
 use super::sides::Rows;
 use crate::geometry::Quaternion;
 use crate::number::Complex;
@@ -12,7 +13,11 @@ type C = Complex<f64>;
 pub struct Along<'c, 'b, 'm> {
     copies: &'c Copies<'b, 'm>,
     from: Vec<C>,
-    to: Vec<C>,
+    /// How the values change along the way, and the values where it was last evaluated.
+    rates: Vec<C>,
+    values: Vec<C>,
+    work: RowsWork,
+    shared: Rows,
     /// The step that cancels the residual, and that along the way, of the last linearisation.
     steps: [Vec<C>; 2],
     largest: f64,
@@ -21,10 +26,17 @@ pub struct Along<'c, 'b, 'm> {
 impl<'c, 'b, 'm> Along<'c, 'b, 'm> {
     /// The way between values of all targets.
     pub fn new(copies: &'c Copies<'b, 'm>, from: Vec<C>, to: Vec<C>) -> Self {
+        let count = copies.bundle.numbers.len();
         Along {
             copies,
+            rates: from.iter().zip(to).map(|(a, b)| b - a).collect(),
+            values: from.clone(),
             from,
-            to,
+            work: RowsWork::default(),
+            shared: Rows {
+                width: count + 2,
+                entries: Vec::new(),
+            },
             steps: [Vec::new(), Vec::new()],
             largest: f64::NAN,
         }
@@ -32,42 +44,41 @@ impl<'c, 'b, 'm> Along<'c, 'b, 'm> {
 }
 
 impl Along<'_, '_, '_> {
+    /// Both steps at a point; false if they do not exist.
     fn linear(&mut self, s: C, x: &[C]) -> bool {
-        self.steps = [Vec::new(), Vec::new()];
-        self.largest = f64::NAN;
-        let ends = self.from.iter().zip(&self.to);
-        let values: Vec<C> = ends.clone().map(|(a, b)| *a + s * (*b - *a)).collect();
-        let rates: Vec<C> = ends.map(|(a, b)| *b - *a).collect();
-        let Some(mut all) = self.copies.rows(x, &values, &rates) else {
-            return false;
-        };
-        let (unknowns, count) = (self.copies.unknowns, self.copies.bundle.numbers.len());
+        let copies = self.copies;
+        let (unknowns, count) = (copies.unknowns, copies.bundle.numbers.len());
+        let ends = self
+            .values
+            .iter_mut()
+            .zip(self.from.iter().zip(&self.rates));
+        ends.for_each(|(value, (from, rate))| *value = *from + s * *rate);
+        copies.rows(x, &self.values, &self.rates, &mut self.work);
+        let size = count + self.work.rows.len() * unknowns;
+        let zero = C::new(0.0, 0.0);
+        self.steps
+            .iter_mut()
+            .for_each(|step| step.resize(size, zero));
         self.largest = 0.0;
-        let mut shared = Rows {
-            width: count + 2,
-            entries: Vec::new(),
-        };
-        for rows in &mut all {
+        self.shared.entries.clear();
+        for rows in &mut self.work.rows {
             let sides = rows.entries.chunks_exact(rows.width);
             let largest = sides.map(|row| row[row.len() - 2].norm_sqr().sqrt());
-            self.largest = largest.fold(self.largest, f64::max);
+            self.largest = largest.fold(self.largest, |a, b| if b <= a { a } else { b });
             if !rows.eliminate(unknowns) {
                 return false;
             }
             let left = rows.entries.chunks_exact(rows.width).skip(unknowns);
-            left.for_each(|row| shared.entries.extend(&row[unknowns..]));
+            left.for_each(|row| self.shared.entries.extend(&row[unknowns..]));
         }
-        if !shared.eliminate(count) {
+        if !self.shared.eliminate(count) {
             return false;
         }
-        for (side, steps) in self.steps.iter_mut().enumerate() {
-            let numbers = shared.back(count, &[], side);
-            let each = all
-                .iter()
-                .flat_map(|rows| rows.back(unknowns, &numbers, side));
-            let each: Vec<C> = each.collect();
-            *steps = numbers;
-            steps.extend(each);
+        for (side, step) in self.steps.iter_mut().enumerate() {
+            let (numbers, rest) = step.split_at_mut(count);
+            self.shared.back(count, &[], side, numbers);
+            let each = rest.chunks_exact_mut(unknowns.max(1)).zip(&self.work.rows);
+            each.for_each(|(step, rows)| rows.back(unknowns, numbers, side, step));
         }
         self.steps.iter().flatten().all(|x| x.is_finite())
     }
@@ -84,15 +95,12 @@ impl Along<'_, '_, '_> {
             let step: Vec<C> = step.iter().map(|x| *x * factor).collect();
             let mut at = self.copies.placed(x);
             self.copies.shape.displace(&mut at, &step);
-            Copies::flat_into(&at, x);
+            coordinates(&at, x);
         }
     }
 
     fn flow(&self, x: &[C], out: &mut [C]) -> bool {
         const SHORT: f64 = 1e-6;
-        if self.steps[1].is_empty() {
-            return false;
-        }
         out.copy_from_slice(x);
         self.moved(out, &self.steps[1], SHORT);
         for (out, x) in out.iter_mut().zip(x) {

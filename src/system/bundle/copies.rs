@@ -5,23 +5,41 @@
 //! alone, with row exchanges; what is left of all is a square system of the shared numbers, so that the cost is linear in the
 //! number of configurations.
 
+use std::f64::consts::TAU;
+
+use super::program::{Program, configuration, coordinates};
 use super::sides::Rows;
-use super::{Bundle, Bundled, Target};
-use crate::geometry::Quaternion;
+use super::{Bundle, Bundled};
 use crate::mechanism::Configuration;
-use crate::number::{Complex, Gradient, Number};
+use crate::number::{Complex, Number};
 use crate::solve::Equations;
 use crate::system::System;
 
 type C = Complex<f64>;
-type G = Gradient<C>;
+
+/// One configuration.
+#[derive(Clone, Debug)]
+struct Copy {
+    program: Program,
+    targets: Vec<Aim>,
+}
+
+/// A target of a configuration.
+#[derive(Clone, Debug)]
+struct Aim {
+    /// Its place among the values.
+    place: usize,
+    weight: f64,
+    angle: bool,
+    /// True if it means the same after a turn.
+    turns: bool,
+}
 
 /// The square system of a bundle.
 #[derive(Clone, Debug)]
 pub struct Copies<'b, 'm> {
     pub(super) bundle: &'b Bundle<'m>,
-    /// Targets of each configuration with the place of each among the values.
-    targets: Vec<Vec<(usize, Target)>>,
+    places: Vec<Copy>,
     /// The values that the bundle asks for.
     values: Vec<f64>,
     pub(super) home: Configuration<f64>,
@@ -36,21 +54,27 @@ impl<'b, 'm> Copies<'b, 'm> {
     /// The square system of so many configurations; `None` if it is not square.
     pub fn new(bundle: &'b Bundle<'m>, configurations: usize) -> Option<Self> {
         let mut values = Vec::new();
-        let targets: Vec<Vec<(usize, Target)>> = (0..configurations)
-            .map(|k| {
-                let targets = bundle.targets.get(&k).into_iter().flatten();
-                let placed = targets.map(|target| {
-                    values.push(target.value);
-                    (values.len() - 1, target.clone())
-                });
-                placed.collect()
-            })
-            .collect();
+        let mut places = Vec::new();
+        for k in 0..configurations {
+            let targets = bundle.targets_of(k);
+            let program = Program::new(bundle, &targets)?;
+            let aims = targets.into_iter().map(|target| {
+                values.push(target.value);
+                Aim {
+                    place: values.len() - 1,
+                    weight: target.weight,
+                    angle: target.quantity.unit.is_angle(),
+                    turns: target.turns(bundle.mechanism),
+                }
+            });
+            let targets = aims.collect();
+            places.push(Copy { program, targets });
+        }
         let numbers: Vec<C> = bundle.file().into_iter().map(C::from_f64).collect();
         let shape = bundle.equations(&numbers)?;
         let copies = Copies {
             bundle,
-            targets,
+            places,
             values,
             home: bundle.mechanism.home(),
             unknowns: shape.unknowns().len(),
@@ -58,7 +82,7 @@ impl<'b, 'm> Copies<'b, 'm> {
             shape,
         };
         let enough =
-            (copies.targets.iter()).all(|of| copies.closures + of.len() >= copies.unknowns);
+            (copies.places.iter()).all(|of| copies.closures + of.targets.len() >= copies.unknowns);
         let rows = configurations * copies.closures + copies.values.len();
         let square = rows == configurations * copies.unknowns + bundle.numbers.len();
         (square && enough).then_some(copies)
@@ -71,9 +95,8 @@ impl<'b, 'm> Copies<'b, 'm> {
 
     /// For each value true if it is an angle.
     pub fn angles(&self) -> Vec<bool> {
-        let targets = self.targets.iter().flatten();
-        let unit = |(_, target): &(usize, Target)| target.quantity.unit.is_angle();
-        targets.map(unit).collect()
+        let aims = self.places.iter().flat_map(|of| &of.targets);
+        aims.map(|aim| aim.angle).collect()
     }
 
     /// Coordinates of one configuration in a flat point.
@@ -83,27 +106,12 @@ impl<'b, 'm> Copies<'b, 'm> {
 
     /// Number of coordinates of a flat point: the numbers in their units, then all configurations.
     pub fn count(&self) -> usize {
-        self.bundle.numbers.len() + self.targets.len() * self.width()
+        self.bundle.numbers.len() + self.places.len() * self.width()
     }
 
-    pub(super) fn flat_into(at: &Configuration<C>, x: &mut [C]) {
-        let joints = at.joints.len();
-        x[..joints].copy_from_slice(&at.joints);
-        for (x, of) in x[joints..].chunks_exact_mut(7).zip(&at.platforms) {
-            x[..4].copy_from_slice(&of.orientation.0);
-            x[4..].copy_from_slice(&of.position.0);
-        }
-    }
-
+    /// The configuration of one place in a flat point.
     pub(super) fn placed(&self, x: &[C]) -> Configuration<C> {
-        let mut at = self.home.map(C::from_f64);
-        let joints = at.joints.len();
-        at.joints.copy_from_slice(&x[..joints]);
-        for (x, of) in x[joints..].chunks_exact(7).zip(&mut at.platforms) {
-            of.orientation = Quaternion([x[0], x[1], x[2], x[3]]);
-            of.position.0.copy_from_slice(&x[4..]);
-        }
-        at
+        configuration(&self.home, x)
     }
 
     /// The flat point of numbers and configurations.
@@ -114,7 +122,7 @@ impl<'b, 'm> Copies<'b, 'm> {
         }
         let rest = &mut x[numbers.len()..];
         for (x, at) in rest.chunks_exact_mut(self.width()).zip(configurations) {
-            Self::flat_into(at, x);
+            coordinates(at, x);
         }
         x
     }
@@ -161,98 +169,64 @@ impl<'b, 'm> Copies<'b, 'm> {
         None
     }
 
+    /// The inputs of the program of one place.
+    fn inputs(&self, x: &[C], place: usize, inputs: &mut Vec<C>) {
+        let (count, width) = (self.bundle.numbers.len(), self.width());
+        inputs.clear();
+        inputs.extend(&x[..count]);
+        inputs.extend(&x[count + place * width..][..width]);
+    }
+
     /// The values that all targets have at a flat point.
     pub fn values_at(&self, x: &[C]) -> Option<Vec<C>> {
-        let numbers = self.numbers(x);
-        let (parameters, _) = self.bundle.dimensions(&numbers)?;
-        let system = self.bundle.equations(&numbers)?;
-        let mut work = system.work();
-        let mut values = Vec::new();
-        let rest = &x[numbers.len()..];
-        for (targets, x) in self
-            .targets
-            .iter()
-            .zip(rest.chunks_exact(self.width().max(1)))
-        {
-            let at = self.placed(x);
-            system.residual(&at, &mut work);
-            for (_, target) in targets {
-                let evaluated = (&system, &work);
-                let of = (self.bundle.mechanism, evaluated, &parameters[..]);
-                values.push(target.quantity(of.0, of.1, of.2, &at)?);
-            }
+        let (mut inputs, mut storage, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        for (k, place) in self.places.iter().enumerate() {
+            self.inputs(x, k, &mut inputs);
+            let rows = place.program.rows(&inputs, &mut storage);
+            values.extend(rows.skip(self.closures).filter_map(|mut row| row.next()));
         }
-        Some(values)
+        values.iter().all(|x| x.is_finite()).then_some(values)
     }
 
     /// Rows of all configurations at a flat point: derivatives by the unknowns of each, by the numbers, and the two sides.
-    pub(super) fn rows(&self, x: &[C], values: &[C], rates: &[C]) -> Option<Vec<Rows>> {
-        let numbers = self.numbers(x);
-        let (count, unknowns) = (numbers.len(), self.unknowns);
-        let width = unknowns + count + 2;
-        let rest = &x[count..];
-        let places: Vec<Configuration<C>> = (rest.chunks_exact(self.width().max(1)))
-            .map(|x| self.placed(x))
-            .collect();
+    pub(super) fn rows(&self, x: &[C], values: &[C], rates: &[C], work: &mut RowsWork) {
         let zero = C::new(0.0, 0.0);
-        let mut all: Vec<Rows> = (self.targets.iter())
-            .map(|targets| Rows {
-                width,
-                entries: vec![zero; width * (self.closures + targets.len())],
-            })
-            .collect();
-        let directions = count + unknowns;
-        for from in (0..directions.max(1)).step_by(Gradient::LANES) {
-            let lane = |i: usize, x: C, size: f64| match i.checked_sub(from) {
-                Some(lane) if lane < Gradient::LANES => {
-                    G::variable(C::new(0.0, 0.0), lane).scale(size) + G::constant(x)
-                }
-                _ => G::constant(x),
-            };
-            let sizes = self.bundle.sizes.iter();
-            let given = numbers.iter().zip(sizes).enumerate();
-            let given: Vec<G> = given.map(|(i, (x, size))| lane(i, *x, *size)).collect();
-            let (parameters, dimensions) = self.bundle.dimensions(&given)?;
-            let held = self.bundle.held.map(G::from_f64);
-            let (kept, frames) = (&self.bundle.kept, &self.bundle.frames);
-            let system = System::keeping(&dimensions, &held, kept, frames);
-            let mut work = system.work();
-            let step: Vec<G> = (0..unknowns).map(|i| lane(count + i, zero, 1.0)).collect();
-            let moves = from + Gradient::LANES > count;
-            for ((targets, at), rows) in self.targets.iter().zip(&places).zip(&mut all) {
-                let mut at = at.map(G::constant);
-                if moves {
-                    system.displace(&mut at, &step);
-                }
-                system.residual(&at, &mut work);
-                let mut put = |row: usize, value: G, rate: C| {
-                    let row = &mut rows.entries[row * width..(row + 1) * width];
-                    for (lane, slope) in value.slopes.iter().enumerate() {
-                        let i = from + lane;
-                        match i.checked_sub(count) {
-                            None => row[unknowns + i] = *slope,
-                            Some(i) if i < unknowns => row[i] = *slope,
-                            Some(_) => {}
-                        }
+        let width = self.unknowns + self.bundle.numbers.len() + 2;
+        let empty = || Rows {
+            width,
+            entries: Vec::new(),
+        };
+        work.rows.resize_with(self.places.len(), empty);
+        for (k, (place, rows)) in self.places.iter().zip(&mut work.rows).enumerate() {
+            self.inputs(x, k, &mut work.inputs);
+            let entries = &mut rows.entries;
+            entries.clear();
+            let all = place.program.rows(&work.inputs, &mut work.values);
+            for (i, mut row) in all.enumerate() {
+                let value = row.next().unwrap_or(zero);
+                match i.checked_sub(self.closures).map(|i| &place.targets[i]) {
+                    None => {
+                        entries.extend(row);
+                        entries.extend([-value, zero]);
                     }
-                    row[width - 2] = -value.value;
-                    row[width - 1] = -rate;
-                };
-                let residual = system.residual_of(&work);
-                residual
-                    .iter()
-                    .enumerate()
-                    .for_each(|(i, value)| put(i, *value, zero));
-                for (i, (place, target)) in targets.iter().enumerate() {
-                    let (mechanism, value) = (self.bundle.mechanism, values[*place]);
-                    let value = G::constant(value);
-                    let evaluated = (&system, &work);
-                    let left = target.left_of(mechanism, evaluated, &parameters, &at, value);
-                    let rate = -rates[*place] * target.weight;
-                    put(self.closures + i, left?, rate);
+                    Some(aim) => {
+                        let mut left = value - values[aim.place];
+                        if aim.turns {
+                            left -= TAU * (left.re / TAU).round();
+                        }
+                        entries.extend(row.map(|x| x * aim.weight));
+                        entries.extend([-left * aim.weight, rates[aim.place] * aim.weight]);
+                    }
                 }
             }
         }
-        Some(all)
     }
+}
+
+/// Storage for [`Copies::rows`].
+#[derive(Clone, Debug, Default)]
+pub(super) struct RowsWork {
+    inputs: Vec<C>,
+    values: Vec<C>,
+    pub rows: Vec<Rows>,
 }

@@ -5,6 +5,7 @@ use crate::number::Complex;
 type C = Complex<f64>;
 
 /// Rows of a matrix with two right-hand sides at their ends.
+#[derive(Clone, Debug)]
 pub(super) struct Rows {
     pub width: usize,
     pub entries: Vec<C>,
@@ -48,12 +49,11 @@ impl Rows {
 
     /// Solves the upper triangle of the first columns for one of the two right-hand sides, with the values of the columns
     /// between them and the sides known.
-    pub fn back(&self, columns: usize, known: &[C], side: usize) -> Vec<C> {
-        let mut x = vec![C::new(0.0, 0.0); columns];
+    pub fn back(&self, columns: usize, known: &[C], side: usize, x: &mut [C]) {
         for k in (0..columns).rev() {
             let row = self.row(k);
             let mut sum = row[self.width - 2 + side];
-            for (entry, value) in row[k + 1..columns].iter().zip(&x[k + 1..]) {
+            for (entry, value) in row[k + 1..columns].iter().zip(&x[k + 1..columns]) {
                 sum -= *entry * *value;
             }
             for (entry, value) in row[columns..].iter().zip(known) {
@@ -61,6 +61,5 @@ impl Rows {
             }
             x[k] = sum / row[k];
         }
-        x
     }
 }

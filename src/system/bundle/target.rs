@@ -57,18 +57,6 @@ impl Target {
         at: &Configuration<T>,
     ) -> Option<T> {
         let value = T::from_f64(self.value);
-        self.left_of(mechanism, evaluated, parameters, at, value)
-    }
-
-    /// As [`Target::left`], with another value.
-    pub(super) fn left_of<T: Factorable>(
-        &self,
-        mechanism: &Mechanism,
-        evaluated: (&System<T>, &Work<T>),
-        parameters: &[T],
-        at: &Configuration<T>,
-        value: T,
-    ) -> Option<T> {
         let left = self.quantity(mechanism, evaluated, parameters, at)? - value;
         let turns = match self.turns(mechanism) {
             true => (left.real() / TAU).round(),
@@ -107,7 +95,7 @@ impl Target {
     }
 
     /// True for an angle that means the same after a turn.
-    fn turns(&self, mechanism: &Mechanism) -> bool {
+    pub(super) fn turns(&self, mechanism: &Mechanism) -> bool {
         self.quantity.unit == SiUnit::RADIAN
             && self.quantity.measured().all(|of| match of {
                 Measured::Joint(joint, _) => {
