@@ -89,10 +89,20 @@ impl Design {
     /// # Errors
     /// If the question is wrong, or no mechanism in the ranges can be assembled.
     pub fn report(&self, watch: &Watch) -> Result<DesignReport, DesignError> {
-        let description = self.extended();
-        let mechanism = Mechanism::new(&description).map_err(DesignError::Mechanism)?;
-        let mechanism = Arc::new(mechanism);
-        let read = Read::new(&self.asked, &mechanism)?;
+        let made = |known: Option<&Mechanism>| {
+            let description = self.extended(known);
+            let mechanism = Mechanism::new(&description).map_err(DesignError::Mechanism)?;
+            let mechanism = Arc::new(mechanism);
+            let read = Read::new(&self.asked, &mechanism)?;
+            Ok((description, mechanism, read))
+        };
+        // units that do not fit are left out
+        let plain: Result<_, DesignError> = made(None);
+        let known = plain
+            .as_ref()
+            .ok()
+            .and_then(|(_, plain, _)| made(Some(plain)).ok());
+        let (description, mechanism, read) = known.map_or(plain, Ok)?;
         let task = Task {
             mechanism: &mechanism,
             held: read.held.clone(),

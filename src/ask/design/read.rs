@@ -32,26 +32,61 @@ pub(super) struct Read {
 }
 
 impl Design {
-    /// The mechanism file with the further unknowns among its parameters.
-    pub(super) fn extended(&self) -> Description {
+    /// The mechanism file with the further unknowns among its parameters. Those whose ranges have no unit are angles or lengths
+    /// as what they are used for, where the mechanism is known.
+    pub(super) fn extended(&self, known: Option<&Mechanism>) -> Description {
         let mut description = self.mechanism.clone();
         for varied in &self.asked.vary {
-            let known =
-                (description.parameters.iter()).any(|of| of.name.value == varied.name.value);
-            if known {
+            let name = &varied.name.value;
+            if description
+                .parameters
+                .iter()
+                .any(|of| of.name.value == *name)
+            {
                 continue;
             }
             // amid its range, whose unit it has
             let [from, to] = &varied.value;
-            let text = format!("(({}) + ({}))/2", from.expression, to.expression);
+            let plain = varied
+                .value
+                .iter()
+                .all(|of| of.expression.as_number().is_some());
+            let unit = match known {
+                Some(mechanism) if plain => self.unit_in_use(name, mechanism),
+                _ => "",
+            };
+            let text = format!("(({}) + ({}))/2{unit}", from.expression, to.expression);
             let value = Entry::read(&text).unwrap_or_else(|_| from.clone());
-            let named = Named::new(varied.name.value.clone(), value);
+            let named = Named::new(name.clone(), value);
             if let Some(coordinates) = &mut description.coordinates {
                 coordinates.axes.parameters.push(named.clone());
             }
             description.parameters.push(named);
         }
         description
+    }
+
+    /// A factor with the unit of the first place where the positions use a further unknown.
+    fn unit_in_use(&self, unknown: &str, mechanism: &Mechanism) -> &'static str {
+        let is_it = |name: &str| name.trim() == unknown;
+        for named in self.asked.positions.iter().flatten() {
+            let target = &named.name.value;
+            let offsets = target.split_once('+').map_or("", |(_, offsets)| offsets);
+            let mut values = named.value.iter().flat_map(|of| of.expression.names());
+            let in_value = values.any(|(name, _)| is_it(name));
+            let joint = mechanism.joint(target);
+            let angle = joint.is_some_and(|joint| mechanism.joints()[joint].kind.is_angle())
+                || [".roll", ".pitch", ".yaw"]
+                    .iter()
+                    .any(|end| target.ends_with(end));
+            if in_value && angle {
+                return "*(1 rad)";
+            }
+            if offsets.split(',').any(is_it) || in_value && named.value.len() > 1 {
+                return "*(1 m)";
+            }
+        }
+        ""
     }
 }
 
