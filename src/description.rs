@@ -95,7 +95,7 @@ impl Draft {
                 // a name without its quotes
                 ProblemKind::WrongType {
                     expected: Expected::NameOf(_),
-                    found: Found::Word(word),
+                    found: FoundValue::Word(word),
                 } => {
                     doubtful.insert(word.clone());
                 }
@@ -153,8 +153,8 @@ fn may_hide(kind: &ProblemKind) -> Vec<Noun> {
             ..
         } => vec![*noun],
         ProblemKind::UnknownField { structure, .. } => match structure {
-            Structure::Mechanism => MAPS.to_vec(),
-            Structure::ClosedForm => vec![Noun::LocalName],
+            FieldGroup::Mechanism => MAPS.to_vec(),
+            FieldGroup::ClosedForm => vec![Noun::LocalName],
             _ => Vec::new(),
         },
         ProblemKind::DuplicateField { .. } | ProblemKind::Syntax { .. } => {

@@ -24,5 +24,7 @@ pub use mjcf::{NotRead, write as write_mjcf};
 pub use problem::{ImportProblem, ImportProblemKind, WrongFile};
 pub use remark::Remark;
 pub use sdf::write as write_sdf;
-pub use tree::{Attachment, Bend, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+pub use tree::{
+    Attachment, Bend, BodyMotion, Coupling, Extent, Tree, TreeBody, TreeJoint, TreeLoop,
+};
 pub use urdf::write as write_urdf;

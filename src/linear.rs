@@ -31,7 +31,7 @@ pub use crate::number::tolerance::{
     SINGULAR_PLACE,
 };
 pub use aligned::axis_aligned;
-pub use block::{Block, DenseOnly, Filled, NoFactors, SparseStep};
+pub use block::{ColumnBlock, DenseOnly, Filled, NoFactors, SparseStep};
 pub use bordered::Bordered;
 pub use change::relative_change;
 pub use decomposition::{Decomposition, singular_values};
@@ -39,7 +39,7 @@ pub use elimination::Elimination;
 pub use factorable::Factorable;
 pub(crate) use joined::{join, root};
 pub use qr::Qr;
-pub use rows::{Rows, dense};
+pub use rows::{RowGroup, dense};
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
 pub use svd::Svd;

@@ -36,13 +36,13 @@ pub use closing::{ClosingJoint, ClosingValues};
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
 pub use coordinate::PoseCoordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
-pub use follower::Follower;
+pub use follower::FollowingOutput;
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
 pub use loads::{Along, Friction, GivenEffort, GivenForce, GivenValue, Loads, Mass, Spring};
 pub use point::{NamedPoint, Point, PointError};
-pub use relation::Relation;
+pub use relation::JointRelation;
 
 pub use quantity::{
     Carrier, Effort, Energy, Figure, Measured, Order, Quantity, QuantityError, ScrewPart,
@@ -51,22 +51,22 @@ pub use rounded::{NumberChange, Rounded, Rounding};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;
 
-pub use serial_axes::{Assignment, JointAxis, Normal, SerialAxes, Table, TableRow};
+pub use serial_axes::{DhTable, FrameAssignment, JointAxis, Normal, SerialAxes, TableRow};
 
 pub use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
 pub use model::{
-    Chain, ClosedForm, Closure as NamedClosure, FixedStep, Formula, Given, Joint, JointKind,
-    Parameter, Platform, Row, Symbol,
+    Chain, ChainRow, ClosedForm, Closure as NamedClosure, FixedStep, Formula, GivenForm, Joint,
+    JointKind, Parameter, Platform, Symbol,
 };
 
 use std::sync::{Arc, OnceLock};
 
-use crate::description::{Coordinates, LoadsDescription, Problem};
+use crate::description::{JointCoordinates, LoadsDescription, Problem};
 
 pub(crate) use closing::joint_values;
-pub(crate) use closure::{Closure, EVERY_ROW, Kept, Side, needs};
+pub(crate) use closure::{ClosureEquations, EVERY_ROW, Kept, Side, needs};
 pub(crate) use coordinate::orientation_rows;
-pub(crate) use kinematics::{Course as KinematicsCourse, Mover, Need};
+pub(crate) use kinematics::{KinematicsCourse, Mover, Need};
 pub(crate) use letters::{Formal, Letters};
 pub(crate) use recut::Recut;
 pub(crate) use turns::{principal, turn_near, turns, turns_to_repeat};
@@ -99,7 +99,7 @@ pub struct Mechanism {
     cycles: Vec<Option<f64>>,
     /// For each closure the rows that do not vanish in every configuration, once asked for.
     rows_that_vary: OnceLock<Vec<Kept>>,
-    coordinates: Option<Arc<Coordinates>>,
+    coordinates: Option<Arc<JointCoordinates>>,
     warnings: Arc<Vec<Problem>>,
     /// The most by which numbers of the file are off, in m, if it says so.
     tolerance: Option<f64>,

@@ -26,13 +26,13 @@ use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::output::JsonReport;
-use crate::output::drawing::{DrawingSettings, Panel, View, sheet};
+use crate::output::drawing::{DrawingSettings, Panel, Viewpoint, sheet};
 use crate::output::json::render;
 use crate::output::rounding::Prefaced;
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
-use request::{Analysis, Load, Measured, Press, Request, Sweep};
+use request::{Analysis, Load, MeasureKind, Press, Request, Sweep};
 use state::State;
 
 /// State of a page between requests.
@@ -48,7 +48,7 @@ pub struct Page {
 
 /// A configuration of a motion.
 #[derive(Serialize)]
-struct Shown {
+struct ShownRow {
     at: State,
     special: Option<MetKind>,
     points: Vec<[f64; 3]>,
@@ -58,10 +58,10 @@ struct Shown {
 const NONE: &[Value] = &[];
 
 /// Reply in place of an answer.
-struct Refusal(Value);
+struct RefusedReply(Value);
 
 /// The refusal of a question.
-fn refused(question: &Question) -> impl Fn(AskError) -> Refusal + '_ {
+fn refused(question: &Question) -> impl Fn(AskError) -> RefusedReply + '_ {
     |error| nothing(&words::refused(question, &error))
 }
 
@@ -74,14 +74,14 @@ impl Page {
             Ok(request) => self.reply(request).map(|reply| reply.to_string()),
             Err(error) => Err(nothing(&error.to_string())),
         };
-        reply.unwrap_or_else(|Refusal(said)| said.to_string())
+        reply.unwrap_or_else(|RefusedReply(said)| said.to_string())
     }
 
-    fn mechanism(&self) -> Result<Arc<Mechanism>, Refusal> {
+    fn mechanism(&self) -> Result<Arc<Mechanism>, RefusedReply> {
         (self.mechanism.clone()).ok_or_else(|| nothing("no mechanism"))
     }
 
-    fn reply(&mut self, request: Request) -> Result<Value, Refusal> {
+    fn reply(&mut self, request: Request) -> Result<Value, RefusedReply> {
         let watch = &Watch::none();
         match request {
             Request::Load(load) => return self.load(&load, watch),
@@ -129,9 +129,9 @@ impl Page {
             }
             Request::Number { text, measure } => {
                 let measure = match measure {
-                    Measured::Angle => Measure::Angle,
-                    Measured::Length => Measure::Length,
-                    Measured::Force => Measure::Force,
+                    MeasureKind::Angle => Measure::Angle,
+                    MeasureKind::Length => Measure::Length,
+                    MeasureKind::Force => Measure::Force,
                 };
                 let value = Written::from(text.as_str()).number(&mechanism, measure);
                 let value = value.map_err(|error| nothing(&format!("{text}: {error}")))?;
@@ -147,8 +147,8 @@ impl Page {
                 Ok(json!({ "scene": scene }))
             }
             Request::Picture { from, labels } => {
-                let view = from.map_or(View::Natural, |(azimuth, elevation)| {
-                    View::From(azimuth, elevation)
+                let view = from.map_or(Viewpoint::Natural, |(azimuth, elevation)| {
+                    Viewpoint::From(azimuth, elevation)
                 });
                 let panel = Panel {
                     title: mechanism.name().to_owned(),
@@ -165,10 +165,11 @@ impl Page {
     }
 
     /// Reads a file; its errors come back with lines and columns.
-    fn load(&mut self, load: &Load, watch: &Watch) -> Result<Value, Refusal> {
+    fn load(&mut self, load: &Load, watch: &Watch) -> Result<Value, RefusedReply> {
         let text = &load.text;
-        let wrong =
-            |problems: &[Problem]| Refusal(json!({ "problems": shown::problems(text, problems) }));
+        let wrong = |problems: &[Problem]| {
+            RefusedReply(json!({ "problems": shown::problems(text, problems) }))
+        };
         let mut description = match Description::read(text) {
             Ok(description) => description,
             Err(_) => return Err(wrong(&Mechanism::problems(text))),
@@ -207,7 +208,7 @@ impl Page {
     }
 
     /// Moves the held coordinates; the mechanism follows as far as its branch goes.
-    fn move_to(&mut self, to: &[(String, f64)], watch: &Watch) -> Result<Value, Refusal> {
+    fn move_to(&mut self, to: &[(String, f64)], watch: &Watch) -> Result<Value, RefusedReply> {
         let steering = self.steering.as_mut().ok_or_else(not_assembled)?;
         let mechanism = steering.mechanism().clone();
         let of = |name: &str| {
@@ -218,13 +219,13 @@ impl Page {
             let coordinate = of(name).ok_or_else(|| nothing(&format!("{name} is not held")))?;
             Ok((coordinate, *value))
         });
-        let targets: Vec<(Coordinate, f64)> = targets.collect::<Result<_, Refusal>>()?;
+        let targets: Vec<(Coordinate, f64)> = targets.collect::<Result<_, RefusedReply>>()?;
         let report = steering.move_to(&targets, watch);
         Ok(self.frame(words::stopped(&report).as_deref()))
     }
 
     /// The answer of a command.
-    fn ask(&self, what: Analysis, as_filed: bool, watch: &Watch) -> Result<String, Refusal> {
+    fn ask(&self, what: Analysis, as_filed: bool, watch: &Watch) -> Result<String, RefusedReply> {
         let mechanism = &self.mechanism()?;
         let asked = match as_filed {
             true => Question::new(mechanism.clone()),
@@ -254,7 +255,7 @@ impl Page {
         })
     }
 
-    fn sweep(&self, sweep: &Sweep, watch: &Watch) -> Result<String, Refusal> {
+    fn sweep(&self, sweep: &Sweep, watch: &Watch) -> Result<String, RefusedReply> {
         let mechanism = &self.mechanism()?;
         let asked = self.asked(mechanism);
         let mut asked = match &sweep.input {
@@ -283,7 +284,7 @@ impl Page {
         let motions = asked.motions(&settings, watch).map_err(refused(&asked))?;
         let mut states = Vec::new();
         let mut keep = |_: Option<usize>, row: &Row| {
-            states.push(Shown {
+            states.push(ShownRow {
                 at: State::of(row.configuration),
                 special: row.special.cloned(),
                 points: row.points.to_vec(),
@@ -299,7 +300,7 @@ impl Page {
         Ok(answered(mechanism, &report, &states))
     }
 
-    fn steering(&self) -> Result<&Steering, Refusal> {
+    fn steering(&self) -> Result<&Steering, RefusedReply> {
         self.steering.as_ref().ok_or_else(not_assembled)
     }
 
@@ -355,12 +356,12 @@ impl Page {
     }
 }
 
-fn not_assembled() -> Refusal {
+fn not_assembled() -> RefusedReply {
     nothing("the mechanism is not assembled")
 }
 
-fn nothing(why: &str) -> Refusal {
-    Refusal(json!({ "error": why }))
+fn nothing(why: &str) -> RefusedReply {
+    RefusedReply(json!({ "error": why }))
 }
 
 /// The question that holds these where they are, and nothing else.
@@ -384,7 +385,7 @@ fn answered(mechanism: &Mechanism, report: &impl JsonReport, states: &[impl Seri
     format!("{{\"report\":{report},\"states\":{states}}}")
 }
 
-fn configuration(state: &State, mechanism: &Mechanism) -> Result<Configuration<f64>, Refusal> {
+fn configuration(state: &State, mechanism: &Mechanism) -> Result<Configuration<f64>, RefusedReply> {
     (state.of_mechanism(mechanism))
         .ok_or_else(|| nothing("the configuration is of another mechanism"))
 }

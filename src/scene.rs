@@ -31,7 +31,7 @@ pub struct Scene {
     /// The joints of the chains, then those that the closures restore.
     pub joints: Vec<JointShape>,
     /// The rods of given length.
-    pub rods: Vec<Rod>,
+    pub rods: Vec<SceneRod>,
     /// Travels of joints to their limits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub travels: Vec<Travel>,
@@ -46,13 +46,13 @@ pub struct Scene {
     pub paths: Vec<Trace>,
     /// Screws of freedoms gained.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub screws: Vec<Axis>,
+    pub screws: Vec<ScrewAxis>,
     /// Instant centres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub centres: Vec<Mark>,
     /// Forces.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub arrows: Vec<Arrow>,
+    pub arrows: Vec<ForceArrow>,
 }
 
 /// Travel of a joint to its limits.
@@ -106,7 +106,7 @@ pub struct Triad {
 
 /// Screw axis of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Axis {
+pub struct ScrewAxis {
     /// Name of the body that moves.
     pub name: String,
     /// A point of it.
@@ -128,7 +128,7 @@ pub struct Mark {
 
 /// A force or a moment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Arrow {
+pub struct ForceArrow {
     /// The frame that is loaded, or the joint or closure that passes it on.
     pub name: String,
     /// True for an applied load; false for a reaction.
@@ -162,7 +162,7 @@ pub struct JointShape {
     /// The joint variables or the closure.
     pub names: Vec<String>,
     /// Its symbol.
-    pub kind: Symbol,
+    pub kind: JointSymbol,
     /// Its position.
     pub at: Triple,
     /// The unit vectors of its axes: none of a spherical joint, two of a universal joint, the normal of a planar one.
@@ -177,7 +177,7 @@ pub struct JointShape {
 
 /// A rod of given length with a ball at each end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rod {
+pub struct SceneRod {
     /// The closure.
     pub name: String,
     /// Its ends.
@@ -191,7 +191,7 @@ pub struct Rod {
 /// The symbol of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Symbol {
+pub enum JointSymbol {
     /// Turns about its axis.
     Revolute,
     /// Slides along its axis.
@@ -251,7 +251,7 @@ impl Scene {
             if closure.kind.has_length() {
                 let driven = (dimensions.extension.0.iter())
                     .any(|(joint, _)| mechanism.joints()[*joint].role == Role::Actuated);
-                scene.rods.push(Rod {
+                scene.rods.push(SceneRod {
                     name: closure.name.clone(),
                     ends: poses.map(|pose| pose.position.0),
                     bodies,
@@ -340,15 +340,15 @@ fn of_closure(
     let middle = (a.position + b.position).times(0.5).0;
     let (symbol, at, axes) = match kind {
         ClosureKind::Spherical | ClosureKind::Distance | ClosureKind::Coupling => {
-            (Symbol::Spherical, middle, vec![])
+            (JointSymbol::Spherical, middle, vec![])
         }
-        ClosureKind::Revolute => (Symbol::Revolute, middle, vec![z[0]]),
-        ClosureKind::Universal => (Symbol::Universal, middle, z.to_vec()),
-        ClosureKind::Rigid => (Symbol::Rigid, middle, vec![]),
+        ClosureKind::Revolute => (JointSymbol::Revolute, middle, vec![z[0]]),
+        ClosureKind::Universal => (JointSymbol::Universal, middle, z.to_vec()),
+        ClosureKind::Rigid => (JointSymbol::Rigid, middle, vec![]),
         // the second frame slides along the axis of the first
-        ClosureKind::Prismatic => (Symbol::Prismatic, b.position.0, vec![z[0]]),
-        ClosureKind::Cylindrical => (Symbol::Cylindrical, b.position.0, vec![z[0]]),
-        ClosureKind::Planar => (Symbol::Planar, b.position.0, vec![z[0]]),
+        ClosureKind::Prismatic => (JointSymbol::Prismatic, b.position.0, vec![z[0]]),
+        ClosureKind::Cylindrical => (JointSymbol::Cylindrical, b.position.0, vec![z[0]]),
+        ClosureKind::Planar => (JointSymbol::Planar, b.position.0, vec![z[0]]),
     };
     JointShape {
         names: vec![name],

@@ -41,7 +41,7 @@ pub use equations::{
     ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,
     System, Unknown, Work, approach, independent_parts,
 };
-pub(crate) use equations::{Course, solve};
+pub(crate) use equations::{ConstantsCourse, solve};
 pub use equilibrium::Equilibrium;
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
@@ -60,6 +60,6 @@ pub use search::{
 pub use sets::sets_of_angles;
 pub use tangent::{
     Cone, Driving, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting, Lock, Locked,
-    LoopPart, MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist,
+    LoopPart, MechanismLoop, Motion, Neighbourhood, RegularFreedoms, STILL, Screw, Tangent, Twist,
     TwistSpace, combination, loops, moving, spin_lines, without, wrench_screws,
 };

@@ -11,7 +11,7 @@ use std::process::Command;
 
 use linkwork::algebra::SiUnit;
 use linkwork::analysis::solver::{Component, NoSolver, Solver};
-use linkwork::ask::{AskError, Example, Question};
+use linkwork::ask::{AskError, Question, SampleAnswer};
 use linkwork::description::Description;
 use linkwork::linear::singular_values;
 use linkwork::mechanism::Mechanism;
@@ -120,7 +120,7 @@ fn rust_program(folder: &Path, main: &str) -> PathBuf {
 }
 
 /// Configurations of all mechanisms as numbers in a file, in the order of the solvers.
-fn examples_file(all: &[Vec<Example>], path: &Path) {
+fn examples_file(all: &[Vec<SampleAnswer>], path: &Path) {
     let examples = all.iter().flatten();
     let numbers = examples.flat_map(|(inputs, state)| inputs.iter().chain(state));
     let bytes: Vec<u8> = numbers.flat_map(|x| x.to_ne_bytes()).collect();
@@ -801,7 +801,7 @@ fn a_platform_whose_assemblies_are_close_is_followed_on_its_branch() {
     let folder = folder("close_assemblies");
     let code = code(Language::Rust, "close");
     fs::write(folder.join("close.rs"), code.solver(&solver)).unwrap();
-    let run = |examples: &[Example]| {
+    let run = |examples: &[SampleAnswer]| {
         let program = rust_program(&folder, &code.test(&solver, examples));
         let output = Command::new(program).output().unwrap();
         let said = String::from_utf8(output.stdout).unwrap();

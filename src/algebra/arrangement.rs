@@ -100,7 +100,7 @@ fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
 
 /// A sine or cosine.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Circular {
+struct SineTerm {
     angle: Wave,
     sine: bool,
 }
@@ -111,7 +111,7 @@ struct Product {
     coefficient: BigRational,
     root: u64,
     powers: Powers,
-    circular: Vec<Circular>,
+    circular: Vec<SineTerm>,
 }
 
 /// The factors e^iw = cos w + i sin w of a wave, one for each block.
@@ -135,7 +135,7 @@ fn factors(wave: &Wave, block: &dyn Fn(&Powers) -> usize) -> Vec<(Wave, i32)> {
 }
 
 fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Product> {
-    type Place = (Powers, u64, Vec<Circular>, bool);
+    type Place = (Powers, u64, Vec<SineTerm>, bool);
     let mut sums: BTreeMap<Place, BigRational> = BTreeMap::new();
     for (key, coefficient) in formula.terms() {
         let Key {
@@ -145,13 +145,13 @@ fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Pr
             imaginary,
         } = key;
         // (sines and cosines, power of i, sign)
-        let mut expanded: Vec<(Vec<Circular>, u32, i32)> = vec![(vec![], u32::from(*imaginary), 1)];
+        let mut expanded: Vec<(Vec<SineTerm>, u32, i32)> = vec![(vec![], u32::from(*imaginary), 1)];
         for (angle, sign) in factors(wave, block) {
             let mut longer = Vec::with_capacity(2 * expanded.len());
             for (circular, turns, s) in expanded {
                 for sine in [false, true] {
                     let mut circular = circular.clone();
-                    circular.push(Circular {
+                    circular.push(SineTerm {
                         angle: angle.clone(),
                         sine,
                     });
@@ -184,7 +184,7 @@ fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Pr
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum SharedFactor {
     Letter(Atom, i32),
-    Circular(Circular),
+    Circular(SineTerm),
 }
 
 impl Product {

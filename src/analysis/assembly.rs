@@ -13,7 +13,7 @@ use crate::system::{
     check_count, moved,
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
-pub use report::{AssemblyReport, JointVariable, Left, Outcome};
+pub use report::{AssemblyReport, JointVariable, Outcome, RemainingFreedoms};
 
 /// A condition number above this is worth a warning: four digits of the joint values are lost.
 const POOR_CONDITION: f64 = 1e4;
@@ -67,7 +67,7 @@ pub fn assemble(
                 mobility: Some(mobility),
                 held,
             };
-            let left = Left {
+            let left = RemainingFreedoms {
                 freedoms: mobility - held,
                 hold,
                 singular: 0,
@@ -198,7 +198,7 @@ struct Reporter<'a> {
     seed: u64,
     search: Search<'a>,
     count: Count,
-    left: Option<Left>,
+    left: Option<RemainingFreedoms>,
     restarts: usize,
     interrupted: bool,
 }
@@ -347,7 +347,12 @@ impl Reporter<'_> {
     }
 
     /// Report of an assembled configuration with freedoms left, which are no singularity.
-    fn with_freedoms(&self, attempt: Attempt, freedoms: &Freedoms, left: &Left) -> AssemblyReport {
+    fn with_freedoms(
+        &self,
+        attempt: Attempt,
+        freedoms: &Freedoms,
+        left: &RemainingFreedoms,
+    ) -> AssemblyReport {
         let mut near = Neighbourhood::holding(self.mechanism, self.search.held());
         let residual = near.residual(&attempt.at);
         let tangent = near.tangent(attempt.at.clone());
@@ -356,7 +361,7 @@ impl Reporter<'_> {
         AssemblyReport {
             residual,
             idle: tangent.idle.len(),
-            left: Some(Left {
+            left: Some(RemainingFreedoms {
                 singular: tangent.motions.len().saturating_sub(left.freedoms),
                 ..left.clone()
             }),

@@ -14,13 +14,13 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::EvaluationError;
-use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
+use crate::mechanism::{ClosedForm, Configuration, GivenForm, MatrixEntry, Mechanism};
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{FormulaNames, Named};
-pub use conditions::Divisor;
+pub use conditions::FormDivisor;
 use conditions::ProofConditions;
 use formula::{NamedValues, measured};
-pub use proof::{Difference, Proof, Reason};
+pub use proof::{ComponentProof, Difference, Reason};
 use samples::SampleStream;
 use variables::formulas;
 
@@ -120,11 +120,11 @@ pub struct ComponentReport {
     /// `px`, `r11`, … or the name of the identity.
     pub name: String,
     /// Kind of quantity.
-    pub quantity: Quantity,
+    pub quantity: ComponentQuantity,
     /// True if it agrees at every sample at which it has a value, has one somewhere, and is not refuted.
     pub agree: bool,
     /// The proof that it holds wherever it has a value. Samples show only that there are such configurations.
-    pub proof: Proof,
+    pub proof: ComponentProof,
     /// The largest difference: m, or without unit.
     pub max_difference: f64,
     /// The largest difference relative to the size of the values compared, which decides.
@@ -135,7 +135,7 @@ pub struct ComponentReport {
     pub without_value: usize,
     /// Formulas that must not be zero for it to have a value, and are not shown never to be.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub divisors: Vec<Divisor>,
+    pub divisors: Vec<FormDivisor>,
     /// The sample with the largest difference.
     pub worst: Option<WorstSample>,
 }
@@ -156,7 +156,7 @@ pub struct WorstSample {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Quantity {
+pub enum ComponentQuantity {
     /// A coordinate of a position, in m.
     Position,
     /// An entry of a rotation matrix.
@@ -230,8 +230,8 @@ pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch)
 /// True if a form holds only where the closures are closed: joint values then fix the platforms.
 fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
     match form.gives {
-        Given::Identities(_) => true,
-        Given::Pose {
+        GivenForm::Identities(_) => true,
+        GivenForm::Pose {
             of, relative_to, ..
         } => mechanism.carrier(of) != mechanism.carrier(relative_to),
     }
@@ -246,20 +246,20 @@ struct Checked<'a> {
 
 impl<'a> Checked<'a> {
     fn new(mechanism: &Mechanism, form: &'a ClosedForm, proves: bool) -> Self {
-        let named: Vec<(String, Quantity)> = match &form.gives {
-            Given::Pose { entries, .. } => (entries.iter())
+        let named: Vec<(String, ComponentQuantity)> = match &form.gives {
+            GivenForm::Pose { entries, .. } => (entries.iter())
                 .map(|(entry, _)| match entry {
-                    MatrixEntry::Position(_) => (entry.to_string(), Quantity::Position),
-                    MatrixEntry::Rotation(..) => (entry.to_string(), Quantity::Rotation),
+                    MatrixEntry::Position(_) => (entry.to_string(), ComponentQuantity::Position),
+                    MatrixEntry::Rotation(..) => (entry.to_string(), ComponentQuantity::Rotation),
                 })
                 .collect(),
-            Given::Identities(identities) => (identities.iter())
-                .map(|(name, _)| (name.clone(), Quantity::Identity))
+            GivenForm::Identities(identities) => (identities.iter())
+                .map(|(name, _)| (name.clone(), ComponentQuantity::Identity))
                 .collect(),
         };
         let proofs = match proves {
             true => proof::proofs(mechanism, form),
-            false => vec![Proof::undecided(Reason::Interrupted); named.len()],
+            false => vec![ComponentProof::undecided(Reason::Interrupted); named.len()],
         };
         let new = |((name, quantity), proof)| ComponentReport {
             name,
@@ -288,7 +288,7 @@ impl<'a> Checked<'a> {
         let (form, joints) = (self.form, &at.joints);
         // what the form gives, what the chains give, and the size these are compared with
         let compared: Vec<Result<[f64; 3], EvaluationError>> = match &form.gives {
-            Given::Pose {
+            GivenForm::Pose {
                 of,
                 relative_to,
                 entries,
@@ -307,7 +307,7 @@ impl<'a> Checked<'a> {
                 });
                 compared.collect()
             }
-            Given::Identities(identities) => (identities.iter())
+            GivenForm::Identities(identities) => (identities.iter())
                 .map(|(_, formula)| {
                     let found = measured(mechanism, form, formula, joints)?;
                     Ok([found.value, 0.0, found.size()])
@@ -351,11 +351,11 @@ impl<'a> Checked<'a> {
             // all vanish there
             let relative = component.relative;
             let off = relative > NEAR_SINGULAR && component.max_difference > tolerance;
-            let refuted = matches!(component.proof, Proof::Different(_));
+            let refuted = matches!(component.proof, ComponentProof::Different(_));
             component.agree = !refuted && relative <= tolerance || component.proof.proved() && !off;
         }
         let refuted = |component: &ComponentReport| {
-            let open = component.proof == Proof::undecided(Reason::NeedsElimination);
+            let open = component.proof == ComponentProof::undecided(Reason::NeedsElimination);
             !component.agree && component.samples > 0 && open
         };
         if components.iter().any(refuted) && !watch.is_stopped() {
@@ -363,7 +363,7 @@ impl<'a> Checked<'a> {
             let differences = proof::refutations(mechanism, form);
             for (component, difference) in components.iter_mut().zip(differences) {
                 if let (true, Some(difference)) = (refuted(component), difference) {
-                    component.proof = Proof::Different(Box::new(difference));
+                    component.proof = ComponentProof::Different(Box::new(difference));
                 }
             }
         }

@@ -12,8 +12,8 @@ use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::sorting::sort_by;
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Coordinate, Dynamics, GivenPose, Load, Mobility, Named, Neighbourhood,
-    NoDynamics, PlatformRecord, Question, Still, random_configuration,
+    Analysed, Closing, Coordinate, Dynamics, GivenPose, Load, Named, Neighbourhood, NoDynamics,
+    PlatformRecord, Question, RegularFreedoms, Still, random_configuration,
 };
 
 pub use oscillation::{Mode, Stability, Stiffness};
@@ -151,7 +151,7 @@ pub fn equilibrium(
     };
     let still = Question::locking(mechanism, &settings.locked, at).with_spins_still();
     let held = (settings.locked.clone(), still.still().to_vec());
-    let freedoms = Mobility::near(mechanism, at).map(|found| found.count() + found.idle());
+    let freedoms = RegularFreedoms::near(mechanism, at).map(|found| found.count() + found.idle());
     let freedoms = freedoms.unwrap_or(0);
     let left = freedoms.checked_sub(held.0.len() + held.1.len());
     let Some(left) = left.filter(|left| *left > 0) else {

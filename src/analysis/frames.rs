@@ -16,7 +16,7 @@ use crate::description::{
     Displacement, Named, Problem, ProblemKind, axes_text, mechanism_text, place_of,
 };
 use crate::geometry::{Line, Pose, Relation, Vector3};
-use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes, TableRow};
+use crate::mechanism::{FrameAssignment, Mechanism, Normal, SerialAxes, TableRow};
 
 pub use given::{AxesError, joint_axes};
 
@@ -174,7 +174,7 @@ pub struct CutChoice {
 
 impl PlacedChain {
     /// The first `rows` rows of an assignment.
-    fn of(name: String, on: String, joints: Vec<String>, made: &Assignment) -> Self {
+    fn of(name: String, on: String, joints: Vec<String>, made: &FrameAssignment) -> Self {
         let count = joints.len();
         let rows = &made.table.rows[..count];
         let normal = |normal: &Normal| PlacedNormal {

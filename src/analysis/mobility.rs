@@ -24,7 +24,7 @@ use crate::system::{
 
 use branches::{FiniteSearch, STEP};
 pub use loops::LoopCount;
-pub use redundancy::{Redundancy, Wrench};
+pub use redundancy::{Redundancy, RedundantWrench};
 pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityReport};
 
 /// Settings of a mobility analysis.

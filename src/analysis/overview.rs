@@ -14,8 +14,8 @@ use crate::algebra::{Affine, Node, SiUnit};
 use crate::description::AxisKind;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
-    Body, Chain, ClosureKind, FixedStep, Formula, Frame, Given, JointKind, Mechanism, NamedClosure,
-    Platform, Row, Symbol,
+    Body, Chain, ChainRow, ClosureKind, FixedStep, Formula, Frame, GivenForm, JointKind, Mechanism,
+    NamedClosure, Platform, Symbol,
 };
 
 /// Lists the parts of a mechanism, with its loops and the count of its freedoms.
@@ -54,8 +54,8 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
         closed_forms: closed_forms
             .map(|form| {
                 let (formulas, pose_of) = match &form.gives {
-                    Given::Identities(identities) => (identities.len(), None),
-                    Given::Pose {
+                    GivenForm::Identities(identities) => (identities.len(), None),
+                    GivenForm::Pose {
                         of,
                         relative_to,
                         entries,
@@ -127,7 +127,7 @@ fn chain(mechanism: &Mechanism, chain: &Chain) -> ChainOverview {
     }
 }
 
-fn row(mechanism: &Mechanism, row: &Row) -> RowOverview {
+fn row(mechanism: &Mechanism, row: &ChainRow) -> RowOverview {
     let [alpha, a, d, theta] = row.written.clone();
     let fixed = |written: String, formula: &Formula| EntryOverview {
         written,

@@ -21,9 +21,9 @@ use crate::number::sorting::sort_by;
 use crate::solve::{LeastSquares, LevenbergMarquardt};
 use crate::system::{Bundle, Bundled, Gap};
 use explained::least_largest;
-use parts::Part;
-pub use snap::{Snap, snap};
-use walk::Walk;
+use parts::LinkedLoops;
+pub use snap::{Snapped, snap};
+use walk::RoundedDirections;
 
 /// Changes up to so many roundings are explained by them: half a unit of the last digit, and what arithmetic adds.
 const EXPLAINED: f64 = 1.05;
@@ -45,11 +45,11 @@ pub fn posed(description: Description) -> Result<(Description, Mechanism), Vec<P
     let mechanism = Mechanism::new(&description)?;
     Ok(match Numbers::of(&description, &mechanism).nearest() {
         None => (description, mechanism),
-        Some(Found::Undecided(change)) => {
+        Some(FoundClosing::Undecided(change)) => {
             let mechanism = mechanism.with_rounding(Rounding::Undecided { change });
             (description, mechanism)
         }
-        Some(Found::Nearest(found)) => {
+        Some(FoundClosing::Nearest(found)) => {
             let (description, mechanism, rounded) = *found;
             (
                 description,
@@ -81,13 +81,13 @@ struct Numbers<'a> {
     off: Vec<Option<f64>>,
 }
 
-enum Found {
+enum FoundClosing {
     Undecided(f64),
     Nearest(Box<(Description, Mechanism, Rounded)>),
 }
 
 /// What closes the loops of a part exactly.
-enum Closed {
+enum ClosedPart {
     Undecided(f64),
     /// Literals with their values, and the largest gaps with those of the file.
     Nearest(Vec<(usize, f64)>, Gap),
@@ -116,7 +116,7 @@ impl<'a> Numbers<'a> {
 
     /// Numbers of a part as a drawing means them where they differ by their rounding only: angles that are multiples of 15°,
     /// lengths that are nothing, so that axes are parallel, perpendicular, or meet.
-    fn meant(&self, part: &Part) -> Vec<(usize, f64)> {
+    fn meant(&self, part: &LinkedLoops) -> Vec<(usize, f64)> {
         let step = std::f64::consts::PI / 12.0;
         let meant = |&i: &usize| {
             let (of, off) = (&self.literals[i], self.off[i]?);
@@ -133,7 +133,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// Lengths of a part that are equal but for their rounding, with their mean.
-    fn equal(&self, part: &Part) -> Vec<(usize, f64)> {
+    fn equal(&self, part: &LinkedLoops) -> Vec<(usize, f64)> {
         let value = |i: usize| self.literals[i].value();
         let off = |i: usize| EXPLAINED * self.off[i].unwrap_or(0.0);
         let is_length = |&i: &usize| {
@@ -158,14 +158,14 @@ impl<'a> Numbers<'a> {
         equal.collect()
     }
 
-    fn nearest(&self) -> Option<Found> {
+    fn nearest(&self) -> Option<FoundClosing> {
         if self.mechanism.closures().is_empty() {
             return None;
         }
         let rounded = |i: &usize| self.off[*i].is_some();
         let places: Vec<usize> = (0..self.literals.len()).filter(rounded).collect();
         let (named, numbers) = self.named(&places, &[])?;
-        let mut parts = Part::of(&named, &numbers)?;
+        let mut parts = LinkedLoops::of(&named, &numbers)?;
         for part in &mut parts {
             part.numbers = part.numbers.iter().map(|&k| places[k]).collect();
         }
@@ -173,10 +173,10 @@ impl<'a> Numbers<'a> {
         let (mut values, mut most) = (Vec::new(), Gap::NONE);
         for part in parts.iter().filter(|part| part.unknowns() <= MOST_UNKNOWNS) {
             match self.nearest_of(part) {
-                Some(Closed::Undecided(change)) => {
+                Some(ClosedPart::Undecided(change)) => {
                     undecided = Some(undecided.map_or(change, |other| other.max(change)));
                 }
-                Some(Closed::Nearest(of_part, gap)) => {
+                Some(ClosedPart::Nearest(of_part, gap)) => {
                     values.extend(of_part);
                     most = most.max(gap);
                 }
@@ -184,14 +184,14 @@ impl<'a> Numbers<'a> {
             }
         }
         match undecided {
-            Some(change) => Some(Found::Undecided(change)),
+            Some(change) => Some(FoundClosing::Undecided(change)),
             None => self.changed(values, most),
         }
     }
 
-    fn nearest_of(&self, part: &Part) -> Option<Closed> {
+    fn nearest_of(&self, part: &LinkedLoops) -> Option<ClosedPart> {
         let plain = self.closed(part, &[])?;
-        if let Closed::Undecided(_) = plain {
+        if let ClosedPart::Undecided(_) = plain {
             return Some(plain);
         }
         let meant = self.meant(part);
@@ -202,7 +202,7 @@ impl<'a> Numbers<'a> {
         let wanted = [all, meant].into_iter().filter(|meant| !meant.is_empty());
         let found = wanted.map(|meant| self.closed(part, &meant));
         let mut found =
-            found.filter_map(|found| found.filter(|of| matches!(of, Closed::Nearest(..))));
+            found.filter_map(|found| found.filter(|of| matches!(of, ClosedPart::Nearest(..))));
         Some(found.next().unwrap_or(plain))
     }
 
@@ -225,13 +225,13 @@ impl<'a> Numbers<'a> {
     }
 
     /// The nearest linkage that closes exactly and in which some literals have given values.
-    fn closed(&self, part: &Part, meant: &[(usize, f64)]) -> Option<Closed> {
+    fn closed(&self, part: &LinkedLoops, meant: &[(usize, f64)]) -> Option<ClosedPart> {
         let fixed = |i: &usize| meant.iter().any(|(of, _)| of == i);
         let places: Vec<usize> = part.numbers.iter().copied().filter(|i| !fixed(i)).collect();
         let (named, numbers) = self.named(&places, meant)?;
         let bundle = Bundle::new(&named, part.held(&named), &numbers).only(&part.closures);
         let file = bundle.file();
-        let walk = Walk::new(&bundle, &named, &file, !meant.is_empty())?;
+        let walk = RoundedDirections::new(&bundle, &named, &file, !meant.is_empty())?;
         let mut configurations = walk.configurations()?;
         // a linkage must close between and beyond the configurations that it was made for
         for _ in 0..2 {
@@ -240,7 +240,7 @@ impl<'a> Numbers<'a> {
             if largest > EXPLAINED {
                 match least_largest(&rows, &change) {
                     least if least > BEYOND => return None,
-                    least if least > EXPLAINED => return Some(Closed::Undecided(least)),
+                    least if least > EXPLAINED => return Some(ClosedPart::Undecided(least)),
                     _ => {}
                 }
             }
@@ -253,7 +253,7 @@ impl<'a> Numbers<'a> {
                         let gaps = Gap::of(self.mechanism, at);
                         part.closures.iter().map(move |&i| gaps[i])
                     });
-                    return Some(Closed::Nearest(
+                    return Some(ClosedPart::Nearest(
                         values.collect(),
                         gaps.fold(Gap::NONE, Gap::max),
                     ));
@@ -264,7 +264,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// The file with other numbers.
-    fn changed(&self, mut values: Vec<(usize, f64)>, gap: Gap) -> Option<Found> {
+    fn changed(&self, mut values: Vec<(usize, f64)>, gap: Gap) -> Option<FoundClosing> {
         /// A change of this part of the rounding is none: it comes from the arithmetic.
         const NONE: f64 = 1e-6;
         /// So is what is left of a number, beside the least that would be seen.
@@ -300,11 +300,15 @@ impl<'a> Numbers<'a> {
         };
         let description = self.description.with_literals(&values).ok()?;
         let mechanism = Mechanism::new(&description).ok()?;
-        Some(Found::Nearest(Box::new((description, mechanism, rounded))))
+        Some(FoundClosing::Nearest(Box::new((
+            description,
+            mechanism,
+            rounded,
+        ))))
     }
 }
 
-impl Walk<'_> {
+impl RoundedDirections<'_> {
     /// The numbers nearest to the file's with which configurations close, the change of each in its roundings, and the
     /// conditions that they meet there. Where numbers are rounded, conditions on them are told apart only as far as the rounding
     /// allows; nearer to a solution more of them are.

@@ -9,7 +9,8 @@ use crate::linear::{Decomposition, add, dot};
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, Mobility, NoDynamics, Question,
+    Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, NoDynamics, Question,
+    RegularFreedoms,
 };
 
 use run::Run;
@@ -230,7 +231,7 @@ fn begin<'a>(
 ) -> Result<(Dynamics<'a>, Vec<f64>), NoSimulation> {
     let mechanism = question.mechanism();
     let locking = Question::locking(mechanism, &settings.locked, at);
-    let mobility = Mobility::near(mechanism, at).ok_or(NoSimulation::Singular)?;
+    let mobility = RegularFreedoms::near(mechanism, at).ok_or(NoSimulation::Singular)?;
     let all = mobility.count() + mobility.idle();
     let locked = settings.locked.len();
     let freedoms = all.checked_sub(locked).filter(|left| *left > 0);

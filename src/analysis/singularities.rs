@@ -19,7 +19,7 @@ pub use along::{AlongReport, Crossing, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
 pub use locus::{Cusp, Locus, LocusReport, loci};
 pub use outputs::Coupled;
-pub use projected::Shape;
+pub use projected::ImageShape;
 
 use serde::{Deserialize, Serialize};
 

@@ -12,7 +12,7 @@ use crate::system::{Analysed, Freedoms, System};
 
 /// A quantity and its present value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reading {
+pub struct LiveReading {
     /// Its name.
     pub name: String,
     /// Its unit.
@@ -37,7 +37,7 @@ impl Steering {
     ///
     /// # Errors
     /// If one is wrong or cannot be known.
-    pub fn readings(&self, list: &str) -> Result<Vec<Reading>, AskError> {
+    pub fn readings(&self, list: &str) -> Result<Vec<LiveReading>, AskError> {
         let mut asked = self.question().near(self.at().clone());
         if !list.trim().is_empty() {
             asked = asked.report(list);
@@ -69,7 +69,7 @@ impl Steering {
                     Measured::Size(..) => true,
                     _ => false,
                 });
-                Reading {
+                LiveReading {
                     name: quantity.name.clone(),
                     unit: quantity.unit,
                     value: value.filter(|value| !timed && value.is_finite()),

@@ -14,7 +14,7 @@ use crate::linear::DENSE_LIMIT;
 use crate::solve::{Watch, each};
 use crate::system::{self, Coordinate, HeldPlatform, check_count};
 pub use measured::{Jacobians, ManyMeasured};
-use rows::{Block, Rows};
+use rows::{BlockOfRows, RowSeries};
 
 /// The most rows that are followed from the start; they decide where following begins again, and so belong to the answer.
 const ROWS: usize = 256;
@@ -113,7 +113,7 @@ impl Question {
             },
             None => true,
         };
-        let mut all = Rows {
+        let mut all = RowSeries {
             question: &question,
             coordinates: &coordinates,
             columns: Coordinate::all(mechanism).collect(),
@@ -147,14 +147,14 @@ impl Question {
         let (mut found, mut reached) = (vec![0.0; rows * width], vec![false; rows]);
         let blocks = (found.chunks_mut(block * width)).zip(reached.chunks_mut(block));
         let blocks = blocks.enumerate().map(|(number, (values, reached))| {
-            Mutex::new(Block {
+            Mutex::new(BlockOfRows {
                 first: number * block,
                 columns: &all.columns,
                 values,
                 reached,
             })
         });
-        let blocks: Vec<Mutex<Block>> = blocks.collect();
+        let blocks: Vec<Mutex<BlockOfRows>> = blocks.collect();
         let followed = each(blocks.len(), &(), |(), number| {
             let block = &mut *blocks[number]
                 .lock()

@@ -10,7 +10,7 @@ use crate::solve::{Newton, Stop, Watch};
 use crate::system::{self, Coordinate, check_count};
 
 /// Values of the inputs, then the state.
-pub type Example = (Vec<f64>, Vec<f64>);
+pub type SampleAnswer = (Vec<f64>, Vec<f64>);
 
 impl Question {
     /// The solver for what is held, in the assembly near the start or that of the mode asked for; with poses and twists
@@ -33,7 +33,7 @@ impl Question {
     ///
     /// # Errors
     /// As for [`solver_program`](Self::solver_program).
-    pub fn examples(&self, count: usize, watch: &Watch) -> Result<Vec<Example>, AskError> {
+    pub fn examples(&self, count: usize, watch: &Watch) -> Result<Vec<SampleAnswer>, AskError> {
         /// Amplitudes to begin with, in rad and in characteristic lengths.
         const WIDEST: f64 = 0.3;
         /// The most of it for one configuration, so that each is near the one before it however few there are.
@@ -70,7 +70,7 @@ fn follow(
     start: &Configuration<f64>,
     amplitude: f64,
     count: usize,
-) -> Vec<Example> {
+) -> Vec<SampleAnswer> {
     let mechanism = question.mechanism();
     let held = question.held();
     let joints = (0..held.joints.len()).filter(|joint| held.joints[*joint]);
@@ -109,7 +109,7 @@ fn follow(
     let joints_only = inputs.iter().all(|of| matches!(of, Coordinate::Joint(_)));
     let outside = |at: &Configuration<f64>| mechanism.outside_limits(&at.joints).count();
     let newton = Newton::default();
-    let mut found: Vec<Example> = Vec::with_capacity(count);
+    let mut found: Vec<SampleAnswer> = Vec::with_capacity(count);
     let (mut system, mut at, mut trial) = (question.system(), start.clone(), start.clone());
     let mut work = system.work();
     let mut latest = values_at(0);

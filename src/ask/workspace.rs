@@ -8,7 +8,8 @@ use crate::analysis::workspace::{WorkspaceReport, WorkspaceSettings, cell_bytes,
 use crate::mechanism::Configuration;
 use crate::solve::Watch;
 use crate::system::{
-    self, Coordinate, Driven, Mobility, QuestionError, RESTARTS, TooLarge, check_count, too_large,
+    self, Coordinate, Driven, QuestionError, RESTARTS, RegularFreedoms, TooLarge, check_count,
+    too_large,
 };
 
 /// Bytes that a map takes at most.
@@ -196,7 +197,7 @@ fn missing(question: &system::Question) -> Vec<String> {
     let held = question.held_coordinates();
     let coordinates = Coordinate::all(mechanism).filter(|of| of_platform(mechanism, of));
     let candidates: Vec<Coordinate> = held.iter().copied().chain(coordinates).collect();
-    let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
+    let Some(mobility) = RegularFreedoms::near(mechanism, &question.start()) else {
         return Vec::new();
     };
     let chosen = mobility.independent(mechanism, &candidates).into_iter();

@@ -9,7 +9,7 @@ use linkwork::solve::Watch;
 use linkwork::system;
 
 use super::format::Format;
-use super::source::{Assignment, Loaded, Source};
+use super::source::{Assignment, LoadedFile, Source};
 use super::watched::watched;
 use super::words::{self, Options};
 use super::{Answer, Refusal, style};
@@ -84,7 +84,7 @@ impl Forces {
 
 /// A question with the file and the options that posed it.
 pub struct Posed {
-    pub loaded: Loaded,
+    pub loaded: LoadedFile,
     pub question: Question,
     options: Options,
     ranged: Ranged,

@@ -7,7 +7,7 @@ use linkwork::solve::Pruning;
 
 use super::asked::Split;
 use super::format::{Format, readable};
-use super::search::Search;
+use super::search::SearchArgs;
 use super::source::Source;
 use super::{Answer, Refusal, style};
 
@@ -39,7 +39,7 @@ pub struct Assemblies {
     #[arg(long, value_name = "N", requires = "prove", default_value_t = Pruning::default().most_boxes)]
     boxes: usize,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,

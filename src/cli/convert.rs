@@ -6,11 +6,11 @@ use linkwork::analysis::convert::{ConvertSettings, cognates, convert, possible_c
 use linkwork::analysis::frames::AxesReport;
 use linkwork::description::Convention;
 use linkwork::mechanism::NamedPoint;
-use linkwork::output::complaint::{Complaint, Part, no_point};
+use linkwork::output::complaint::{Complaint, OptionPart, no_point};
 use linkwork::output::{Report, conversion};
 
 use super::format::{Format, with_file};
-use super::source::{Assignment, Loaded, Source};
+use super::source::{Assignment, LoadedFile, Source};
 use super::{Answer, Refusal, lines, style};
 
 /// Write a mechanism in the other convention, broken at another joint, or by joint coordinates, with the same
@@ -82,13 +82,13 @@ impl Convert {
     }
 }
 
-fn cognate(loaded: &Loaded, asked: &Assignment, format: Format) -> Result<Answer, Refusal> {
+fn cognate(loaded: &LoadedFile, asked: &Assignment, format: Format) -> Result<Answer, Refusal> {
     let refused = |said: Complaint| Refusal(said.render_in(&asked.given("--cognate"), style()));
     let point = NamedPoint::read(&loaded.mechanism, &asked.name)
         .map_err(|error| refused(no_point(&loaded.mechanism, &error)))?;
     let number = ["1", "2"].iter().position(|known| *known == asked.value);
     let number = number.ok_or_else(|| {
-        let said = Complaint::new("a 4-bar has two cognates, 1 and 2").at(Part::WholeValue);
+        let said = Complaint::new("a 4-bar has two cognates, 1 and 2").at(OptionPart::WholeValue);
         refused(said.help("give --cognate POINT=1 or POINT=2"))
     })?;
     let found = cognates(&loaded.mechanism, &point)

@@ -8,14 +8,14 @@ use linkwork::analysis::sweep::Row;
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::description::listed;
 use linkwork::mechanism::{Configuration, Point};
-use linkwork::output::drawing::{DrawingSettings, Panel, View, sheet};
+use linkwork::output::drawing::{DrawingSettings, Panel, Viewpoint, sheet};
 use linkwork::output::glb::glb;
 use linkwork::output::sweep::sentence;
 use linkwork::scene::{Scene, Triple};
 
 use super::asked::{Asked, Forces, Posed};
 use super::pictures::{keep, view};
-use super::search::{Search, mode};
+use super::search::{SearchArgs, mode};
 use super::source::Source;
 use super::written::file;
 use super::{Answer, Refusal, lines};
@@ -52,7 +52,7 @@ pub struct Draw {
     trace: Vec<String>,
     /// Viewpoint: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
     #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
-    view: Option<View>,
+    view: Option<Viewpoint>,
     /// Name joints, rods and platforms
     #[arg(long)]
     labels: bool,
@@ -71,7 +71,7 @@ pub struct Draw {
     #[command(flatten)]
     forces: Forces,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Write the picture as SVG to a file instead of stdout
     #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
     svg: Option<PathBuf>,

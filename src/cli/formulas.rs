@@ -11,7 +11,7 @@ use linkwork::output::formulas as output;
 
 use super::asked::{self, Asked};
 use super::format::{Format, readable};
-use super::source::{Loaded, Source};
+use super::source::{LoadedFile, Source};
 use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
@@ -98,7 +98,7 @@ impl Formulas {
         self.written(&posed.loaded, &report)
     }
 
-    fn written(&self, loaded: &Loaded, report: &FormulasReport) -> Result<Answer, Refusal> {
+    fn written(&self, loaded: &LoadedFile, report: &FormulasReport) -> Result<Answer, Refusal> {
         let mut answer = loaded.answer(self.format, report)?;
         match (self.latex, self.ron, self.rust) {
             (true, ..) => answer.data = output::latex(report),
@@ -110,7 +110,7 @@ impl Formulas {
     }
 }
 
-fn too_long(loaded: &Loaded, error: &EvaluationError) -> Refusal {
+fn too_long(loaded: &LoadedFile, error: &EvaluationError) -> Refusal {
     let part = loaded.excerpt(&error.span);
     let title = format!("`{part}` is too long to be multiplied out in letters");
     Complaint::new(title)

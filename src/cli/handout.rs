@@ -14,7 +14,7 @@ use linkwork::output::{Document, Report, html};
 use linkwork::scene::Scene;
 
 use super::asked::Asked;
-use super::search::Search;
+use super::search::SearchArgs;
 use super::source::Source;
 use super::written::{file, save};
 use super::{Answer, Refusal, lines};
@@ -32,7 +32,7 @@ pub struct Handout {
     #[command(flatten)]
     asked: Asked,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// File to write [default: beside the mechanism file]
     #[arg(short, long, value_name = "FILE", value_parser = file(&["html", "htm"]))]
     output: Option<PathBuf>,

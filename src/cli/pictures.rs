@@ -2,20 +2,22 @@
 
 use std::path::Path;
 
-use linkwork::output::drawing::View;
+use linkwork::output::drawing::Viewpoint;
 
 use super::Refusal;
 use super::written::save;
 
-pub fn view(text: &str) -> Result<View, String> {
+pub fn view(text: &str) -> Result<Viewpoint, String> {
     let angle = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
     match text {
-        "iso" => Ok(View::Isometric),
-        "front" => Ok(View::Front),
-        "top" => Ok(View::Top),
+        "iso" => Ok(Viewpoint::Isometric),
+        "front" => Ok(Viewpoint::Front),
+        "top" => Ok(Viewpoint::Top),
         _ => (text.split_once(','))
             .and_then(|(azimuth, elevation)| Some((angle(azimuth)?, angle(elevation)?)))
-            .map(|(azimuth, elevation)| View::From(azimuth.to_radians(), elevation.to_radians()))
+            .map(|(azimuth, elevation)| {
+                Viewpoint::From(azimuth.to_radians(), elevation.to_radians())
+            })
             .ok_or_else(|| {
                 "a view is `iso`, `front`, `top`, or azimuth and elevation in degrees, as 30,20"
                     .into()

@@ -8,10 +8,10 @@ use linkwork::analysis::assemblies::AssembliesSettings;
 
 use super::Refusal;
 use super::asked::Posed;
-use super::store::Store;
+use super::store::FileStore;
 
 #[derive(Args)]
-pub struct Search {
+pub struct SearchArgs {
     /// Seed of random starts; where several assemblies exist it may decide which of them is found
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = AssembliesSettings::default().seed)]
@@ -33,11 +33,11 @@ pub fn mode(text: &str) -> Result<usize, String> {
     })
 }
 
-impl Search {
+impl SearchArgs {
     pub fn pose(&self, posed: &mut Posed) -> Result<(), Refusal> {
         posed.ask_with(|question| question.seed(self.seed));
         if let Some(path) = &self.store {
-            let store = Arc::new(Store::at(path)?);
+            let store = Arc::new(FileStore::at(path)?);
             posed.ask_with(|question| question.store(store));
         }
         Ok(())

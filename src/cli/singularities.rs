@@ -9,7 +9,7 @@ use linkwork::output::singularities as output;
 
 use super::asked::Asked;
 use super::format::{Format, with_rows};
-use super::search::{Search, mode};
+use super::search::{SearchArgs, mode};
 use super::source::{Assignment, Source};
 use super::written::{file, save};
 use super::{Answer, Refusal};
@@ -56,7 +56,7 @@ pub struct Singularities {
     #[arg(long, value_name = "NUMBER", default_value_t = SingularitiesSettings::default().starts)]
     starts: usize,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,

@@ -6,7 +6,7 @@ use linkwork::ask::Solved;
 
 use super::asked::Asked;
 use super::format::{Format, readable};
-use super::search::{Search, mode};
+use super::search::{SearchArgs, mode};
 use super::source::Source;
 use super::{Answer, Refusal};
 
@@ -33,7 +33,7 @@ pub struct Solve {
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,

@@ -73,7 +73,7 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
     Ok(())
 }
 
-pub struct Loaded {
+pub struct LoadedFile {
     path: PathBuf,
     /// The parameters that `--set` gave another value.
     pub set: Vec<String>,
@@ -95,7 +95,7 @@ impl Source {
     }
 
     /// Reads the file, or says everything that is wrong with it or with `--set`.
-    pub fn load(&self) -> Result<Loaded, Refusal> {
+    pub fn load(&self) -> Result<LoadedFile, Refusal> {
         let path = called(&self.file);
         let (text, mut description) =
             Mechanism::read_text(&path, text(&self.file, self.max_bytes)?)?;
@@ -121,7 +121,7 @@ impl Source {
             return Err(Refusal(refused.join("\n")));
         }
         match posed(description.clone()) {
-            Ok((description, mechanism)) => Ok(Loaded {
+            Ok((description, mechanism)) => Ok(LoadedFile {
                 path,
                 set: self.set.iter().map(|given| given.name.clone()).collect(),
                 text,
@@ -174,7 +174,7 @@ impl From<LoadError> for Refusal {
     }
 }
 
-impl Loaded {
+impl LoadedFile {
     pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
         let report = self.prefaced(report);
         Ok(format.answer(&report)?.after(self.warnings_beside(format)))

@@ -16,7 +16,7 @@ use super::{Refusal, say};
 const MAX_BYTES: u64 = 1 << 28;
 
 /// An ordinary file with stored solutions, or the place for one.
-pub struct Store {
+pub struct FileStore {
     path: PathBuf,
     /// Place of the file itself, links followed.
     place: PathBuf,
@@ -28,7 +28,7 @@ fn another(title: String) -> Refusal {
     Complaint::new(title).help(help).into()
 }
 
-impl Store {
+impl FileStore {
     /// The store at a path, where there is an ordinary file or none yet. Nothing else is opened: reading a pipe waits,
     /// reading a device need not end.
     pub fn at(path: &Path) -> Result<Self, Refusal> {
@@ -51,7 +51,7 @@ impl Store {
             Err(_) if path.is_symlink() => return Err(refused(&"it is a link that leads nowhere")),
             Err(_) => (path.to_owned(), false),
         };
-        Ok(Store {
+        Ok(FileStore {
             path: path.to_owned(),
             place,
             exists,
@@ -111,7 +111,7 @@ impl Store {
     }
 }
 
-impl ask::Store for Store {
+impl ask::Store for FileStore {
     fn known(&self) -> Result<Option<GenericSolutions>, String> {
         self.read().map_err(|Refusal(said)| said)
     }

@@ -10,7 +10,7 @@ use linkwork::output::complaint::Ranged;
 use linkwork::output::study::{Label, csv, spread};
 
 use super::asked::{Asked, Forces};
-use super::search::Search;
+use super::search::SearchArgs;
 use super::source::{Assignment, Source};
 use super::watched::{cut_short_is_said, watched};
 use super::written::{file, save};
@@ -66,7 +66,7 @@ pub struct Study {
     #[command(flatten)]
     forces: Forces,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Compute only this shard, e.g. --shard 3/200
     #[arg(long, value_name = "PART/OF", value_parser = shard, default_value = "1/1")]
     shard: (usize, usize),

@@ -11,7 +11,7 @@ use linkwork::output::Report;
 use linkwork::output::canvas::gif;
 use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
-use linkwork::output::drawing::{DrawingSettings, View, frames};
+use linkwork::output::drawing::{DrawingSettings, Viewpoint, frames};
 use linkwork::output::glb::glb;
 use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, sentence};
 
@@ -19,11 +19,11 @@ use super::asked::{Asked, Forces, Posed};
 use super::format::{Format, with_rows};
 use super::pictures::{LASTS, keep, view};
 use super::read::{called, text};
-use super::search::{Search, mode};
+use super::search::{SearchArgs, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
 use super::words;
-use super::written::{Lines, file, save, unwritten};
+use super::written::{StdoutLines, file, save, unwritten};
 use super::{Answer, Refusal, lines};
 
 /// Move the inputs through their ranges: positions, rates, forces and other quantities; never switches branch silently.
@@ -105,7 +105,7 @@ pub struct Sweep {
     #[command(flatten)]
     forces: Forces,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
@@ -124,7 +124,7 @@ pub struct Sweep {
     glb: Option<PathBuf>,
     /// Viewpoint: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
     #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
-    view: Option<View>,
+    view: Option<Viewpoint>,
 }
 
 fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
@@ -221,7 +221,7 @@ impl Sweep {
         let (mechanism, columns) = (&**posed.question.mechanism(), all.columns());
         let quantities = all.quantities();
         let mut picture = Picture::new(mechanism, all.inputs(), all.points(), &quantities);
-        let out = Lines::new(self.format == Format::Csv);
+        let out = StdoutLines::new(self.format == Format::Csv);
         let mut csv = Csv::new(out, row_columns(&columns)).map_err(unwritten)?;
         let mut sink = |mode: Option<usize>, row: &Row| {
             if self.is_drawn() {

@@ -1,7 +1,7 @@
 //! The words of the command line: its options, and what is wrong with those that no other door has.
 
 use linkwork::ask::{Demand, Remedy, Role, TableError, TableErrorKind};
-use linkwork::output::complaint::{Complaint, Door, Part, Ranged, Wording};
+use linkwork::output::complaint::{Complaint, Door, OptionPart, Ranged, Wording};
 
 /// Demands, settings and analyses as options and commands.
 #[derive(Default)]
@@ -71,7 +71,7 @@ pub fn no_range(option: &str, name: &str) -> Complaint {
         "write {option} {name}=FROM..TO, e.g. {option} {name}=0deg..90deg or {option} {name}=-1..1"
     );
     let said = Complaint::new(format!("`{name}` has no range")).label("no range");
-    said.at(Part::WholeValue).help(help)
+    said.at(OptionPart::WholeValue).help(help)
 }
 
 /// More steps than rows of JSON are kept.

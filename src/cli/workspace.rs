@@ -9,7 +9,7 @@ use linkwork::output::{Report, workspace as output};
 
 use super::asked::Asked;
 use super::format::{Format, beside_rows, with_rows};
-use super::search::Search;
+use super::search::SearchArgs;
 use super::source::{Assignment, Source};
 use super::words;
 use super::written::{file, rows, save};
@@ -49,7 +49,7 @@ pub struct Workspace {
     #[arg(long)]
     assemblies: bool,
     #[command(flatten)]
-    search: Search,
+    search: SearchArgs,
     /// Format of the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,

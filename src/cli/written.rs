@@ -12,17 +12,17 @@ use super::Refusal;
 use super::watched::{cuts_short, interruptions, read_no_more};
 
 /// Whole lines to stdout, as they come.
-pub struct Lines {
+pub struct StdoutLines {
     wanted: bool,
     waiting: Vec<u8>,
     failed: Option<io::Error>,
 }
 
-impl Lines {
+impl StdoutLines {
     const MANY: usize = 1 << 16;
 
     pub fn new(wanted: bool) -> Self {
-        Lines {
+        StdoutLines {
             wanted,
             waiting: Vec::new(),
             failed: None,
@@ -57,7 +57,7 @@ impl Lines {
 }
 
 /// Never fails: what goes wrong is reported at the end.
-impl Write for Lines {
+impl Write for StdoutLines {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.wanted {
             self.waiting.extend_from_slice(bytes);
@@ -80,7 +80,7 @@ pub fn unwritten(error: io::Error) -> Refusal {
 /// All rows to stdout; whether nobody interrupted before the last.
 pub fn rows(all: Rows) -> Result<bool, Refusal> {
     let before = interruptions();
-    let mut csv = Csv::new(Lines::new(true), all.columns).map_err(unwritten)?;
+    let mut csv = Csv::new(StdoutLines::new(true), all.columns).map_err(unwritten)?;
     let mut whole = true;
     for row in all.rows {
         whole = !cuts_short(before);

@@ -10,7 +10,7 @@ mod values;
 use std::ops::Range;
 
 pub(crate) use graph::Graph;
-pub use tables::Coordinates;
+pub use tables::JointCoordinates;
 
 use super::{
     ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, LoadsDescription, Named,

@@ -59,10 +59,10 @@ pub struct ClosureConditions {
 type Variables = &'static [(&'static str, bool)];
 
 /// Motions along and about axes, one after another: the axis, and true for a slide.
-type Freedoms = &'static [(Axis, bool)];
+type AxisMotions = &'static [(Axis, bool)];
 
 /// All six motions of a free body.
-pub(crate) const FREE: Freedoms = &[
+pub(crate) const FREE: AxisMotions = &[
     (Axis::X, true),
     (Axis::Y, true),
     (Axis::Z, true),
@@ -84,18 +84,18 @@ pub enum AxesInPlane {
 
 /// All that tells one kind of closure from another: a further kind is a row of [`ClosureKind::row`], residuals if none of
 /// the conditions serve, and its forms in other programs' files.
-struct Row {
+struct KindRow {
     origins: bool,
     axes: AxisCondition,
     offsets: Range<usize>,
     variables: Variables,
-    freedoms: Freedoms,
+    freedoms: AxisMotions,
     in_plane: Option<(AxesInPlane, usize)>,
 }
 
 impl ClosureKind {
     #[inline(always)]
-    fn row(self) -> Row {
+    fn row(self) -> KindRow {
         use AxesInPlane::{Across, Any, Normal};
         use AxisCondition::{Aligned, Free, Oriented, Perpendicular};
         const TURN: (Axis, bool) = (Axis::Z, false);
@@ -105,7 +105,7 @@ impl ClosureKind {
             _,
             _,
             Variables,
-            Freedoms,
+            AxisMotions,
             _,
         ) = match self {
             Self::Spherical => (
@@ -159,7 +159,7 @@ impl ClosureKind {
             Self::Rigid => (true, Oriented, 0..0, &[], &[], Some((Any, 3))),
             Self::Distance | Self::Coupling => (false, Free, 0..0, &[], FREE, Some((Any, 1))),
         };
-        Row {
+        KindRow {
             origins,
             axes,
             offsets,
@@ -172,7 +172,7 @@ impl ClosureKind {
     /// The conditions that it consists of.
     #[inline(always)]
     pub fn conditions(self) -> ClosureConditions {
-        let Row {
+        let KindRow {
             origins,
             axes,
             offsets,

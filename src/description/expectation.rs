@@ -34,7 +34,7 @@ words! {
 /// The groups of named fields in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
-pub enum Structure {
+pub enum FieldGroup {
     Mechanism,
     /// A joint variable.
     Variable(Role),
@@ -58,7 +58,7 @@ pub enum Structure {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Expected {
-    Fields(Structure),
+    Fields(FieldGroup),
     Version,
     Text,
     NameOf(Noun),
@@ -106,7 +106,7 @@ pub enum Expected {
 /// The value found at a place of the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[allow(missing_docs)]
-pub enum Found {
+pub enum FoundValue {
     Number,
     Text,
     Character,
@@ -122,7 +122,7 @@ pub enum Found {
     Call(String),
 }
 
-impl Structure {
+impl FieldGroup {
     /// The name before its fields.
     pub fn word(self) -> &'static str {
         match self {

@@ -70,7 +70,7 @@ pub struct Description {
     /// Masses, springs and forces.
     pub loads: LoadsDescription,
     /// The joint coordinates from which all this was made, if it was.
-    pub coordinates: Option<Box<super::Coordinates>>,
+    pub coordinates: Option<Box<super::JointCoordinates>>,
 }
 
 words! {
@@ -118,14 +118,14 @@ pub struct ChainDescription {
     /// Displacement from that frame to the frame before the first row.
     pub base: Vec<Displacement>,
     /// The Denavit–Hartenberg table.
-    pub rows: Vec<Row>,
+    pub rows: Vec<RowDescription>,
     /// Displacement from the frame after the last row to the tip.
     pub tip: Vec<Displacement>,
 }
 
 /// A row of a Denavit–Hartenberg table. Absent entries are 0.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct RowDescription {
     /// Twist of the link (rad).
     pub alpha: Entry,
     /// Length of the link (m).
@@ -250,7 +250,7 @@ impl From<Expression> for Entry {
     }
 }
 
-impl Row {
+impl RowDescription {
     /// A row that was not read from a file.
     pub fn new(alpha: Entry, a: Entry, d: Entry, theta: Entry) -> Self {
         let span = 0..0;
@@ -372,7 +372,7 @@ equal_up_to_place! {
     Entry: expression;
     JointDescription: role, home, limits;
     super::AxisDescription: kind, place, second, role, home, drawn, value, pitch, limits, between;
-    Row: alpha, a, d, theta, link;
+    RowDescription: alpha, a, d, theta, link;
     ClosureDescription: kind, frames, length;
 }
 

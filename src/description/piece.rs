@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
 
 use super::lexemes::{Lexemes, parts, trimmed};
-use super::{Found, Spanned};
+use super::{FoundValue, Spanned};
 
 /// A value that `ron` has found to be well formed.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +22,7 @@ pub(super) struct Piece<'a> {
 
 /// Kind of value of a piece.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Shape<'a> {
+pub(super) enum PieceShape<'a> {
     Number,
     Text,
     Character,
@@ -41,7 +41,7 @@ pub(super) enum Shape<'a> {
 }
 
 /// A text and the position of each of its bytes in the file.
-pub(super) struct Literal<'a> {
+pub(super) struct TextLiteral<'a> {
     pub text: Cow<'a, str>,
     places: BytePlaces,
 }
@@ -81,57 +81,57 @@ impl<'a> Piece<'a> {
         self.start..self.start + self.text.len()
     }
 
-    pub fn shape(&self) -> Shape<'a> {
+    pub fn shape(&self) -> PieceShape<'a> {
         let mut characters = self.text.chars();
         match characters.next() {
-            Some('"') => Shape::Text,
-            Some('\'') => Shape::Character,
-            Some('[') => Shape::List,
-            Some('{') => Shape::Map,
+            Some('"') => PieceShape::Text,
+            Some('\'') => PieceShape::Character,
+            Some('[') => PieceShape::List,
+            Some('{') => PieceShape::Map,
             Some('(') => match Lexemes::new(self.text).nth(2) {
-                Some(sign) if &self.text[sign.clone()] == ":" => Shape::Fields,
-                _ => Shape::Tuple,
+                Some(sign) if &self.text[sign.clone()] == ":" => PieceShape::Fields,
+                _ => PieceShape::Tuple,
             },
             Some('b')
                 if matches!(characters.next(), Some('"' | '\''))
                     || self.text.starts_with("br\"") =>
             {
-                Shape::Bytes
+                PieceShape::Bytes
             }
             _ => match word(self.text) {
                 Some((word, rest)) => {
                     let content = Lexemes::new(rest).next().map(|first| &rest[first.start..]);
                     let content = content.filter(|content| content.starts_with('('));
-                    Shape::Word {
+                    PieceShape::Word {
                         word,
                         content: content.map(|content| self.part(content)),
                     }
                 }
-                None if self.text.starts_with('r') => Shape::Text,
-                None => Shape::Number,
+                None if self.text.starts_with('r') => PieceShape::Text,
+                None => PieceShape::Number,
             },
         }
     }
 
     /// The kind of value found here, for a problem.
-    pub fn found(&self) -> Found {
+    pub fn found(&self) -> FoundValue {
         match self.shape() {
-            Shape::Number => Found::Number,
-            Shape::Text => Found::Text,
-            Shape::Character => Found::Character,
-            Shape::Bytes => Found::Bytes,
-            Shape::List => Found::List,
-            Shape::Map => Found::Map,
-            Shape::Tuple => Found::Tuple,
-            Shape::Fields => Found::Fields,
-            Shape::Word {
+            PieceShape::Number => FoundValue::Number,
+            PieceShape::Text => FoundValue::Text,
+            PieceShape::Character => FoundValue::Character,
+            PieceShape::Bytes => FoundValue::Bytes,
+            PieceShape::List => FoundValue::List,
+            PieceShape::Map => FoundValue::Map,
+            PieceShape::Tuple => FoundValue::Tuple,
+            PieceShape::Fields => FoundValue::Fields,
+            PieceShape::Word {
                 word,
                 content: None,
-            } => Found::Word(word.to_owned()),
-            Shape::Word {
+            } => FoundValue::Word(word.to_owned()),
+            PieceShape::Word {
                 word,
                 content: Some(_),
-            } => Found::Call(word.to_owned()),
+            } => FoundValue::Call(word.to_owned()),
         }
     }
 
@@ -142,7 +142,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    pub fn text(&self) -> Result<Literal<'a>, ron::Error> {
+    pub fn text(&self) -> Result<TextLiteral<'a>, ron::Error> {
         let LentText(text) = LentText::deserialize(&mut self.deserializer()?)?;
         let places = match &text {
             Cow::Borrowed(text) => BytePlaces::Straight(self.place(text).start),
@@ -150,7 +150,7 @@ impl<'a> Piece<'a> {
                 .filter(|places| places.len() == text.len() + 1)
                 .map_or_else(|| BytePlaces::Whole(self.span()), BytePlaces::Escaped),
         };
-        Ok(Literal { text, places })
+        Ok(TextLiteral { text, places })
     }
 
     /// The values of a list or a tuple.
@@ -180,7 +180,7 @@ impl<'a> Piece<'a> {
     }
 }
 
-impl Literal<'_> {
+impl TextLiteral<'_> {
     /// The bytes of the file in which a range of the text is written.
     pub fn place(&self, range: Range<usize>) -> Range<usize> {
         match &self.places {
@@ -285,20 +285,20 @@ mod tests {
     #[test]
     fn shapes_are_told_apart() {
         let found = |text: &str| Piece::new(text, 0).found();
-        assert_eq!(found("-1.5"), Found::Number);
-        assert_eq!(found("\"a\""), Found::Text);
-        assert_eq!(found("r#\"a\"#"), Found::Text);
-        assert_eq!(found("'a'"), Found::Character);
-        assert_eq!(found("b\"a\""), Found::Bytes);
-        assert_eq!(found("[]"), Found::List);
-        assert_eq!(found("{}"), Found::Map);
-        assert_eq!(found("(1, 2)"), Found::Tuple);
-        assert_eq!(found("( /* c */ a : 2)"), Found::Fields);
-        assert_eq!(found("(aθ: 2)"), Found::Fields);
-        assert_eq!(found("(r#a: 2)"), Found::Fields);
-        assert_eq!(found("true"), Found::Word("true".into()));
-        assert_eq!(found("Tx (1)"), Found::Call("Tx".into()));
-        assert_eq!(found("base(1)"), Found::Call("base".into()));
+        assert_eq!(found("-1.5"), FoundValue::Number);
+        assert_eq!(found("\"a\""), FoundValue::Text);
+        assert_eq!(found("r#\"a\"#"), FoundValue::Text);
+        assert_eq!(found("'a'"), FoundValue::Character);
+        assert_eq!(found("b\"a\""), FoundValue::Bytes);
+        assert_eq!(found("[]"), FoundValue::List);
+        assert_eq!(found("{}"), FoundValue::Map);
+        assert_eq!(found("(1, 2)"), FoundValue::Tuple);
+        assert_eq!(found("( /* c */ a : 2)"), FoundValue::Fields);
+        assert_eq!(found("(aθ: 2)"), FoundValue::Fields);
+        assert_eq!(found("(r#a: 2)"), FoundValue::Fields);
+        assert_eq!(found("true"), FoundValue::Word("true".into()));
+        assert_eq!(found("Tx (1)"), FoundValue::Call("Tx".into()));
+        assert_eq!(found("base(1)"), FoundValue::Call("base".into()));
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub use loads::LoadProblem;
 use thiserror::Error;
 
 use super::words::{count, cycle, syntax};
-use super::{Expected, Found, Noun, Structure};
+use super::{Expected, FieldGroup, FoundValue, Noun};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// A problem of a mechanism file.
@@ -87,7 +87,10 @@ pub enum ProblemKind {
     #[error("{0} is not a version of the file format")]
     NotAVersion(f64),
     #[error("expected {expected}, found {found}")]
-    WrongType { expected: Expected, found: Found },
+    WrongType {
+        expected: Expected,
+        found: FoundValue,
+    },
     /// Too few or too many things in parentheses.
     #[error("expected {of} with {}, found {found}", count(*expected, of.unit()))]
     WrongLength {
@@ -105,13 +108,13 @@ pub enum ProblemKind {
     },
     #[error("{structure} has no field `{field}`")]
     UnknownField {
-        structure: Structure,
+        structure: FieldGroup,
         field: String,
         suggestion: Option<String>,
     },
     #[error("{structure} needs the field `{field}`")]
     MissingField {
-        structure: Structure,
+        structure: FieldGroup,
         field: &'static str,
     },
     #[error("the field `{field}` is given twice")]

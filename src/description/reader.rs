@@ -13,7 +13,7 @@ mod syntax;
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::piece::{Piece, Shape};
+use super::piece::{Piece, PieceShape};
 use super::*;
 use crate::number::sorting::sort_by_key;
 use shapes::Fields;
@@ -21,7 +21,7 @@ use shapes::Fields;
 /// The description as far as it could be read, the problems, and the names affected by them. Joint coordinates become
 /// tables.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
-    if first_word(text) == Some(Structure::Axes.word()) {
+    if first_word(text) == Some(FieldGroup::Axes.word()) {
         return match AxesDescription::read(text).and_then(|axes| axes.tables()) {
             Ok(description) => (Some(description), Vec::new(), HashSet::new()),
             Err(problems) => (None, problems, HashSet::new()),
@@ -36,7 +36,7 @@ fn first_word(text: &str) -> Option<&str> {
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let begin = syntax::begin(text, start)?;
     match Piece::new(&text[begin..], begin).shape() {
-        Shape::Word { word, .. } => Some(word),
+        PieceShape::Word { word, .. } => Some(word),
         _ => None,
     }
 }
@@ -48,7 +48,7 @@ pub fn is_mechanism(text: &str) -> bool {
 
 /// True if a text seems to be a design file.
 pub fn is_design(text: &str) -> bool {
-    first_word(text).is_some_and(|word| word == Structure::Design.word())
+    first_word(text).is_some_and(|word| word == FieldGroup::Design.word())
 }
 
 impl AxesDescription {
@@ -98,7 +98,7 @@ impl FileReader {
     }
 
     fn mechanism(&mut self, piece: Piece) -> Option<Description> {
-        let mut fields = self.fields(piece, Structure::Mechanism)?;
+        let mut fields = self.fields(piece, FieldGroup::Mechanism)?;
         if !self.known_version(&mut fields) {
             return None;
         }
@@ -145,7 +145,7 @@ impl FileReader {
 
     fn version(&mut self, piece: Piece) {
         let number = match piece.shape() {
-            Shape::Number => piece.number().ok(),
+            PieceShape::Number => piece.number().ok(),
             _ => None,
         };
         match number {
@@ -161,7 +161,7 @@ impl FileReader {
     fn joint(&mut self, piece: Piece) -> Option<JointDescription> {
         let known = [Role::Passive, Role::Actuated];
         let (role, _) = self.word(piece, Expected::Joint, &known, Role::word)?;
-        let mut fields = self.fields(piece, Structure::Variable(role))?;
+        let mut fields = self.fields(piece, FieldGroup::Variable(role))?;
         Some(JointDescription {
             role,
             home: self.entry_or_zero(&mut fields, "home"),
@@ -171,7 +171,7 @@ impl FileReader {
     }
 
     fn chain(&mut self, piece: Piece) -> Option<ChainDescription> {
-        let mut fields = self.fields(piece, Structure::Chain)?;
+        let mut fields = self.fields(piece, FieldGroup::Chain)?;
         Some(ChainDescription {
             on: self.optional_text(&mut fields, "on", Expected::Frame),
             convention: self.convention_field(&mut fields),
@@ -184,16 +184,16 @@ impl FileReader {
         })
     }
 
-    fn row(&mut self, piece: Piece) -> Option<Row> {
-        let Some(mut fields) = self.fields(piece, Structure::Row) else {
+    fn row(&mut self, piece: Piece) -> Option<RowDescription> {
+        let Some(mut fields) = self.fields(piece, FieldGroup::Row) else {
             // it still counts, so that the links after it keep their numbers
             let [alpha, a, d, theta] = std::array::from_fn(|_| Entry::absent());
-            return Some(Row {
+            return Some(RowDescription {
                 span: piece.span(),
-                ..Row::new(alpha, a, d, theta)
+                ..RowDescription::new(alpha, a, d, theta)
             });
         };
-        Some(Row {
+        Some(RowDescription {
             alpha: self.entry_or_zero(&mut fields, "alpha"),
             a: self.entry_or_zero(&mut fields, "a"),
             d: self.entry_or_zero(&mut fields, "d"),
@@ -204,7 +204,7 @@ impl FileReader {
     }
 
     fn platform(&mut self, piece: Piece) -> Option<PlatformDescription> {
-        let mut fields = self.fields(piece, Structure::Platform)?;
+        let mut fields = self.fields(piece, FieldGroup::Platform)?;
         Some(PlatformDescription {
             home: self.transform_field(&mut fields, "home"),
             frames: self.named(

@@ -53,7 +53,7 @@ field! {
     Spanned<String>: |text| true, text;
     Entry: |entry| !entry.expression.is_zero(), entry;
     Vec<Displacement>: |steps| !steps.is_empty(), steps;
-    Vec<Row>: |rows| !rows.is_empty(), rows;
+    Vec<RowDescription>: |rows| !rows.is_empty(), rows;
     Vec<Spanned<String>>: |names| !names.is_empty(), names;
     Vec<(Spanned<MatrixEntry>, Entry)>: |entries| !entries.is_empty(), PoseEntries(entries);
     Vec<Named<T>> where T: |named| !named.is_empty(), NamedMap(named);
@@ -103,7 +103,7 @@ written! {
     ChainDescription |chain| as "Chain", {
         "on": chain.on, "convention": chain.convention, "base": chain.base, "rows": chain.rows, "tip": chain.tip,
     }
-    Row |row| { "alpha": row.alpha, "a": row.a, "d": row.d, "theta": row.theta, "link": row.link }
+    RowDescription |row| { "alpha": row.alpha, "a": row.a, "d": row.d, "theta": row.theta, "link": row.link }
     PlatformDescription |platform| as "Platform", { "home": platform.home, "frames": platform.frames }
     ClosedFormDescription |form| as "ClosedForm", {
         "of": form.of, "in": form.relative_to, "where": form.locals, "source": form.source,

@@ -8,14 +8,16 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::masses::masses;
 use super::remark::Remark;
-use super::tree::{Attachment, Bend, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+use super::tree::{
+    Attachment, Bend, BodyMotion, Coupling, Extent, Tree, TreeBody, TreeJoint, TreeLoop,
+};
 use crate::description::{ClosureKind, GROUND, Role};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Configuration, Frame, JointKind, Mechanism, RowDimensions};
 
 /// An occurrence of a variable: in a row of a chain, as an angle or as a length.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-struct Place {
+struct Occurrence {
     chain: usize,
     row: usize,
     slides: bool,
@@ -30,7 +32,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
         leading: HashMap::new(),
         placed: BTreeMap::new(),
         couplings: Vec::new(),
-        bodies: vec![Body::new(GROUND.into(), None, Pose::identity())],
+        bodies: vec![TreeBody::new(GROUND.into(), None, Pose::identity())],
     };
     cutter.place(Frame::Ground, 0, Pose::identity());
     let mut remarks = cutter.lead();
@@ -93,10 +95,10 @@ struct Cutter<'a> {
     mechanism: &'a Mechanism,
     values: Vec<f64>,
     /// For each variable the occurrence that has the joint of its name; none if the joint is on a body of its own.
-    leading: HashMap<usize, Option<Place>>,
+    leading: HashMap<usize, Option<Occurrence>>,
     placed: BTreeMap<Frame, Attachment>,
     couplings: Vec<Coupling>,
-    bodies: Vec<Body>,
+    bodies: Vec<TreeBody>,
 }
 
 impl Cutter<'_> {
@@ -140,23 +142,27 @@ impl Cutter<'_> {
                 remarks.push(Remark::Carried { joint, body });
             }
             let joint = self.named(i, 1.0, joint.kind == JointKind::Prismatic);
-            self.bodies.push(Body {
+            self.bodies.push(TreeBody {
                 joints: vec![joint],
-                ..Body::new(body, Some(0), Pose::identity())
+                ..TreeBody::new(body, Some(0), Pose::identity())
             });
         }
         remarks
     }
 
     /// The joint with the name of a variable.
-    fn named(&self, joint: usize, sign: f64, slides: bool) -> Joint {
+    fn named(&self, joint: usize, sign: f64, slides: bool) -> TreeJoint {
         let part = &self.mechanism.joints()[joint];
-        let motion = if slides { Motion::Slide } else { Motion::Turn };
-        Joint {
+        let motion = if slides {
+            BodyMotion::Slide
+        } else {
+            BodyMotion::Turn
+        };
+        TreeJoint {
             home: self.values[joint],
             limits: part.limits,
             actuated: part.role == Role::Actuated,
-            ..Joint::new(part.name.clone(), motion, Vector3([0.0, 0.0, sign]))
+            ..TreeJoint::new(part.name.clone(), motion, Vector3([0.0, 0.0, sign]))
         }
     }
 
@@ -165,11 +171,12 @@ impl Cutter<'_> {
             let body = self.bodies.len();
             let pose = at.platforms[platform].pose();
             let name = printable(&part.name);
-            let joint = Joint::new(format!("{name} floats"), Motion::Free, Vector3::unit(2));
-            self.bodies.push(Body {
+            let joint =
+                TreeJoint::new(format!("{name} floats"), BodyMotion::Free, Vector3::unit(2));
+            self.bodies.push(TreeBody {
                 joints: vec![joint],
                 home: Some(pose),
-                ..Body::new(name, Some(0), pose)
+                ..TreeBody::new(name, Some(0), pose)
             });
             self.place(Frame::Platform { platform }, body, Pose::identity());
             let frames = &self.mechanism.dimensions().platforms[platform];
@@ -218,9 +225,9 @@ impl Cutter<'_> {
                     true => row,
                     false => format!("{row}.axis"),
                 };
-                self.bodies.push(Body {
+                self.bodies.push(TreeBody {
                     joints,
-                    ..Body::new(name, Some(body), pose)
+                    ..TreeBody::new(name, Some(body), pose)
                 });
                 body = self.bodies.len() - 1;
                 pose = Pose::identity();
@@ -232,7 +239,7 @@ impl Cutter<'_> {
     }
 
     /// The joint for a variable in a row; a following one if the variable's own joint is elsewhere.
-    fn joint(&mut self, place: Place, factor: f64, row: &str) -> Joint {
+    fn joint(&mut self, place: Occurrence, factor: f64, row: &str) -> TreeJoint {
         if self.leading[&place.joint] == Some(place) {
             return self.named(place.joint, factor, place.slides);
         }
@@ -241,7 +248,7 @@ impl Cutter<'_> {
         let name = format!("{row}.{}{suffix}", leader.name);
         let coupling = Coupling::of(name.clone(), leader.name.clone(), factor, 0.0);
         self.couplings.push(coupling);
-        Joint {
+        TreeJoint {
             name,
             limits: None,
             actuated: false,
@@ -278,7 +285,7 @@ impl Cutter<'_> {
         lost
     }
 
-    fn loops(&self) -> Vec<Loop> {
+    fn loops(&self) -> Vec<TreeLoop> {
         let mechanism = self.mechanism;
         let closures = mechanism.closures().iter();
         let closures = closures.zip(&mechanism.dimensions().closures);
@@ -286,7 +293,7 @@ impl Cutter<'_> {
         let loops = closures.map(|(closure, dimensions)| {
             let terms = dimensions.extension.0.iter();
             let terms = terms.map(|&(joint, c)| (mechanism.joints()[joint].name.clone(), c));
-            Loop {
+            TreeLoop {
                 name: printable(&closure.name),
                 kind: closure.kind,
                 sides: closure.frames.map(|frame| self.placed[&frame].clone()),
@@ -301,7 +308,7 @@ impl Cutter<'_> {
 }
 
 /// The occurrences of variables in rows, with their factors.
-fn places(mechanism: &Mechanism) -> impl Iterator<Item = (Place, f64)> {
+fn places(mechanism: &Mechanism) -> impl Iterator<Item = (Occurrence, f64)> {
     let chains = mechanism.dimensions().chains.iter().enumerate();
     let rows = chains.flat_map(|(chain, part)| {
         let rows = part.rows.iter().enumerate();
@@ -314,11 +321,11 @@ fn places_in(
     chain: usize,
     row: usize,
     part: &RowDimensions<f64>,
-) -> impl Iterator<Item = (Place, f64)> {
+) -> impl Iterator<Item = (Occurrence, f64)> {
     let forms = [(&part.turn, false), (&part.slide, true)].into_iter();
     let terms = forms.flat_map(|(form, slides)| form.0.iter().map(move |term| (slides, term)));
     terms.map(move |(slides, &(joint, factor))| {
-        let place = Place {
+        let place = Occurrence {
             chain,
             row,
             slides,

@@ -8,7 +8,7 @@ use crate::geometry::Pose;
 
 /// Names given so far.
 #[derive(Default)]
-pub(super) struct Names {
+pub(super) struct GivenNames {
     variables: HashSet<String>,
     bodies: HashSet<String>,
     /// The name given to the platform that a body is.
@@ -20,7 +20,7 @@ pub(super) struct Names {
     pub renamed: Vec<Remark>,
 }
 
-impl Names {
+impl GivenNames {
     /// A name for a joint variable: letters, digits, underscores and single blanks.
     pub fn variable(&mut self, wanted: &str) -> String {
         let free = |name: &str| !self.variables.contains(name);

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::names::fit;
 use super::remark::Remark;
-use super::tree::{Attachment, Body, Extent, Loop, Motion, Tree};
+use super::tree::{Attachment, BodyMotion, Extent, Tree, TreeBody, TreeLoop};
 use crate::description::ClosureKind;
 use crate::geometry::Pose;
 
@@ -51,7 +51,7 @@ pub(super) fn without_rods(tree: &Tree, kept: &[String]) -> (Tree, Option<Remark
         let other =
             |(of, side, _): &(usize, usize, Pose<f64>)| tree.loops[*of].sides[1 - *side].clone();
         let ends = match (joint.motion, &at[i][..], body.parent) {
-            (Motion::Ball, [end], Some(parent)) => {
+            (BodyMotion::Ball, [end], Some(parent)) => {
                 let point = Pose::translation(joint.point);
                 let hung = Attachment {
                     body: parent,
@@ -60,7 +60,7 @@ pub(super) fn without_rods(tree: &Tree, kept: &[String]) -> (Tree, Option<Remark
                 };
                 Some((end.0, [hung, other(end)], [point, end.2]))
             }
-            (Motion::Free, [first, second], _) if first.0 != second.0 => {
+            (BodyMotion::Free, [first, second], _) if first.0 != second.0 => {
                 gone[second.0] = true;
                 Some((first.0, [other(first), other(second)], [first.2, second.2]))
             }
@@ -80,12 +80,12 @@ pub(super) fn without_rods(tree: &Tree, kept: &[String]) -> (Tree, Option<Remark
             true => body.name.clone(),
             false => loops[place].name.clone(),
         };
-        loops[place] = Loop {
+        loops[place] = TreeLoop {
             length: Some(Extent {
                 constant: length,
                 terms: Vec::new(),
             }),
-            ..Loop::new(name, ClosureKind::Distance, sides)
+            ..TreeLoop::new(name, ClosureKind::Distance, sides)
         };
         rods.push(i);
     }
@@ -94,10 +94,10 @@ pub(super) fn without_rods(tree: &Tree, kept: &[String]) -> (Tree, Option<Remark
     }
     let stays = |i: usize| !rods.contains(&carriers[i].0);
     let mut numbers = vec![0; tree.bodies.len()];
-    let mut bodies: Vec<Body> = Vec::new();
+    let mut bodies: Vec<TreeBody> = Vec::new();
     for (i, body) in tree.bodies.iter().enumerate().filter(|(i, _)| stays(*i)) {
         numbers[i] = bodies.len();
-        bodies.push(Body {
+        bodies.push(TreeBody {
             parent: body.parent.map(|parent| numbers[parent]),
             ..body.clone()
         });

@@ -8,7 +8,7 @@ use crate::number::real;
 
 /// Motion of a body by its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
+pub enum BodyMotion {
     /// About its axis by an angle in rad.
     Turn,
     /// Along its axis by a length in m.
@@ -21,16 +21,16 @@ pub enum Motion {
 
 /// A joint between a body and its parent.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub struct TreeJoint {
     /// Its name.
     pub name: String,
     /// Its motion.
-    pub motion: Motion,
+    pub motion: BodyMotion,
     /// The unit direction of its axis in the body; meaningless if it has no axis.
     pub axis: Vector3<f64>,
     /// A point of the axis in the body (m).
     pub point: Vector3<f64>,
-    /// The value at which the body has the pose [`Body::pose`].
+    /// The value at which the body has the pose [`TreeBody::pose`].
     pub reference: f64,
     /// The value at home, in rad or m.
     pub home: f64,
@@ -42,7 +42,7 @@ pub struct Joint {
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub struct TreeBody {
     /// Its name.
     pub name: String,
     /// Its parent, earlier in the list; only the first body has none, and it is fixed.
@@ -50,7 +50,7 @@ pub struct Body {
     /// Parent from body where every joint between them has its reference value; positions in m.
     pub pose: Pose<f64>,
     /// The joints between parent and body, each carrying those after it.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<TreeJoint>,
     /// Ground from body at home, of bodies with a ball or free joint.
     pub home: Option<Pose<f64>>,
     /// Named frames: body from frame.
@@ -103,7 +103,7 @@ pub struct Extent {
 
 /// A joint that closes a loop.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Loop {
+pub struct TreeLoop {
     /// Its name.
     pub name: String,
     /// The kind of joint; its axes are the z axes of the frames.
@@ -120,21 +120,21 @@ pub struct Tree {
     /// Its name.
     pub name: String,
     /// The bodies, parents before their children; the first is the ground.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<TreeBody>,
     /// Joints that follow others.
     pub couplings: Vec<Coupling>,
     /// The loops.
-    pub loops: Vec<Loop>,
+    pub loops: Vec<TreeLoop>,
     /// A typical length of the bodies in m.
     pub size: f64,
     /// The acceleration of free fall in m/s², where it is known.
     pub gravity: Option<[f64; 3]>,
 }
 
-impl Body {
+impl TreeBody {
     /// A body without joints and frames, on its parent.
     pub(super) fn new(name: String, parent: Option<usize>, pose: Pose<f64>) -> Self {
-        Body {
+        TreeBody {
             name,
             parent,
             pose,
@@ -151,16 +151,16 @@ impl Body {
     }
 }
 
-impl Motion {
+impl BodyMotion {
     pub(super) fn floats(self) -> bool {
-        matches!(self, Motion::Ball | Motion::Free)
+        matches!(self, BodyMotion::Ball | BodyMotion::Free)
     }
 }
 
-impl Loop {
+impl TreeLoop {
     /// A loop without a length.
     pub(super) fn new(name: String, kind: ClosureKind, sides: [Attachment; 2]) -> Self {
-        Loop {
+        TreeLoop {
             name,
             kind,
             sides,
@@ -218,10 +218,10 @@ impl Coupling {
     }
 }
 
-impl Joint {
+impl TreeJoint {
     /// A passive joint through the origin of its body, at 0 and without limits.
-    pub(super) fn new(name: String, motion: Motion, axis: Vector3<f64>) -> Self {
-        Joint {
+    pub(super) fn new(name: String, motion: BodyMotion, axis: Vector3<f64>) -> Self {
+        TreeJoint {
             name,
             motion,
             axis,
@@ -237,9 +237,9 @@ impl Joint {
     pub fn displacement(&self, value: f64) -> Pose<f64> {
         let by = value - self.reference;
         match self.motion {
-            Motion::Slide => Pose::translation(self.axis.times(by)),
-            Motion::Turn => self.about_point(about(&self.axis, by)),
-            Motion::Ball | Motion::Free => Pose::identity(),
+            BodyMotion::Slide => Pose::translation(self.axis.times(by)),
+            BodyMotion::Turn => self.about_point(about(&self.axis, by)),
+            BodyMotion::Ball | BodyMotion::Free => Pose::identity(),
         }
     }
 
@@ -266,12 +266,12 @@ impl Tree {
         self.bodies.iter().any(|body| body.heavy.is_some())
     }
 
-    pub(super) fn joints(&self) -> impl Iterator<Item = &Joint> {
+    pub(super) fn joints(&self) -> impl Iterator<Item = &TreeJoint> {
         self.bodies.iter().flat_map(|body| &body.joints)
     }
 
     /// Ground from every body, with each joint at the value `of` gives it; floating bodies stay as placed.
-    pub fn poses(&self, of: impl Fn(&Joint) -> f64) -> Vec<Pose<f64>> {
+    pub fn poses(&self, of: impl Fn(&TreeJoint) -> f64) -> Vec<Pose<f64>> {
         self.placed(|_| None, of)
     }
 
@@ -290,13 +290,13 @@ impl Tree {
 
     fn placed(
         &self,
-        given: impl Fn(&Body) -> Option<Pose<f64>>,
-        of: impl Fn(&Joint) -> f64,
+        given: impl Fn(&TreeBody) -> Option<Pose<f64>>,
+        of: impl Fn(&TreeJoint) -> f64,
     ) -> Vec<Pose<f64>> {
         let mut poses: Vec<Pose<f64>> = Vec::with_capacity(self.bodies.len());
         for body in &self.bodies {
             let parent = body.parent.map_or(Pose::identity(), |parent| poses[parent]);
-            let moved = |pose, joint: &Joint| pose * joint.displacement(of(joint));
+            let moved = |pose, joint: &TreeJoint| pose * joint.displacement(of(joint));
             poses.push(
                 given(body).unwrap_or_else(|| parent * body.joints.iter().fold(body.pose, moved)),
             );

@@ -13,20 +13,20 @@ mod relations;
 use std::collections::{HashMap, HashSet};
 
 pub(super) use relations::carriers;
-use relations::{Following, followers, within_reason};
+use relations::{FollowingJoint, followers, within_reason};
 
 use super::masses::Heavy;
-use super::names::Names;
+use super::names::GivenNames;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Joint, Motion, Tree};
+use super::tree::{Attachment, BodyMotion, Tree, TreeJoint};
 use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
-    LoadsDescription, Named, PlatformDescription, Row, Spanned,
+    LoadsDescription, Named, PlatformDescription, RowDescription, Spanned,
 };
 use crate::geometry::{Line, Pose, Vector3};
-use crate::mechanism::{JointAxis, SerialAxes, Table};
+use crate::mechanism::{DhTable, JointAxis, SerialAxes};
 
 /// A description with remarks.
 pub(super) struct Unrolled {
@@ -53,7 +53,7 @@ pub(super) fn describe(
         zero: tree.poses(|joint| joint.reference),
         followers: followers(tree)?,
         variables: HashMap::new(),
-        names: Names::default(),
+        names: GivenNames::default(),
         needs: Vec::new(),
         tips: HashMap::new(),
         places: HashMap::new(),
@@ -114,10 +114,10 @@ struct Unroller<'a> {
     carriers: Vec<(usize, Pose<f64>)>,
     /// Ground from every body at the references.
     zero: Vec<Pose<f64>>,
-    followers: HashMap<String, Following>,
+    followers: HashMap<String, FollowingJoint>,
     /// The variable of each joint that leads.
     variables: HashMap<String, String>,
-    names: Names,
+    names: GivenNames,
     /// Frames that must have a name: the name, the carrier, the pose in it.
     needs: Vec<(String, usize, Pose<f64>)>,
     /// The frame at the end of the chain that ends with a body: its name and its pose in the body.
@@ -267,7 +267,7 @@ impl Unroller<'_> {
         const NEARLY_PARALLEL: f64 = 1e-2;
         /// Far is so many times the size.
         const FAR: f64 = 10.0;
-        let axis = |link: usize, joint: Option<&Joint>| {
+        let axis = |link: usize, joint: Option<&TreeJoint>| {
             let (joint, pose) = (joint?, self.zero[link]);
             Line::new(pose * joint.point, pose.rotation * joint.axis)
         };
@@ -293,7 +293,7 @@ impl Unroller<'_> {
         // a prismatic axis has no position: the first one is placed at its body
         let first = &tree.bodies[links[0]].joints[0];
         let seen_from = match first.motion {
-            Motion::Slide => self.zero[links[0]],
+            BodyMotion::Slide => self.zero[links[0]],
             _ => Pose::identity(),
         };
         let zero = |link: usize| seen_from.inverse() * self.zero[link];
@@ -306,7 +306,7 @@ impl Unroller<'_> {
                 let line = Line::new(pose * joint.point, pose.rotation * joint.axis);
                 let line = line.expect("readers refuse axes without direction");
                 joints.push(match joint.motion {
-                    Motion::Slide => JointAxis::prismatic(line, joint.reference),
+                    BodyMotion::Slide => JointAxis::prismatic(line, joint.reference),
                     _ => JointAxis::revolute(line, joint.reference),
                 });
             }
@@ -395,7 +395,7 @@ impl Unroller<'_> {
         }
     }
 
-    fn rows(&self, links: &[usize], table: &Table) -> Vec<Row> {
+    fn rows(&self, links: &[usize], table: &DhTable) -> Vec<RowDescription> {
         let joints = links
             .iter()
             .flat_map(|&link| &self.tree.bodies[link].joints);
@@ -406,7 +406,7 @@ impl Unroller<'_> {
             };
             let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
             let d = entry(Entry::length, row.d, row.slide);
-            Row::new(alpha, a, d, entry(Entry::angle, row.theta, row.turn))
+            RowDescription::new(alpha, a, d, entry(Entry::angle, row.theta, row.turn))
         });
         rows.collect()
     }

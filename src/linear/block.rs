@@ -4,7 +4,7 @@ use super::DENSE_LIMIT;
 
 /// The columns of one block of rows: unknowns of its own, and shared ones.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Block {
+pub struct ColumnBlock {
     /// Number of rows.
     pub rows: usize,
     /// Indices of the unknowns that appear in no other block.
@@ -13,7 +13,7 @@ pub struct Block {
     pub shared: Vec<usize>,
 }
 
-impl Block {
+impl ColumnBlock {
     /// The unknowns of its columns, in their order.
     pub fn unknowns(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         self.own.iter().chain(&self.shared).copied()
@@ -24,7 +24,7 @@ impl Block {
 #[derive(Clone, Debug)]
 pub struct Filled<T> {
     /// The layout.
-    pub block: Block,
+    pub block: ColumnBlock,
     /// The entries.
     pub entries: Vec<T>,
 }

@@ -1,6 +1,6 @@
 use super::Qr;
 use super::lu::Lu;
-use super::{Block, Factorable, Filled, SparseStep};
+use super::{ColumnBlock, Factorable, Filled, SparseStep};
 use crate::number::Field;
 
 /// Least squares min ‖J x + r‖ for a J made of blocks with unknowns of their own and shared ones.
@@ -47,12 +47,17 @@ struct Factor<T: Field> {
 
 impl<T: Factorable> Bordered<T> {
     /// A matrix of the given blocks, and below them `extra_rows` rows over the shared unknowns.
-    pub fn new(unknowns: usize, blocks: Vec<Block>, extra_rows: usize, shared: Vec<usize>) -> Self {
+    pub fn new(
+        unknowns: usize,
+        blocks: Vec<ColumnBlock>,
+        extra_rows: usize,
+        shared: Vec<usize>,
+    ) -> Self {
         let place = |unknown: &usize| {
             (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
         };
         let rows: usize = blocks.iter().map(|block| block.rows).sum::<usize>() + extra_rows;
-        let filled = |block: Block| Filled {
+        let filled = |block: ColumnBlock| Filled {
             entries: vec![T::zero(); block.rows * block.unknowns().count()],
             block,
         };

@@ -1,7 +1,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::vectors::orthogonalise;
-use super::{Elimination, Rows, Svd, add, complement, dot, norm, product, rank};
+use super::{Elimination, RowGroup, Svd, add, complement, dot, norm, product, rank};
 
 /// Singular value decomposition of a dense matrix, cut at the rank tolerance; of a large matrix rank, null space and
 /// extreme singular values by elimination.
@@ -51,7 +51,7 @@ impl Decomposition {
     }
 
     /// Decomposes a large matrix of groups of rows that touch few unknowns each. There is no left null space.
-    pub fn of_groups(columns: usize, groups: Vec<Rows>) -> Self {
+    pub fn of_groups(columns: usize, groups: Vec<RowGroup>) -> Self {
         let rows = groups.iter().map(|group| group.count).sum();
         let elimination = Elimination::of(columns, groups);
         Decomposition {
@@ -112,12 +112,12 @@ impl Decomposition {
     }
 
     /// The groups of rows of a large matrix.
-    pub fn groups(&self) -> Option<&[Rows]> {
+    pub fn groups(&self) -> Option<&[RowGroup]> {
         Some(self.large()?.elimination.groups())
     }
 
     /// ‖A⁺(B − A)‖, about, for other entries B of a large matrix A; infinite for one that is not large.
-    pub fn relative_change(&self, other: &[Rows]) -> f64 {
+    pub fn relative_change(&self, other: &[RowGroup]) -> f64 {
         self.large().map_or(f64::INFINITY, |large| {
             large.elimination.relative_change(other)
         })

@@ -2,7 +2,7 @@
 
 mod fronts;
 
-use super::rows::{Rows, product, transposed_product};
+use super::rows::{RowGroup, product, transposed_product};
 use super::{add, dot, lost, norm, orthonormal};
 use crate::number::real;
 use fronts::Fronts;
@@ -19,12 +19,12 @@ const CORRECTIONS: usize = 2;
 /// that are all that is dropped, so that the rank is that of a matrix as near to A.
 #[derive(Clone, Debug)]
 pub struct Elimination {
-    groups: Vec<Rows>,
+    groups: Vec<RowGroup>,
     columns: usize,
     steps: Vec<EliminationStep>,
     free: Vec<usize>,
     /// An orthonormal basis of the vectors with A x = 0, each a row.
-    null_space: Vec<Rows>,
+    null_space: Vec<RowGroup>,
     largest: f64,
     least_pivot: f64,
 }
@@ -41,7 +41,7 @@ struct EliminationStep {
 
 impl Elimination {
     /// Factorises groups of rows over `columns` unknowns.
-    pub fn of(columns: usize, groups: Vec<Rows>) -> Self {
+    pub fn of(columns: usize, groups: Vec<RowGroup>) -> Self {
         let mut elimination = Elimination {
             groups,
             columns,
@@ -62,7 +62,7 @@ impl Elimination {
     }
 
     /// The rows.
-    pub fn groups(&self) -> &[Rows] {
+    pub fn groups(&self) -> &[RowGroup] {
         &self.groups
     }
 
@@ -92,7 +92,7 @@ impl Elimination {
     }
 
     /// Each free unknown in turn moves, and the others follow.
-    fn motions(&self) -> Vec<Rows> {
+    fn motions(&self) -> Vec<RowGroup> {
         let motions = self.free.iter().map(|&free| {
             let mut x = vec![0.0; self.columns];
             x[free] = 1.0;
@@ -105,7 +105,9 @@ impl Elimination {
         });
         let motions = orthonormal(&motions.collect::<Vec<_>>(), 0.0).into_iter();
         let moving = |motion: Vec<f64>| motion.into_iter().enumerate().filter(|(_, x)| *x != 0.0);
-        motions.map(|motion| Rows::single(moving(motion))).collect()
+        motions
+            .map(|motion| RowGroup::single(moving(motion)))
+            .collect()
     }
 
     /// Subtracts the components of a vector in the null space.
@@ -181,15 +183,15 @@ impl Elimination {
     }
 
     /// About ‖A⁺(B − A)‖, for other entries B.
-    pub fn relative_change(&self, other: &[Rows]) -> f64 {
+    pub fn relative_change(&self, other: &[RowGroup]) -> f64 {
         let changes = self.groups.iter().zip(other).map(|(a, b)| {
             let entries = a.entries.iter().zip(&b.entries);
-            Rows {
+            RowGroup {
                 entries: entries.map(|(a, b)| b - a).collect(),
                 ..a.clone()
             }
         });
-        let changes: Vec<Rows> = changes.collect();
+        let changes: Vec<RowGroup> = changes.collect();
         let (change, _) = iterated(self.columns, |v| {
             let image = self.solve(&product(&changes, v));
             let back = self.solve_transposed(&image);

@@ -7,7 +7,7 @@ use super::{add, dot, norm};
 
 /// Rows that touch the same unknowns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rows {
+pub struct RowGroup {
     /// Number of rows.
     pub count: usize,
     /// The unknowns, in the order of the columns.
@@ -16,7 +16,7 @@ pub struct Rows {
     pub entries: Vec<f64>,
 }
 
-impl Rows {
+impl RowGroup {
     /// A single row with these entries, given with their unknowns; entries of one unknown are added.
     pub fn single(row: impl IntoIterator<Item = (usize, f64)>) -> Self {
         let mut sums = BTreeMap::new();
@@ -24,7 +24,7 @@ impl Rows {
             *sums.entry(unknown).or_insert(0.0) += entry;
         }
         let (unknowns, entries) = sums.into_iter().unzip();
-        Rows {
+        RowGroup {
             count: 1,
             unknowns,
             entries,
@@ -97,13 +97,13 @@ impl Rows {
     }
 
     /// The lower right block: all but the first rows and unknowns.
-    pub(super) fn without(self, rows: usize, unknowns: usize) -> Rows {
+    pub(super) fn without(self, rows: usize, unknowns: usize) -> RowGroup {
         let count = self.count - rows;
         let left = self
             .columns()
             .skip(unknowns)
             .flat_map(|(_, column)| &column[rows..]);
-        Rows {
+        RowGroup {
             entries: left.copied().collect(),
             unknowns: self.unknowns[unknowns..].to_vec(),
             count,
@@ -112,7 +112,7 @@ impl Rows {
 }
 
 /// The number of rows, and the whole matrix of `columns` columns, column-major.
-pub fn dense(columns: usize, groups: &[Rows]) -> (usize, Vec<f64>) {
+pub fn dense(columns: usize, groups: &[RowGroup]) -> (usize, Vec<f64>) {
     let rows = groups.iter().map(|group| group.count).sum();
     let mut entries = vec![0.0; rows * columns];
     let mut first = 0;
@@ -126,7 +126,7 @@ pub fn dense(columns: usize, groups: &[Rows]) -> (usize, Vec<f64>) {
 }
 
 /// A x.
-pub(super) fn product(groups: &[Rows], x: &[f64]) -> Vec<f64> {
+pub(super) fn product(groups: &[RowGroup], x: &[f64]) -> Vec<f64> {
     let mut product = Vec::new();
     for group in groups {
         let first = product.len();
@@ -139,7 +139,7 @@ pub(super) fn product(groups: &[Rows], x: &[f64]) -> Vec<f64> {
 }
 
 /// Aᵀ y, for `columns` columns.
-pub(super) fn transposed_product(groups: &[Rows], columns: usize, y: &[f64]) -> Vec<f64> {
+pub(super) fn transposed_product(groups: &[RowGroup], columns: usize, y: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; columns];
     let mut first = 0;
     for group in groups {

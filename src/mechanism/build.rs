@@ -15,8 +15,10 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::lift::product;
-use super::model::{Chain, FixedStep, Formula, Homes, Joint, JointHome, JointKind, Platform, Row};
-use super::names::{Names, definition_order};
+use super::model::{
+    Chain, ChainRow, FixedStep, Formula, Homes, Joint, JointHome, JointKind, Platform,
+};
+use super::names::{FileNames, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Measure;
 use crate::description::{self, Description, Displacement, Draft, Entry, Named};
@@ -33,7 +35,7 @@ struct ResolvedChain {
     in_ring: bool,
     convention: description::Convention,
     base: Vec<FixedStep>,
-    rows: Vec<Option<Row>>,
+    rows: Vec<Option<ChainRow>>,
     tip: Vec<FixedStep>,
 }
 
@@ -53,7 +55,7 @@ impl ResolvedChain {
 
 /// Collects problems while parts are resolved; a part with a problem is left out.
 pub(super) struct ModelBuilder<'a> {
-    pub names: Names<'a>,
+    pub names: FileNames<'a>,
     pub problems: Vec<Problem>,
     /// The values of the parameters; NaN where one is unknown.
     pub values: Vec<f64>,
@@ -143,7 +145,7 @@ impl Mechanism {
 
     fn build(description: &Description, doubtful: &HashSet<String>) -> Result<Self, Vec<Problem>> {
         let mut builder = ModelBuilder {
-            names: Names::new(description),
+            names: FileNames::new(description),
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
             measures: vec![Measure::Open; description.parameters.len()],
@@ -315,7 +317,7 @@ impl ModelBuilder<'_> {
                 let theta = self.affine(&row.theta, Measure::Angle);
                 let entries = [&row.alpha, &row.a, &row.d, &row.theta];
                 let whole = || {
-                    Some(Row {
+                    Some(ChainRow {
                         alpha: alpha?.0,
                         a: a?.0,
                         d: d?,

@@ -15,7 +15,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use super::model::{Chain, Closure, Formula, Joint, JointKind, Row, Symbol};
+use super::model::{Chain, ChainRow, Closure, Formula, Joint, JointKind, Symbol};
 use super::{
     ClosureKind, Configuration, Convention, Frame, Kinematics, Mechanism, NamedPoint,
     PoseCoordinate, Role,
@@ -163,7 +163,7 @@ impl Mechanism {
     /// Gives closures the variables that the file declares under their names and uses nowhere else.
     pub(super) fn open_declared(&mut self, description: &Description) {
         let rows = self.chains.iter().flat_map(|chain| &chain.rows);
-        let used: Vec<usize> = rows.flat_map(Row::joints).collect();
+        let used: Vec<usize> = rows.flat_map(ChainRow::joints).collect();
         for closure in 0..self.closures.len() {
             let Closure { name, kind, .. } = &self.closures[closure];
             let variables = kind.variables().iter();
@@ -194,7 +194,7 @@ impl Mechanism {
                 .collect(),
         };
         let rows = kind.variables().iter().zip(variables).enumerate();
-        let rows = rows.map(|(k, ((_, slides), &joint))| Row {
+        let rows = rows.map(|(k, ((_, slides), &joint))| ChainRow {
             alpha: number(match (kind, k) {
                 (ClosureKind::Universal, 1) => FRAC_PI_2,
                 _ => 0.0,

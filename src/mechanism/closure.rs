@@ -20,19 +20,19 @@
 mod rows;
 
 use super::ClosureKind;
-use super::Relation;
+use super::JointRelation;
 use super::configuration::Configuration;
 use super::dimensions::{ClosureDimensions, Dimensions, LinearForm};
 use super::kinematics::{Kinematics, Mover, Need, Placement, Slot};
 use crate::description::AxisCondition;
 use crate::geometry::Pose;
 use crate::number::Number;
-pub(crate) use rows::{EVERY_ROW, Kept, MOST_ROWS, Rows, Side};
+pub(crate) use rows::{EVERY_ROW, Kept, MOST_ROWS, ResidualRows, Side};
 use rows::{disorientation, distance, misalignment};
 
 /// A closure ready for evaluation.
 #[derive(Clone, Debug)]
-pub struct Closure<T> {
+pub struct ClosureEquations<T> {
     /// The joint that it restores.
     pub kind: ClosureKind,
     kept: Kept,
@@ -44,7 +44,7 @@ pub struct Closure<T> {
     pub(crate) platforms: [Option<usize>; 2],
     pub(crate) length: T,
     pub(crate) extension: LinearForm<T>,
-    relation: Option<Relation<T>>,
+    relation: Option<JointRelation<T>>,
     /// The natural sizes of the joint variables of the extension or the relation.
     extension_scales: Vec<f64>,
     inverse_length: f64,
@@ -75,7 +75,7 @@ fn extending<T>(closure: &ClosureDimensions<T>) -> Vec<usize> {
     lengths.chain(related.copied()).collect()
 }
 
-impl<T: Number> Closure<T> {
+impl<T: Number> ClosureEquations<T> {
     pub(crate) fn new(
         dimensions: &Dimensions<T>,
         closure: &ClosureDimensions<T>,
@@ -88,7 +88,7 @@ impl<T: Number> Closure<T> {
         });
         let sides = slots.map(|slot| kinematics.movers(slot, &dimensions.joint_scales));
         let platforms = [sides[0].1, sides[1].1];
-        Closure {
+        ClosureEquations {
             kind: closure.kind,
             kept,
             only_points: only_points(closure.kind, &kept),
@@ -252,13 +252,13 @@ impl<T: Number> Closure<T> {
     }
 
     #[inline(always)]
-    fn no_rows(&self, a: &Pose<T>, b: &Pose<T>) -> Rows<T> {
-        Rows::new(self.inverse_length, [a.position, b.position], self.kept)
+    fn no_rows(&self, a: &Pose<T>, b: &Pose<T>) -> ResidualRows<T> {
+        ResidualRows::new(self.inverse_length, [a.position, b.position], self.kept)
     }
 
     /// Residuals and wrenches.
     #[inline(always)]
-    pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> Rows<T> {
+    pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> ResidualRows<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
         let mut rows = self.no_rows(a, b);

@@ -1,7 +1,7 @@
 //! Every dimension of a mechanism as numbers: the one place where the real-valued mechanism is
 //! lifted to complex, dual and other number types.
 
-use super::{ClosureKind, Frame, Relation};
+use super::{ClosureKind, Frame, JointRelation};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 
@@ -78,7 +78,7 @@ pub struct ClosureDimensions<T> {
     /// Variable part of the length of a `Distance`, in m.
     pub extension: LinearForm<T>,
     /// The expression that a `Coupling` makes zero.
-    pub relation: Option<Relation<T>>,
+    pub relation: Option<JointRelation<T>>,
 }
 
 /// All dimensions of a mechanism over one number type.

@@ -6,7 +6,7 @@ use crate::algebra::{Expression, Measure, SiUnit};
 /// An output that is an affine function of one joint: offset + factor · value. It stands for the joint wherever something
 /// is held or moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Follower {
+pub struct FollowingOutput {
     /// The index of the joint.
     pub joint: usize,
     /// The output where the joint is at 0, in rad or m.
@@ -17,7 +17,7 @@ pub struct Follower {
     pub measure: Measure,
 }
 
-impl Follower {
+impl FollowingOutput {
     /// The value of the output where the joint has this one.
     pub fn of(&self, joint: f64) -> f64 {
         self.offset + self.factor * joint
@@ -31,7 +31,7 @@ impl Follower {
 
 impl Mechanism {
     /// The joint that an output follows, if it follows one; none for the name of a joint.
-    pub fn follower(&self, name: &str) -> Option<Follower> {
+    pub fn follower(&self, name: &str) -> Option<FollowingOutput> {
         if self.joint(name).is_some() {
             return None;
         }
@@ -53,7 +53,7 @@ impl Mechanism {
             });
             value.ok().filter(|value| value.is_finite())
         };
-        Some(Follower {
+        Some(FollowingOutput {
             joint: *joint,
             offset: number(&affine.constant)?,
             factor: number(factor).filter(|factor| *factor != 0.0)?,

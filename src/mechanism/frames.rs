@@ -6,11 +6,11 @@ use std::sync::Arc;
 use super::configuration::Configuration;
 use super::kinematics::Kinematics;
 use super::model::{
-    Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Row, Symbol,
+    Chain, ChainRow, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Symbol,
 };
 use super::{Dimensions, Frame, Mechanism, Quantity, Rounding, relation};
 use crate::algebra::Affine;
-use crate::description::{Coordinates, GROUND, Problem};
+use crate::description::{GROUND, JointCoordinates, Problem};
 use crate::geometry::Pose;
 
 /// A rigid body: frames fixed to one another whatever the joints do.
@@ -78,7 +78,7 @@ impl Mechanism {
     }
 
     /// The joint coordinates from which the tables were made, if they were.
-    pub fn coordinates(&self) -> Option<&Coordinates> {
+    pub fn coordinates(&self) -> Option<&JointCoordinates> {
         self.coordinates.as_deref()
     }
 
@@ -256,7 +256,7 @@ impl Mechanism {
     /// The body that a frame is fixed to.
     pub fn body(&self, frame: Frame) -> Body {
         let moving = self.chains_below(frame).find_map(|(chain, rows)| {
-            let row = 1 + rows.iter().rposition(Row::moves)?;
+            let row = 1 + rows.iter().rposition(ChainRow::moves)?;
             Some(Body::Link { chain, row })
         });
         let carrier = || self.carrier(frame).map_or(Body::Ground, Body::Platform);
@@ -264,7 +264,7 @@ impl Mechanism {
     }
 
     /// The chains that carry a frame, from it downwards, each with the rows between.
-    pub(super) fn chains_below(&self, frame: Frame) -> impl Iterator<Item = (usize, &[Row])> {
+    pub(super) fn chains_below(&self, frame: Frame) -> impl Iterator<Item = (usize, &[ChainRow])> {
         let below = |&(chain, _): &(usize, usize)| self.on_chain(self.chains[chain].on).ok();
         let chains = std::iter::successors(self.on_chain(frame).ok(), below);
         chains.map(|(chain, rows)| (chain, &self.chains[chain].rows[..rows]))
@@ -364,7 +364,7 @@ impl Mechanism {
     pub fn joints_below(&self, frame: Frame) -> Vec<usize> {
         let chains = self.chains_below(frame);
         let rows = chains.flat_map(|(_, rows)| rows.iter().rev());
-        rows.flat_map(Row::joints).collect()
+        rows.flat_map(ChainRow::joints).collect()
     }
 }
 
@@ -376,7 +376,7 @@ pub(super) fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> 
     })
 }
 
-impl Row {
+impl ChainRow {
     /// True if a joint variable occurs in the row.
     pub(crate) fn moves(&self) -> bool {
         let mut joints = joints_of(&self.theta).chain(joints_of(&self.d));

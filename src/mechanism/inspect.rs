@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::frames::joints_of;
-use super::model::{FixedStep, Formula, Given, Symbol};
+use super::model::{FixedStep, Formula, GivenForm, Symbol};
 use super::{Frame, Mechanism, relation};
 use crate::algebra::Measure;
 use crate::description::{
@@ -118,10 +118,10 @@ impl Mechanism {
         let closed =
             closures.any(|closure| oriented(closure.kind) && closure.frames.contains(&frame));
         let printed = self.closed_forms.iter().any(|form| match &form.gives {
-            Given::Pose {
+            GivenForm::Pose {
                 of, relative_to, ..
             } => [*of, *relative_to].contains(&frame),
-            Given::Identities(_) => false,
+            GivenForm::Identities(_) => false,
         });
         let on_it = self.chains.iter().filter(|chain| chain.on == frame);
         (!closed && !printed).then(|| Turned {
@@ -209,8 +209,8 @@ impl Mechanism {
         for form in self.closed_forms.iter() {
             form.locals.iter().for_each(|(_, formula)| open(formula));
             match &form.gives {
-                Given::Pose { entries, .. } => entries.iter().for_each(|(_, f)| open(f)),
-                Given::Identities(identities) => identities.iter().for_each(|(_, f)| open(f)),
+                GivenForm::Pose { entries, .. } => entries.iter().for_each(|(_, f)| open(f)),
+                GivenForm::Identities(identities) => identities.iter().for_each(|(_, f)| open(f)),
             }
         }
     }

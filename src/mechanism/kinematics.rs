@@ -10,7 +10,7 @@ use super::configuration::Configuration;
 use super::dimensions::{Dimensions, LinearForm, RowDimensions};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
-pub(crate) use course::Course;
+pub(crate) use course::KinematicsCourse;
 use step::{FixedShape, PlacedStep, RotationColumn, is_level};
 
 /// A place in a [`Placement`]: ground first, then the platforms, then everything that moves.

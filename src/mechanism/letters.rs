@@ -1,6 +1,6 @@
 //! A mechanism in letters: the same kinematics over symbolic numbers.
 
-use super::closure::{Closure, EVERY_ROW};
+use super::closure::{ClosureEquations, EVERY_ROW};
 use super::dimensions::Dimensions;
 use super::kinematics::Kinematics;
 use super::{Configuration, Frame, Mechanism};
@@ -177,7 +177,7 @@ impl<'a> Formal<'a> {
 
     /// The twists (ω, v) of a frame seen from one that carries it, for a unit rate of each joint that moves it; v is the velocity
     /// of its origin. `None` if that frame does not carry it.
-    pub fn twists(&self, relative_to: Frame, of: Frame) -> Option<Vec<Twist>> {
+    pub fn twists(&self, relative_to: Frame, of: Frame) -> Option<Vec<UnitTwist>> {
         if !self.mechanism.stands_on(of).contains(&relative_to) {
             return None;
         }
@@ -189,7 +189,7 @@ impl<'a> Formal<'a> {
         let point = placement.pose(slot).position;
         // a named frame is fixed to its platform, but displaced from it
         let seen = *kinematics.pose(relative_to, &placement)?;
-        let mut twists: Vec<Twist> = Vec::new();
+        let mut twists: Vec<UnitTwist> = Vec::new();
         for mover in kinematics.movers(slot, &dimensions.joint_scales).0 {
             let (omega, velocity) = placement.twist(&mover, &point);
             let omega = seen.rotation.inverse_rotate(&omega);
@@ -200,7 +200,7 @@ impl<'a> Formal<'a> {
                     twist.omega += omega;
                     twist.velocity += velocity;
                 }
-                None => twists.push(Twist {
+                None => twists.push(UnitTwist {
                     joint,
                     omega,
                     velocity,
@@ -218,7 +218,7 @@ impl<'a> Formal<'a> {
         let kinematics = Kinematics::new(&self.dimensions, own.frames);
         let mut placement = kinematics.placement();
         kinematics.place_on(&self.platforms, &self.joints, &mut placement);
-        let closure = Closure::new(&self.dimensions, own, &kinematics, EVERY_ROW);
+        let closure = ClosureEquations::new(&self.dimensions, own, &kinematics, EVERY_ROW);
         let [a, b] = closure.frames(&placement);
         ClosureInLetters {
             gap: b.position - a.position,
@@ -230,7 +230,7 @@ impl<'a> Formal<'a> {
 }
 
 /// Twist of a frame for a unit rate of a joint variable.
-pub(crate) struct Twist {
+pub(crate) struct UnitTwist {
     pub joint: usize,
     pub omega: Vector3<Symbolic>,
     pub velocity: Vector3<Symbolic>,

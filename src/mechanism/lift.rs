@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
-use super::model::{FixedStep, Formula, Joint, JointKind, Row, Symbol};
-use super::{Frame, Mechanism, Relation};
+use super::model::{ChainRow, FixedStep, Formula, Joint, JointKind, Symbol};
+use super::{Frame, JointRelation, Mechanism};
 use crate::algebra::{Affine, EvaluationError};
 use crate::description::{Convention, Role};
 use crate::geometry::{Axis, Pose, Vector3};
@@ -71,7 +71,7 @@ fn product_from<T: Number>(
     Ok(pose)
 }
 
-impl Row {
+impl ChainRow {
     fn over<T: Number>(
         &self,
         convention: Convention,
@@ -150,7 +150,7 @@ impl Mechanism {
                 length,
                 extension,
                 relation: (closure.relation.as_ref())
-                    .map(|formula| Relation::new(formula, parameters)),
+                    .map(|formula| JointRelation::new(formula, parameters)),
             })
         })?;
         let length = self.largest_length(&dimensions, &self.driven_lengths());

@@ -101,7 +101,7 @@ pub type FixedStep = Displacement<Formula>;
 
 /// A row of a Denavit–Hartenberg table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ChainRow {
     /// Twist of the link (rad).
     pub alpha: Formula,
     /// Length of the link (m).
@@ -128,7 +128,7 @@ pub struct Chain {
     /// Displacement from that frame to its frame 0.
     pub base: Vec<FixedStep>,
     /// Its table.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ChainRow>,
     /// Displacement from its last link frame to its tip frame.
     pub tip: Vec<FixedStep>,
 }
@@ -190,12 +190,12 @@ pub struct ClosedForm {
     /// Local names with their definitions, each after those it uses.
     pub locals: Vec<(String, Formula)>,
     /// The formula.
-    pub gives: Given,
+    pub gives: GivenForm,
 }
 
 /// The formula of a closed form.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Given {
+pub enum GivenForm {
     /// Entries of the transform of one frame seen from another.
     Pose {
         /// The frame.

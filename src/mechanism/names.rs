@@ -10,7 +10,7 @@ use crate::description::{
 };
 
 /// The names that expressions and frame references of a file may use.
-pub(super) struct Names<'a> {
+pub(super) struct FileNames<'a> {
     pub parameters: HashMap<&'a str, usize>,
     pub joints: HashMap<&'a str, usize>,
     chains: HashMap<&'a str, usize>,
@@ -33,14 +33,14 @@ fn index<T>(named: &[Named<T>]) -> HashMap<&str, usize> {
         .collect()
 }
 
-impl<'a> Names<'a> {
+impl<'a> FileNames<'a> {
     pub fn new(description: &'a Description) -> Self {
         let chains = description.chains.iter().enumerate();
         let links = chains.flat_map(|(c, chain)| {
             let rows = (1..).zip(&chain.value.rows);
             rows.filter_map(move |(k, row)| Some((row.link.as_ref()?.value.as_str(), (c, k))))
         });
-        Names {
+        FileNames {
             links: links.collect(),
             parameters: index(&description.parameters),
             joints: index(&description.joints),

@@ -14,7 +14,7 @@ use super::{ClosureKind, Frame, PoseCoordinate};
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::number::Number;
 use crate::number::tolerance::ROUNDING;
-use carried::Carried;
+use carried::CarriedPlatform;
 
 /// A mechanism without platforms.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub(crate) struct Recut<T> {
     /// For each platform the frame that stands for it; none where distances replace it.
     pub platforms: Vec<Option<Frame>>,
     /// The platforms that joints carry.
-    pub carried: Vec<Carried>,
+    pub carried: Vec<CarriedPlatform>,
     /// Joints whose variables dropped out.
     pub dropped: Vec<usize>,
 }
@@ -206,7 +206,7 @@ impl<T: Number> Recut<T> {
             None => ([Frame::Ground, Frame::Platform { platform }], None),
         };
         let first = self.dimensions.joint_scales.len();
-        let carried = Carried {
+        let carried = CarriedPlatform {
             platform,
             frames,
             kind,

@@ -7,16 +7,16 @@ use crate::number::{Dual, Number};
 
 /// An expression of joint variables over one number type. Angles in it are in rad, lengths in m.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Relation<T> {
+pub struct JointRelation<T> {
     formula: Arc<Formula>,
     parameters: Arc<[T]>,
     /// The joints in it, each once, in the order in which they are written.
     pub joints: Arc<[usize]>,
 }
 
-impl<T: Number> Relation<T> {
+impl<T: Number> JointRelation<T> {
     pub(super) fn new(formula: &Formula, parameters: &[T]) -> Self {
-        Relation {
+        JointRelation {
             joints: joints_of(formula).into(),
             formula: Arc::new(formula.clone()),
             parameters: parameters.into(),
@@ -24,8 +24,8 @@ impl<T: Number> Relation<T> {
     }
 
     /// The relation over another number, with the constants of this one.
-    pub(super) fn map<U>(&self, lift: impl FnMut(T) -> U) -> Relation<U> {
-        Relation {
+    pub(super) fn map<U>(&self, lift: impl FnMut(T) -> U) -> JointRelation<U> {
+        JointRelation {
             formula: self.formula.clone(),
             parameters: self.parameters.iter().copied().map(lift).collect(),
             joints: self.joints.clone(),
@@ -70,7 +70,7 @@ impl<T: Number> Relation<T> {
     }
 }
 
-impl Relation<f64> {
+impl JointRelation<f64> {
     /// The relation solved for one joint, y = c₀ + c₁ x + … + c₄ x⁴, if it is such a polynomial of another joint: y, x and c.
     pub fn polynomial(&self) -> Option<(usize, usize, [f64; 5])> {
         type Jet = Dual<Dual<Dual<Dual<f64>>>>;

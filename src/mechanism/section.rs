@@ -3,7 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
+use super::model::{
+    Chain, ChainRow, Closure, FixedStep, Formula, Joint, JointKind, Platform, Symbol,
+};
 use super::{Body, ClosureKind, Convention, Frame, Mechanism, NamedPoint, Point, Role};
 use crate::algebra::Affine;
 use crate::description::first_free;
@@ -115,7 +117,7 @@ impl Mechanism {
                 constant: Formula::number(constant),
                 terms,
             };
-            Row {
+            ChainRow {
                 alpha: Formula::number(*alpha),
                 a: Formula::number(0.0),
                 d: affine(0.0, vec![(joint, Formula::number(1.0))]),
@@ -124,7 +126,7 @@ impl Mechanism {
                 link: None,
             }
         });
-        let rows: Vec<Row> = rows.collect();
+        let rows: Vec<ChainRow> = rows.collect();
         let offset = vec![FixedStep::TranslateBy(point.offset.map(Formula::number))];
         let chains = [
             (Frame::Ground, base, rows),

@@ -27,8 +27,8 @@ mod assignment;
 mod prismatic;
 mod table;
 
-pub use assignment::{Assignment, Normal};
-pub use table::{Table, TableRow};
+pub use assignment::{FrameAssignment, Normal};
+pub use table::{DhTable, TableRow};
 
 use crate::geometry::{Line, Pose, Vector3};
 

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::Mechanism;
-use super::closure::{Closure, EVERY_ROW, Kept, needs};
+use super::closure::{ClosureEquations, EVERY_ROW, Kept, needs};
 use super::configuration::{Configuration, PlatformPose};
 use super::dimensions::Dimensions;
 use super::kinematics::Kinematics;
@@ -42,7 +42,7 @@ fn rows_that_vary(dimensions: &Dimensions<f64>) -> Vec<Kept> {
     kinematics.place(&at, &mut placement);
     let closures = folded.closures.iter();
     let rows = closures.map(|closure| {
-        let closure = Closure::new(&folded, closure, &kinematics, EVERY_ROW);
+        let closure = ClosureEquations::new(&folded, closure, &kinematics, EVERY_ROW);
         let rows = closure.rows(&placement, &at);
         rows.residual.map(|row| row != Folded::zero())
     });

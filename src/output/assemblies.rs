@@ -16,7 +16,9 @@ use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use completeness::accounting;
-use tables::{Pose, are_posed, by_pose, complex, joints, met, overview, platforms, poses, reasons};
+use tables::{
+    PoseGroup, are_posed, by_pose, complex, joints, met, overview, platforms, poses, reasons,
+};
 
 impl Report for AssembliesReport {
     fn document(&self) -> Document {
@@ -145,7 +147,7 @@ fn sets_of_angles(report: &AssembliesReport) -> Option<(usize, usize)> {
     (alike && report.complex.is_multiple_of(sets)).then(|| (sets, report.complex / sets))
 }
 
-fn posed(report: &AssembliesReport, poses: &[Pose<'_>]) -> String {
+fn posed(report: &AssembliesReport, poses: &[PoseGroup<'_>]) -> String {
     let poses = count(poses.len(), "pose");
     format!("{poses} of the {}", are_posed(report))
 }

@@ -34,7 +34,7 @@ impl Colour {
 
 /// Style of an outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Style {
+pub struct OutlineStyle {
     /// Fill colour, and its opacity from 0 to 1.
     pub fill: Option<(Colour, f64)>,
     /// The line round it, and how wide that is.
@@ -43,31 +43,31 @@ pub struct Style {
     pub dash: Option<[f64; 2]>,
 }
 
-impl Style {
+impl OutlineStyle {
     pub(crate) fn filled(colour: Colour) -> Self {
-        Style {
+        OutlineStyle {
             fill: Some((colour, 1.0)),
-            ..Style::default()
+            ..OutlineStyle::default()
         }
     }
 
     pub(crate) fn line(colour: Colour, width: f64) -> Self {
-        Style {
+        OutlineStyle {
             stroke: Some((colour, width)),
-            ..Style::default()
+            ..OutlineStyle::default()
         }
     }
 
     /// Adds a line round it.
     pub(crate) fn edged(self, colour: Colour, width: f64) -> Self {
-        Style {
+        OutlineStyle {
             stroke: Some((colour, width)),
             ..self
         }
     }
 
     pub(crate) fn dashed(self, dash: f64, gap: f64) -> Self {
-        Style {
+        OutlineStyle {
             dash: Some([dash, gap]),
             ..self
         }
@@ -95,7 +95,7 @@ pub enum Shape {
         /// True if a line leads back to the first point.
         closed: bool,
         /// Its style.
-        style: Style,
+        style: OutlineStyle,
     },
     /// Words on one line.
     Words {
@@ -113,7 +113,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    pub(crate) fn polygon(points: impl IntoIterator<Item = Pixel>, style: Style) -> Self {
+    pub(crate) fn polygon(points: impl IntoIterator<Item = Pixel>, style: OutlineStyle) -> Self {
         Shape::Outline {
             points: points.into_iter().collect(),
             closed: true,
@@ -121,7 +121,7 @@ impl Shape {
         }
     }
 
-    pub(crate) fn line(points: impl IntoIterator<Item = Pixel>, style: Style) -> Self {
+    pub(crate) fn line(points: impl IntoIterator<Item = Pixel>, style: OutlineStyle) -> Self {
         Shape::Outline {
             points: points.into_iter().collect(),
             closed: false,
@@ -129,7 +129,11 @@ impl Shape {
         }
     }
 
-    pub(crate) fn rectangle((left, top): Pixel, (right, bottom): Pixel, style: Style) -> Self {
+    pub(crate) fn rectangle(
+        (left, top): Pixel,
+        (right, bottom): Pixel,
+        style: OutlineStyle,
+    ) -> Self {
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
         Shape::polygon(corners, style)
     }

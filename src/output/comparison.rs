@@ -6,7 +6,8 @@ use super::quantity::{form, quantity, size, values as values_of, with_unit};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::compare::{
-    CompareReport, ComponentReport, Difference, FormReport, Proof, Quantity, Reason, Verdict,
+    CompareReport, ComponentProof, ComponentQuantity, ComponentReport, Difference, FormReport,
+    Reason, Verdict,
 };
 use crate::description::count;
 
@@ -43,7 +44,7 @@ fn proved(report: &CompareReport) -> String {
     let all = forms.len();
     let proved = |form: &&FormReport| form.components.iter().all(|c| c.proof.proved());
     let special = |form: &&FormReport| {
-        use Proof::{FollowsForTheseDimensions, IdenticalForTheseDimensions};
+        use ComponentProof::{FollowsForTheseDimensions, IdenticalForTheseDimensions};
         let mut proofs = form.components.iter().map(|component| &component.proof);
         proofs.any(|p| matches!(p, IdenticalForTheseDimensions | FollowsForTheseDimensions))
     };
@@ -77,17 +78,21 @@ fn table(report: &CompareReport) -> TableOf<&FormReport> {
         .words("source", |form| form.source.as_deref())
 }
 
-const QUANTITIES: [Quantity; 3] = [Quantity::Position, Quantity::Rotation, Quantity::Identity];
+const QUANTITIES: [ComponentQuantity; 3] = [
+    ComponentQuantity::Position,
+    ComponentQuantity::Rotation,
+    ComponentQuantity::Identity,
+];
 
 /// The largest difference of each kind of component, for they have different units.
 fn largest(form: &FormReport) -> String {
-    let of = |quantity: Quantity| {
+    let of = |quantity: ComponentQuantity| {
         let tried = form.components.iter();
         let tried = tried.filter(|c| c.samples > 0 && c.quantity == quantity);
         let largest = tried.map(|c| c.max_difference).reduce(f64::max)?;
         let place = match quantity {
-            Quantity::Rotation => " in R",
-            Quantity::Position | Quantity::Identity => "",
+            ComponentQuantity::Rotation => " in R",
+            ComponentQuantity::Position | ComponentQuantity::Identity => "",
         };
         Some(with_unit(&size(largest), unit(quantity)) + place)
     };
@@ -107,7 +112,10 @@ fn units(report: &CompareReport) -> String {
     };
     let rotations = "in R, of entries of rotation matrices, have no unit";
     let identities = "of identities have the unit of their formula";
-    match (tried(Quantity::Rotation), tried(Quantity::Identity)) {
+    match (
+        tried(ComponentQuantity::Rotation),
+        tried(ComponentQuantity::Identity),
+    ) {
         (true, true) => format!("Differences {rotations}; those {identities}."),
         (true, false) => format!("Differences {rotations}."),
         (false, true) => format!("Differences {identities}."),
@@ -115,29 +123,29 @@ fn units(report: &CompareReport) -> String {
     }
 }
 
-fn unit(quantity: Quantity) -> SiUnit {
+fn unit(quantity: ComponentQuantity) -> SiUnit {
     match quantity {
-        Quantity::Position => SiUnit::METRE,
-        Quantity::Rotation | Quantity::Identity => SiUnit::ONE,
+        ComponentQuantity::Position => SiUnit::METRE,
+        ComponentQuantity::Rotation | ComponentQuantity::Identity => SiUnit::ONE,
     }
 }
 
 /// Proof of a form as a whole: the weakest of those of its components.
 fn proof(form: &FormReport) -> &'static str {
     let proofs = || form.components.iter().map(|component| &component.proof);
-    if proofs().any(|proof| matches!(proof, Proof::Different(_))) {
+    if proofs().any(|proof| matches!(proof, ComponentProof::Different(_))) {
         return "refuted";
     }
     match proofs().filter(|proof| proof.proved()).count() {
         0 => "not proved",
         n if n < form.components.len() => "in part",
-        _ if proofs().any(|proof| *proof == Proof::FollowsForTheseDimensions) => {
+        _ if proofs().any(|proof| *proof == ComponentProof::FollowsForTheseDimensions) => {
             "from closures, for these dimensions"
         }
-        _ if proofs().any(|proof| *proof == Proof::IdenticalForTheseDimensions) => {
+        _ if proofs().any(|proof| *proof == ComponentProof::IdenticalForTheseDimensions) => {
             "for these dimensions"
         }
-        _ if proofs().any(|proof| *proof == Proof::FollowsFromClosures) => "from closures",
+        _ if proofs().any(|proof| *proof == ComponentProof::FollowsFromClosures) => "from closures",
         _ => "identical",
     }
 }
@@ -148,11 +156,11 @@ fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
     let mut undecided: Vec<(Reason, Vec<&str>)> = Vec::new();
     for component in &form.components {
         match &component.proof {
-            Proof::Different(of) => {
+            ComponentProof::Different(of) => {
                 let difference = different(notation, component, of);
                 lines.push(format!("{}, {}: {difference}", form.name, component.name));
             }
-            Proof::NotDecided { reason } => {
+            ComponentProof::NotDecided { reason } => {
                 match undecided.iter_mut().find(|(own, _)| own == reason) {
                     Some((_, names)) => names.push(&component.name),
                     None => undecided.push((*reason, vec![&component.name])),
@@ -178,7 +186,7 @@ fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
 fn different(notation: &Notation, component: &ComponentReport, of: &Difference) -> String {
     let [own, theirs, difference] =
         [&of.closed_form, &of.chains, &of.difference].map(|of| notation.print(of));
-    let identity = component.quantity == Quantity::Identity;
+    let identity = component.quantity == ComponentQuantity::Identity;
     let whole = of.closed_form == of.difference && identity;
     let given = if identity { "closures" } else { "chains" };
     let said = match (of.closed_form.is_zero(), of.chains.is_zero()) {
@@ -245,7 +253,7 @@ fn remark(
         let six = |value: f64| with_unit(&format!("{value:.6}"), unit(quantity));
         let (own, theirs) = (six(worst.closed_form), six(worst.chains));
         let values = match quantity {
-            Quantity::Identity => format!("it is {own}, not zero,"),
+            ComponentQuantity::Identity => format!("it is {own}, not zero,"),
             _ => format!("the form gives {own}, the chains {theirs},"),
         };
         let joints = values_of(&report.names.joints, worst.joints.values());
@@ -291,7 +299,7 @@ fn sentence(report: &CompareReport) -> String {
     let in_one = |has: &dyn Fn(&ComponentReport) -> bool| {
         having(Verdict::Undefined).all(|form| form.components.iter().any(has))
     };
-    let why = match in_one(&|own| own.proof == Proof::NotDecided { reason }) {
+    let why = match in_one(&|own| own.proof == ComponentProof::NotDecided { reason }) {
         true => "0/0 on every configuration",
         _ if in_one(&|own| own.divisors.iter().any(|by| by.vanishes)) => {
             "division by zero on every configuration"

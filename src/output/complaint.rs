@@ -45,12 +45,12 @@ pub struct Complaint {
     /// The remedy.
     pub help: Option<String>,
     /// Part of the option that is wrong, if an option is.
-    pub part: Part,
+    pub part: OptionPart,
 }
 
 /// Part of an option.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Part {
+pub enum OptionPart {
     /// The name.
     Name,
     /// Bytes of the value.
@@ -66,7 +66,7 @@ impl Complaint {
             title: title.into(),
             label: String::new(),
             help: None,
-            part: Part::Name,
+            part: OptionPart::Name,
         }
     }
 
@@ -86,7 +86,7 @@ impl Complaint {
 
     /// Moves the complaint to another part of the option than its name.
     #[must_use]
-    pub fn at(self, part: Part) -> Self {
+    pub fn at(self, part: OptionPart) -> Self {
         Complaint { part, ..self }
     }
 

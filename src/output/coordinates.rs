@@ -5,7 +5,7 @@ use super::quantity::{number, quantity};
 use crate::algebra::SiUnit;
 use crate::description::{AxesDescription, AxisDescription, AxisPlace, Displacement, Entry, Named};
 
-type Axis = Named<AxisDescription>;
+type NamedAxis = Named<AxisDescription>;
 
 pub(super) fn section(axes: &AxesDescription) -> Section {
     let number = |x: &Entry| match x.expression.as_number() {
@@ -35,12 +35,12 @@ pub(super) fn section(axes: &AxesDescription) -> Section {
         }
         AxisPlace::Centre(_) | AxisPlace::Frame(_) => None,
     };
-    let both = |joint: &Axis, shown: &dyn Fn(&AxisPlace) -> Option<String>| {
+    let both = |joint: &NamedAxis, shown: &dyn Fn(&AxisPlace) -> Option<String>| {
         let second = joint.value.second.as_ref().and_then(shown);
         let second = second.map_or(String::new(), |second| format!("; {second}"));
         format!("{}{second}", shown(&joint.value.place).unwrap_or_default())
     };
-    let follows = |joint: &Axis| {
+    let follows = |joint: &NamedAxis| {
         let value = joint.value.value.as_ref();
         value.map(|value| value.expression.to_string())
     };

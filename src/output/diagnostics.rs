@@ -7,7 +7,7 @@ use std::path::Path;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::complaint::{Complaint, Given, Part, Wording};
+use super::complaint::{Complaint, Given, OptionPart, Wording};
 use crate::ask::{AskError, Question};
 use crate::description::{
     Description, FileError, Lines, Problem, ReplacementError, Severity, count, listed,
@@ -34,7 +34,7 @@ pub enum Style {
 /// All problems of a file and how many there are.
 pub fn render(error: &FileError, style: Style) -> String {
     let renderer = renderer(style);
-    let page = Page::new(error.path.display().to_string(), &error.text);
+    let page = ErrorPage::new(error.path.display().to_string(), &error.text);
     let (shown, more) = error.shown();
     let rendered: Vec<String> = (shown.iter())
         .map(|problem| {
@@ -44,7 +44,7 @@ pub fn render(error: &FileError, style: Style) -> String {
             };
             let related = problem.related.iter();
             let related = related.map(|(span, note)| (span.clone(), note.label()));
-            let places = Places {
+            let places = ErrorPlaces {
                 span: problem.span.clone(),
                 related: related.collect(),
             };
@@ -88,7 +88,7 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
     let renderer = renderer(style);
     let one = |(file, problem): &(usize, ImportProblem)| {
         let (name, text) = &wrong.files[*file];
-        let page = Page::new(name.clone(), text);
+        let page = ErrorPage::new(name.clone(), text);
         let complaint = Complaint {
             help: problem.kind.help(),
             ..Complaint::new(problem.to_string())
@@ -98,7 +98,7 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
             let line = page.lines.position(span.start).0;
             let line = page.lines.start(line)..page.lines.start(line + 1);
             let end = line.start + text[line.clone()].trim_end().len();
-            Places {
+            ErrorPlaces {
                 span: span.start..span.end.min(end).max(span.start),
                 related: Vec::new(),
             }
@@ -113,35 +113,35 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
 }
 
 /// Places of an error in a text.
-struct Places {
+struct ErrorPlaces {
     span: Range<usize>,
     /// Other places that belong to it, with a few words each.
     related: Vec<(Range<usize>, String)>,
 }
 
-impl Places {
+impl ErrorPlaces {
     fn all(&self) -> impl Iterator<Item = &Range<usize>> {
         std::iter::once(&self.span).chain(self.related.iter().map(|(span, _)| span))
     }
 }
 
-struct Page<'a> {
+struct ErrorPage<'a> {
     path: String,
     text: &'a str,
     lines: Lines<'a>,
 }
 
-impl<'a> Page<'a> {
+impl<'a> ErrorPage<'a> {
     fn new(path: String, text: &'a str) -> Self {
         let lines = Lines::new(text);
-        Page { path, text, lines }
+        ErrorPage { path, text, lines }
     }
 
     fn report<'p>(
         &'p self,
         level: Level<'static>,
         complaint: &'p Complaint,
-        places: Option<&Places>,
+        places: Option<&ErrorPlaces>,
     ) -> Vec<Group<'p>> {
         let title = level.primary_title(complaint.title.as_str());
         let group = match places {
@@ -166,7 +166,11 @@ impl<'a> Page<'a> {
     }
 
     /// The lines from the first to the last place of a problem; the unconcerned ones among them are folded.
-    fn excerpt<'p>(&'p self, complaint: &'p Complaint, places: &Places) -> Option<Drawn<'p>> {
+    fn excerpt<'p>(
+        &'p self,
+        complaint: &'p Complaint,
+        places: &ErrorPlaces,
+    ) -> Option<AnnotatedSnippet<'p>> {
         let line = |at: usize| self.lines.position(at).0;
         let first = places.all().map(|span| line(span.start)).min()?;
         let last = places.all().map(|span| line(span.end)).max()?;
@@ -196,7 +200,7 @@ impl<'a> Page<'a> {
 
     /// The surroundings of the offending text, if its line is too long to be shown. The columns are not those of the
     /// file, so that the place is given beside it.
-    fn cut<'p>(&'p self, complaint: &'p Complaint, span: &Range<usize>) -> Drawn<'p> {
+    fn cut<'p>(&'p self, complaint: &'p Complaint, span: &Range<usize>) -> AnnotatedSnippet<'p> {
         let line = self.lines.position(span.start).0;
         let window = self.lines.start(line)..self.lines.start(line + 1);
         let start = span.start.clamp(window.start, window.end);
@@ -253,9 +257,9 @@ impl Complaint {
         let before = format!("{} {}{equals}", given.option, given.name);
         let source = format!("{before}{value}");
         let span = match &self.part {
-            Part::Name => given.option.len() + 1..given.option.len() + 1 + given.name.len(),
-            Part::WholeValue => before.len()..source.len(),
-            Part::Value(span) => before.len() + span.start..before.len() + span.end,
+            OptionPart::Name => given.option.len() + 1..given.option.len() + 1 + given.name.len(),
+            OptionPart::WholeValue => before.len()..source.len(),
+            OptionPart::Value(span) => before.len() + span.start..before.len() + span.end,
         };
         let annotation = AnnotationKind::Primary.span(span).label(label(self));
         let snippet = Snippet::source(source.as_str()).annotation(annotation);
@@ -279,7 +283,7 @@ impl Complaint {
     }
 }
 
-type Drawn<'p> = Snippet<'p, annotate_snippets::Annotation<'p>>;
+type AnnotatedSnippet<'p> = Snippet<'p, annotate_snippets::Annotation<'p>>;
 
 fn label(complaint: &Complaint) -> Option<&str> {
     Some(complaint.label.as_str()).filter(|label| !label.is_empty())
@@ -310,7 +314,7 @@ pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> Str
         .render_in(given, style),
         ReplacementError::Value(problems) => {
             let rendered = problems.iter().map(|problem| {
-                let part = Part::Value(problem.span.clone());
+                let part = OptionPart::Value(problem.span.clone());
                 Complaint::of(problem).at(part).render_in(given, style)
             });
             rendered.collect::<Vec<_>>().join("\n")
@@ -335,7 +339,7 @@ pub fn with_replacements(
     for problem in error.problems {
         match given_of(&problem) {
             Some(given) => {
-                let said = Complaint::of(&problem).at(Part::WholeValue);
+                let said = Complaint::of(&problem).at(OptionPart::WholeValue);
                 shown.push(said.render_in(given, style));
             }
             None => in_file.push(problem),

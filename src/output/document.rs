@@ -9,7 +9,7 @@ mod inline;
 mod remarks;
 
 pub use cell::Cell;
-pub(super) use inline::{Piece, one_line, pieces};
+pub(super) use inline::{Inline, one_line, pieces};
 pub use remarks::Remarks;
 
 use serde::{Deserialize, Serialize};
@@ -74,7 +74,7 @@ pub enum Block {
         text: String,
     },
     /// A formula under a title.
-    Formula(Formula),
+    Formula(FormulaBlock),
     /// A picture as SVG, with its description: formats of text leave it out.
     Picture(String, String),
     /// A part under a title of its own.
@@ -83,7 +83,7 @@ pub enum Block {
 
 /// A formula, set for terminals and for TeX.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Formula {
+pub struct FormulaBlock {
     /// What it is about; may be empty.
     pub title: String,
     /// Its lines in Unicode.
@@ -280,7 +280,7 @@ impl Section {
 
     /// With formulas, one below the other.
     #[must_use]
-    pub fn formulas(mut self, formulas: impl IntoIterator<Item = Formula>) -> Self {
+    pub fn formulas(mut self, formulas: impl IntoIterator<Item = FormulaBlock>) -> Self {
         let formulas = formulas.into_iter().map(Block::Formula);
         self.blocks.extend(formulas);
         self

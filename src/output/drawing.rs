@@ -10,9 +10,9 @@ mod symbols;
 
 pub use beside::movement;
 pub(crate) use camera::Camera;
-pub use camera::View;
+pub use camera::Viewpoint;
 
-use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
+use super::canvas::{Anchor, Canvas, Colour, INK, OutlineStyle, Pixel, Shape};
 use crate::geometry::Vector3;
 use crate::number::{real, sorting::sort_by};
 use crate::scene::{BodyShape, Scene, Triple};
@@ -22,7 +22,7 @@ use labels::Labels;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingSettings {
     /// View of the scene.
-    pub view: View,
+    pub view: Viewpoint,
     /// True if joints, rods and platforms are named.
     pub labels: bool,
 }
@@ -62,7 +62,7 @@ pub(crate) const PATH: Colour = Colour(0xD55E00);
 
 /// Something drawn. In the plane what is of a higher layer covers what is of a lower one; in space what is nearer to the
 /// viewer, in m, covers what is farther.
-struct Piece {
+struct Painted {
     layer: Layer,
     near: f64,
     shape: Shape,
@@ -89,14 +89,14 @@ pub fn sheet(panels: &[Panel], settings: &DrawingSettings) -> Canvas {
     };
     let fits = panels.iter().map(|panel| {
         let camera = Camera::new(settings.view, panel.scene.normal);
-        Fit::of(&camera, std::iter::once(&panel.scene).chain(&panel.ghosts))
+        Framing::of(&camera, std::iter::once(&panel.scene).chain(&panel.ghosts))
     });
-    let fits: Vec<Fit> = fits.collect();
+    let fits: Vec<Framing> = fits.collect();
     let scale = fits.iter().map(|fit| fit.scale);
     let scale = scale.fold(f64::INFINITY, f64::min);
     for (i, (panel, fit)) in panels.iter().zip(fits).enumerate() {
         let corner = ((i % columns) as f64 * WIDTH, (i / columns) as f64 * HEIGHT);
-        let fit = Fit { scale, ..fit };
+        let fit = Framing { scale, ..fit };
         canvas
             .shapes
             .extend(draw(panel, settings, corner, fit, None));
@@ -110,8 +110,8 @@ pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<C
         return Vec::new();
     };
     let camera = Camera::new(settings.view, first.normal);
-    let fit = Fit::of(&camera, scenes.iter().map(|(_, scene)| scene));
-    let size = Stage::new(first, settings.view, fit, (0.0, 0.0)).size;
+    let fit = Framing::of(&camera, scenes.iter().map(|(_, scene)| scene));
+    let size = StagedScene::new(first, settings.view, fit, (0.0, 0.0)).size;
     let frame = |(title, scene): (String, Scene)| {
         let panel = Panel {
             title,
@@ -129,24 +129,24 @@ pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<C
 
 /// The middle of the view, in m across and up, and the number of pixels for a metre.
 #[derive(Clone, Copy)]
-pub(crate) struct Fit {
+pub(crate) struct Framing {
     pub middle: (f64, f64),
     pub scale: f64,
 }
 
-impl Fit {
+impl Framing {
     fn of<'s>(camera: &Camera, scenes: impl IntoIterator<Item = &'s Scene>) -> Self {
         let points: Vec<Triple> = scenes.into_iter().flat_map(Scene::points).collect();
         let [across, up] = camera.bounds(&points);
         if points.is_empty() {
-            return Fit {
+            return Framing {
                 middle: (0.0, 0.0),
                 scale: 1.0,
             };
         }
         let room = |(low, high): (f64, f64), pixels: f64| (pixels - 2.0 * MARGIN) / (high - low);
         let scale = room(across, WIDTH).min(room(up, HEIGHT));
-        Fit {
+        Framing {
             middle: (0.5 * (across.0 + across.1), 0.5 * (up.0 + up.1)),
             scale: if scale.is_finite() { scale } else { 1.0 },
         }
@@ -154,22 +154,22 @@ impl Fit {
 }
 
 /// A scene with its part of the picture.
-struct Stage<'s> {
+struct StagedScene<'s> {
     scene: &'s Scene,
     camera: Camera,
     flat: bool,
-    fit: Fit,
+    fit: Framing,
     centre: Pixel,
     /// Half the size of a joint in pixels.
     size: f64,
 }
 
-impl<'s> Stage<'s> {
-    fn new(scene: &'s Scene, view: View, fit: Fit, centre: Pixel) -> Self {
-        let mut stage = Stage {
+impl<'s> StagedScene<'s> {
+    fn new(scene: &'s Scene, view: Viewpoint, fit: Framing, centre: Pixel) -> Self {
+        let mut stage = StagedScene {
             scene,
             camera: Camera::new(view, scene.normal),
-            flat: view == View::Natural && scene.normal.is_some(),
+            flat: view == Viewpoint::Natural && scene.normal.is_some(),
             fit,
             centre,
             size: 0.0,
@@ -192,10 +192,10 @@ impl<'s> Stage<'s> {
     }
 
     /// A line in pieces so short that joints stand before it here and behind it there.
-    fn line(&self, points: &[Triple], layer: Layer, style: Style) -> Vec<Piece> {
+    fn line(&self, points: &[Triple], layer: Layer, style: OutlineStyle) -> Vec<Painted> {
         let pairs = points.windows(2);
         let parts = pairs.flat_map(|pair| self.parts(Vector3(pair[0]), Vector3(pair[1])));
-        let pieces = parts.map(|part| Piece {
+        let pieces = parts.map(|part| Painted {
             layer,
             near: self.near(&part),
             shape: self.open(&part, style),
@@ -218,29 +218,29 @@ impl<'s> Stage<'s> {
         self.size / self.fit.scale
     }
 
-    fn polygon(&self, points: &[Vector3<f64>], style: Style) -> Shape {
+    fn polygon(&self, points: &[Vector3<f64>], style: OutlineStyle) -> Shape {
         Shape::polygon(points.iter().map(|point| self.pixel(point)), style)
     }
 
-    fn open(&self, points: &[Vector3<f64>], style: Style) -> Shape {
+    fn open(&self, points: &[Vector3<f64>], style: OutlineStyle) -> Shape {
         Shape::line(points.iter().map(|point| self.pixel(point)), style)
     }
 
     /// The mechanism, what covers the other last.
     fn shapes(&self) -> impl Iterator<Item = Shape> + use<> {
-        let mut pieces: Vec<Piece> = beside::under(self);
+        let mut pieces: Vec<Painted> = beside::under(self);
         for (i, of) in self.scene.bodies.iter().enumerate() {
             pieces.extend(body(self, i, of));
         }
         for rod in &self.scene.rods {
-            pieces.extend(self.line(&rod.ends, Layer::Body, Style::line(INK, 3.0)));
+            pieces.extend(self.line(&rod.ends, Layer::Body, OutlineStyle::line(INK, 3.0)));
             if rod.driven {
                 // a cylinder about its piston rod
                 let [from, to] = rod.ends.map(Vector3);
                 let barrel = [0.12, 0.58].map(|part| (from + (to - from).times(part)).0);
-                let style = Style::line(DRIVEN, 8.0);
+                let style = OutlineStyle::line(DRIVEN, 8.0);
                 pieces.extend(
-                    (self.line(&barrel, Layer::Slide, style).into_iter()).map(|piece| Piece {
+                    (self.line(&barrel, Layer::Slide, style).into_iter()).map(|piece| Painted {
                         near: piece.near + 0.5 * self.metres(),
                         ..piece
                     }),
@@ -257,15 +257,15 @@ impl<'s> Stage<'s> {
         }
         for path in self.scene.paths.iter().filter(|path| path.points.len() > 1) {
             pieces.extend(match self.flat {
-                true => vec![Piece {
+                true => vec![Painted {
                     layer: Layer::Path,
                     near: 0.0,
                     shape: Shape::line(
                         path.points.iter().map(|point| self.pixel(&Vector3(*point))),
-                        Style::line(PATH, 1.6),
+                        OutlineStyle::line(PATH, 1.6),
                     ),
                 }],
-                false => self.line(&path.points, Layer::Path, Style::line(PATH, 1.6)),
+                false => self.line(&path.points, Layer::Path, OutlineStyle::line(PATH, 1.6)),
             });
         }
         sort_by(&mut pieces, |a, b| match self.flat {
@@ -277,10 +277,10 @@ impl<'s> Stage<'s> {
 }
 
 /// A mechanism in several places in the axes of a chart, the last of them in full.
-pub(crate) fn strobe(scenes: &[Scene], view: View, fit: Fit, centre: Pixel) -> Vec<Shape> {
+pub(crate) fn strobe(scenes: &[Scene], view: Viewpoint, fit: Framing, centre: Pixel) -> Vec<Shape> {
     let mut shapes = Vec::new();
     for (i, scene) in scenes.iter().enumerate() {
-        let stage = Stage::new(scene, view, fit, centre);
+        let stage = StagedScene::new(scene, view, fit, centre);
         let part = if i + 1 < scenes.len() { FAINT } else { 1.0 };
         shapes.extend(stage.shapes().map(|shape| shape.faint(part)));
     }
@@ -291,17 +291,17 @@ fn draw(
     panel: &Panel,
     settings: &DrawingSettings,
     corner: Pixel,
-    fit: Fit,
+    fit: Framing,
     size: Option<f64>,
 ) -> Vec<Shape> {
     let centre = (corner.0 + WIDTH / 2.0, corner.1 + HEIGHT / 2.0);
-    let mut stage = Stage::new(&panel.scene, settings.view, fit, centre);
+    let mut stage = StagedScene::new(&panel.scene, settings.view, fit, centre);
     stage.size = size.unwrap_or(stage.size);
     let mut shapes = Vec::new();
     for scene in &panel.ghosts {
-        let ghost = Stage {
+        let ghost = StagedScene {
             size: stage.size,
-            ..Stage::new(scene, settings.view, fit, centre)
+            ..StagedScene::new(scene, settings.view, fit, centre)
         };
         shapes.extend(ghost.shapes().map(|shape| shape.faint(FAINT)));
     }
@@ -313,7 +313,10 @@ fn draw(
     for (name, end) in stage.camera.triad() {
         let to = |part: f64| (from.0 + part * end.0, from.1 - part * end.1);
         let letter = to(27.0);
-        shapes.push(Shape::line([from, to(19.0)], Style::line(GROUND, 1.5)));
+        shapes.push(Shape::line(
+            [from, to(19.0)],
+            OutlineStyle::line(GROUND, 1.5),
+        ));
         let at = (letter.0, letter.1 + 4.0);
         shapes.push(Shape::words(name, at, 11.0, Anchor::Middle));
     }
@@ -326,7 +329,7 @@ fn draw(
 }
 
 /// A joint is as large as its neighbours leave room for, within what can be seen and what does not hide the links.
-fn symbol_size(stage: &Stage) -> f64 {
+fn symbol_size(stage: &StagedScene) -> f64 {
     let places: Vec<Pixel> = (stage.scene.joints.iter())
         .map(|joint| stage.pixel(&Vector3(joint.at)))
         .collect();
@@ -344,11 +347,11 @@ fn symbol_size(stage: &Stage) -> f64 {
 
 /// Half the size of a joint in m, as the first view of a scene has it.
 pub(crate) fn joint_size(scene: &Scene) -> f64 {
-    let fit = Fit::of(&Camera::new(View::Natural, scene.normal), [scene]);
-    Stage::new(scene, View::Natural, fit, (0.0, 0.0)).metres()
+    let fit = Framing::of(&Camera::new(Viewpoint::Natural, scene.normal), [scene]);
+    StagedScene::new(scene, Viewpoint::Natural, fit, (0.0, 0.0)).metres()
 }
 
-fn body(stage: &Stage, index: usize, body: &BodyShape) -> Vec<Piece> {
+fn body(stage: &StagedScene, index: usize, body: &BodyShape) -> Vec<Painted> {
     let mut pieces = Vec::new();
     let colour = match body.ground {
         true => GROUND,
@@ -360,11 +363,11 @@ fn body(stage: &Stage, index: usize, body: &BodyShape) -> Vec<Piece> {
     let plate = !(body.ground && stage.flat) && outline.len() > 2;
     if plate {
         let (fill, edge) = if body.ground { (0.12, 1.0) } else { (0.3, 2.0) };
-        let style = Style {
+        let style = OutlineStyle {
             fill: Some((colour, fill)),
-            ..Style::line(colour, edge)
+            ..OutlineStyle::line(colour, edge)
         };
-        pieces.push(Piece {
+        pieces.push(Painted {
             layer: Layer::Body,
             near: stage.near(&outline),
             shape: stage.polygon(&outline, style),
@@ -381,7 +384,7 @@ fn body(stage: &Stage, index: usize, body: &BodyShape) -> Vec<Piece> {
         (_, _, true) => 3.0,
         _ => 4.0,
     };
-    let style = Style::line(colour, width);
+    let style = OutlineStyle::line(colour, width);
     let lines = body.lines.iter();
     pieces.extend(lines.flat_map(|points| stage.line(points, Layer::Body, style)));
     // a platform has no lines of a table: its corners are all that is known of it

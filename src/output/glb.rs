@@ -8,12 +8,12 @@ mod file;
 mod solids;
 
 use super::canvas::{Colour, INK};
-use super::drawing::{COLOURS, Camera, DRIVEN, GROUND, PATH, View, joint_size};
+use super::drawing::{COLOURS, Camera, DRIVEN, GROUND, PATH, Viewpoint, joint_size};
 use crate::geometry::{Quaternion, Rotation, Vector3};
-use crate::scene::{BodyShape, JointShape, Scene, Symbol, across};
-use file::{File, Placed};
+use crate::scene::{BodyShape, JointShape, JointSymbol, Scene, across};
+use file::{File, SolidPlacement};
 
-type Point = Vector3<f64>;
+type Position = Vector3<f64>;
 
 /// The mechanism of the first scene as GLB; several scenes are an animation that lasts so many seconds.
 pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
@@ -31,11 +31,11 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
         };
         let radius = if body.ground { 0.2 } else { 0.35 };
         let bars = scenes.iter().map(|scene| bars(&scene.bodies[index]));
-        let bars: Vec<Vec<[Point; 2]>> = bars.collect();
+        let bars: Vec<Vec<[Position; 2]>> = bars.collect();
         for k in 0..bars[0].len() {
             // a link that a slide draws out may begin at nothing
             let ends = bars.iter().map(|of| of.get(k).copied());
-            let ends = ends.map(|ends| ends.unwrap_or([Point::zero(); 2]));
+            let ends = ends.map(|ends| ends.unwrap_or([Position::zero(); 2]));
             let places = along(first, ends, thick(radius));
             file.node(&body.name, &cylinder, (colour, 1.0), places);
         }
@@ -50,9 +50,9 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
         let places = along(first, ends(), thick(0.25));
         file.node(&rod.name, &cylinder, (colour, 1.0), places);
         for end in [0, 1] {
-            let place = |ends: [Point; 2]| Placed {
+            let place = |ends: [Position; 2]| SolidPlacement {
                 scale: [0.6 * size; 3],
-                ..Placed::at(ends[end])
+                ..SolidPlacement::at(ends[end])
             };
             let places = ends().map(place).collect();
             file.node(&rod.name, &solids::ball(), (INK, 1.0), places);
@@ -82,7 +82,7 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
             &path.name,
             &solids::line(&path.points),
             (PATH, 1.0),
-            vec![Placed::at(Point::zero())],
+            vec![SolidPlacement::at(Position::zero())],
         );
     }
     let times: Vec<f64> = (0..scenes.len())
@@ -95,7 +95,7 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
 fn upright(scene: &Scene) -> Rotation<f64> {
     match scene.normal {
         Some(normal) => {
-            let camera = Camera::new(View::Natural, Some(normal));
+            let camera = Camera::new(Viewpoint::Natural, Some(normal));
             Rotation([camera.right, camera.up, camera.towards]).transpose()
         }
         None => Rotation([
@@ -108,13 +108,13 @@ fn upright(scene: &Scene) -> Rotation<f64> {
 }
 
 /// The straight pieces of a body.
-fn bars(body: &BodyShape) -> Vec<[Point; 2]> {
+fn bars(body: &BodyShape) -> Vec<[Position; 2]> {
     let lines = body.lines.iter();
     let pairs = lines.flat_map(|line| {
         line.windows(2)
             .map(|pair| [Vector3(pair[0]), Vector3(pair[1])])
     });
-    let pairs: Vec<[Point; 2]> = pairs.collect();
+    let pairs: Vec<[Position; 2]> = pairs.collect();
     match (&body.corners[..], pairs.is_empty()) {
         ([a, b], true) => vec![[Vector3(*a), Vector3(*b)]],
         _ => pairs,
@@ -122,8 +122,12 @@ fn bars(body: &BodyShape) -> Vec<[Point; 2]> {
 }
 
 /// Placements of a solid that stretches from z = 0 to 1, from end to end, so wide in x and y, without spin on the way.
-fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>, [x, y]: [f64; 2]) -> Vec<Placed> {
-    let mut before: Option<(Point, Quaternion<f64>)> = None;
+fn along(
+    scene: &Scene,
+    ends: impl Iterator<Item = [Position; 2]>,
+    [x, y]: [f64; 2],
+) -> Vec<SolidPlacement> {
+    let mut before: Option<(Position, Quaternion<f64>)> = None;
     let places = ends.map(|[from, to]| {
         let length = (to - from).norm();
         if length > 0.0 {
@@ -134,7 +138,7 @@ fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>, [x, y]: [f64; 2]
             };
             before = Some((along, turn));
         }
-        Placed {
+        SolidPlacement {
             at: from,
             turn: before.map_or(Quaternion::identity(), |(_, turn)| turn),
             scale: [x, y, length],
@@ -144,7 +148,7 @@ fn along(scene: &Scene, ends: impl Iterator<Item = [Point; 2]>, [x, y]: [f64; 2]
 }
 
 /// z along a direction, and x across it in the plane of motion.
-fn beginning(scene: &Scene, along: &Point) -> Rotation<f64> {
+fn beginning(scene: &Scene, along: &Position) -> Rotation<f64> {
     let normal = scene.normal.map_or(Vector3::unit(2), Vector3);
     let side = along.cross(&normal);
     let right = match side.norm() > 1e-6 {
@@ -155,7 +159,7 @@ fn beginning(scene: &Scene, along: &Point) -> Rotation<f64> {
 }
 
 /// The shortest way from one direction to another.
-fn shortest(from: &Point, to: &Point) -> Quaternion<f64> {
+fn shortest(from: &Position, to: &Position) -> Quaternion<f64> {
     let w = 1.0 + from.dot(to);
     match w > 1e-9 {
         true => {
@@ -175,25 +179,25 @@ fn symbol(joint: &JointShape) -> Vec<(solids::Solid, Option<usize>, [f64; 3])> {
         (solids::cylinder(), Some(axis), [radius, radius, half])
     };
     match joint.kind {
-        Symbol::Revolute | Symbol::Helical => vec![round(0.75, 1.0, 0)],
-        Symbol::Cylindrical => vec![round(0.75, 1.8, 0)],
-        Symbol::Prismatic => vec![(solids::block(), Some(0), [0.8, 0.8, 1.4])],
-        Symbol::Universal => vec![round(0.4, 1.2, 0), round(0.4, 1.2, 1)],
-        Symbol::Spherical => vec![(solids::standing_ball(), None, [0.9, 0.9, 0.9])],
-        Symbol::Planar => vec![(solids::block(), Some(0), [1.5, 1.5, 0.3])],
-        Symbol::Rigid => vec![],
+        JointSymbol::Revolute | JointSymbol::Helical => vec![round(0.75, 1.0, 0)],
+        JointSymbol::Cylindrical => vec![round(0.75, 1.8, 0)],
+        JointSymbol::Prismatic => vec![(solids::block(), Some(0), [0.8, 0.8, 1.4])],
+        JointSymbol::Universal => vec![round(0.4, 1.2, 0), round(0.4, 1.2, 1)],
+        JointSymbol::Spherical => vec![(solids::standing_ball(), None, [0.9, 0.9, 0.9])],
+        JointSymbol::Planar => vec![(solids::block(), Some(0), [1.5, 1.5, 0.3])],
+        JointSymbol::Rigid => vec![],
     }
 }
 
 /// A body's corners as a plate with its places, if they keep their distances and do not lie in one line.
-fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<Placed>)> {
-    let corners = |scene: &Scene| -> Vec<Point> {
+fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<SolidPlacement>)> {
+    let corners = |scene: &Scene| -> Vec<Position> {
         let corners = scene.bodies[index].corners.iter();
         corners.map(|corner| Vector3(*corner)).collect()
     };
     let first = corners(&scenes[0]);
     let size = joint_size(&scenes[0]);
-    let frame = |corners: &[Point], [a, b]: [usize; 2]| {
+    let frame = |corners: &[Position], [a, b]: [usize; 2]| {
         let x = corners[a] - corners[0];
         let z = x.cross(&(corners[b] - corners[0]));
         let (x, z) = (x.times(1.0 / x.norm()), z.times(1.0 / z.norm()));
@@ -207,7 +211,7 @@ fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<Placed>)>
     };
     let b = (1..first.len()).find(wide)?;
     let to = frame(&first, [a, b]);
-    let local = |corners: &[Point], to: &Rotation<f64>| -> Vec<Point> {
+    let local = |corners: &[Position], to: &Rotation<f64>| -> Vec<Position> {
         let offsets = corners.iter().map(|corner| *corner - corners[0]);
         offsets.map(|offset| to.inverse_rotate(&offset)).collect()
     };
@@ -224,7 +228,7 @@ fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<Placed>)>
         if apart.any(|apart| apart > 1e-6 * size) {
             return None;
         }
-        places.push(Placed {
+        places.push(SolidPlacement {
             at: now[0],
             turn: Quaternion::from_rotation(&turned),
             scale: [1.0; 3],

@@ -2,7 +2,7 @@
 
 mod mathml;
 
-use super::document::{Align, Block, Cell, Document, Piece, Section, Table, pieces};
+use super::document::{Align, Block, Cell, Document, Inline, Section, Table, pieces};
 
 /// Light or dark as the reader's system is set; nothing is loaded and no script runs.
 const HEAD: &str = r#"<!doctype html>
@@ -153,8 +153,8 @@ fn lines(text: &str) -> String {
 /// A text in which nothing but names between back quotes has a meaning.
 fn inline(text: &str) -> String {
     let pieces = pieces(text).into_iter().map(|piece| match piece {
-        Piece::Plain(text) => escaped(text),
-        Piece::Quoted(text) => format!("<code>{}</code>", escaped(text)),
+        Inline::Plain(text) => escaped(text),
+        Inline::Quoted(text) => format!("<code>{}</code>", escaped(text)),
     });
     pieces.collect()
 }

@@ -11,7 +11,7 @@ use super::report::{Remarks, Report};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(rename = "{R} of a command"))]
-pub struct Answer<R> {
+pub struct AnswerJson<R> {
     /// Fields before the report.
     #[serde(flatten)]
     pub envelope: Envelope,
@@ -49,10 +49,10 @@ impl Envelope {
 }
 
 /// Fields that envelope and report have in common are read for both.
-impl<'de, R: DeserializeOwned> Deserialize<'de> for Answer<R> {
+impl<'de, R: DeserializeOwned> Deserialize<'de> for AnswerJson<R> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let value = Value::deserialize(from)?;
-        Ok(Answer {
+        Ok(AnswerJson {
             envelope: Envelope::deserialize(&value).map_err(D::Error::custom)?,
             report: serde_json::from_value(value).map_err(D::Error::custom)?,
         })
@@ -68,7 +68,7 @@ impl<R: Report + Serialize> JsonReport for R {}
 /// zero.
 pub fn render(report: &impl JsonReport) -> String {
     let envelope = Envelope::of(report);
-    written(&Answer { envelope, report })
+    written(&AnswerJson { envelope, report })
 }
 
 fn written(answer: &impl Serialize) -> String {

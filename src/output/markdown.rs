@@ -1,6 +1,6 @@
 //! Documents as Markdown (CommonMark with the tables of GitHub).
 
-use super::document::{Align, Block, Document, Piece, Section, Table, one_line, pieces};
+use super::document::{Align, Block, Document, Inline, Section, Table, one_line, pieces};
 
 /// The document as Markdown.
 pub fn render(document: &Document) -> String {
@@ -105,8 +105,8 @@ fn line(text: &str) -> String {
 /// A text within a line, in which nothing but names between back quotes has a meaning.
 fn inline(text: &str) -> String {
     let pieces = pieces(text).into_iter().map(|piece| match piece {
-        Piece::Plain(text) => escaped(text),
-        Piece::Quoted(text) => format!("`{}`", one_line(text)),
+        Inline::Plain(text) => escaped(text),
+        Inline::Quoted(text) => format!("`{}`", one_line(text)),
     });
     pieces.collect()
 }

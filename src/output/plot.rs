@@ -5,8 +5,8 @@ mod within;
 
 pub(super) use within::{broken, most};
 
-use super::canvas::{Anchor, Canvas, Colour, INK, Pixel, Shape, Style};
-use super::drawing::{Fit, View, strobe};
+use super::canvas::{Anchor, Canvas, Colour, INK, OutlineStyle, Pixel, Shape};
+use super::drawing::{Framing, Viewpoint, strobe};
 use super::quantity::{number, with_unit};
 use crate::algebra::SiUnit;
 use crate::number::real;
@@ -51,7 +51,7 @@ pub struct Heat {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strobe {
     /// View of the mechanism.
-    pub view: View,
+    pub view: Viewpoint,
     /// The places.
     pub scenes: Vec<Scene>,
     /// Its bounds, in m to the right and up.
@@ -60,7 +60,7 @@ pub struct Strobe {
 
 /// Curves over one pair of axes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Chart {
+pub struct LineChart {
     /// Title above it.
     pub title: String,
     /// The label of the horizontal axis, with its unit.
@@ -90,15 +90,15 @@ pub(super) fn label(name: &str, unit: SiUnit) -> String {
 }
 
 /// The charts one below the other.
-pub fn stacked(charts: &[Chart]) -> Canvas {
+pub fn stacked(charts: &[LineChart]) -> Canvas {
     sheet(None, 1, charts)
 }
 
 /// The charts side by side in columns, row after row, under a title.
-pub fn sheet(title: Option<&str>, columns: usize, charts: &[Chart]) -> Canvas {
+pub fn sheet(title: Option<&str>, columns: usize, charts: &[LineChart]) -> Canvas {
     let columns = columns.clamp(1, charts.len().max(1));
     let top = if title.is_some() { ABOVE } else { 0.0 };
-    let height = |row: &[Chart]| row.iter().map(height).fold(0.0, f64::max);
+    let height = |row: &[LineChart]| row.iter().map(height).fold(0.0, f64::max);
     let heights: Vec<f64> = charts.chunks(columns).map(height).collect();
     let mut canvas = Canvas {
         width: columns as f64 * WIDTH,
@@ -137,7 +137,7 @@ const SCALE: f64 = 190.0;
 
 /// Width and height of the axes in pixels; a map of colours whose units are as long along both axes is just as
 /// large as these.
-fn frame(chart: &Chart) -> [f64; 2] {
+fn frame(chart: &LineChart) -> [f64; 2] {
     const HIGHEST: f64 = 600.0;
     const LEAST: f64 = 40.0;
     let widest = WIDTH - LEFT - RIGHT;
@@ -152,14 +152,14 @@ fn frame(chart: &Chart) -> [f64; 2] {
     }
 }
 
-fn height(chart: &Chart) -> f64 {
+fn height(chart: &LineChart) -> f64 {
     let scale = if chart.heat.is_some() { SCALE } else { 0.0 };
     let legend = (chart.series.len() + chart.marks.len()) as f64 * LINE + scale;
     ABOVE + frame(chart)[1].max(legend) + BELOW
 }
 
 /// Ranges of the axes.
-fn ranges(chart: &Chart) -> [(f64, f64); 2] {
+fn ranges(chart: &LineChart) -> [(f64, f64); 2] {
     if let Some(heat) = &chart.heat {
         return [heat.x, heat.y];
     }
@@ -231,7 +231,7 @@ fn labels((low, high): (f64, f64), wanted: f64, degrees: bool) -> Vec<f64> {
 }
 
 /// Draws a chart with its upper left corner at the given point of the sheet.
-fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
+fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
     let [width, height] = frame(chart);
     let at = |x: f64, y: f64| (corner.0 + x, corner.1 + y);
     let title = at(LEFT + width / 2.0, ABOVE / 2.0 + 5.0);
@@ -242,7 +242,10 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
         let up = (p.1 - y.0) / (y.1 - y.0);
         at(LEFT + across * width, ABOVE + (1.0 - up) * height)
     };
-    let (grid, axis) = (Style::line(Colour(0xe1e1e1), 0.8), Style::line(INK, 1.0));
+    let (grid, axis) = (
+        OutlineStyle::line(Colour(0xe1e1e1), 0.8),
+        OutlineStyle::line(INK, 1.0),
+    );
     let mut ticks = |value: f64, ends: [(f64, f64); 2], out: Pixel, words: Pixel, anchor| {
         let [from, to] = ends.map(place);
         let beyond = |by: Pixel| (from.0 + by.0, from.1 + by.1);
@@ -283,7 +286,7 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
             for (i, value) in row.iter().enumerate().filter(|(_, x)| x.is_finite()) {
                 // a little of the next cell is covered, so that no seam shines through
                 let (right, top) = corner(i + 1, k + 1);
-                let filled = Style::filled(shade(value / heat.highest));
+                let filled = OutlineStyle::filled(shade(value / heat.highest));
                 let opposite = (right + 0.5, top - 0.5);
                 shapes.push(Shape::rectangle(corner(i, k), opposite, filled));
             }
@@ -291,7 +294,7 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
         line += scale(shapes, heat, |x, y| at(right + x, line + y));
     }
     if let Some(Strobe { view, scenes, .. }) = &chart.strobe {
-        let fit = Fit {
+        let fit = Framing {
             middle: (0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)),
             scale: width / (x.1 - x.0),
         };
@@ -321,7 +324,10 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &Chart) {
         for place in points.chain([at(right + 12.0, line)]) {
             let outline = SHAPES[i % SHAPES.len()].iter();
             let outline = outline.map(|(x, y)| (place.0 + x, place.1 + y));
-            shapes.push(Shape::line(outline, Style::line(Colour(0x333333), 1.5)));
+            shapes.push(Shape::line(
+                outline,
+                OutlineStyle::line(Colour(0x333333), 1.5),
+            ));
         }
         let beside = at(right + 32.0, line + 4.0);
         shapes.push(Shape::words(&marks.label, beside, SMALL, Anchor::Start));
@@ -342,7 +348,7 @@ fn scale(shapes: &mut Vec<Shape>, heat: &Heat, at: impl Fn(f64, f64) -> Pixel) -
     for band in 0..BANDS {
         let part = |k: i32| f64::from(k) / f64::from(BANDS);
         let (top, bottom) = (height(part(band + 1)), height(part(band)));
-        let filled = Style::filled(shade(0.5 * (part(band) + part(band + 1))));
+        let filled = OutlineStyle::filled(shade(0.5 * (part(band) + part(band + 1))));
         shapes.push(Shape::rectangle(at(0.0, top), at(24.0, bottom), filled));
     }
     for value in labels((0.0, heat.highest), 5.0, false) {

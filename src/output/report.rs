@@ -45,21 +45,21 @@ impl<R: Report + ?Sized> Report for &R {
 
 /// The values of a row. Only their values are written: numbers with all their digits, nothing for one that is not
 /// finite.
-pub type Record = Vec<Cell>;
+pub type RowCells = Vec<Cell>;
 
 /// Rows with the names of their columns.
 pub struct Rows<'a> {
     /// The names of the columns, with units.
     pub columns: Vec<String>,
     /// The rows, made as they are asked for.
-    pub rows: Box<dyn Iterator<Item = Record> + 'a>,
+    pub rows: Box<dyn Iterator<Item = RowCells> + 'a>,
 }
 
 impl<'a> Rows<'a> {
     /// Rows under the names of their columns.
     pub fn new(
         columns: impl IntoIterator<Item = String>,
-        rows: impl Iterator<Item = Record> + 'a,
+        rows: impl Iterator<Item = RowCells> + 'a,
     ) -> Self {
         Rows {
             columns: columns.into_iter().collect(),

@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 use super::document::{Align, Column, Document, Section, Table, cells};
 use super::report::{Report, Rows};
 use crate::algebra::SiUnit;
-use crate::analysis::rounding::Snap;
+use crate::analysis::rounding::Snapped;
 use crate::description::count;
 use crate::mechanism::{Mechanism, Rounded, Rounding};
 
@@ -104,7 +104,7 @@ fn small_angle(angle: f64) -> String {
 }
 
 /// The exact file, with what was changed.
-impl Report for Snap {
+impl Report for Snapped {
     fn document(&self) -> Document {
         let answer = match &self.rounding {
             Some(rounding) => sentence(rounding),

@@ -6,21 +6,21 @@ use std::collections::BTreeMap;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
-use super::json::Answer;
+use super::json::AnswerJson;
 use crate::algebra::{Expression, SiUnit};
 use crate::analysis::workspace::Cells;
 use crate::system::Named;
 
 /// A report as part of a schema: [`of`] its type.
-pub type Part = fn(&mut SchemaGenerator) -> Schema;
+pub type SchemaOf = fn(&mut SchemaGenerator) -> Schema;
 
 /// The JSON of a command that answers with this report.
 pub fn of<R: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
-    generator.subschema_for::<Answer<R>>()
+    generator.subschema_for::<AnswerJson<R>>()
 }
 
 /// The schema of a command that answers with one of these reports.
-pub fn schema(parts: &[Part]) -> String {
+pub fn schema(parts: &[SchemaOf]) -> String {
     let settings = SchemaSettings::draft2020_12().for_serialize();
     let mut generator = settings.into_generator();
     let parts: Vec<Schema> = parts.iter().map(|part| part(&mut generator)).collect();

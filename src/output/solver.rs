@@ -6,8 +6,8 @@ mod sections;
 pub use language::{Language, Precision};
 
 use crate::analysis::solver::{Component, LEAST_PIVOT, Solver};
-use crate::ask::Example;
-use sections::Writer;
+use crate::ask::SampleAnswer;
+use sections::OperationWriter;
 
 /// Settings of generated code.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl Code {
     /// The solver.
     pub fn solver(&self, solver: &Solver) -> String {
         let language = self.language;
-        let writer = Writer::new(self, solver);
+        let writer = OperationWriter::new(self, solver);
         let values = |of: &[Component]| self.numbers(of.iter().map(|component| component.value));
         let sections = [
             ("heading", self.heading(solver)),
@@ -56,7 +56,7 @@ impl Code {
 
     /// A program that runs the solver through configurations found by the library, each from the one before it, and
     /// fails if a number differs by more than it should.
-    pub fn test(&self, solver: &Solver, examples: &[Example]) -> String {
+    pub fn test(&self, solver: &Solver, examples: &[SampleAnswer]) -> String {
         let rows = examples.iter().map(|(inputs, state)| {
             let row = self.numbers(inputs.iter().chain(state).copied());
             format!("    @open@{}@shut@,\n", row.trim_end().replace('\n', ""))

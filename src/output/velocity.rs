@@ -6,8 +6,8 @@ use super::quantity::{metres, number, size, triple};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::velocity::{
-    Axis, FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, JointRate, Transmission,
-    VelocityReport,
+    FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, JacobianAxis, JointRate,
+    Transmission, VelocityReport,
 };
 use crate::description::{count, listed};
 
@@ -189,7 +189,7 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
     if jacobian.rows.is_empty() || jacobian.columns.is_empty() {
         return section.text("nothing held drives an output");
     }
-    let named = |axis: &Axis| format!("{} ({})", axis.name, axis.unit);
+    let named = |axis: &JacobianAxis| format!("{} ({})", axis.name, axis.unit);
     let rows = Table::of(jacobian.rows.iter().zip(&jacobian.entries));
     let rows = rows.words("output", |(axis, _)| named(axis));
     let columns = jacobian.columns.iter().enumerate();

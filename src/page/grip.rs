@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::request::{Hold, Part};
-use super::{Refusal, nothing};
+use super::request::{Grip, Hold};
+use super::{RefusedReply, nothing};
 use crate::ask::Steering;
 use crate::geometry::Vector3;
 use crate::mechanism::{Frame, Mechanism, Point};
 
 /// A place of a body, or of a rod, which its ends carry in proportion; with the name of the point if it is one.
-pub fn grab(steering: &Steering, part: Part, at: [f64; 3]) -> Result<Value, Refusal> {
+pub fn grab(steering: &Steering, part: Grip, at: [f64; 3]) -> Result<Value, RefusedReply> {
     let mechanism = steering.mechanism();
     let bodies = mechanism.bodies();
     let held = |frame: Frame, at: Vector3<f64>, share: f64| {
@@ -30,11 +30,11 @@ pub fn grab(steering: &Steering, part: Part, at: [f64; 3]) -> Result<Value, Refu
     };
     let at = Vector3(at);
     match part {
-        Part::Body(body) => {
+        Grip::Body(body) => {
             let (hold, point) = held(frame(mechanism, body)?, at, 1.0);
             Ok(json!({ "grip": [hold], "name": point.name(mechanism) }))
         }
-        Part::Rod(rod) => {
+        Grip::Rod(rod) => {
             let mut rods = mechanism
                 .closures()
                 .iter()
@@ -62,7 +62,7 @@ pub fn grab(steering: &Steering, part: Part, at: [f64; 3]) -> Result<Value, Refu
 }
 
 /// The points of a grip with their shares.
-pub fn points(mechanism: &Mechanism, grip: &[Hold]) -> Result<Vec<(Point, f64)>, Refusal> {
+pub fn points(mechanism: &Mechanism, grip: &[Hold]) -> Result<Vec<(Point, f64)>, RefusedReply> {
     let points = grip.iter().map(|hold| {
         let frame = frame(mechanism, hold.body)?;
         let offset = hold.offset;
@@ -71,7 +71,7 @@ pub fn points(mechanism: &Mechanism, grip: &[Hold]) -> Result<Vec<(Point, f64)>,
     points.collect()
 }
 
-fn frame(mechanism: &Mechanism, body: usize) -> Result<Frame, Refusal> {
+fn frame(mechanism: &Mechanism, body: usize) -> Result<Frame, RefusedReply> {
     let bodies = mechanism.bodies();
     let body = bodies
         .get(body)

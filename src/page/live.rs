@@ -3,14 +3,14 @@
 use serde_json::{Value, json};
 
 use super::request::Press;
-use super::{Refusal, nothing, words};
+use super::{RefusedReply, nothing, words};
 use crate::algebra::SiUnit;
 use crate::ask::Steering;
 use crate::geometry::Vector3;
 use crate::mechanism::Point;
 use crate::output::drawing::movement;
 use crate::output::quantity::{quantity, three_digits};
-use crate::scene::{Arrow, Scene};
+use crate::scene::{ForceArrow, Scene};
 use crate::solve::Watch;
 
 const TRANSMISSION: &str = "transmission";
@@ -74,7 +74,7 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
         json!([force.name, known.unwrap_or_else(|| UNKNOWN.into())])
     });
     let scene = scene.with_forces(mechanism, steering.at(), &report);
-    let sizes = |of: fn(&Arrow) -> [f64; 3], unit| -> Vec<String> {
+    let sizes = |of: fn(&ForceArrow) -> [f64; 3], unit| -> Vec<String> {
         let arrows = scene.arrows.iter();
         arrows
             .map(|arrow| three_digits(Vector3(of(arrow)).norm(), unit))
@@ -90,7 +90,7 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
 }
 
 /// The freedoms gained at a singular configuration, with the mechanism on both sides of each.
-pub fn gained(steering: &Steering, watch: &Watch) -> Result<Value, Refusal> {
+pub fn gained(steering: &Steering, watch: &Watch) -> Result<Value, RefusedReply> {
     let mechanism = steering.mechanism();
     let gained = steering.gained(watch);
     let gained = gained.map_err(|error| nothing(&words::refused(&steering.question(), &error)))?;

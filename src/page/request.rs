@@ -14,7 +14,7 @@ pub enum Request {
     /// Takes a point of a body or a rod, by its number in the scene, where it is in ground: what holds it.
     Grab {
         #[serde(flatten)]
-        part: Part,
+        part: Grip,
         at: [f64; 3],
     },
     /// Pulls such a point to a place in ground, both seen along a direction.
@@ -37,7 +37,7 @@ pub enum Request {
     /// The ways to go on from the singular configuration where the mechanism is or was stopped.
     Ways,
     /// The number of an expression, in rad, m or N.
-    Number { text: String, measure: Measured },
+    Number { text: String, measure: MeasureKind },
     /// Only shows a configuration, with the frames that have names if they are asked for.
     Show {
         at: State,
@@ -63,7 +63,7 @@ pub enum Request {
 
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Measured {
+pub enum MeasureKind {
     Angle,
     Length,
     Force,
@@ -71,7 +71,7 @@ pub enum Measured {
 
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Part {
+pub enum Grip {
     Body(usize),
     Rod(usize),
 }

@@ -1,6 +1,6 @@
 //! Results of analyses in the scene.
 
-use super::{Arrow, Axis, Mark, Scene, Trace, Triple, least_and_greatest};
+use super::{ForceArrow, Mark, Scene, ScrewAxis, Trace, Triple, least_and_greatest};
 use crate::analysis::singularities::SingularitiesReport;
 use crate::analysis::statics::StaticsReport;
 use crate::analysis::velocity::VelocityReport;
@@ -74,7 +74,7 @@ impl Scene {
                     let off = Vector3(middle) - Vector3(point);
                     (Vector3(point) + along.times(off.dot(&along))).0
                 });
-                Axis {
+                ScrewAxis {
                     name: space.body.clone(),
                     at,
                     along: screw.direction,
@@ -98,7 +98,7 @@ impl Scene {
                 continue;
             };
             let pose = mechanism.transform(Frame::Ground, point.frame, at);
-            self.arrows.push(Arrow {
+            self.arrows.push(ForceArrow {
                 name: load.frame.clone(),
                 applied: true,
                 at: point.placed(&pose).0,
@@ -108,7 +108,7 @@ impl Scene {
         }
         for reaction in report.closures.iter().chain(&report.joints) {
             // joints that meet pass on the same force
-            let same = |arrow: &Arrow| {
+            let same = |arrow: &ForceArrow| {
                 let apart = |a: Triple, b: Triple| (Vector3(a) - Vector3(b)).norm();
                 let size = Vector3(reaction.force).norm();
                 !arrow.applied
@@ -116,7 +116,7 @@ impl Scene {
                     && apart(arrow.force, reaction.force) <= 1e-9 * size
             };
             if !self.arrows.iter().any(same) {
-                self.arrows.push(Arrow {
+                self.arrows.push(ForceArrow {
                     name: reaction.name.clone(),
                     applied: false,
                     at: reaction.point,

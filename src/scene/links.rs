@@ -1,6 +1,6 @@
 //! The links of a chain along the common normals of its table, and the joints between them.
 
-use super::{JointShape, Scene, Symbol, close};
+use super::{JointShape, JointSymbol, Scene, close};
 use crate::description::Role;
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Convention, Frame, Mechanism};
@@ -64,10 +64,10 @@ impl Scene {
             }
             let kind = match (turns, slides) {
                 (false, false) => continue,
-                (true, false) => Symbol::Revolute,
-                (false, true) => Symbol::Prismatic,
-                (true, true) if row.joints().len() > 1 => Symbol::Cylindrical,
-                (true, true) => Symbol::Helical,
+                (true, false) => JointSymbol::Revolute,
+                (false, true) => JointSymbol::Prismatic,
+                (true, true) if row.joints().len() > 1 => JointSymbol::Cylindrical,
+                (true, true) => JointSymbol::Helical,
             };
             let joints = row.joints();
             let driven =
@@ -99,8 +99,8 @@ impl Scene {
         for joint in &mut self.joints {
             let on_ground = joint.bodies.map(|body| self.bodies[body].ground);
             let block = match (joint.kind, on_ground) {
-                (Symbol::Prismatic, [true, false]) => joint.bodies[1],
-                (Symbol::Prismatic, [false, true]) => joint.bodies[0],
+                (JointSymbol::Prismatic, [true, false]) => joint.bodies[1],
+                (JointSymbol::Prismatic, [false, true]) => joint.bodies[0],
                 _ => continue,
             };
             let (at, axis) = (Vector3(joint.at), Vector3(joint.axes[0]));
@@ -137,16 +137,16 @@ impl Scene {
         let mut joined: Vec<JointShape> = Vec::new();
         for joint in self.joints.drain(from..) {
             let meets = |before: &&mut JointShape| {
-                joint.kind == Symbol::Revolute
-                    && matches!(before.kind, Symbol::Revolute | Symbol::Universal)
+                joint.kind == JointSymbol::Revolute
+                    && matches!(before.kind, JointSymbol::Revolute | JointSymbol::Universal)
                     && before.bodies[1] == joint.bodies[0]
                     && close(&Vector3(before.at), &Vector3(joint.at))
             };
             match joined.last_mut().filter(meets) {
                 Some(before) => {
                     before.kind = match before.kind {
-                        Symbol::Revolute => Symbol::Universal,
-                        _ => Symbol::Spherical,
+                        JointSymbol::Revolute => JointSymbol::Universal,
+                        _ => JointSymbol::Spherical,
                     };
                     before.names.extend(joint.names);
                     before.axes.extend(joint.axes);

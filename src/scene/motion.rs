@@ -9,7 +9,7 @@ use crate::number::{real, sorting::sort_by};
 
 /// A row that turns a body about an axis: the body it turns on, the body turned, a point of the axis, the axis, and the
 /// angle.
-struct Turned<'m> {
+struct TurnedPart<'m> {
     on: usize,
     body: usize,
     at: Vector3<f64>,
@@ -70,7 +70,7 @@ impl Scene {
         pose: &impl Fn(Frame) -> Pose<f64>,
         number: &impl Fn(Frame) -> usize,
     ) {
-        let mut turned: Vec<Turned> = Vec::new();
+        let mut turned: Vec<TurnedPart> = Vec::new();
         for (chain, part) in mechanism.dimensions().chains.iter().enumerate() {
             let link = |row: usize| Frame::Link { chain, row };
             for (i, row) in part.rows.iter().enumerate() {
@@ -81,7 +81,7 @@ impl Scene {
                     Convention::Modified => pose(link(i + 1)),
                     Convention::Standard => pose(link(i)),
                 };
-                turned.push(Turned {
+                turned.push(TurnedPart {
                     on: number(link(i)),
                     body: number(link(i + 1)),
                     at: frame.position,
@@ -109,7 +109,7 @@ impl Scene {
                     continue;
                 }
                 let second = distance / (1.0 - ratio);
-                let wheel = |(of, radius): (&Turned, f64)| Wheel {
+                let wheel = |(of, radius): (&TurnedPart, f64)| Wheel {
                     body: of.body,
                     at: of.at.0,
                     axis: of.axis.0,

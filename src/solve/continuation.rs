@@ -21,7 +21,7 @@ mod place;
 use crate::number::tolerance::SOLVED;
 pub use place::Place;
 
-use crate::linear::{Decomposition, Rows, dot, norm};
+use crate::linear::{Decomposition, RowGroup, dot, norm};
 
 /// A set of solutions with one freedom, on a manifold of points with tangent coordinates.
 pub trait SolutionCurve {
@@ -35,7 +35,7 @@ pub trait SolutionCurve {
     /// F and its Jacobian at a point, column-major, rows × unknowns.
     fn linearise(&mut self, at: &Self::Point) -> (Vec<f64>, Vec<f64>);
     /// F and the groups of rows of its Jacobian, if that is large.
-    fn linearise_groups(&mut self, _: &Self::Point) -> Option<(Vec<f64>, Vec<Rows>)> {
+    fn linearise_groups(&mut self, _: &Self::Point) -> Option<(Vec<f64>, Vec<RowGroup>)> {
         None
     }
     /// at ⊕ step.
@@ -348,7 +348,7 @@ pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
 }
 
 /// Relative change of a group of rows, by its own inverse; `None` if it leaves more freedoms than one.
-fn group_change(before: &Rows, after: &Rows) -> Option<f64> {
+fn group_change(before: &RowGroup, after: &RowGroup) -> Option<f64> {
     if before == after {
         return Some(0.0);
     }

@@ -27,20 +27,20 @@ pub struct Integrator {
     end: f64,
     /// Steps made, a state's change along which f changes most, and how often in a row that limited the step.
     steps: usize,
-    steepest: State,
+    steepest: Phase,
     limited: usize,
 }
 
-type State = Vec<f64>;
+type Phase = Vec<f64>;
 
 /// A method that keeps its last step.
 trait Method {
-    fn begin(&mut self, flow: &Cells, span: [f64; 2], state: &State) -> Result<(), TooShort>;
+    fn begin(&mut self, flow: &SharedFlow, span: [f64; 2], state: &Phase) -> Result<(), TooShort>;
     /// One attempt of a step; returns the length of the next one.
-    fn advance(&mut self, flow: &Cells, end: f64) -> Result<f64, TooShort>;
+    fn advance(&mut self, flow: &SharedFlow, end: f64) -> Result<f64, TooShort>;
     fn time(&self) -> f64;
     fn state(&self) -> &[f64];
-    fn within(&mut self, time: f64) -> Option<State>;
+    fn within(&mut self, time: f64) -> Option<Phase>;
     /// Time and state before the last step.
     fn before(&self) -> (f64, &[f64]);
 }
@@ -55,17 +55,22 @@ impl<M, const N: usize> Method for Over<M, N>
 where
     M: OrdinaryNumericalMethod<f64, [f64; N]> + Interpolation<f64, [f64; N]>,
 {
-    fn begin(&mut self, flow: &Cells, [from, to]: [f64; 2], state: &State) -> Result<(), TooShort> {
+    fn begin(
+        &mut self,
+        flow: &SharedFlow,
+        [from, to]: [f64; 2],
+        state: &Phase,
+    ) -> Result<(), TooShort> {
         let mut filled = [0.0; N];
         filled[..self.size].copy_from_slice(state);
         let begun = self
             .method
-            .init(&Filled::<N>(flow, self.size), from, to, &filled);
+            .init(&FilledState::<N>(flow, self.size), from, to, &filled);
         begun.map(drop).map_err(|_| TooShort)
     }
 
-    fn advance(&mut self, flow: &Cells, end: f64) -> Result<f64, TooShort> {
-        advance(&mut self.method, &Filled::<N>(flow, self.size), end)
+    fn advance(&mut self, flow: &SharedFlow, end: f64) -> Result<f64, TooShort> {
+        advance(&mut self.method, &FilledState::<N>(flow, self.size), end)
     }
 
     fn time(&self) -> f64 {
@@ -76,7 +81,7 @@ where
         &self.method.y()[..self.size]
     }
 
-    fn within(&mut self, time: f64) -> Option<State> {
+    fn within(&mut self, time: f64) -> Option<Phase> {
         let found = self.method.interpolate(time).ok()?;
         Some(found[..self.size].to_vec())
     }
@@ -88,15 +93,20 @@ where
 
 struct Any<M>(M);
 
-impl<M: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>> Method for Any<M> {
-    fn begin(&mut self, flow: &Cells, [from, to]: [f64; 2], state: &State) -> Result<(), TooShort> {
+impl<M: OrdinaryNumericalMethod<f64, Phase> + Interpolation<f64, Phase>> Method for Any<M> {
+    fn begin(
+        &mut self,
+        flow: &SharedFlow,
+        [from, to]: [f64; 2],
+        state: &Phase,
+    ) -> Result<(), TooShort> {
         self.0
             .init(flow, from, to, state)
             .map(drop)
             .map_err(|_| TooShort)
     }
 
-    fn advance(&mut self, flow: &Cells, end: f64) -> Result<f64, TooShort> {
+    fn advance(&mut self, flow: &SharedFlow, end: f64) -> Result<f64, TooShort> {
         advance(&mut self.0, flow, end)
     }
 
@@ -108,7 +118,7 @@ impl<M: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>> Method 
         self.0.y()
     }
 
-    fn within(&mut self, time: f64) -> Option<State> {
+    fn within(&mut self, time: f64) -> Option<Phase> {
         self.0.interpolate(time).ok()
     }
 
@@ -165,7 +175,7 @@ impl Integrator {
     pub fn start(&mut self, flow: &mut dyn Flow, time: f64, state: &[f64]) -> Result<(), TooShort> {
         let method = if self.stiff { implicit } else { explicit };
         self.method = method(self.tolerance, self.step, state.len());
-        (self.method).begin(&Cells::of(flow), [time, self.end], &state.to_vec())
+        (self.method).begin(&SharedFlow::of(flow), [time, self.end], &state.to_vec())
     }
 
     /// Makes one step, not beyond the end; returns the time reached.
@@ -177,7 +187,7 @@ impl Integrator {
             self.start(flow, before, &state)?;
         }
         while self.time() == before && before < self.end {
-            self.step = self.method.advance(&Cells::of(&mut *flow), self.end)?;
+            self.step = self.method.advance(&SharedFlow::of(&mut *flow), self.end)?;
         }
         self.steps += 1;
         Ok(self.time())
@@ -243,7 +253,7 @@ impl Integrator {
         if self.stiff || time <= from {
             return self.within(time);
         }
-        let (span, cells) = ([from, time], Cells::of(flow));
+        let (span, cells) = ([from, time], SharedFlow::of(flow));
         let mut method = explicit(self.tolerance, time - from, state.len());
         let mut made = method.begin(&cells, span, &state.to_vec());
         while made.is_ok() && method.time() < time {
@@ -265,7 +275,7 @@ impl Integrator {
 const UNLIMITED: usize = usize::MAX;
 
 fn explicit(tolerance: f64, step: f64, _: usize) -> Box<dyn Method> {
-    let method = ExplicitRungeKutta::<Ordinary, DormandPrince, f64, State, 8, 12, 16>::dop853();
+    let method = ExplicitRungeKutta::<Ordinary, DormandPrince, f64, Phase, 8, 12, 16>::dop853();
     let method = method.rtol(tolerance).atol(tolerance).h0(step);
     Box::new(Any(method.max_steps(UNLIMITED).max_rejects(UNLIMITED)))
 }
@@ -286,15 +296,15 @@ fn implicit_over<const N: usize>(tolerance: f64, step: f64, size: usize) -> Box<
 }
 
 /// The right-hand side behind a shared reference, as the methods take it.
-struct Cells<'a>(RefCell<&'a mut dyn Flow>);
+struct SharedFlow<'a>(RefCell<&'a mut dyn Flow>);
 
-impl<'a> Cells<'a> {
+impl<'a> SharedFlow<'a> {
     fn of(flow: &'a mut dyn Flow) -> Self {
-        Cells(RefCell::new(flow))
+        SharedFlow(RefCell::new(flow))
     }
 }
 
-impl ODE<f64, Vec<f64>> for Cells<'_> {
+impl ODE<f64, Vec<f64>> for SharedFlow<'_> {
     fn diff(&self, time: f64, state: &Vec<f64>, rates: &mut Vec<f64>) {
         if !self.0.borrow_mut().rates(time, state, rates) {
             rates.fill(f64::NAN);
@@ -303,11 +313,11 @@ impl ODE<f64, Vec<f64>> for Cells<'_> {
 }
 
 /// That over states of N numbers, of which the first are used.
-struct Filled<'a, 'c, const N: usize>(&'a Cells<'c>, usize);
+struct FilledState<'a, 'c, const N: usize>(&'a SharedFlow<'c>, usize);
 
-impl<const N: usize> ODE<f64, [f64; N]> for Filled<'_, '_, N> {
+impl<const N: usize> ODE<f64, [f64; N]> for FilledState<'_, '_, N> {
     fn diff(&self, time: f64, state: &[f64; N], rates: &mut [f64; N]) {
-        let &Filled(Cells(flow), size) = self;
+        let &FilledState(SharedFlow(flow), size) = self;
         let known = (flow.borrow_mut()).rates(time, &state[..size], &mut rates[..size]);
         if !known {
             rates[..size].fill(f64::NAN);

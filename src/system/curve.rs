@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::equations::{System, Work};
 use crate::algebra::SiUnit;
-use crate::linear::Rows;
+use crate::linear::RowGroup;
 use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
@@ -399,7 +399,7 @@ impl SolutionCurve for Curve {
         (residual, extended)
     }
 
-    fn linearise_groups(&mut self, at: &Configuration<f64>) -> Option<(Vec<f64>, Vec<Rows>)> {
+    fn linearise_groups(&mut self, at: &Configuration<f64>) -> Option<(Vec<f64>, Vec<RowGroup>)> {
         if !self.system.is_large() {
             return None;
         }
@@ -408,7 +408,7 @@ impl SolutionCurve for Curve {
         let mut groups = self.system.jacobian_rows(&self.work);
         for (gap, slope) in self.ties(at) {
             residual.push(gap);
-            groups.push(Rows::single(slope));
+            groups.push(RowGroup::single(slope));
         }
         Some((residual, groups))
     }

@@ -15,8 +15,8 @@ use super::equations::HoldRow;
 use crate::description::AxisCondition;
 use crate::geometry::Rotation;
 use crate::mechanism::{
-    ClosureKind, Dimensions, Frame, Kinematics, LinearForm, Mover, Placement, PoseCoordinate,
-    Relation,
+    ClosureKind, Dimensions, Frame, JointRelation, Kinematics, LinearForm, Mover, Placement,
+    PoseCoordinate,
 };
 use crate::number::{Interval, Number};
 use crate::solve::Conditions;
@@ -48,7 +48,7 @@ enum What {
     Coordinate(PoseCoordinate, Interval),
     Orientation(Rotation<Interval>),
     /// An expression of joints, and one over its natural size.
-    Relation(Relation<Interval>, f64),
+    Relation(JointRelation<Interval>, f64),
 }
 
 impl What {
@@ -73,7 +73,7 @@ impl What {
 
 /// Storage of an [`Enclosure`].
 #[derive(Clone, Debug)]
-pub(crate) struct Space {
+pub(crate) struct EnclosureStorage {
     placement: Placement<Interval>,
     joints: Vec<Interval>,
     values: Vec<Interval>,
@@ -211,11 +211,11 @@ fn square(x: Interval) -> Interval {
 }
 
 impl Conditions for Enclosure {
-    type Work = Space;
+    type Work = EnclosureStorage;
 
-    fn work(&self) -> Space {
+    fn work(&self) -> EnclosureStorage {
         let zero = Interval::point(0.0);
-        Space {
+        EnclosureStorage {
             placement: self.kinematics.placement(),
             joints: self.held.clone(),
             values: vec![zero; self.rows],
@@ -224,7 +224,7 @@ impl Conditions for Enclosure {
         }
     }
 
-    fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut Space) {
+    fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut EnclosureStorage) {
         for ((x, &joint), scale) in at.iter().zip(&self.unknowns).zip(&self.scales) {
             work.joints[joint] = *x * Interval::point(*scale);
         }
@@ -239,23 +239,23 @@ impl Conditions for Enclosure {
         }
     }
 
-    fn possible(&self, work: &Space) -> bool {
+    fn possible(&self, work: &EnclosureStorage) -> bool {
         work.possible
     }
 
-    fn values<'a>(&self, work: &'a Space) -> &'a [Interval] {
+    fn values<'a>(&self, work: &'a EnclosureStorage) -> &'a [Interval] {
         &work.values
     }
 
-    fn slopes<'a>(&self, work: &'a Space) -> &'a [Interval] {
+    fn slopes<'a>(&self, work: &'a EnclosureStorage) -> &'a [Interval] {
         &work.slopes
     }
 }
 
 impl Enclosure {
-    fn condition(&self, condition: &Condition, slopes: bool, work: &mut Space) {
+    fn condition(&self, condition: &Condition, slopes: bool, work: &mut EnclosureStorage) {
         let inverse = Interval::point(self.inverse_length);
-        let Space {
+        let EnclosureStorage {
             placement,
             joints,
             values,

@@ -19,7 +19,7 @@ pub use approach::approach;
 pub use closure_gap::Gap;
 pub use closures::{ClosureAxes, ClosureWrenches};
 pub use coordinate::Coordinate;
-pub(crate) use course::Course;
+pub(crate) use course::ConstantsCourse;
 pub(crate) use holds::hold_rows;
 pub use layout::{Held, HeldParts, HeldPlatform, Places, Unknown};
 pub use parts::independent_parts;
@@ -30,8 +30,8 @@ use plan::ClosurePlan;
 
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, EVERY_ROW, Frame, Kept, Kinematics, Mechanism, Mover, Need,
-    Placement, PoseCoordinate, Side, needs,
+    ClosureEquations, Configuration, Dimensions, EVERY_ROW, Frame, Kept, Kinematics, Mechanism,
+    Mover, Need, Placement, PoseCoordinate, Side, needs,
 };
 use crate::solve::{Equations, Size};
 pub(crate) use layout::HoldRow;
@@ -44,7 +44,7 @@ use layout::Layout;
 #[derive(Clone, Debug)]
 pub struct System<T: Factorable> {
     kinematics: Kinematics<T>,
-    closures: Vec<Closure<T>>,
+    closures: Vec<ClosureEquations<T>>,
     plans: Vec<ClosurePlan<T>>,
     unknowns: Vec<Unknown>,
     places: Places,
@@ -105,8 +105,8 @@ impl<T: Factorable> System<T> {
             .flat_map(|(closure, kept)| closure.frames.into_iter().zip(needs(closure.kind, kept)));
         let more = frames.iter().map(|&frame| (frame, Need::Pose));
         let kinematics = Kinematics::needing(dimensions, needed.chain(more));
-        let closures: Vec<Closure<T>> = parts()
-            .map(|(closure, &kept)| Closure::new(dimensions, closure, &kinematics, kept))
+        let closures: Vec<ClosureEquations<T>> = parts()
+            .map(|(closure, &kept)| ClosureEquations::new(dimensions, closure, &kinematics, kept))
             .collect();
         let layout = Layout::new(&closures, held);
         let holds = hold_rows(held, &dimensions.centre);

@@ -1,6 +1,6 @@
 //! The equations of equilibrium of an assembled mechanism.
 
-use crate::linear::{Decomposition, Elimination, Rows, add};
+use crate::linear::{Decomposition, Elimination, RowGroup, add};
 use crate::mechanism::{Configuration, Kinematics};
 use crate::solve::Equations;
 use crate::system::{Acting, Coordinate, Load, Loaded, Neighbourhood};
@@ -40,7 +40,7 @@ impl Equilibrium {
         let slopes = held.iter().map(|held| held.slope_in(system, at));
         if system.is_large() {
             let groups = system.jacobian_rows(&work).into_iter();
-            let groups = groups.chain(slopes.map(Rows::single));
+            let groups = groups.chain(slopes.map(RowGroup::single));
             return Equilibrium::of_groups(groups.collect(), generalised, &opposite);
         }
         let (unknowns, rows) = (system.unknowns().len(), system.rows());
@@ -75,7 +75,7 @@ impl Equilibrium {
     }
 
     /// Equilibrium from the rows of a large J and S, by elimination.
-    fn of_groups(rows: Vec<Rows>, generalised: Vec<f64>, opposite: &[f64]) -> Self {
+    fn of_groups(rows: Vec<RowGroup>, generalised: Vec<f64>, opposite: &[f64]) -> Self {
         const STRESSES: usize = 3;
         let equations = Elimination::of(generalised.len(), rows);
         let forces = equations.solve_transposed(opposite);

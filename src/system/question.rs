@@ -27,7 +27,7 @@ use crate::geometry::Pose;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Value};
 use crate::system::{Coordinate, Held, HeldParts, HeldPlatform};
-use demand::Target;
+use demand::DemandTarget;
 
 /// A question about a mechanism: which coordinates are held at which values, and where to start.
 ///
@@ -51,7 +51,7 @@ pub struct Question<'a> {
     /// True if it is known that no link spins about its own line.
     spinless: bool,
     /// The demands made by name so far.
-    demands: Vec<(Target, Demand)>,
+    demands: Vec<(DemandTarget, Demand)>,
 }
 
 impl<'a> Question<'a> {
@@ -85,7 +85,7 @@ impl<'a> Question<'a> {
     pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Role::Hold, name, Some(value))? {
-            Target::Coordinate(of) => {
+            DemandTarget::Coordinate(of) => {
                 let number = self.number(name, value, of)?;
                 self.split_changed |= match of {
                     Coordinate::Joint(joint) => {
@@ -96,7 +96,7 @@ impl<'a> Question<'a> {
                 };
                 self = self.at_values([(of, number)]);
             }
-            Target::Pose(platform) => {
+            DemandTarget::Pose(platform) => {
                 let pose = self.guess_pose(name, value, platform)?;
                 self.coordinates[platform] = PoseCoordinate::ALL.map(|c| Some(c.of(&pose)));
                 self.split_changed = true;
@@ -121,7 +121,7 @@ impl<'a> Question<'a> {
             }
         } else {
             match self.demand(Role::Free, name, None)? {
-                Target::Coordinate(Coordinate::Joint(joint)) => self.joints[joint] = false,
+                DemandTarget::Coordinate(Coordinate::Joint(joint)) => self.joints[joint] = false,
                 _ => return Err(QuestionError::NotAJoint(name.into())),
             }
         }
@@ -139,7 +139,7 @@ impl<'a> Question<'a> {
     pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Role::Guess, name, Some(value))? {
-            Target::Coordinate(of) => {
+            DemandTarget::Coordinate(of) => {
                 let number = self.number(name, value, of)?;
                 match of {
                     Coordinate::Joint(joint) if !self.held_by_name[joint] => {
@@ -154,7 +154,7 @@ impl<'a> Question<'a> {
                     Coordinate::Joint(_) | Coordinate::Turn(..) => {}
                 }
             }
-            Target::Pose(platform) => {
+            DemandTarget::Pose(platform) => {
                 self.guess_pose(name, value, platform)?;
             }
         }
@@ -309,7 +309,7 @@ impl<'a> Question<'a> {
     /// The value a joint was to start at, if one was given for it alone.
     pub(super) fn guess_of(&self, joint: usize) -> Option<f64> {
         let asked = (self.demands.iter()).any(|(of, demand)| {
-            *of == Target::Coordinate(Coordinate::Joint(joint)) && demand.role == Role::Guess
+            *of == DemandTarget::Coordinate(Coordinate::Joint(joint)) && demand.role == Role::Guess
         });
         asked.then(|| self.start.joints[joint])
     }

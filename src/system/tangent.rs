@@ -13,7 +13,7 @@ mod twists;
 
 pub use cone::{Cone, FlatSet, combination};
 pub use driving::Driving;
-pub use freedom::{Freedoms, Mobility, moving};
+pub use freedom::{Freedoms, RegularFreedoms, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};
 pub use motion::{FrameMotion, Motion};

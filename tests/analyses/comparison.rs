@@ -3,7 +3,7 @@
 
 use linkwork::algebra::{Expression, Node, Operator};
 use linkwork::analysis::compare::{
-    CompareReport, CompareSettings, Proof, Reason, Verdict, compare,
+    CompareReport, CompareSettings, ComponentProof, Reason, Verdict, compare,
 };
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
@@ -122,7 +122,7 @@ fn what_roots_and_other_dimensions_hide_is_said() {
     let y = "\"a*sin(t) + b*sin(t + u)\", \"0\"";
     // b = 2 a holds for the numbers of this file only
     let (proof, text) = outcome(&file("", &format!("(\"a*cos(t) + 2*a*cos(t + u)\", {y})")));
-    assert_eq!(proof, Proof::IdenticalForTheseDimensions);
+    assert_eq!(proof, ComponentProof::IdenticalForTheseDimensions);
     assert!(text.contains("for these dimensions"), "{text}");
     // |cos| where the cosine is positive or not: neither proved nor refuted
     let root = file(
@@ -131,7 +131,7 @@ fn what_roots_and_other_dimensions_hide_is_said() {
     );
     let (proof, text) = outcome(&root);
     let reason = Reason::NotPolynomial;
-    assert_eq!(proof, Proof::NotDecided { reason });
+    assert_eq!(proof, ComponentProof::NotDecided { reason });
     assert!(
         text.contains("p, px: not proved, because it contains roots or inverse functions"),
         "{text}"
@@ -146,7 +146,7 @@ fn what_roots_and_other_dimensions_hide_is_said() {
         "\"h\": \"tan((t + u)/2)\"",
         &format!("(\"a*cos(t) + b*(1 - h^2)/(1 + h^2)\", {y})"),
     );
-    assert_eq!(outcome(&half).0, Proof::Identical);
+    assert_eq!(outcome(&half).0, ComponentProof::Identical);
 }
 
 /// Every shipped file with its name.
@@ -239,9 +239,9 @@ fn a_slip_in_any_entry_of_any_shipped_form_is_refuted_with_that_slip() {
             let components = &report.closed_forms[0].components;
             assert_eq!(components.len(), count);
             for component in components {
-                let Proof::Different(difference) = &component.proof else {
+                let ComponentProof::Different(difference) = &component.proof else {
                     assert!(
-                        matches!(component.proof, Proof::NotDecided { .. }),
+                        matches!(component.proof, ComponentProof::NotDecided { .. }),
                         "{name} {component:?}"
                     );
                     continue;

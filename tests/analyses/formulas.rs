@@ -8,7 +8,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use linkwork::algebra::Expression;
-use linkwork::analysis::compare::{CompareSettings, Proof, compare};
+use linkwork::analysis::compare::{CompareSettings, ComponentProof, compare};
 use linkwork::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Frame, Mechanism};
@@ -325,8 +325,8 @@ fn ron_pastes_back_and_is_proved() {
         for form in &report.closed_forms {
             for component in &form.components {
                 // an angle of the upper triangle is an inverse function of its sides: the numbers stand alone
-                let inverse =
-                    name == "jansen_leg" && matches!(component.proof, Proof::NotDecided { .. });
+                let inverse = name == "jansen_leg"
+                    && matches!(component.proof, ComponentProof::NotDecided { .. });
                 assert!(
                     component.proof.proved() || inverse,
                     "{name} {} {component:?}",

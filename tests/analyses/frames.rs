@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use linkwork::geometry::{Axis, Line, Pose, Relation, Vector3};
-use linkwork::mechanism::{Assignment, Convention, JointAxis, SerialAxes, Table};
+use linkwork::mechanism::{Convention, DhTable, FrameAssignment, JointAxis, SerialAxes};
 use linkwork::solve::Watch;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -31,14 +31,14 @@ fn translation(x: f64, y: f64, z: f64) -> Pose<f64> {
 }
 
 /// α, a, d, θ in degrees and metres.
-fn rows(table: &Table) -> Vec<[f64; 4]> {
+fn rows(table: &DhTable) -> Vec<[f64; 4]> {
     let row = |row: &linkwork::mechanism::TableRow| {
         [row.alpha.to_degrees(), row.a, row.d, row.theta.to_degrees()]
     };
     table.rows.iter().map(row).collect()
 }
 
-fn assert_rows(table: &Table, expected: &[[f64; 4]]) {
+fn assert_rows(table: &DhTable, expected: &[[f64; 4]]) {
     let found = rows(table);
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
@@ -246,12 +246,12 @@ fn serial() -> impl Strategy<Value = SerialAxes> {
     })
 }
 
-fn size(table: &Table) -> f64 {
+fn size(table: &DhTable) -> f64 {
     let rows = table.rows.iter().map(|row| row.d.abs() + row.a);
     rows.fold(1.0, f64::max)
 }
 
-fn check(axes: &SerialAxes, made: &Assignment) -> Result<(), TestCaseError> {
+fn check(axes: &SerialAxes, made: &FrameAssignment) -> Result<(), TestCaseError> {
     let (turned, moved) = axes.difference(&made.table);
     let size = size(&made.table);
     prop_assert!(turned < 1e-12, "turned {turned:e}");

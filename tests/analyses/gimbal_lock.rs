@@ -6,7 +6,7 @@ use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::Report;
 use linkwork::solve::Watch;
-use linkwork::system::{Mobility, Question};
+use linkwork::system::{Question, RegularFreedoms};
 
 /// A body on three legs. Each has a ball at the foot, written as three rows, a knee, and two hinges
 /// at the hip; it is rigid with the body. The balls of the first `locked` legs stand in gimbal lock:
@@ -91,7 +91,7 @@ fn legs_in_gimbal_lock_take_no_freedom_away() {
             assert_eq!(report.gimbal_locked, locked);
             assert!(report.elsewhere.is_empty());
         }
-        let count = Mobility::near(&mechanism, &mechanism.home()).expect("closes");
+        let count = RegularFreedoms::near(&mechanism, &mechanism.home()).expect("closes");
         assert_eq!((count.count(), count.idle()), (6, 0), "{locked} locked");
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::analysis::mobility::{
-    Character, LocalFreedom, MobilityReport, MobilitySettings, Wrench, mobility,
+    Character, LocalFreedom, MobilityReport, MobilitySettings, RedundantWrench, mobility,
 };
 use linkwork::ask;
 use linkwork::description::Description;
@@ -120,15 +120,15 @@ fn the_orders_of_screw_systems_are_those_of_the_literature() {
 #[test]
 fn the_redundant_constraints_of_planar_loops_are_those_out_of_the_plane() {
     let across = [
-        Wrench {
+        RedundantWrench {
             force: [0.0, 0.0, 1.0],
             moment: [0.0; 3],
         },
-        Wrench {
+        RedundantWrench {
             force: [0.0; 3],
             moment: [1.0, 0.0, 0.0],
         },
-        Wrench {
+        RedundantWrench {
             force: [0.0; 3],
             moment: [0.0, 1.0, 0.0],
         },
@@ -141,15 +141,15 @@ fn the_redundant_constraints_of_planar_loops_are_those_out_of_the_plane() {
         "planar_3rpr",
     ] {
         for redundancy in report(name).redundancies {
-            let unit = |w: &Wrench| {
+            let unit = |w: &RedundantWrench| {
                 let size = |v: &[f64; 3]| v.iter().map(|x| x.abs()).sum::<f64>();
                 let (force, moment) = (size(&w.force), size(&w.moment));
-                Wrench {
+                RedundantWrench {
                     force: w.force.map(|x| if force > 0.0 { x / force } else { x }),
                     moment: w.moment.map(|x| if moment > 0.0 { x / moment } else { x }),
                 }
             };
-            let wrenches: Vec<Wrench> = redundancy.wrenches.iter().map(unit).collect();
+            let wrenches: Vec<RedundantWrench> = redundancy.wrenches.iter().map(unit).collect();
             assert_eq!(wrenches, across, "{name}");
         }
     }

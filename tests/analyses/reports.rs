@@ -19,7 +19,7 @@ use linkwork::analysis::statics::StaticsReport;
 use linkwork::analysis::sweep::{CircuitsReport, MotionsReport};
 use linkwork::analysis::velocity::VelocityReport;
 use linkwork::analysis::workspace::WorkspaceReport;
-use linkwork::output::json::Answer;
+use linkwork::output::json::AnswerJson;
 
 fn shipped(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -57,7 +57,8 @@ fn round<R: Serialize + DeserializeOwned>(arguments: &[&str]) -> Option<R> {
         return None;
     }
     let what = arguments.join(" ");
-    let answer: Answer<R> = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let answer: AnswerJson<R> =
+        serde_json::from_str(&text).unwrap_or_else(|e| panic!("{what}: {e}"));
     let mut again = serde_json::to_value(&answer).unwrap();
     unsigned(&mut again);
     assert_eq!(printed, again, "{what}");

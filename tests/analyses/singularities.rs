@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use linkwork::analysis::singularities::{
-    AlongReport, Kind, LocusEnd, LocusReport, Shape, SingularitiesReport, SingularitiesSettings,
-    Zlatanov, along, inputs_of, loci, singularities,
+    AlongReport, ImageShape, Kind, LocusEnd, LocusReport, SingularitiesReport,
+    SingularitiesSettings, Zlatanov, along, inputs_of, loci, singularities,
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
@@ -889,14 +889,14 @@ fn inverse_loci_of_a_five_bar_in_the_plane_of_its_hand_are_four_circles() {
         points.iter().all(|p| off(p) < 1e-9)
     };
     let of = |kind: Kind| report.loci.iter().filter(move |locus| locus.kind == kind);
-    let direct = || of(Kind::Direct).filter(|locus| locus.shape == Shape::Curve);
+    let direct = || of(Kind::Direct).filter(|locus| locus.shape == ImageShape::Curve);
     assert_eq!(of(Kind::Inverse).count(), 4);
     for circle in circles {
         let lying = of(Kind::Inverse).filter(|locus| on(&locus.points, circle));
         assert_eq!(lying.count(), 1, "{circle:?}");
         assert!(direct().all(|locus| !on(&locus.points, circle)));
     }
-    assert!(of(Kind::Inverse).all(|locus| locus.shape == Shape::Curve));
+    assert!(of(Kind::Inverse).all(|locus| locus.shape == ImageShape::Curve));
     assert!(report.coupled.is_empty());
 }
 
@@ -913,7 +913,10 @@ fn a_direct_singularity_that_is_a_single_point_is_found_where_inverse_loci_touch
     };
     for seed in [1, 2, 3] {
         let loci = direct("0.4", seed);
-        let points: Vec<_> = loci.iter().filter(|l| l.shape == Shape::Point).collect();
+        let points: Vec<_> = loci
+            .iter()
+            .filter(|l| l.shape == ImageShape::Point)
+            .collect();
         let [point] = &points[..] else {
             panic!("{seed}: {} points", points.len())
         };
@@ -928,10 +931,14 @@ fn a_direct_singularity_that_is_a_single_point_is_found_where_inverse_loci_touch
     }
     // longer couplers never come into line, shorter ones do along a curve round that point
     let longer = direct("0.41", 1);
-    assert!(longer.iter().all(|l| l.shape == Shape::Curve));
+    assert!(longer.iter().all(|l| l.shape == ImageShape::Curve));
     assert_eq!(longer.len(), 2);
     let shorter = direct("0.39", 1);
-    assert!(shorter.iter().all(|l| l.shape == Shape::Curve && l.closed));
+    assert!(
+        shorter
+            .iter()
+            .all(|l| l.shape == ImageShape::Curve && l.closed)
+    );
     assert_eq!(shorter.len(), 3);
 }
 
@@ -1050,11 +1057,11 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
         });
         DMatrix::from_iterator(3, 3, columns).determinant()
     };
-    let of = |kind: Kind, shape: Shape| {
+    let of = |kind: Kind, shape: ImageShape| {
         let loci = report.loci.iter();
         loci.filter(move |locus| locus.kind == kind && locus.shape == shape)
     };
-    let direct: Vec<_> = of(Kind::Direct, Shape::Curve).collect();
+    let direct: Vec<_> = of(Kind::Direct, ImageShape::Curve).collect();
     let [ellipse] = &direct[..] else {
         panic!("{} curves", direct.len())
     };
@@ -1095,7 +1102,7 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
         ellipse.extents
     );
     for kind in [Kind::Direct, Kind::Inverse] {
-        let points: Vec<_> = of(kind, Shape::Point).collect();
+        let points: Vec<_> = of(kind, ImageShape::Point).collect();
         assert_eq!(points.len(), 3);
         for (base, corner) in bases.iter().zip(corners) {
             let at = [base[0] - corner[0], base[1] - corner[1]];
@@ -1107,7 +1114,7 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
             assert_eq!(point.extents, point.points[0].map(|x| [x; 2]));
         }
     }
-    assert_eq!(of(Kind::Inverse, Shape::Curve).count(), 0);
+    assert_eq!(of(Kind::Inverse, ImageShape::Curve).count(), 0);
     // rows say so too
     let csv = output::csv::render(report.rows().unwrap());
     let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();

@@ -5,7 +5,7 @@ use linkwork::description::{Entry, FileError};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::csv::Csv;
 use linkwork::output::diagnostics::{self, Style};
-use linkwork::output::document::{Align, Cell, Column, Document, Formula, Section, Table};
+use linkwork::output::document::{Align, Cell, Column, Document, FormulaBlock, Section, Table};
 use linkwork::output::quantity::{number, quantity};
 use linkwork::output::{Report, html, json, markdown, text};
 use serde::{Serialize, Serializer};
@@ -51,7 +51,7 @@ fn sample() -> Document {
             Section::new("More")
                 .table(matrix)
                 .code("ron", "a: \"```\",\n  <b>\n")
-                .formulas([Formula {
+                .formulas([FormulaBlock {
                     title: "a_b".into(),
                     unicode: "x₁ = 0".into(),
                     latex: "x_{1} &= 0".into(),

@@ -2,8 +2,8 @@
 
 use linkwork::ask::Question;
 use linkwork::mechanism::Mechanism;
-use linkwork::output::drawing::{DrawingSettings, Panel, View, sheet};
-use linkwork::scene::{Scene, Symbol};
+use linkwork::output::drawing::{DrawingSettings, Panel, Viewpoint, sheet};
+use linkwork::scene::{JointSymbol, Scene};
 use linkwork::solve::Watch;
 
 fn scene(file: &str, held: &[(&str, f64)]) -> Scene {
@@ -49,7 +49,7 @@ fn joints_of_a_four_bar_are_its_link_lengths_apart() {
         scene
             .joints
             .iter()
-            .all(|joint| joint.kind == Symbol::Revolute)
+            .all(|joint| joint.kind == JointSymbol::Revolute)
     );
     // the crank is on the ground at the origin and turned by 60 degrees
     let crank = length("l1");
@@ -92,14 +92,16 @@ fn rods_of_a_hexapod_are_as_long_as_its_legs_and_its_platform_is_one_body() {
 #[test]
 fn three_axes_that_meet_are_one_spherical_joint_and_two_a_universal_one() {
     let scene = scene("puma560_modified", &[]);
-    let kinds: Vec<(usize, Symbol)> = scene
+    let kinds: Vec<(usize, JointSymbol)> = scene
         .joints
         .iter()
         .map(|joint| (joint.names.len(), joint.kind))
         .collect();
-    assert!(kinds.contains(&(3, Symbol::Spherical)), "{kinds:?}");
+    assert!(kinds.contains(&(3, JointSymbol::Spherical)), "{kinds:?}");
     // the axes of the first and the second joint meet in the shoulder; the elbow is alone
-    assert!(kinds.contains(&(2, Symbol::Universal)) && kinds.contains(&(1, Symbol::Revolute)));
+    assert!(
+        kinds.contains(&(2, JointSymbol::Universal)) && kinds.contains(&(1, JointSymbol::Revolute))
+    );
 }
 
 #[test]
@@ -127,11 +129,11 @@ fn every_shipped_mechanism_is_drawn_whole_from_every_side() {
             .sum();
         assert!(joints <= mechanism.joints().len() * 4, "{}", path.display());
         for view in [
-            View::Natural,
-            View::Isometric,
-            View::Front,
-            View::Top,
-            View::From(0.3, -1.2),
+            Viewpoint::Natural,
+            Viewpoint::Isometric,
+            Viewpoint::Front,
+            Viewpoint::Top,
+            Viewpoint::From(0.3, -1.2),
         ] {
             let settings = DrawingSettings { view, labels: true };
             let panel = Panel {

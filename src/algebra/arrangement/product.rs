@@ -6,7 +6,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::super::trigonometric::{self, Atom, Powers, Trigonometric, Wave};
 use super::super::{Constant, Expression, Function, Node, Operator, Unit};
-use super::{Circular, LetterName, Product, Summand, arrange, binary, sum};
+use super::{LetterName, Product, SineTerm, Summand, arrange, binary, sum};
 
 /// A product, times a sum if there is one.
 pub(super) fn written(product: &Product, sum: Option<Expression>, name: LetterName) -> Summand {
@@ -20,7 +20,7 @@ pub(super) fn written(product: &Product, sum: Option<Expression>, name: LetterNa
         };
         if power > 0 { &mut top } else { &mut bottom }.push(raised);
     }
-    for Circular { angle, sine } in &product.circular {
+    for SineTerm { angle, sine } in &product.circular {
         let function = if *sine { Function::Sin } else { Function::Cos };
         top.push(Node::Call(function, vec![angle_of(angle, name)]).at(0..0));
     }

@@ -18,7 +18,7 @@ use rand_pcg::Pcg64;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
-use crate::system::{Held, HeldPlatform, Mobility, System};
+use crate::system::{Held, HeldPlatform, RegularFreedoms, System};
 
 /// A member of the family: values of the independent parameters, then factors of other lengths, and values of the
 /// inputs.
@@ -130,7 +130,7 @@ impl Family {
         let equations = family.varying_equations + system.hold_rows().len();
         family.is_square = system.unknowns().len() == equations;
         let is_rigid = family.is_square
-            && match Mobility::near(mechanism, &family.home) {
+            && match RegularFreedoms::near(mechanism, &family.home) {
                 Some(near) => near.count() == 0,
                 None => family.is_isolated(),
             };

@@ -13,7 +13,7 @@ use crate::system::{
 /// Freedoms that the held coordinates leave.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Left {
+pub struct RemainingFreedoms {
     /// Number of freedoms.
     pub freedoms: usize,
     /// Coordinates that decide them if they are held too.
@@ -113,7 +113,7 @@ pub struct AssemblyReport {
     /// Freedoms left where they were, if less is held than the mechanism has freedoms: the configuration
     /// is then the one nearest to the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub left: Option<Left>,
+    pub left: Option<RemainingFreedoms>,
     /// The joint or platform that moved most from its guess, or from a pose of the file that was more than rounded, if
     /// the mechanism assembles.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use super::formula::{NamedValues, measured};
-use super::proof::{self, Proof, Reason};
-use super::{ComponentReport, Quantity};
+use super::proof::{self, ComponentProof, Reason};
+use super::{ComponentQuantity, ComponentReport};
 use crate::algebra::{Expression, Function, Node, Operator};
 use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
 use crate::number::Interval;
@@ -20,7 +20,7 @@ const ANYWHERE: f64 = 1e9;
 /// A formula in a closed form that must not be zero, and is not proved never to be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Divisor {
+pub struct FormDivisor {
     /// A divisor of the form; cos x for tan x, √(x² + y²) for atan2(y, x), the argument of a logarithm.
     pub formula: Expression,
     /// True if chains and closures make it zero on every configuration.
@@ -40,14 +40,19 @@ pub(super) struct ProofConditions {
 }
 
 impl ProofConditions {
-    pub fn new(mechanism: &Mechanism, form: &ClosedForm, formula: &Formula, proof: &Proof) -> Self {
+    pub fn new(
+        mechanism: &Mechanism,
+        form: &ClosedForm,
+        formula: &Formula,
+        proof: &ComponentProof,
+    ) -> Self {
         let mut divisors: Vec<Formula> = Vec::new();
         visit(form, formula, &mut BTreeSet::new(), &mut |part| {
             divisors.extend(divisor(mechanism, part).filter(|own| !divisors.contains(own)));
         });
         divisors.retain(|divisor| !is_never_zero(mechanism, form, divisor));
         let difference = match proof {
-            Proof::Different(of) => resolved(mechanism, form, &of.difference),
+            ComponentProof::Different(of) => resolved(mechanism, form, &of.difference),
             _ => None,
         };
         ProofConditions {
@@ -93,21 +98,21 @@ impl ProofConditions {
         let proved = component.proof.proved();
         let nowhere = tried > 0 || proved && !self.divisors.is_empty();
         if component.samples == 0 && nowhere {
-            component.proof = Proof::undecided(match proved && !vanish.is_empty() {
+            component.proof = ComponentProof::undecided(match proved && !vanish.is_empty() {
                 true => Reason::Undefined,
                 false => Reason::NoValue,
             });
-        } else if matches!(component.proof, Proof::Different(_))
+        } else if matches!(component.proof, ComponentProof::Different(_))
             && !self.refuted
             && component.relative <= tolerance
         {
             // letters that differ may stand for the same number here
-            component.proof = Proof::undecided(match component.quantity {
-                Quantity::Identity => Reason::NeedsElimination,
-                Quantity::Position | Quantity::Rotation => Reason::NotPolynomial,
+            component.proof = ComponentProof::undecided(match component.quantity {
+                ComponentQuantity::Identity => Reason::NeedsElimination,
+                ComponentQuantity::Position | ComponentQuantity::Rotation => Reason::NotPolynomial,
             });
         }
-        let divisors = self.divisors.iter().map(|(formula, zeros)| Divisor {
+        let divisors = self.divisors.iter().map(|(formula, zeros)| FormDivisor {
             formula: named(mechanism, form, formula),
             vanishes: vanish.contains(&formula),
             zeros: *zeros,

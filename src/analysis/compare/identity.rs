@@ -7,7 +7,7 @@ use num_traits::Signed;
 
 use super::consequence::{Span, follows, slip};
 use super::elimination::{self, eliminated, has_plain_angles};
-use super::proof::{Difference, MOST_PRODUCTS, MOST_TERMS, Proof, Reason, Setting};
+use super::proof::{ComponentProof, Difference, MOST_PRODUCTS, MOST_TERMS, Reason, Setting};
 use crate::algebra::{Atom, Budget, Function, Node, Operator, Symbolic, Trigonometric};
 use crate::mechanism::Formula;
 
@@ -117,30 +117,34 @@ impl Setting<'_> {
         }
     }
 
-    pub(super) fn vanishing(&self, formula: &Formula, equations: &[Trigonometric]) -> Proof {
+    pub(super) fn vanishing(
+        &self,
+        formula: &Formula,
+        equations: &[Trigonometric],
+    ) -> ComponentProof {
         let Some(form) = self.values.of(formula).ok().and_then(Symbolic::formula) else {
-            return Proof::undecided(Reason::TooLong);
+            return ComponentProof::undecided(Reason::TooLong);
         };
         let mut budget = Budget {
             products: MOST_PRODUCTS,
         };
         if form.vanishes(&mut budget) == Some(true) {
-            return Proof::Identical;
+            return ComponentProof::Identical;
         }
         if Span::new(equations).contains(&form) {
-            return Proof::FollowsFromClosures;
+            return ComponentProof::FollowsFromClosures;
         }
         let given = form;
         let Some(form) = given.without_denominators(&mut budget) else {
-            return Proof::undecided(Reason::TooLong);
+            return ComponentProof::undecided(Reason::TooLong);
         };
         if self.consequence(&form, equations, &mut budget) {
-            return Proof::FollowsFromClosures;
+            return ComponentProof::FollowsFromClosures;
         }
         if let Some(squared) = self.without_root(&form, &mut budget)
             && self.consequence(&squared, equations, &mut budget)
         {
-            return Proof::FollowsForTheseDimensions;
+            return ComponentProof::FollowsForTheseDimensions;
         }
         // a slip in an equation leaves less of it than there was
         let nearest = (equations.iter())
@@ -148,15 +152,15 @@ impl Setting<'_> {
             .min_by_key(|multiple| form.minus(multiple).len());
         match nearest {
             Some(nearest) if 2 * form.minus(&nearest).len() <= form.len() => {
-                if let different @ Proof::Different(_) = self.decided(&form, &nearest) {
+                if let different @ ComponentProof::Different(_) = self.decided(&form, &nearest) {
                     return different;
                 }
             }
             _ => {}
         }
         match self.slipped(&form, equations, &mut budget) {
-            Some(difference) if form == *given => Proof::Different(Box::new(difference)),
-            _ => Proof::undecided(Reason::NeedsElimination),
+            Some(difference) if form == *given => ComponentProof::Different(Box::new(difference)),
+            _ => ComponentProof::undecided(Reason::NeedsElimination),
         }
     }
 }

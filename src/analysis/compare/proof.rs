@@ -9,7 +9,7 @@ use super::formula::NamedValues;
 use super::must_be_assembled;
 use super::variables::{formulas, own_variables};
 use crate::algebra::{Budget, Expression, Symbolic, Trigonometric, arrange, with_letters};
-use crate::mechanism::{ClosedForm, Formal, Formula, Given, Letters, MatrixEntry, Mechanism};
+use crate::mechanism::{ClosedForm, Formal, Formula, GivenForm, Letters, MatrixEntry, Mechanism};
 use crate::number::Number;
 
 /// Products of two terms made at most for one closed form.
@@ -23,7 +23,7 @@ pub(super) const MOST_TERMS: usize = 400;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "outcome", rename_all = "snake_case")]
-pub enum Proof {
+pub enum ComponentProof {
     /// It equals the chains, for all values of joints and parameters at which it has a value.
     Identical,
     /// It equals the chains, but only with the numbers that the file gives its parameters.
@@ -74,14 +74,14 @@ pub enum Reason {
     Interrupted,
 }
 
-impl Proof {
+impl ComponentProof {
     pub(super) fn undecided(reason: Reason) -> Self {
-        Proof::NotDecided { reason }
+        ComponentProof::NotDecided { reason }
     }
 
     /// True if it is proved.
     pub fn proved(&self) -> bool {
-        use Proof::*;
+        use ComponentProof::*;
         matches!(
             self,
             Identical
@@ -93,25 +93,26 @@ impl Proof {
 }
 
 /// Proof or refutation of each component of a form, in order.
-pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
+pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<ComponentProof> {
     let general = attempt(mechanism, form, false);
-    if general.iter().all(Proof::proved) {
+    if general.iter().all(ComponentProof::proved) {
         return general;
     }
     let special = attempt(mechanism, form, true);
-    let of_loops = matches!(form.gives, Given::Identities(_));
+    let of_loops = matches!(form.gives, GivenForm::Identities(_));
     let pairs = general.into_iter().zip(special);
     pairs
         .map(|(general, special)| match (general, special) {
             (general, _) if general.proved() => general,
-            (_, Proof::FollowsFromClosures | Proof::FollowsForTheseDimensions) => {
-                Proof::FollowsForTheseDimensions
-            }
+            (
+                _,
+                ComponentProof::FollowsFromClosures | ComponentProof::FollowsForTheseDimensions,
+            ) => ComponentProof::FollowsForTheseDimensions,
             (general, special) if of_loops && !special.proved() => general,
-            (_, Proof::Identical) => Proof::IdenticalForTheseDimensions,
+            (_, ComponentProof::Identical) => ComponentProof::IdenticalForTheseDimensions,
             // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
-            (Proof::Different(difference), _) => Proof::Different(difference),
-            (_, special @ Proof::Different(_)) => special,
+            (ComponentProof::Different(difference), _) => ComponentProof::Different(difference),
+            (_, special @ ComponentProof::Different(_)) => special,
             (general, _) => general,
         })
         .collect()
@@ -120,7 +121,7 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
 /// Differences of identities that numbers refute, in order; `None` for one that is too long.
 pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Option<Difference>> {
     let formulas = formulas(form);
-    if matches!(form.gives, Given::Pose { .. }) {
+    if matches!(form.gives, GivenForm::Pose { .. }) {
         return vec![];
     }
     let refutations = over_letters(mechanism, form, || {
@@ -164,23 +165,23 @@ fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce()
     let mut values = Letters(mechanism).values();
     values.resize(values.len() + form.locals.len(), 0.0);
     let products = match form.gives {
-        Given::Pose { .. } => MOST_PRODUCTS,
+        GivenForm::Pose { .. } => MOST_PRODUCTS,
         // the loops are seen from every link
-        Given::Identities(_) => MOST_PRODUCTS_OF_LOOPS,
+        GivenForm::Identities(_) => MOST_PRODUCTS_OF_LOOPS,
     };
     with_letters(values, Budget { products }, work)
 }
 
 /// Proof or refutation of each component, with parameters as letters or as the numbers of the file.
-fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof> {
-    let undecided = |reason| vec![Proof::undecided(reason); formulas(form).len()];
-    if matches!(form.gives, Given::Pose { .. }) && must_be_assembled(mechanism, form) {
+fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<ComponentProof> {
+    let undecided = |reason| vec![ComponentProof::undecided(reason); formulas(form).len()];
+    if matches!(form.gives, GivenForm::Pose { .. }) && must_be_assembled(mechanism, form) {
         return undecided(Reason::NeedsPlatform);
     }
     let proofs = over_letters(mechanism, form, || {
         let setting = Setting::new(mechanism, form, numbers)?;
         Some(match &form.gives {
-            Given::Pose {
+            GivenForm::Pose {
                 of,
                 relative_to,
                 entries,
@@ -191,7 +192,7 @@ fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof
                 };
                 entries.iter().map(proved).collect()
             }
-            Given::Identities(identities) => {
+            GivenForm::Identities(identities) => {
                 let equations = setting.equations();
                 let proved = |(_, formula): &(_, _)| setting.vanishing(formula, &equations);
                 identities.iter().map(proved).collect()
@@ -240,29 +241,31 @@ impl<'a> Setting<'a> {
         local.map_or_else(|| self.letters.name(symbol), |(name, _)| name.clone())
     }
 
-    fn compared(&self, formula: &Formula, chains: Symbolic) -> Proof {
+    fn compared(&self, formula: &Formula, chains: Symbolic) -> ComponentProof {
         let form = self.values.of(formula).ok().and_then(Symbolic::formula);
         let (Some(form), Some(chains)) = (form, chains.formula()) else {
-            return Proof::undecided(Reason::TooLong);
+            return ComponentProof::undecided(Reason::TooLong);
         };
         self.decided(&form, &chains)
     }
 
-    pub(super) fn decided(&self, form: &Trigonometric, chains: &Trigonometric) -> Proof {
+    pub(super) fn decided(&self, form: &Trigonometric, chains: &Trigonometric) -> ComponentProof {
         let difference = form.minus(chains);
         let mut budget = Budget {
             products: MOST_PRODUCTS,
         };
         match difference.vanishes(&mut budget) {
-            Some(true) => Proof::Identical,
-            Some(false) if difference.len() > MOST_TERMS => Proof::undecided(Reason::TooLong),
+            Some(true) => ComponentProof::Identical,
+            Some(false) if difference.len() > MOST_TERMS => {
+                ComponentProof::undecided(Reason::TooLong)
+            }
             Some(false) => {
                 let own = form.restricted_to(&difference);
                 let theirs = chains.restricted_to(&difference);
-                Proof::Different(Box::new(self.written(&own, &theirs, &difference)))
+                ComponentProof::Different(Box::new(self.written(&own, &theirs, &difference)))
             }
-            None if difference.is_opaque() => Proof::undecided(Reason::NotPolynomial),
-            None => Proof::undecided(Reason::TooLong),
+            None if difference.is_opaque() => ComponentProof::undecided(Reason::NotPolynomial),
+            None => ComponentProof::undecided(Reason::TooLong),
         }
     }
 

@@ -1,14 +1,16 @@
 //! The variables that a closed form defines for itself.
 
 use crate::algebra::Symbolic;
-use crate::mechanism::{ClosedForm, Formula, Given, Letters, Symbol};
+use crate::mechanism::{ClosedForm, Formula, GivenForm, Letters, Symbol};
 use crate::number::Number;
 
 /// The entries of the pose, or the identities, that a form gives.
 pub(super) fn formulas(form: &ClosedForm) -> Vec<&Formula> {
     match &form.gives {
-        Given::Pose { entries, .. } => entries.iter().map(|(_, formula)| formula).collect(),
-        Given::Identities(identities) => identities.iter().map(|(_, formula)| formula).collect(),
+        GivenForm::Pose { entries, .. } => entries.iter().map(|(_, formula)| formula).collect(),
+        GivenForm::Identities(identities) => {
+            identities.iter().map(|(_, formula)| formula).collect()
+        }
     }
 }
 

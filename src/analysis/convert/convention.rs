@@ -7,7 +7,9 @@
 use super::references::{Substitute, exchange, link_of};
 use super::{Conversion, ConversionNote};
 use crate::description::steps::{link, undone, zero};
-use crate::description::{ChainDescription, Convention, Displacement, Entry, Row, Spanned};
+use crate::description::{
+    ChainDescription, Convention, Displacement, Entry, RowDescription, Spanned,
+};
 
 /// (α, a) of L₀ … L_n.
 type Links = Vec<(Entry, Entry)>;
@@ -53,7 +55,7 @@ pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
     }
 }
 
-fn links(rows: &[Row], from: Convention) -> Links {
+fn links(rows: &[RowDescription], from: Convention) -> Links {
     let own = rows.iter().map(|row| (row.alpha.clone(), row.a.clone()));
     let nothing = std::iter::once((zero(), zero()));
     match from {
@@ -67,7 +69,7 @@ fn rewrite(chain: &mut ChainDescription, links: &Links, to: Convention) {
     let shift = usize::from(to == Convention::Standard);
     let rows = chain.rows.iter().enumerate().map(|(k, old)| {
         let (alpha, a) = links[k + shift].clone();
-        Row {
+        RowDescription {
             alpha,
             a,
             ..old.clone()

@@ -21,8 +21,8 @@ use crate::algebra::{Affine, Expression};
 use crate::description::steps::{doing_something, joined, zero};
 use crate::description::{
     AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
-    Description, Displacement, Entry, GROUND, Named, Row, Spanned, first_free, free_variable,
-    place_of,
+    Description, Displacement, Entry, GROUND, Named, RowDescription, Spanned, first_free,
+    free_variable, place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
 
@@ -103,7 +103,7 @@ struct Drawing<'a> {
 /// The joint of a row: where it is, counted with the constant parts of its entries.
 fn axis_of(
     before: &[Displacement],
-    row: &Row,
+    row: &RowDescription,
     convention: Convention,
     fixed: [Entry; 2],
 ) -> Displacements {
@@ -130,7 +130,7 @@ impl Drawing<'_> {
         affine.unwrap_or_else(|_| entry.expression.clone().into())
     }
 
-    fn constants(&self, row: &Row) -> [Entry; 2] {
+    fn constants(&self, row: &RowDescription) -> [Entry; 2] {
         [&row.d, &row.theta].map(|entry| self.entry(entry).constant.into())
     }
 

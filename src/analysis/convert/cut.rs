@@ -19,7 +19,7 @@ use crate::algebra::Affine;
 use crate::description::steps::{doing_something, link, negated, undone, zero};
 use crate::description::{
     Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
-    Entry, Named, Role, Row, Spanned, first_free, names_of, nearest, place_of,
+    Entry, Named, Role, RowDescription, Spanned, first_free, names_of, nearest, place_of,
 };
 use crate::mechanism::{Frame, JointKind, Mechanism};
 use crate::number::sorting::sort_by;
@@ -366,14 +366,15 @@ fn back(
             Convention::Modified => chain.rows.get(k + 1),
             Convention::Standard => chain.rows.get(k - 1),
         };
-        let twist = |of: fn(&Row) -> &Entry| twisted.map_or_else(zero, |row| negated(of(row)));
+        let twist =
+            |of: fn(&RowDescription) -> &Entry| twisted.map_or_else(zero, |row| negated(of(row)));
         let (alpha, a) = (twist(|row| &row.alpha), twist(|row| &row.a));
-        let Row { d, theta, .. } = &chain.rows[k];
+        let RowDescription { d, theta, .. } = &chain.rows[k];
         // the way back comes from behind a joint to the link before it
         let link = chain.rows[k - 1].link.clone();
-        Row {
+        RowDescription {
             link,
-            ..Row::new(alpha, a, negated(d), negated(theta))
+            ..RowDescription::new(alpha, a, negated(d), negated(theta))
         }
     });
     ChainDescription {

@@ -10,7 +10,7 @@ use crate::description::{
     Displacement, GROUND, Graph, Named, PlatformDescription, Role, Spanned, place_of,
 };
 use crate::geometry::{Axis, Line, Pose, Rotation, Vector3};
-use crate::mechanism::{Assignment, JointAxis, SerialAxes};
+use crate::mechanism::{FrameAssignment, JointAxis, SerialAxes};
 
 /// A mechanism file being made from axes and cuts.
 pub(super) struct Build<'a> {
@@ -228,7 +228,7 @@ impl<'a> Build<'a> {
 
     /// A chain that ends at a joint to be put back: its frames, and from the last of them the frame
     /// there.
-    fn ended(&self, serial: SerialAxes, cut: usize) -> (Assignment, Pose<f64>) {
+    fn ended(&self, serial: SerialAxes, cut: usize) -> (FrameAssignment, Pose<f64>) {
         let rows = serial.joints.len();
         let kind = self.axes.joints[cut].value.kind;
         let line = self.values.lines[cut];

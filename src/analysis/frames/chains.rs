@@ -5,10 +5,10 @@ use super::{FramesReport, PlacedChain};
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, ChainDescription, Convention, Description,
-    Displacement, Entry, JointDescription, Named, Problem, Role, Row, Spanned, names_of,
+    Displacement, Entry, JointDescription, Named, Problem, Role, RowDescription, Spanned, names_of,
 };
 use crate::geometry::{Axis, Pose, Rotation, Vector3};
-use crate::mechanism::{JointAxis, SerialAxes, Table, TableRow};
+use crate::mechanism::{DhTable, JointAxis, SerialAxes, TableRow};
 
 /// The axis of the joint of that index, traversed from the first of its bodies or from the second.
 pub(super) fn joint_axis(
@@ -55,18 +55,18 @@ fn moving(constant: Entry, factor: f64, variable: &str) -> Entry {
     node.at(0..0).into()
 }
 
-fn row(row: &TableRow, variable: &str) -> Row {
+fn row(row: &TableRow, variable: &str) -> RowDescription {
     let (d, theta) = (Entry::length(row.d), Entry::angle(row.theta));
     let with = |constant: Entry, factor: f64| match factor {
         0.0 => constant,
         factor => moving(constant, factor, variable),
     };
     let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
-    Row::new(alpha, a, with(d, row.slide), with(theta, row.turn))
+    RowDescription::new(alpha, a, with(d, row.slide), with(theta, row.turn))
 }
 
 /// The first rows of a table, as many as there are names of variables.
-pub(super) fn rows(table: &Table, variables: &[String]) -> Vec<Row> {
+pub(super) fn rows(table: &DhTable, variables: &[String]) -> Vec<RowDescription> {
     let named = table.rows.iter().zip(variables);
     named.map(|(r, variable)| row(r, variable)).collect()
 }

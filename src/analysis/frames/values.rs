@@ -5,7 +5,7 @@ use crate::algebra::Expression;
 use crate::description::{
     AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, ChainDescription,
     Convention, Description, Displacement, Entry, JointDescription, Named, PlatformDescription,
-    Problem, ProblemKind, Role, Row, Severity, Spanned,
+    Problem, ProblemKind, Role, RowDescription, Severity, Spanned,
 };
 use crate::geometry::{Line, Pose, Vector3};
 use crate::mechanism::Mechanism;
@@ -115,8 +115,8 @@ fn variables(axes: &AxesDescription) -> ChainDescription {
         let zero = || Entry::number(0.0, 0..0);
         let variable = Expression::name(joint.name.value.clone()).into();
         match joint.value.kind {
-            AxisKind::Prismatic => Row::new(zero(), zero(), variable, zero()),
-            _ => Row::new(zero(), zero(), zero(), variable),
+            AxisKind::Prismatic => RowDescription::new(zero(), zero(), variable, zero()),
+            _ => RowDescription::new(zero(), zero(), zero(), variable),
         }
     };
     ChainDescription {

@@ -18,7 +18,7 @@ pub struct Redundancy {
     /// All the equations it has.
     pub of: usize,
     /// A basis of the wrenches they resist, at the closure's point in its first frame.
-    pub wrenches: Vec<Wrench>,
+    pub wrenches: Vec<RedundantWrench>,
     /// The closure is a rod between two balls.
     pub rod: bool,
 }
@@ -26,7 +26,7 @@ pub struct Redundancy {
 /// A wrench in the first frame of a closure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Wrench {
+pub struct RedundantWrench {
     /// Force, without unit.
     pub force: [f64; 3],
     /// Moment about the closure's point, in m.
@@ -80,7 +80,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
             equations: entering.len(),
             of: columns,
             wrenches: (axis_aligned(&dependent).into_iter())
-                .map(|w| Wrench {
+                .map(|w| RedundantWrench {
                     force: [w[0], w[1], w[2]],
                     moment: [w[3], w[4], w[5]].map(|m| m * mechanism.characteristic_length()),
                 })

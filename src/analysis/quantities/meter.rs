@@ -13,7 +13,7 @@ use crate::analysis::singularities::Classifier;
 use crate::analysis::statics::determined;
 use crate::analysis::sweep::{Pace, Row, Schedule};
 use crate::analysis::velocity::{
-    Axis, Normalised, Outputs, Spins, TransmissionAngles, axes, condition, outputs,
+    JacobianAxis, Normalised, Outputs, Spins, TransmissionAngles, axes, condition, outputs,
 };
 use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
@@ -288,7 +288,7 @@ impl<'q> Meter<'q> {
     }
 
     /// The rows and columns of the Jacobian.
-    pub fn axes(&self) -> [Vec<Axis>; 2] {
+    pub fn axes(&self) -> [Vec<JacobianAxis>; 2] {
         let outputs = self.plan.outputs.as_deref().unwrap_or_default();
         axes(self.of.question.mechanism(), outputs, &self.coordinates)
     }

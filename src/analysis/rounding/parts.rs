@@ -8,7 +8,7 @@ use crate::system::{Bundle, Bundled, Held, HeldPlatform};
 
 /// Closures that are looked at together, with what they depend on.
 #[derive(Default)]
-pub(super) struct Part {
+pub(super) struct LinkedLoops {
     pub closures: Vec<usize>,
     joints: BTreeSet<usize>,
     platforms: BTreeSet<usize>,
@@ -16,9 +16,9 @@ pub(super) struct Part {
     pub numbers: BTreeSet<usize>,
 }
 
-impl Part {
+impl LinkedLoops {
     /// The parts of a mechanism with numbers of these indices among its parameters.
-    pub fn of(mechanism: &Mechanism, numbers: &[(usize, f64)]) -> Option<Vec<Part>> {
+    pub fn of(mechanism: &Mechanism, numbers: &[(usize, f64)]) -> Option<Vec<LinkedLoops>> {
         /// A part of a number's own size: what is less comes from loops that are not quite closed.
         const COUNTS: f64 = 1e-3;
         let bundle = Bundle::new(mechanism, Held::nothing(mechanism), numbers);
@@ -36,20 +36,20 @@ impl Part {
         };
         let columns = bundle.by_numbers(&at)?.pop()?;
         let rows: Vec<Range<usize>> = system.closure_rows().collect();
-        let mut parts: Vec<Part> = Vec::new();
+        let mut parts: Vec<LinkedLoops> = Vec::new();
         for (i, closure) in mechanism.closures().iter().enumerate() {
             let (joints, platforms) = mechanism.within_loop(closure);
             let touches = |(k, (_, size)): (usize, &(usize, f64))| {
                 let column = &columns[k * system.rows()..][rows[i].clone()];
                 column.iter().any(|x| x.abs() > COUNTS * size).then_some(k)
             };
-            let mut part = Part {
+            let mut part = LinkedLoops {
                 closures: vec![i],
                 joints: joints.into_iter().collect(),
                 platforms: platforms.into_iter().collect(),
                 numbers: numbers.iter().enumerate().filter_map(touches).collect(),
             };
-            let (coupled, others): (Vec<Part>, _) =
+            let (coupled, others): (Vec<LinkedLoops>, _) =
                 parts.into_iter().partition(|other| part.is_coupled(other));
             parts = others;
             coupled.into_iter().for_each(|other| part.join(other));
@@ -58,13 +58,13 @@ impl Part {
         Some(parts)
     }
 
-    fn is_coupled(&self, other: &Part) -> bool {
+    fn is_coupled(&self, other: &LinkedLoops) -> bool {
         !(self.joints.is_disjoint(&other.joints)
             && self.platforms.is_disjoint(&other.platforms)
             && self.numbers.is_disjoint(&other.numbers))
     }
 
-    fn join(&mut self, other: Part) {
+    fn join(&mut self, other: LinkedLoops) {
         self.closures.extend(other.closures);
         self.joints.extend(other.joints);
         self.platforms.extend(other.platforms);

@@ -8,7 +8,7 @@ use crate::mechanism::{Mechanism, Rounding};
 /// A mechanism file whose loops close exactly, and what was changed to that end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Snap {
+pub struct Snapped {
     /// The mechanism's name.
     pub mechanism: String,
     /// The text of the file: tables or joint coordinates, as it was given.
@@ -18,7 +18,7 @@ pub struct Snap {
 }
 
 /// The file of a mechanism as it was [posed](super::posed).
-pub fn snap(description: &Description, mechanism: &Mechanism) -> Snap {
+pub fn snap(description: &Description, mechanism: &Mechanism) -> Snapped {
     // what is exact needs no tolerance
     let file = match description.coordinates.as_deref().cloned() {
         Some(mut coordinates) => {
@@ -35,7 +35,7 @@ pub fn snap(description: &Description, mechanism: &Mechanism) -> Snap {
             .to_ron()
         }
     };
-    Snap {
+    Snapped {
         mechanism: mechanism.name().to_owned(),
         file: file.unwrap_or_default(),
         rounding: mechanism.rounding().cloned(),

@@ -6,7 +6,7 @@ use crate::solve::Equations;
 use crate::system::{Bundle, Bundled, System, Work};
 
 /// Where directions begin that rounding may have closed, and how many equations resist the others.
-pub(super) struct Walk<'a> {
+pub(super) struct RoundedDirections<'a> {
     pub bundle: &'a Bundle<'a>,
     file: &'a [f64],
     start: Configuration<f64>,
@@ -77,7 +77,7 @@ fn nearest(
     (at, largest, svd)
 }
 
-impl<'a> Walk<'a> {
+impl<'a> RoundedDirections<'a> {
     /// `None` if the numbers leave nothing open, unless they may, or more than rounding explains.
     pub(super) fn new(
         bundle: &'a Bundle<'a>,
@@ -137,7 +137,7 @@ impl<'a> Walk<'a> {
         if exact && !may_be_exact || left > SLACK * most + EXACT || rank == 0 {
             return None;
         }
-        Some(Walk {
+        Some(RoundedDirections {
             bundle,
             file,
             start,

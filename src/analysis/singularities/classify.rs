@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::linear::{Decomposition, orthonormal, remove, singular_values};
 use crate::mechanism::{Configuration, Figure, Mechanism};
 use crate::system::{
-    Coordinate, Lock, Locked, Mobility, Neighbourhood, STILL, Screw, TwistSpace, Unknown,
+    Coordinate, Lock, Locked, Neighbourhood, RegularFreedoms, STILL, Screw, TwistSpace, Unknown,
 };
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
@@ -68,7 +68,7 @@ pub struct Movement {
     pub freedoms: usize,
     /// The joints that move; rates of a single motion are parts of a unit vector, rad and
     /// characteristic lengths.
-    pub joints: Vec<Moving>,
+    pub joints: Vec<MovingJoint>,
     /// The motions of the platforms, or of the links at the closures.
     pub twists: Vec<TwistSpace>,
 }
@@ -76,7 +76,7 @@ pub struct Movement {
 /// A joint that moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Moving {
+pub struct MovingJoint {
     /// Its name.
     pub joint: String,
     /// Rate; `None` if several motions are independent.
@@ -148,7 +148,7 @@ impl<'m> Classifier<'m> {
             matrices: [&[], &inputs[..], outputs, &both].map(|rows| Locked::new(mechanism, rows)),
             outputs: outputs.to_vec(),
             generic: [0; 4],
-            beside: Mobility::beside(mechanism, at).map(|mobility| mobility.at().clone()),
+            beside: RegularFreedoms::beside(mechanism, at).map(|mobility| mobility.at().clone()),
         };
         let here = classifier.nullities(at);
         classifier.generic = match classifier.beside.clone() {
@@ -290,7 +290,7 @@ impl<'m> Classifier<'m> {
                 return None;
             };
             let moves = motions.iter().any(|motion| motion[i].abs() > STILL);
-            moves.then(|| Moving {
+            moves.then(|| MovingJoint {
                 joint: mechanism.joints()[joint].name.clone(),
                 rate: match &motions[..] {
                     [one] => Some(one[i]),

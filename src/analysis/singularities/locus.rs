@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::classify::{Classifier, Kind, Singularity};
 use super::cusps::cusps;
 use super::outputs::{Coupled, coupled, outputs_of};
-use super::projected::{Projection, Shape, groups};
+use super::projected::{ImageShape, Projection, groups};
 use super::starts::{FoundCurves, LocusSearch};
 use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Variable};
@@ -65,7 +65,7 @@ pub struct Locus {
     /// Matrix that loses rank on it.
     pub kind: Kind,
     /// Curve, or single point over which only coordinates outside the box move, if any do.
-    pub shape: Shape,
+    pub shape: ImageShape,
     /// The curves of configurations that were found over it, each over all of it or a part.
     pub configurations: usize,
     /// Number of random starts that led to it; 0 if it was found from a crossing of other loci.
@@ -231,7 +231,7 @@ impl LocusSearch<'_> {
             let shape = projections[chosen].shape();
             let (mut places, mut crossings, mut cusps) = (&traced.places[..1], vec![], vec![]);
             let mut extents = self.coordinates(&places[0]).map(|x| [x; 2]);
-            if shape == Shape::Curve {
+            if shape == ImageShape::Curve {
                 let members = group.iter().map(|member| &known[*member].0);
                 cusps = self.cusps(&mut curve, &projections[chosen], members.clone());
                 let crossed = members.flat_map(|traced| &traced.crossings);

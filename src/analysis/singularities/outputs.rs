@@ -8,7 +8,7 @@ use crate::linear::{norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame, Mechanism, PoseCoordinate};
 use crate::number::tolerance::SAME;
 use crate::system::{
-    Coordinate, Driven, Held, Lock, Locked, Mobility, default_outputs, platform_outputs,
+    Coordinate, Driven, Held, Lock, Locked, RegularFreedoms, default_outputs, platform_outputs,
 };
 
 /// The outputs: of the settings, else coordinates of platforms asked about, else the default.
@@ -54,8 +54,8 @@ pub(super) fn coupled(
         return Vec::new();
     }
     // two regular configurations
-    let first = Mobility::beside(mechanism, at);
-    let second = (first.as_ref()).and_then(|first| Mobility::beside(mechanism, first.at()));
+    let first = RegularFreedoms::beside(mechanism, at);
+    let second = (first.as_ref()).and_then(|first| RegularFreedoms::beside(mechanism, first.at()));
     let (Some(first), Some(second)) = (first, second) else {
         return Vec::new();
     };

@@ -13,7 +13,7 @@ use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Shape {
+pub enum ImageShape {
     /// A curve.
     Curve,
     /// A single point: only coordinates outside the box move along it, or none does.
@@ -59,11 +59,11 @@ impl<'t> Projection<'t> {
         }
     }
 
-    pub fn shape(&self) -> Shape {
+    pub fn shape(&self) -> ImageShape {
         let first = self.points.first().copied().unwrap_or_default();
         match self.points.iter().all(|point| apart(first, *point) < SAME) {
-            true => Shape::Point,
-            false => Shape::Curve,
+            true => ImageShape::Point,
+            false => ImageShape::Curve,
         }
     }
 
@@ -187,7 +187,7 @@ pub(super) fn groups(
         let own = &projections[group[0]];
         own.stands_still(curve)
             && projections.iter().any(|other| {
-                other.shape() == Shape::Curve && other.passes(curve, region, own.points[0])
+                other.shape() == ImageShape::Curve && other.passes(curve, region, own.points[0])
             })
     };
     groups.retain(|group| !crossed(group));

@@ -8,20 +8,20 @@ use crate::number::Dual;
 use crate::system::{FrameMotion, FrameTwists, Motion};
 
 /// A number with its first and second derivatives by time.
-type Moving = Dual<Dual<f64>>;
+type TwiceDual = Dual<Dual<f64>>;
 
-fn moving([value, rate, change]: [f64; 3]) -> Moving {
+fn moving([value, rate, change]: [f64; 3]) -> TwiceDual {
     let inner = [(value, rate), (rate, change)];
     let [value, slope] = inner.map(|(value, slope)| Dual { value, slope });
     Dual { value, slope }
 }
 
-fn vector([value, rate, change]: [Vector3<f64>; 3]) -> Vector3<Moving> {
+fn vector([value, rate, change]: [Vector3<f64>; 3]) -> Vector3<TwiceDual> {
     Vector3([0, 1, 2].map(|i| moving([value.0[i], rate.0[i], change.0[i]])))
 }
 
 /// A frame in motion: of a vector r fixed in it, ṙ = ω × r and r̈ = ω̇ × r + ω × ṙ.
-fn pose(at: &Pose<f64>, motion: &FrameMotion) -> Pose<Moving> {
+fn pose(at: &Pose<f64>, motion: &FrameMotion) -> Pose<TwiceDual> {
     let (ω, turning) = (motion.twist.omega, motion.change.omega);
     let carried = |r: Vector3<f64>| {
         let rate = ω.cross(&r);

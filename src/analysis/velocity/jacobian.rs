@@ -21,9 +21,9 @@ pub struct InputOutput {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub directions: Option<[[f64; 3]; 3]>,
     /// The outputs.
-    pub rows: Vec<Axis>,
+    pub rows: Vec<JacobianAxis>,
     /// The inputs.
-    pub columns: Vec<Axis>,
+    pub columns: Vec<JacobianAxis>,
     /// Row by row; an entry has the unit of its row over that of its column.
     pub entries: Vec<Vec<f64>>,
     /// Number of rows at the end that belong to points followed. Rank, condition and manipulability leave them out,
@@ -45,17 +45,17 @@ pub struct InputOutput {
 /// A row or column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Axis {
+pub struct JacobianAxis {
     /// Name of the coordinate or component.
     pub name: String,
     /// `rad/s` or `m/s`.
     pub unit: SiUnit,
 }
 
-impl Axis {
+impl JacobianAxis {
     fn new(name: String, is_angle: bool) -> Self {
         let unit = SiUnit::of_coordinate(is_angle).per_second();
-        Axis { name, unit }
+        JacobianAxis { name, unit }
     }
 }
 
@@ -123,7 +123,7 @@ pub(crate) fn axes(
     mechanism: &Mechanism,
     outputs: &[Lock],
     inputs: &[Coordinate],
-) -> [Vec<Axis>; 2] {
+) -> [Vec<JacobianAxis>; 2] {
     let directions = Directions::of(mechanism);
     let rows = (outputs.iter()).flat_map(|&output| rows_of(mechanism, output, &directions));
     let kept = rows
@@ -131,10 +131,10 @@ pub(crate) fn axes(
         .filter(|row| row.1);
     let inputs = inputs.iter();
     [
-        kept.map(|((name, is_angle), _)| Axis::new(name, is_angle))
+        kept.map(|((name, is_angle), _)| JacobianAxis::new(name, is_angle))
             .collect(),
         inputs
-            .map(|input| Axis::new(input.name(mechanism), input.is_angle(mechanism)))
+            .map(|input| JacobianAxis::new(input.name(mechanism), input.is_angle(mechanism)))
             .collect(),
     ]
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Many, Unreached};
 use crate::analysis::quantities::{Meter, Metered};
 use crate::analysis::sweep::Pace;
-use crate::analysis::velocity::Axis;
+use crate::analysis::velocity::JacobianAxis;
 use crate::ask::preparation::with_joint;
 use crate::ask::{AskError, Question, Role};
 use crate::geometry::{RollPitchYaw, Vector3};
@@ -32,9 +32,9 @@ pub struct ManyMeasured {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobians {
     /// The outputs: rows of each Jacobian.
-    pub rows: Vec<Axis>,
+    pub rows: Vec<JacobianAxis>,
     /// The held coordinates: columns of each Jacobian.
-    pub columns: Vec<Axis>,
+    pub columns: Vec<JacobianAxis>,
     /// The entries.
     pub entries: Vec<f64>,
 }

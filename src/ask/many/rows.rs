@@ -31,7 +31,7 @@ fn steps_of(distance: f64, finite: bool) -> usize {
 }
 
 /// Rows to be followed, with the question and its equations.
-pub(super) struct Rows<'a> {
+pub(super) struct RowSeries<'a> {
     pub question: &'a system::Question<'a>,
     pub coordinates: &'a [Coordinate],
     pub columns: Vec<Coordinate>,
@@ -50,7 +50,7 @@ pub(super) struct Rows<'a> {
 }
 
 /// A block of rows, followed from the start configuration.
-pub(super) struct Block<'a> {
+pub(super) struct BlockOfRows<'a> {
     /// The place of the first.
     pub first: usize,
     pub columns: &'a [Coordinate],
@@ -58,7 +58,7 @@ pub(super) struct Block<'a> {
     pub reached: &'a mut [bool],
 }
 
-impl Block<'_> {
+impl BlockOfRows<'_> {
     fn put(&mut self, row: usize, found: impl Iterator<Item = f64>) {
         let width = self.columns.len();
         let values = self.values[row * width..(row + 1) * width].iter_mut();
@@ -79,7 +79,7 @@ impl Block<'_> {
     }
 }
 
-impl Rows<'_> {
+impl RowSeries<'_> {
     /// The values of the row that is followed at a place.
     fn row(&self, place: usize) -> &[f64] {
         let row = (self.order.get(place)).map_or(place, |row| *row as usize);
@@ -150,7 +150,7 @@ impl Rows<'_> {
     }
 
     /// The rows of a block in as many paths as there are motions side by side; true if all were followed.
-    pub fn side_by_side(&self, follower: &Follower, block: &mut Block) -> bool {
+    pub fn side_by_side(&self, follower: &Follower, block: &mut BlockOfRows) -> bool {
         let (first, rows) = (block.first, block.reached.len());
         let length = rows.div_ceil(BATCH);
         let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
@@ -205,7 +205,7 @@ impl Rows<'_> {
             for motion in (0..BATCH).filter(|motion| steps[*motion] > 0 && !arrived[*motion]) {
                 let Some(row) = row(motion) else { continue };
                 let values: Vec<f64> = here.iter().map(|of| of[motion]).collect();
-                let mut place = Place {
+                let mut place = SolvedRow {
                     at: follower.configuration(&motions, motion, &values),
                     values,
                 };
@@ -226,7 +226,7 @@ impl Rows<'_> {
     }
 
     /// The rows of a block in one path; true if all were followed.
-    pub fn one_by_one(&self, block: &mut Block) -> bool {
+    pub fn one_by_one(&self, block: &mut BlockOfRows) -> bool {
         let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
         let mut place = self.begin();
         for row in 0..block.reached.len() {
@@ -240,15 +240,20 @@ impl Rows<'_> {
         true
     }
 
-    fn begin(&self) -> Place {
-        Place {
+    fn begin(&self) -> SolvedRow {
+        SolvedRow {
             values: self.values(&self.start),
             at: self.start.clone(),
         }
     }
 
     /// Moves to held values from a place, or else from the beginning; stays there if neither leads to them.
-    fn goes_or_begins(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
+    fn goes_or_begins(
+        &self,
+        tracker: &mut MotionTracker,
+        place: &mut SolvedRow,
+        to: &[f64],
+    ) -> bool {
         let mut begin = self.begin();
         self.goes(tracker, place, to)
             || self.goes(tracker, &mut begin, to) && {
@@ -258,7 +263,7 @@ impl Rows<'_> {
     }
 
     /// Follows the straight path from a place to held values; stays there if it cannot be followed.
-    fn goes(&self, tracker: &mut MotionTracker, place: &mut Place, to: &[f64]) -> bool {
+    fn goes(&self, tracker: &mut MotionTracker, place: &mut SolvedRow, to: &[f64]) -> bool {
         let steps = self.steps(&place.values, to);
         if steps == 0 {
             return false;
@@ -315,7 +320,7 @@ impl Rows<'_> {
 }
 
 /// A configuration, and the held values it was found for.
-struct Place {
+struct SolvedRow {
     at: Configuration<f64>,
     values: Vec<f64>,
 }

@@ -20,7 +20,7 @@ struct Pulled<'a> {
 }
 
 /// A grip where it is: its mean place, and how fast that moves in each motion, in characteristic lengths.
-struct Place {
+struct GripPlace {
     way: Vector3<f64>,
     velocities: Vec<Vector3<f64>>,
 }
@@ -127,7 +127,7 @@ impl Steering {
         }
     }
 
-    fn place(&self, pulled: &Pulled, ways: &Ways, at: &Configuration<f64>) -> Place {
+    fn place(&self, pulled: &Pulled, ways: &Ways, at: &Configuration<f64>) -> GripPlace {
         let (mechanism, freedoms) = (&self.mechanism, &ways.freedoms);
         let length = mechanism.characteristic_length();
         let points: Vec<Point> = pulled.grip.iter().map(|(point, _)| *point).collect();
@@ -148,7 +148,7 @@ impl Steering {
             let velocity = mean(&|i| twists.twist(i, &placement, motion).velocity);
             seen(velocity).times(1.0 / length)
         };
-        Place {
+        GripPlace {
             way: seen(pulled.to - from).times(1.0 / length),
             velocities: freedoms.motions.iter().map(velocity).collect(),
         }

@@ -9,18 +9,18 @@ use linkwork::analysis::formulas::FormulasReport;
 use linkwork::analysis::frames::{AxesReport, FramesReport};
 use linkwork::analysis::mobility::MobilityReport;
 use linkwork::analysis::overview::Overview;
-use linkwork::analysis::rounding::Snap;
+use linkwork::analysis::rounding::Snapped;
 use linkwork::analysis::simulation::SimulationReport;
 use linkwork::analysis::singularities::{AlongReport, LocusReport, SingularitiesReport};
 use linkwork::analysis::statics::StaticsReport;
 use linkwork::analysis::sweep::{CircuitsReport, MotionsReport};
 use linkwork::analysis::velocity::VelocityReport;
 use linkwork::analysis::workspace::WorkspaceReport;
-use linkwork::output::schema::{Part, of as report, schema};
+use linkwork::output::schema::{SchemaOf, of as report, schema};
 use linkwork::system::Analysed;
 
 /// Reports of a command; none if it has no `--format json`.
-fn parts(command: &str) -> &'static [Part] {
+fn parts(command: &str) -> &'static [SchemaOf] {
     match command {
         "assemblies" => &[report::<AssembliesReport>],
         "check" => &[report::<Overview>],
@@ -35,7 +35,7 @@ fn parts(command: &str) -> &'static [Part] {
             report::<AlongReport>,
             report::<LocusReport>,
         ],
-        "snap" => &[report::<Snap>],
+        "snap" => &[report::<Snapped>],
         "solve" => &[report::<AssemblyReport>, report::<LostMode>],
         "simulate" => &[report::<SimulationReport>],
         "statics" => &[report::<Analysed<StaticsReport>>],

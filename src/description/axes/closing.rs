@@ -6,8 +6,8 @@ use super::{AxisKind, AxisPlace};
 use crate::algebra::Expression;
 use crate::description::steps::{between, onto_normal, signed_sum};
 use crate::description::{
-    Axis, ChainDescription, ClosureDescription, ClosureKind, Displacement, Named, Row, Spanned,
-    first_free, place_of,
+    Axis, ChainDescription, ClosureDescription, ClosureKind, Displacement, Named, RowDescription,
+    Spanned, first_free, place_of,
 };
 
 impl Tables<'_> {
@@ -69,7 +69,7 @@ impl Tables<'_> {
         joint: usize,
         side: usize,
         otherwise: &[Displacement],
-        row: Option<Row>,
+        row: Option<RowDescription>,
     ) -> String {
         let body = self.graph.ends[joint][side];
         let mut steps = self.joint_frame(joint, side, side, otherwise);

@@ -29,7 +29,7 @@ use crate::description::{
 
 /// Joint coordinates, with the choices made in writing tables of them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Coordinates {
+pub struct JointCoordinates {
     /// The file, rods of bodies written as such.
     pub axes: AxesDescription,
     /// The joints that are cut, besides rods and balls.
@@ -106,7 +106,7 @@ impl AxesDescription {
         let always = axes.always_cut();
         let name = |j: &usize| axes.joints[*j].name.value.clone();
         let cut: Vec<String> = cuts.difference(&always).map(name).collect();
-        let coordinates = Coordinates { axes, cut, rods };
+        let coordinates = JointCoordinates { axes, cut, rods };
         Ok(Description {
             coordinates: Some(Box::new(coordinates)),
             ..made

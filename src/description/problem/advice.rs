@@ -155,25 +155,27 @@ fn positive(row: usize, turned: &Turned) -> String {
     )
 }
 
-fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
+fn wrong_type_help(expected: Expected, found: &FoundValue) -> Option<&'static str> {
     match (expected, found) {
-        (Expected::Convention | Expected::Role, Found::Text) => Some("write it without quotes"),
+        (Expected::Convention | Expected::Role, FoundValue::Text) => {
+            Some("write it without quotes")
+        }
         (
             Expected::Text | Expected::NameOf(_) | Expected::Frame,
-            Found::Word(_) | Found::Character,
+            FoundValue::Word(_) | FoundValue::Character,
         ) => Some("write it in double quotes"),
-        (Expected::Entry, Found::Word(_) | Found::Call(_) | Found::Character) => {
+        (Expected::Entry, FoundValue::Word(_) | FoundValue::Call(_) | FoundValue::Character) => {
             Some("write an expression in double quotes")
         }
-        (Expected::Fields(_) | Expected::Joint, Found::Map) => {
+        (Expected::Fields(_) | Expected::Joint, FoundValue::Map) => {
             Some("write fields in `(…)`; `{…}` is for named items")
         }
-        (Expected::MapOf(_), Found::List | Found::Tuple | Found::Fields) => {
+        (Expected::MapOf(_), FoundValue::List | FoundValue::Tuple | FoundValue::Fields) => {
             Some("write `{ \"name\": …, … }`, with the names in double quotes")
         }
         (Expected::Rows | Expected::Transform, _) => Some("write a list in `[…]`"),
-        (_, Found::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
-        (_, Found::Word(word)) if word == "None" => Some("leave the field out"),
+        (_, FoundValue::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
+        (_, FoundValue::Word(word)) if word == "None" => Some("leave the field out"),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use crate::description::{
-    AxisKind, ClosureKind, Expected, Found, LoadKind, Noun, Scope, Shape, Structure,
+    AxisKind, ClosureKind, Expected, FieldGroup, FoundValue, LoadKind, Noun, Scope, Shape,
 };
 
 impl Display for Noun {
@@ -12,7 +12,7 @@ impl Display for Noun {
     }
 }
 
-impl Display for Structure {
+impl Display for FieldGroup {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::Mechanism => "a mechanism",
@@ -149,7 +149,7 @@ fn content(noun: Noun) -> &'static str {
     }
 }
 
-impl Display for Found {
+impl Display for FoundValue {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::Number => "a number",

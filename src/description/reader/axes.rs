@@ -7,7 +7,7 @@ use crate::description::axes::{
 
 impl FileReader {
     pub(super) fn axes(&mut self, piece: Piece) -> Option<AxesDescription> {
-        let mut fields = self.fields(piece, Structure::Axes)?;
+        let mut fields = self.fields(piece, FieldGroup::Axes)?;
         if !self.known_version(&mut fields) {
             return None;
         }
@@ -23,11 +23,11 @@ impl FileReader {
             parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
             joints: self.named(f, "joints", Noun::Axis, Self::axis),
             bodies: self.named(f, "bodies", Noun::Body, |reader, piece| {
-                let mut fields = reader.fields(piece, Structure::BodyFrame)?;
+                let mut fields = reader.fields(piece, FieldGroup::BodyFrame)?;
                 reader.point_or_frame(&mut fields, "origin")
             }),
             points: self.named(f, "points", Noun::Point, |reader, piece| {
-                let mut fields = reader.fields(piece, Structure::Point)?;
+                let mut fields = reader.fields(piece, FieldGroup::Point)?;
                 let body = reader.require(&mut fields, "body");
                 let body = body.and_then(|body| reader.text(body, Expected::Body));
                 let place = reader.point_or_frame(&mut fields, "at")?;
@@ -49,11 +49,11 @@ impl FileReader {
     fn axis(&mut self, piece: Piece) -> Option<AxisDescription> {
         let (known, word) = (&AxisKind::ALL, AxisKind::word);
         let (kind, _) = self.word(piece, Expected::Axis, known, word)?;
-        let mut fields = self.fields(piece, Structure::Joint(kind))?;
+        let mut fields = self.fields(piece, FieldGroup::Joint(kind))?;
         let f = &mut fields;
         let place = self.axis_place(kind, f);
         let second = f.take("second").and_then(|piece| {
-            let mut fields = self.fields(piece, Structure::SecondPlace)?;
+            let mut fields = self.fields(piece, FieldGroup::SecondPlace)?;
             self.axis_place(kind, &mut fields)
         });
         let role = f.take("role").and_then(|piece| {

@@ -4,7 +4,7 @@ use super::*;
 
 impl FileReader {
     pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
-        let mut fields = self.fields(piece, Structure::ClosedForm)?;
+        let mut fields = self.fields(piece, FieldGroup::ClosedForm)?;
         // reading takes the fields out, so the kind of formula is decided first
         let pose = fields.gives(&["position", "rotation", "transform", "entries"]);
         let identity = fields.gives(&["identity", "identities"]);
@@ -49,7 +49,7 @@ impl FileReader {
 
     /// Three rows of `[R | p]`, and perhaps the fourth that every homogeneous transform has.
     fn homogeneous(&mut self, piece: Piece) -> Option<[[Entry; 4]; 3]> {
-        let Shape::Tuple = piece.shape() else {
+        let PieceShape::Tuple = piece.shape() else {
             self.wrong_type(piece, Expected::TransformRows);
             return None;
         };

@@ -26,7 +26,7 @@ enum Order {
 
 impl FileReader {
     fn design(&mut self, piece: Piece) -> Option<DesignDescription> {
-        let mut fields = self.fields(piece, Structure::Design)?;
+        let mut fields = self.fields(piece, FieldGroup::Design)?;
         if !self.known_version(&mut fields) {
             return None;
         }
@@ -58,7 +58,7 @@ impl FileReader {
 
     fn position(&mut self, piece: Piece) -> Option<Vec<Named<Vec<Entry>>>> {
         Some(self.map(piece, Noun::Target, |reader, piece| {
-            if !matches!(piece.shape(), Shape::Tuple) {
+            if !matches!(piece.shape(), PieceShape::Tuple) {
                 return Some(vec![reader.entry(piece)?]);
             }
             let elements = piece.elements();

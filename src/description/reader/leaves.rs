@@ -5,7 +5,7 @@ use crate::algebra::{Expression, ParseError};
 
 impl FileReader {
     pub(super) fn text(&mut self, piece: Piece, expected: Expected) -> Option<Spanned<String>> {
-        let Shape::Text = piece.shape() else {
+        let PieceShape::Text = piece.shape() else {
             self.wrong_type(piece, expected);
             return None;
         };
@@ -48,12 +48,12 @@ impl FileReader {
         parse: fn(&str) -> Result<Expression, ParseError>,
     ) -> Option<Entry> {
         match piece.shape() {
-            Shape::Number => match piece.number() {
+            PieceShape::Number => match piece.number() {
                 Ok(value) if value.is_finite() => return Some(Entry::number(value, piece.span())),
                 Ok(_) => self.note(ProblemKind::NotFinite, piece.span()),
                 Err(_) => self.wrong_type(piece, Expected::Entry),
             },
-            Shape::Text => {
+            PieceShape::Text => {
                 let literal = self.split(piece, piece.text())?;
                 match parse(&literal.text) {
                     Ok(expression) => {
@@ -71,7 +71,7 @@ impl FileReader {
                     }
                 }
             }
-            Shape::Word {
+            PieceShape::Word {
                 word: "inf" | "inff32" | "inff64" | "NaN" | "NaNf32" | "NaNf64",
                 content: None,
             } => self.note(ProblemKind::NotFinite, piece.span()),
@@ -108,7 +108,7 @@ impl FileReader {
         known: &[T],
         written: fn(T) -> &'static str,
     ) -> Option<(T, Option<Piece<'a>>)> {
-        let Shape::Word { word, content } = piece.shape() else {
+        let PieceShape::Word { word, content } = piece.shape() else {
             self.wrong_type(piece, expected);
             return None;
         };
@@ -128,7 +128,7 @@ impl FileReader {
         known: &[T],
         written: fn(T) -> &'static str,
     ) -> Option<T> {
-        if let Shape::Word {
+        if let PieceShape::Word {
             content: Some(_), ..
         } = piece.shape()
         {

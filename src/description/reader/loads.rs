@@ -15,14 +15,14 @@ impl FileReader {
     }
 
     fn mass(&mut self, piece: Piece) -> Option<MassDescription> {
-        let mut fields = self.fields(piece, Structure::Mass)?;
+        let mut fields = self.fields(piece, FieldGroup::Mass)?;
         let f = &mut fields;
         let (centre, inertia) = (f.take("centre"), f.take("inertia"));
         Some(MassDescription {
             mass: self.optional_entry(f, "mass"),
             centre: centre.and_then(|piece| self.vector(piece, Expected::Vector)),
             inertia: inertia.and_then(|piece| match piece.shape() {
-                Shape::Tuple => {
+                PieceShape::Tuple => {
                     let six: [Entry; 6] = self.vector(piece, Expected::Inertia)?;
                     Some(InertiaDescription(six.into()))
                 }
@@ -51,7 +51,7 @@ impl FileReader {
 
     fn load(&mut self, piece: Piece) -> Option<LoadDescription> {
         let (kind, _) = self.word(piece, Expected::Load, &LoadKind::ALL, LoadKind::word)?;
-        let mut fields = self.fields(piece, Structure::Load(kind))?;
+        let mut fields = self.fields(piece, FieldGroup::Load(kind))?;
         let mut read = Vec::new();
         for name in kind.fields().split(' ') {
             let Some(piece) = fields.take(name) else {
@@ -65,12 +65,12 @@ impl FileReader {
                 }
                 "joint" | "at" | "along" => LoadField::Name(self.text(piece, Expected::Frame)?),
                 "tension_only" | "compression_only" => LoadField::Yes(self.yes(piece)?),
-                "table" if matches!(piece.shape(), Shape::Text) => {
+                "table" if matches!(piece.shape(), PieceShape::Text) => {
                     LoadField::File(self.text(piece, Expected::Table)?)
                 }
                 "table" => LoadField::Table(self.table(piece)?),
                 _ => match piece.shape() {
-                    Shape::Tuple if kind == LoadKind::Force => {
+                    PieceShape::Tuple if kind == LoadKind::Force => {
                         let vector = self.tuple(piece, Expected::Vector)?;
                         let [x, y, z] = vector.map(|part| self.quantity(part));
                         LoadField::Vector([x?, y?, z?])
@@ -89,7 +89,7 @@ impl FileReader {
 
     fn yes(&mut self, piece: Piece) -> Option<bool> {
         match piece.shape() {
-            Shape::Word {
+            PieceShape::Word {
                 word: word @ ("true" | "false"),
                 content: None,
             } => Some(word == "true"),

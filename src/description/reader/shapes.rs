@@ -7,7 +7,7 @@ use super::*;
 
 /// The fields of a structure that are not taken yet.
 pub(super) struct Fields<'a> {
-    pub structure: Structure,
+    pub structure: FieldGroup,
     pub span: Range<usize>,
     pieces: Vec<(&'a str, Piece<'a>)>,
     /// Fields that are there under a misspelt name: they must not be called missing too.
@@ -69,12 +69,12 @@ impl FileReader {
     pub(super) fn fields<'a>(
         &mut self,
         piece: Piece<'a>,
-        structure: Structure,
+        structure: FieldGroup,
     ) -> Option<Fields<'a>> {
         let expected = Expected::Fields(structure);
         let content = match piece.shape() {
-            Shape::Word { word, content } if word == structure.word() => content,
-            Shape::Word { word, .. } => {
+            PieceShape::Word { word, content } if word == structure.word() => content,
+            PieceShape::Word { word, .. } => {
                 self.unknown_word(piece, expected, word, vec![structure.word()]);
                 return None;
             }
@@ -90,8 +90,8 @@ impl FileReader {
             return Some(fields);
         };
         let found = match content.shape() {
-            Shape::Fields => content.fields(),
-            Shape::Tuple if content.elements().is_empty() => Vec::new(),
+            PieceShape::Fields => content.fields(),
+            PieceShape::Tuple if content.elements().is_empty() => Vec::new(),
             _ => {
                 self.wrong_type(content, expected);
                 return None;
@@ -160,7 +160,7 @@ impl FileReader {
         noun: Noun,
         read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
     ) -> Vec<Named<T>> {
-        let Shape::Map = piece.shape() else {
+        let PieceShape::Map = piece.shape() else {
             self.wrong_type(piece, Expected::MapOf(noun));
             return Vec::new();
         };
@@ -197,7 +197,7 @@ impl FileReader {
         expected: Expected,
         read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
     ) -> Vec<T> {
-        let Shape::List = piece.shape() else {
+        let PieceShape::List = piece.shape() else {
             self.wrong_type(piece, expected);
             return Vec::new();
         };
@@ -210,7 +210,7 @@ impl FileReader {
         piece: Piece<'a>,
         of: Expected,
     ) -> Option<[Piece<'a>; N]> {
-        let Shape::Tuple = piece.shape() else {
+        let PieceShape::Tuple = piece.shape() else {
             self.wrong_type(piece, of);
             return None;
         };

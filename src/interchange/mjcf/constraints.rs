@@ -6,19 +6,19 @@ use mjcf_rs::Model;
 use roxmltree::Node;
 
 use super::hinges::hinges;
-use super::part::{Parts, pose};
+use super::part::{BodyParts, pose};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Bend, Coupling, Extent, Joint, Loop, Tree};
+use crate::interchange::tree::{Attachment, Bend, Coupling, Extent, Tree, TreeJoint, TreeLoop};
 
 /// Adds the constraints of a file to its tree.
 pub(super) fn read(
     root: Node,
     model: &Model,
     tree: &mut Tree,
-    parts: &[Parts],
+    parts: &[BodyParts],
     problems: &mut Problems,
     remarks: &mut Vec<Remark>,
 ) {
@@ -36,7 +36,7 @@ pub(super) fn read(
         poses,
         problems,
     };
-    let mut loops: Vec<Loop> = Vec::new();
+    let mut loops: Vec<TreeLoop> = Vec::new();
     let mut couplings = Vec::new();
     let blocks = children(root, "equality");
     let constraints = blocks
@@ -78,7 +78,7 @@ pub(super) fn read(
 
 /// Constraint on a tendon: between two sites a rod, along joints a relation of their values.
 enum Tendon {
-    Rod(Box<Loop>),
+    Rod(Box<TreeLoop>),
     Coupling(Coupling),
 }
 
@@ -96,8 +96,8 @@ struct Constraints<'a, 'r, 'i> {
     root: Node<'r, 'i>,
     model: &'a Model,
     tree: &'a Tree,
-    joints: HashMap<&'a str, &'a Joint>,
-    parts: &'a [Parts],
+    joints: HashMap<&'a str, &'a TreeJoint>,
+    parts: &'a [BodyParts],
     /// Ground from every body where the joints have their references.
     poses: Vec<Pose<f64>>,
     problems: &'a mut Problems,
@@ -146,7 +146,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// A point of two bodies: two sites, or one point of the first that is given, and the point of the second that
     /// lies there where the joints have their references.
-    fn connect(&mut self, node: Node, name: String) -> Option<Loop> {
+    fn connect(&mut self, node: Node, name: String) -> Option<TreeLoop> {
         let sides = match self.sites(node)? {
             Some(sides) => sides,
             None => {
@@ -157,14 +157,14 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                 let (a, b) = (a?, b?);
                 let point = self.poses[b].inverse() * self.poses[a] * anchor;
                 let ends = [(a, anchor), (b, point)];
-                Loop::sides(&name, ends.map(|(body, p)| (body, Pose::translation(p))))
+                TreeLoop::sides(&name, ends.map(|(body, p)| (body, Pose::translation(p))))
             }
         };
-        Some(Loop::new(name, ClosureKind::Spherical, sides))
+        Some(TreeLoop::new(name, ClosureKind::Spherical, sides))
     }
 
     /// Two frames: two sites, or two bodies with the second's pose in the first.
-    fn weld(&mut self, node: Node, name: String) -> Option<Loop> {
+    fn weld(&mut self, node: Node, name: String) -> Option<TreeLoop> {
         let sides = match self.sites(node)? {
             Some(sides) => sides,
             None => {
@@ -180,10 +180,10 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                     },
                     None => self.poses[a].inverse() * self.poses[b],
                 };
-                Loop::sides(&name, [(a, relative), (b, Pose::identity())])
+                TreeLoop::sides(&name, [(a, relative), (b, Pose::identity())])
             }
         };
-        Some(Loop::new(name, ClosureKind::Rigid, sides))
+        Some(TreeLoop::new(name, ClosureKind::Rigid, sides))
     }
 
     /// The coefficients c₀ to c₄ of a polynomial.
@@ -303,9 +303,9 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         let sides = [a?, b?];
         let [p, q] = [0, 1].map(|i| (self.poses[sides[i].body] * sides[i].pose).position);
         length.constant += (q - p).norm();
-        Some(Tendon::Rod(Box::new(Loop {
+        Some(Tendon::Rod(Box::new(TreeLoop {
             length: Some(length),
-            ..Loop::new(name, ClosureKind::Distance, sides)
+            ..TreeLoop::new(name, ClosureKind::Distance, sides)
         })))
     }
 

@@ -2,19 +2,19 @@
 
 use crate::description::ClosureKind;
 use crate::interchange::page::along_z;
-use crate::interchange::tree::Loop;
+use crate::interchange::tree::TreeLoop;
 
 /// Two points of the same two bodies, at the same distance on both, are a hinge.
-pub(super) fn hinges(loops: Vec<Loop>) -> Vec<Loop> {
-    let mut merged: Vec<Loop> = Vec::new();
+pub(super) fn hinges(loops: Vec<TreeLoop>) -> Vec<TreeLoop> {
+    let mut merged: Vec<TreeLoop> = Vec::new();
     for second in loops {
-        let same = |first: &&mut Loop| {
+        let same = |first: &&mut TreeLoop| {
             first.kind == ClosureKind::Spherical
                 && second.kind == ClosureKind::Spherical
                 && (0..2).all(|side| first.sides[side].body == second.sides[side].body)
         };
         let first = merged.iter_mut().find(same);
-        let apart = |first: &Loop| {
+        let apart = |first: &TreeLoop| {
             [0, 1].map(|side| second.sides[side].pose.position - first.sides[side].pose.position)
         };
         let Some(first) = first else {

@@ -4,7 +4,7 @@ use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::turned;
 
 /// A body and its place in the tree: its first and its last part, if it was split.
-pub(super) type Parts = Vec<usize>;
+pub(super) type BodyParts = Vec<usize>;
 
 pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
     let (q, t) = (pose.rotation, pose.translation);

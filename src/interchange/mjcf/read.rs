@@ -13,14 +13,14 @@ use roxmltree::Node;
 
 use super::check::{AXIS, is_irrelevant, look};
 use super::constraints;
-use super::part::{Parts, pose};
+use super::part::{BodyParts, pose};
 use crate::description::{first_free, unless};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::interchange::masses::Heavy;
 use crate::interchange::page::{Problems, child, children, direction, document, parse};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Joint, Motion, Tree};
+use crate::interchange::tree::{BodyMotion, Tree, TreeBody, TreeJoint};
 use crate::number::sorting::sort_by_key;
 
 /// Reads the text of an MJCF file without `include`.
@@ -75,7 +75,7 @@ fn bodies(
     model: &Model,
     root: Node,
     remarks: &mut Vec<Remark>,
-) -> Result<(Tree, Vec<Parts>), ImportProblemKind> {
+) -> Result<(Tree, Vec<BodyParts>), ImportProblemKind> {
     let driven = model.actuators.iter().filter_map(|a| a.joint.as_deref());
     let mut driven: HashSet<&str> = driven.collect();
     drive_further(root, &mut driven, remarks);
@@ -90,8 +90,8 @@ fn bodies(
     // no joint that the file names has the name of one that it does not
     let joints = model.bodies.iter().flat_map(|entry| &entry.body.joints);
     let mut taken: HashSet<String> = joints.filter_map(|joint| joint.name.clone()).collect();
-    let mut bodies: Vec<Body> = Vec::new();
-    let mut parts: Vec<Parts> = Vec::new();
+    let mut bodies: Vec<TreeBody> = Vec::new();
+    let mut parts: Vec<BodyParts> = Vec::new();
     for (index, entry) in model.bodies.iter().enumerate() {
         let name = match (&entry.body.name, index) {
             (_, 0) => "world".to_owned(),
@@ -102,13 +102,13 @@ fn bodies(
         let parent = entry
             .parent
             .and_then(|parent| parts[parent].last().copied());
-        let mut part = Body::new(name.clone(), parent, pose(&entry.body.pose));
+        let mut part = TreeBody::new(name.clone(), parent, pose(&entry.body.pose));
         for (i, joint) in entry.body.joints.iter().enumerate() {
             let motion = match joint.type_ {
-                JointType::Hinge => Motion::Turn,
-                JointType::Slide => Motion::Slide,
-                JointType::Ball => Motion::Ball,
-                JointType::Free => Motion::Free,
+                JointType::Hinge => BodyMotion::Turn,
+                JointType::Slide => BodyMotion::Slide,
+                JointType::Ball => BodyMotion::Ball,
+                JointType::Free => BodyMotion::Free,
             };
             // a ball joint stands alone in its body
             if let Some(before) = part.joints.last()
@@ -116,7 +116,7 @@ fn bodies(
             {
                 part.name = format!("{name}_{}", before.name);
                 own.push(bodies.len());
-                let next = Body::new(name.clone(), Some(bodies.len()), Pose::identity());
+                let next = TreeBody::new(name.clone(), Some(bodies.len()), Pose::identity());
                 bodies.push(std::mem::replace(&mut part, next));
             }
             let mut made = |wanted: String| {
@@ -140,13 +140,13 @@ fn bodies(
                     return Err(ImportProblemKind::NoAxis { joint, example });
                 }
             };
-            part.joints.push(Joint {
+            part.joints.push(TreeJoint {
                 actuated: driven.contains(joint_name.as_str()) || !closed && driven.is_empty(),
                 point: Vector3(joint.pos),
                 reference: joint.ref_,
                 home: joint.ref_,
                 limits: limits.map(|[low, high]| (low, high)),
-                ..Joint::new(joint_name, motion, axis)
+                ..TreeJoint::new(joint_name, motion, axis)
             });
         }
         let sites = entry.body.sites.iter();
@@ -242,10 +242,10 @@ fn home(
     let frames: Vec<_> = frames.filter(|frame| !frame.qpos.is_empty()).collect();
     let named = frames.iter().find(|f| f.name.as_deref() == Some("home"));
     let keyframe = named.or(frames.first());
-    let size = |motion: Motion| match motion {
-        Motion::Turn | Motion::Slide => 1,
-        Motion::Ball => 4,
-        Motion::Free => 7,
+    let size = |motion: BodyMotion| match motion {
+        BodyMotion::Turn | BodyMotion::Slide => 1,
+        BodyMotion::Ball => 4,
+        BodyMotion::Free => 7,
     };
     let expected: usize = tree.joints().map(|joint| size(joint.motion)).sum();
     let values = match keyframe {
@@ -280,13 +280,13 @@ fn home(
                 }
             };
             match (joint.motion, given) {
-                (Motion::Turn | Motion::Slide, Some(given)) => joint.home = given[0],
-                (Motion::Turn | Motion::Slide, None) => {}
-                (Motion::Ball, given) => {
+                (BodyMotion::Turn | BodyMotion::Slide, Some(given)) => joint.home = given[0],
+                (BodyMotion::Turn | BodyMotion::Slide, None) => {}
+                (BodyMotion::Ball, given) => {
                     pose = pose * joint.about_point(given.map_or(Rotation::identity(), turned));
                     body.home = Some(pose);
                 }
-                (Motion::Free, given) => {
+                (BodyMotion::Free, given) => {
                     if let Some(v) = given {
                         pose = Pose {
                             rotation: turned(&v[3..]),

@@ -3,7 +3,7 @@
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Body, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{Attachment, BodyMotion, Tree, TreeBody, TreeJoint, TreeLoop};
 use crate::number::real;
 
 /// Sliding closures as joints of a further body, welded to the other side.
@@ -12,7 +12,7 @@ pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
     let mut remarks = Vec::new();
     let home = tree.home();
     for i in 0..tree.loops.len() {
-        let Loop {
+        let TreeLoop {
             name, kind, sides, ..
         } = tree.loops[i].clone();
         let [a, b] = sides;
@@ -20,8 +20,8 @@ pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
         let [x, y, z] = relative.position.0;
         let turned = real::atan2(relative.rotation.0[0].0[1], relative.rotation.0[0].0[0]);
         let slide =
-            |word: &str, axis: usize, home: f64| (word.to_owned(), Motion::Slide, axis, home);
-        let turn = || ("turn".to_owned(), Motion::Turn, 2, turned);
+            |word: &str, axis: usize, home: f64| (word.to_owned(), BodyMotion::Slide, axis, home);
+        let turn = || ("turn".to_owned(), BodyMotion::Turn, 2, turned);
         let freedoms = match kind {
             ClosureKind::Prismatic => vec![slide("slide", 2, z)],
             ClosureKind::Cylindrical => vec![slide("slide", 2, z), turn()],
@@ -35,11 +35,11 @@ pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
         };
         let joints = freedoms
             .into_iter()
-            .map(|(word, motion, axis, home)| Joint {
+            .map(|(word, motion, axis, home)| TreeJoint {
                 home,
-                ..Joint::new(format!("{name}.{word}"), motion, Vector3::unit(axis))
+                ..TreeJoint::new(format!("{name}.{word}"), motion, Vector3::unit(axis))
             });
-        let joints: Vec<Joint> = joints.collect();
+        let joints: Vec<TreeJoint> = joints.collect();
         remarks.push(Remark::Welded {
             closure: name.clone(),
             kind,
@@ -51,12 +51,12 @@ pub(in crate::interchange) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
             frame: frame.clone(),
             pose: Pose::identity(),
         };
-        tree.bodies.push(Body {
+        tree.bodies.push(TreeBody {
             joints,
             frames: vec![(frame.clone(), Pose::identity())],
-            ..Body::new(frame, Some(a.body), a.pose)
+            ..TreeBody::new(frame, Some(a.body), a.pose)
         });
-        tree.loops[i] = Loop::new(name, ClosureKind::Rigid, [side, b]);
+        tree.loops[i] = TreeLoop::new(name, ClosureKind::Rigid, [side, b]);
     }
     (tree, remarks)
 }

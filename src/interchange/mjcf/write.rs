@@ -15,13 +15,13 @@ use super::sliders::with_sliders;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{BodyMotion, Coupling, Extent, Tree, TreeBody, TreeJoint, TreeLoop};
 use crate::interchange::xml::{Xml, numbers, place, vector};
 
 /// The text of an MJCF file, with remarks on its differences from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     let (tree, mut remarks) = with_sliders(tree);
-    let mut page = Page {
+    let mut page = MjcfWriter {
         poses: tree.poses(|joint| joint.reference),
         marks: vec![Vec::new(); tree.bodies.len()],
         tendons: Xml::default(),
@@ -68,7 +68,7 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
 /// to 5e-8 rad over a second, while at its own settings it is 0.25 rad off.
 const STEP: f64 = 2e-5;
 
-struct Page<'a> {
+struct MjcfWriter<'a> {
     tree: &'a Tree,
     /// Ground from every body where every joint is 0.
     poses: Vec<Pose<f64>>,
@@ -81,9 +81,9 @@ struct Page<'a> {
 /// A site of a closure: its name, its body, and the point there.
 type Site = (String, usize, Vector3<f64>);
 
-impl Page<'_> {
+impl MjcfWriter<'_> {
     /// The points at ℓ on the z axes of the frames of a loop.
-    fn axis_points(&mut self, of: &Loop) -> [Site; 2] {
+    fn axis_points(&mut self, of: &TreeLoop) -> [Site; 2] {
         [0, 1].map(|side| {
             let (body, pose) = (of.sides[side].body, &of.sides[side].pose);
             let name = format!("{}.axis{}", of.name, side + 1);
@@ -99,7 +99,7 @@ impl Page<'_> {
         self.equalities.leaf(&sites, &[&name, &a.0, &b.0]);
     }
 
-    fn closure(&mut self, of: &Loop) -> Option<Remark> {
+    fn closure(&mut self, of: &TreeLoop) -> Option<Remark> {
         let name = &of.name;
         let sites = (of.sides.clone()).map(|side| (side.frame, side.body, side.pose.position));
         let length = of.length.clone().unwrap_or_default();
@@ -248,13 +248,13 @@ impl Page<'_> {
     fn shapes(
         &self,
         xml: &mut Xml,
-        body: &Body,
+        body: &TreeBody,
         ends: impl Iterator<Item = Vector3<f64>>,
         ground: bool,
     ) {
         let least = 0.02 * self.tree.size;
         let mut drawn: Vec<Vector3<f64>> = Vec::new();
-        let slides = (body.joints.iter()).filter(|joint| joint.motion == Motion::Slide);
+        let slides = (body.joints.iter()).filter(|joint| joint.motion == BodyMotion::Slide);
         let rods = slides.map(|joint| joint.axis.times(-joint.home));
         for end in ends.chain(rods) {
             let far = |other: &Vector3<f64>| (end - *other).norm() > least;
@@ -272,12 +272,12 @@ impl Page<'_> {
     }
 }
 
-fn write_joint(xml: &mut Xml, joint: &Joint) {
+fn write_joint(xml: &mut Xml, joint: &TreeJoint) {
     let kind = match joint.motion {
-        Motion::Free => return xml.leaf("freejoint name", &[&joint.name]),
-        Motion::Turn => "hinge",
-        Motion::Slide => "slide",
-        Motion::Ball => "ball",
+        BodyMotion::Free => return xml.leaf("freejoint name", &[&joint.name]),
+        BodyMotion::Turn => "hinge",
+        BodyMotion::Slide => "slide",
+        BodyMotion::Ball => "ball",
     };
     let range = joint.limits.map(|(low, high)| numbers([low, high]));
     xml.leaf(
@@ -311,7 +311,7 @@ fn defaults(tree: &Tree) -> Xml {
     xml
 }
 
-fn actuated(tree: &Tree) -> impl Iterator<Item = &Joint> {
+fn actuated(tree: &Tree) -> impl Iterator<Item = &TreeJoint> {
     tree.joints().filter(|joint| joint.actuated)
 }
 
@@ -319,7 +319,7 @@ fn servos(tree: &Tree) -> Xml {
     let mut xml = Xml::default();
     for joint in actuated(tree) {
         let stiffness = match joint.motion {
-            Motion::Slide => 100.0,
+            BodyMotion::Slide => 100.0,
             _ => rounded(100.0 * tree.size * tree.size),
         };
         xml.leaf(
@@ -335,7 +335,7 @@ fn keyframe(tree: &Tree, order: &[usize]) -> Xml {
     for body in order.iter().map(|&body| &tree.bodies[body]) {
         for joint in &body.joints {
             match (joint.motion, &body.home) {
-                (Motion::Free, Some(home)) => {
+                (BodyMotion::Free, Some(home)) => {
                     values.extend(home.position.0);
                     values.extend(Quaternion::from_rotation(&home.rotation).canonical().0);
                 }

@@ -2,14 +2,14 @@
 
 use std::collections::HashSet;
 
-use super::parts::{Axis, Joint, Kind, direction_in, frame_of};
+use super::parts::{SdfAxis, SdfJoint, SdfType, direction_in, frame_of};
 use super::read::Builder;
 use crate::description::{ClosureKind, first_free};
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::along_z;
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{self, Coupling, Loop, Motion};
+use crate::interchange::tree::{self, BodyMotion, Coupling, TreeLoop};
 
 impl Builder<'_> {
     /// World from the frame of a joint, and its axes there, each a unit vector.
@@ -19,7 +19,7 @@ impl Builder<'_> {
         let place = self.found(place, Some(joint))?;
         let mut along = Vec::new();
         for axis in 0..self.reader.joints[joint].axes.len() {
-            let Axis {
+            let SdfAxis {
                 seen_from,
                 along: own,
                 ..
@@ -40,9 +40,9 @@ impl Builder<'_> {
         actuated: bool,
         taken: &mut HashSet<String>,
         couplings: &mut Vec<Coupling>,
-    ) -> Option<Vec<tree::Joint>> {
+    ) -> Option<Vec<tree::TreeJoint>> {
         let (place, along) = self.at(index)?;
-        let Joint {
+        let SdfJoint {
             name,
             kind,
             axes,
@@ -59,11 +59,11 @@ impl Builder<'_> {
             taken.insert(name.clone());
             name
         };
-        let joint = |name: String, motion: Motion, i: usize| tree::Joint {
+        let joint = |name: String, motion: BodyMotion, i: usize| tree::TreeJoint {
             point: at.position,
             limits: axes.get(i).and_then(|axis| axis.limits),
             actuated,
-            ..tree::Joint::new(
+            ..tree::TreeJoint::new(
                 name,
                 motion,
                 along
@@ -73,20 +73,20 @@ impl Builder<'_> {
         };
         let one_sided = axes.iter().any(|axis| axis.one_sided);
         let mut joints = match kind {
-            Kind::Fixed | Kind::Gear => Vec::new(),
-            Kind::Ball => vec![joint(given.clone(), Motion::Ball, 0)],
-            Kind::Turn => vec![joint(given.clone(), Motion::Turn, 0)],
-            Kind::Slide => vec![joint(given.clone(), Motion::Slide, 0)],
-            Kind::Universal => {
-                let second = joint(made("2"), Motion::Turn, 1);
-                vec![joint(given.clone(), Motion::Turn, 0), second]
+            SdfType::Fixed | SdfType::Gear => Vec::new(),
+            SdfType::Ball => vec![joint(given.clone(), BodyMotion::Ball, 0)],
+            SdfType::Turn => vec![joint(given.clone(), BodyMotion::Turn, 0)],
+            SdfType::Slide => vec![joint(given.clone(), BodyMotion::Slide, 0)],
+            SdfType::Universal => {
+                let second = joint(made("2"), BodyMotion::Turn, 1);
+                vec![joint(given.clone(), BodyMotion::Turn, 0), second]
             }
-            Kind::Screw => {
-                let mut slide = joint(made("slide"), Motion::Slide, 0);
+            SdfType::Screw => {
+                let mut slide = joint(made("slide"), BodyMotion::Slide, 0);
                 slide.limits = None;
                 slide.actuated = false;
                 couplings.push(Coupling::of(slide.name.clone(), given.clone(), *pitch, 0.0));
-                vec![joint(given.clone(), Motion::Turn, 0), slide]
+                vec![joint(given.clone(), BodyMotion::Turn, 0), slide]
             }
         };
         for (axis, joint) in axes.iter().zip(&mut joints) {
@@ -133,7 +133,8 @@ impl Builder<'_> {
         let (_, along) = self.at(index)?;
         let turned = ends[index].iter().zip(along).map(|(&link, along)| {
             let hinge = (0..ends.len()).find(|&joint| {
-                let turns = self.reader.joints[joint].kind == Kind::Turn && used.contains(&joint);
+                let turns =
+                    self.reader.joints[joint].kind == SdfType::Turn && used.contains(&joint);
                 turns && (ends[joint] == [third, link] || ends[joint] == [link, third])
             })?;
             let (at, own) = self.at(hinge)?;
@@ -163,9 +164,9 @@ impl Builder<'_> {
     }
 
     /// A joint that closes a loop: its frame where all joints are at 0 is on both links.
-    pub(super) fn closing(&mut self, index: usize, links: [(usize, usize); 2]) -> Option<Loop> {
+    pub(super) fn closing(&mut self, index: usize, links: [(usize, usize); 2]) -> Option<TreeLoop> {
         let (place, along) = self.at(index)?;
-        let Joint {
+        let SdfJoint {
             name,
             kind,
             axes,
@@ -174,13 +175,13 @@ impl Builder<'_> {
         } = &self.reader.joints[index];
         let given = self.names[name].clone();
         let kind = match kind {
-            Kind::Turn => ClosureKind::Revolute,
-            Kind::Slide => ClosureKind::Prismatic,
-            Kind::Ball => ClosureKind::Spherical,
-            Kind::Universal => ClosureKind::Universal,
-            Kind::Fixed => ClosureKind::Rigid,
-            Kind::Gear => return None,
-            Kind::Screw => {
+            SdfType::Turn => ClosureKind::Revolute,
+            SdfType::Slide => ClosureKind::Prismatic,
+            SdfType::Ball => ClosureKind::Spherical,
+            SdfType::Universal => ClosureKind::Universal,
+            SdfType::Fixed => ClosureKind::Rigid,
+            SdfType::Gear => return None,
+            SdfType::Screw => {
                 let kind = ImportProblemKind::Unsupported {
                     what: "a screw that closes a loop".into(),
                     help: "let another joint of the loop close it",
@@ -204,7 +205,7 @@ impl Builder<'_> {
                 joint: given.clone(),
             });
         }
-        let sides = Loop::sides(&given, sides);
-        Some(Loop::new(given, kind, sides))
+        let sides = TreeLoop::sides(&given, sides);
+        Some(TreeLoop::new(given, kind, sides))
     }
 }

@@ -17,7 +17,7 @@ struct Defined {
 
 /// All frames, by their names from the outermost model on: `arm::gripper::finger`.
 #[derive(Default)]
-pub(super) struct Frames(HashMap<String, Defined>);
+pub(super) struct SdfFrames(HashMap<String, Defined>);
 
 /// The reason why a frame cannot be placed.
 pub(super) enum Lost {
@@ -27,7 +27,7 @@ pub(super) enum Lost {
     Circle(String),
 }
 
-impl Frames {
+impl SdfFrames {
     /// Adds a frame; true if there was none of that name.
     pub fn add(
         &mut self,

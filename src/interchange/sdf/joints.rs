@@ -2,14 +2,14 @@
 
 use roxmltree::Node;
 
-use super::model::{Reader, Scope};
-use super::parts::{Axis, Joint, KINDS, Kind, frame_of};
+use super::model::{ModelScope, SdfReader};
+use super::parts::{KINDS, SdfAxis, SdfJoint, SdfType, frame_of};
 use crate::geometry::Pose;
 use crate::interchange::page::{child, tag};
 use crate::interchange::problem::ImportProblemKind;
 
-impl Reader<'_> {
-    pub(super) fn joint(&mut self, node: Node, scope: &Scope) -> Option<Joint> {
+impl SdfReader<'_> {
+    pub(super) fn joint(&mut self, node: Node, scope: &ModelScope) -> Option<SdfJoint> {
         let name = self.named(node, scope);
         let kind = self.problems.word(node, "type", &KINDS);
         let ends = ["parent", "child"].map(|end| {
@@ -32,15 +32,15 @@ impl Reader<'_> {
             self.frames.add(&name, at, Some(own));
         }
         let wanted: &[&str] = match kind {
-            Kind::Ball | Kind::Fixed => &[],
-            Kind::Universal | Kind::Gear => &["axis", "axis2"],
+            SdfType::Ball | SdfType::Fixed => &[],
+            SdfType::Universal | SdfType::Gear => &["axis", "axis2"],
             _ => &["axis"],
         };
         let axes = wanted.iter().map(|part| {
             let part = self.problems.needed_child(node, part)?;
             self.axis(part, scope, &name)
         });
-        let axes = axes.collect::<Option<Vec<Axis>>>()?;
+        let axes = axes.collect::<Option<Vec<SdfAxis>>>()?;
         // metres per turn, 1 unless given, or before in rad/m against the turn
         let advance = self.numbers::<1>(node, "screw_thread_pitch");
         let before = self.numbers::<1>(node, "thread_pitch");
@@ -50,14 +50,14 @@ impl Reader<'_> {
             _ => 1.0 / std::f64::consts::TAU,
         };
         let gear = match kind {
-            Kind::Gear => {
+            SdfType::Gear => {
                 let part = self.problems.needed_child(node, "gearbox_reference_body")?;
                 let [ratio] = self.numbers(node, "gearbox_ratio").unwrap_or([1.0]);
                 Some((scope.name(part.text().unwrap_or_default()), ratio))
             }
             _ => None,
         };
-        Some(Joint {
+        Some(SdfJoint {
             gear,
             name,
             kind,
@@ -68,7 +68,7 @@ impl Reader<'_> {
         })
     }
 
-    fn axis(&mut self, node: Node, scope: &Scope, joint: &str) -> Option<Axis> {
+    fn axis(&mut self, node: Node, scope: &ModelScope, joint: &str) -> Option<SdfAxis> {
         let given = self.numbers(node, "xyz").unwrap_or([0.0, 0.0, 1.0]);
         let example = "<xyz>0 0 1</xyz>";
         let along = self.problems.axis(given, joint, example, node)?;
@@ -104,7 +104,7 @@ impl Reader<'_> {
             let [reference] = self.numbers(mimic, "reference").unwrap_or([0.0]);
             Some((leader, factor, offset - factor * reference))
         });
-        Some(Axis {
+        Some(SdfAxis {
             along,
             seen_from,
             limits,

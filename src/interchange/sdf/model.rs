@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use roxmltree::Node;
 
-use super::frames::{Frames, WORLD};
-use super::parts::Joint;
+use super::frames::{SdfFrames, WORLD};
+use super::parts::SdfJoint;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::{Files, NotRead};
@@ -16,16 +16,16 @@ use crate::interchange::problem::ImportProblemKind;
 const SCENERY: [&str; 2] = ["://sun", "://ground_plane"];
 
 /// The contents of the elements of a file.
-pub(super) struct Reader<'f> {
+pub(super) struct SdfReader<'f> {
     pub problems: Problems,
     files: Files<'f>,
     pub(super) version: (u32, u32),
-    pub frames: Frames,
+    pub frames: SdfFrames,
     /// The links, each true if it stands still.
     pub links: Vec<(String, bool)>,
     /// Masses of links that have some.
     pub masses: HashMap<String, Heavy>,
-    pub joints: Vec<Joint>,
+    pub joints: Vec<SdfJoint>,
     /// Joints that a controller drives.
     pub driven: HashSet<String>,
     /// The number of included models that are no part of a mechanism.
@@ -36,12 +36,12 @@ pub(super) struct Reader<'f> {
 
 /// Scope of an element of a model: the prefix of its names, and true if all of it stands still.
 #[derive(Clone)]
-pub(super) struct Scope {
+pub(super) struct ModelScope {
     prefix: String,
     fixed: bool,
 }
 
-impl Scope {
+impl ModelScope {
     /// The full name of a frame.
     pub fn name(&self, name: &str) -> String {
         match name.trim() {
@@ -55,13 +55,13 @@ impl Scope {
     }
 }
 
-impl<'f> Reader<'f> {
+impl<'f> SdfReader<'f> {
     pub fn new(files: Files<'f>) -> Self {
-        Reader {
+        SdfReader {
             problems: Problems(Vec::new()),
             files,
             version: (1, 7),
-            frames: Frames::default(),
+            frames: SdfFrames::default(),
             links: Vec::new(),
             masses: HashMap::new(),
             joints: Vec::new(),
@@ -75,7 +75,7 @@ impl<'f> Reader<'f> {
     pub fn file(&mut self, root: Node) -> String {
         self.version = version(root);
         let inside = child(root, "world").unwrap_or(root);
-        let outer = Scope {
+        let outer = ModelScope {
             prefix: String::new(),
             fixed: false,
         };
@@ -113,7 +113,12 @@ impl<'f> Reader<'f> {
     }
 
     /// The frame relative to which an element is given, and its pose there.
-    pub(super) fn pose(&mut self, node: Node, scope: &Scope, default: &str) -> (String, Pose<f64>) {
+    pub(super) fn pose(
+        &mut self,
+        node: Node,
+        scope: &ModelScope,
+        default: &str,
+    ) -> (String, Pose<f64>) {
         let nowhere = (default.to_owned(), Pose::identity());
         let Some(part) = child(node, "pose") else {
             return nowhere;
@@ -154,9 +159,15 @@ impl<'f> Reader<'f> {
     }
 
     /// A model at a place.
-    fn model(&mut self, node: Node, outer: &Scope, prefix: String, place: (String, Pose<f64>)) {
+    fn model(
+        &mut self,
+        node: Node,
+        outer: &ModelScope,
+        prefix: String,
+        place: (String, Pose<f64>),
+    ) {
         let fixed = outer.fixed || matches!(self.word(node, "static"), Some("true" | "1"));
-        let scope = Scope { prefix, fixed };
+        let scope = ModelScope { prefix, fixed };
         let before = self.links.len();
         let part = "placement_frame";
         if node.has_attribute(part) || child(node, part).is_some() {
@@ -222,7 +233,7 @@ impl<'f> Reader<'f> {
     }
 
     /// The mass of a link in its frame, if one is given.
-    fn heavy(&mut self, link: Node, scope: &Scope) -> Option<Heavy> {
+    fn heavy(&mut self, link: Node, scope: &ModelScope) -> Option<Heavy> {
         let inertial = child(link, "inertial")?;
         let [mass] = self.numbers(inertial, "mass").unwrap_or([1.0]);
         let (_, pose) = self.pose(inertial, scope, &scope.model());
@@ -234,7 +245,7 @@ impl<'f> Reader<'f> {
         (mass > 0.0).then(|| Heavy::at(mass, moments, &pose))
     }
 
-    pub(super) fn named(&mut self, node: Node, scope: &Scope) -> Option<String> {
+    pub(super) fn named(&mut self, node: Node, scope: &ModelScope) -> Option<String> {
         let name = self.problems.needed(node, "name")?;
         Some(scope.name(name))
     }
@@ -267,7 +278,7 @@ impl<'f> Reader<'f> {
     }
 
     /// A model in another file of the folder.
-    fn include(&mut self, node: Node, scope: &Scope, frame: &str) {
+    fn include(&mut self, node: Node, scope: &ModelScope, frame: &str) {
         let Some(uri) = self.word(node, "uri") else {
             self.problems.missing(node, "element `uri`".into());
             return;
@@ -318,7 +329,7 @@ impl<'f> Reader<'f> {
         }
     }
 
-    fn included(&mut self, node: Node, root: Node, scope: &Scope, place: (String, Pose<f64>)) {
+    fn included(&mut self, node: Node, root: Node, scope: &ModelScope, place: (String, Pose<f64>)) {
         if !root.has_tag_name("sdf") {
             let found = root.tag_name().name().to_owned();
             let expected = &["sdf"];
@@ -338,7 +349,7 @@ impl<'f> Reader<'f> {
             None => (place.0, self.pose(model, scope, WORLD).1),
         };
         let fixed = scope.fixed || matches!(self.word(node, "static"), Some("true" | "1"));
-        let outer = Scope {
+        let outer = ModelScope {
             fixed,
             ..scope.clone()
         };

@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Vector3};
 
 /// The kinds of joints, in the words of the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum SdfType {
     Turn,
     Slide,
     Ball,
@@ -17,20 +17,20 @@ pub(super) enum Kind {
     Gear,
 }
 
-pub(super) const KINDS: [(&str, Kind); 9] = [
-    ("revolute", Kind::Turn),
-    ("continuous", Kind::Turn),
-    ("revolute2", Kind::Universal),
-    ("prismatic", Kind::Slide),
-    ("ball", Kind::Ball),
-    ("universal", Kind::Universal),
-    ("screw", Kind::Screw),
-    ("fixed", Kind::Fixed),
-    ("gearbox", Kind::Gear),
+pub(super) const KINDS: [(&str, SdfType); 9] = [
+    ("revolute", SdfType::Turn),
+    ("continuous", SdfType::Turn),
+    ("revolute2", SdfType::Universal),
+    ("prismatic", SdfType::Slide),
+    ("ball", SdfType::Ball),
+    ("universal", SdfType::Universal),
+    ("screw", SdfType::Screw),
+    ("fixed", SdfType::Fixed),
+    ("gearbox", SdfType::Gear),
 ];
 
 /// An axis of a joint.
-pub(super) struct Axis {
+pub(super) struct SdfAxis {
     /// Its direction, in the frame of that name.
     pub along: Vector3<f64>,
     pub seen_from: String,
@@ -41,12 +41,12 @@ pub(super) struct Axis {
     pub mimic: Option<(String, f64, f64)>,
 }
 
-pub(super) struct Joint {
+pub(super) struct SdfJoint {
     pub name: String,
-    pub kind: Kind,
+    pub kind: SdfType,
     /// The frames of parent and child.
     pub ends: [String; 2],
-    pub axes: Vec<Axis>,
+    pub axes: Vec<SdfAxis>,
     /// Metres that a screw advances in a radian.
     pub pitch: f64,
     /// Of a gearbox the link against which both turn, and the ratio: the child turns by −ratio of what the parent does.

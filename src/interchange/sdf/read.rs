@@ -9,21 +9,21 @@ use std::collections::{HashMap, HashSet};
 use roxmltree::Document;
 
 use super::frames::{Lost, WORLD};
-use super::model::Reader;
-use super::parts::Kind;
+use super::model::SdfReader;
+use super::parts::SdfType;
 use crate::description::{nearest, unless};
 use crate::geometry::Pose;
 use crate::interchange::mjcf::Files;
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Tree};
+use crate::interchange::tree::{Tree, TreeBody};
 
 /// Reads an SDF file; `files` reads those that it includes.
 pub(crate) fn read(
     page: &Document,
     files: Files,
 ) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>> {
-    let mut reader = Reader::new(files);
+    let mut reader = SdfReader::new(files);
     let name = reader.file(page.root_element());
     if !reader.problems.0.is_empty() {
         return Err(reader.problems.0);
@@ -49,7 +49,7 @@ pub(crate) fn read(
 }
 
 /// Names of links and joints as short as they can be: those of inner models without their models where they are the only ones.
-fn names(reader: &Reader) -> HashMap<String, String> {
+fn names(reader: &SdfReader) -> HashMap<String, String> {
     let links = reader.links.iter().map(|(name, _)| name);
     let all: Vec<&String> = links
         .chain(reader.joints.iter().map(|joint| &joint.name))
@@ -73,7 +73,7 @@ fn names(reader: &Reader) -> HashMap<String, String> {
 }
 
 pub(super) struct Builder<'f> {
-    pub reader: Reader<'f>,
+    pub reader: SdfReader<'f>,
     pub names: HashMap<String, String>,
     /// World from each link, the world first.
     pub poses: Vec<Pose<f64>>,
@@ -125,7 +125,7 @@ impl Builder<'_> {
             .for_each(|(i, link)| place[*link] = i);
         let driven = self.driven(&ways);
         let mut couplings = Vec::new();
-        let mut bodies: Vec<Body> = Vec::new();
+        let mut bodies: Vec<TreeBody> = Vec::new();
         let mut taken: HashSet<String> = self.names.values().cloned().collect();
         for &link in &order {
             let own = match link {
@@ -134,7 +134,7 @@ impl Builder<'_> {
             };
             let parent = ways[link].map(|(from, _)| from);
             let seen_from = parent.map_or(Pose::identity(), |parent| self.poses[parent].inverse());
-            let mut body = Body::new(
+            let mut body = TreeBody::new(
                 own.clone(),
                 parent.map(|of| place[of]),
                 seen_from * self.poses[link],
@@ -200,17 +200,17 @@ impl Builder<'_> {
             let of = &joints[joint];
             let follows = of.axes.iter().any(|axis| axis.mimic.is_some());
             match of.kind {
-                Kind::Fixed => 0,
-                Kind::Screw => 1,
+                SdfType::Fixed => 0,
+                SdfType::Screw => 1,
                 _ if follows || followed.contains(&of.name) => 1,
                 _ if self.reader.driven.contains(&of.name) => 1,
-                Kind::Turn | Kind::Slide => 2,
-                Kind::Ball | Kind::Universal | Kind::Gear => 3,
+                SdfType::Turn | SdfType::Slide => 2,
+                SdfType::Ball | SdfType::Universal | SdfType::Gear => 3,
             }
         };
         let count = self.poses.len();
         let mut at: Vec<Vec<usize>> = vec![Vec::new(); count];
-        let joins = |joint: &usize| joints[*joint].kind != Kind::Gear;
+        let joins = |joint: &usize| joints[*joint].kind != SdfType::Gear;
         for joint in (0..ends.len()).filter(joins) {
             let [parent, child] = &ends[joint];
             at[*parent].push(joint);
@@ -275,7 +275,7 @@ impl Builder<'_> {
                 .driven
                 .contains(&self.reader.joints[*joint].name)
         };
-        let joins = |joint: &usize| self.reader.joints[*joint].kind != Kind::Gear;
+        let joins = |joint: &usize| self.reader.joints[*joint].kind != SdfType::Gear;
         let (rule, driven): (_, HashSet<usize>) = if !self.reader.driven.is_empty() {
             let rule = "the joints of controllers are actuated";
             (rule, joints.filter(of_controller).collect())

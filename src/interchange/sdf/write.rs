@@ -10,7 +10,9 @@ use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::with_sliders;
 use crate::interchange::page::along_z;
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Body, Coupling, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{
+    Attachment, BodyMotion, Coupling, Tree, TreeBody, TreeJoint, TreeLoop,
+};
 use crate::interchange::xml::{Xml, numbers, vector};
 
 /// The plugin that drives a joint in Gazebo: the file and the name of the plugin.
@@ -118,13 +120,13 @@ fn joint(xml: &mut Xml, name: &str, kind: &str, [parent, child]: [&str; 2], at: 
     xml.leaf_text("child", &[], child);
 }
 
-fn moves(xml: &mut Xml, tree: &Tree, of: &Joint, links: [&str; 2]) {
+fn moves(xml: &mut Xml, tree: &Tree, of: &TreeJoint, links: [&str; 2]) {
     let kind = match of.motion {
-        Motion::Turn => "revolute",
-        Motion::Slide => "prismatic",
-        Motion::Ball => "ball",
+        BodyMotion::Turn => "revolute",
+        BodyMotion::Slide => "prismatic",
+        BodyMotion::Ball => "ball",
         // nothing joins it but loops
-        Motion::Free => return,
+        BodyMotion::Free => return,
     };
     joint(xml, &of.name, kind, links, &Pose::translation(of.point));
     if !of.motion.floats() {
@@ -149,7 +151,7 @@ fn moves(xml: &mut Xml, tree: &Tree, of: &Joint, links: [&str; 2]) {
     xml.close("joint");
 }
 
-fn closes(xml: &mut Xml, tree: &Tree, of: &Loop) {
+fn closes(xml: &mut Xml, tree: &Tree, of: &TreeLoop) {
     let kind = match of.kind {
         ClosureKind::Revolute => "revolute",
         ClosureKind::Spherical => "ball",
@@ -191,7 +193,7 @@ fn closes(xml: &mut Xml, tree: &Tree, of: &Loop) {
 fn rods(tree: &mut Tree) {
     let home = tree.home();
     for i in 0..tree.loops.len() {
-        let Loop {
+        let TreeLoop {
             name,
             kind,
             sides,
@@ -213,28 +215,29 @@ fn rods(tree: &mut Tree) {
         let at = Pose::translation(p) * turned;
         let turn = |word: &str, axis: usize| {
             let name = format!("{name}.{word}");
-            Joint::new(name, Motion::Turn, Vector3::unit(axis))
+            TreeJoint::new(name, BodyMotion::Turn, Vector3::unit(axis))
         };
         let mut end = tree.bodies.len();
-        tree.bodies.push(Body {
+        tree.bodies.push(TreeBody {
             joints: vec![turn("x", 0), turn("y", 1)],
-            ..Body::new(
+            ..TreeBody::new(
                 format!("{name}.rod"),
                 Some(a.body),
                 home[a.body].inverse() * at,
             )
         });
         if let Some((leader, factor)) = length.as_ref().and_then(|of| of.terms.first()) {
-            let slide = Joint::new(format!("{name}.slide"), Motion::Slide, Vector3::unit(2));
+            let slide =
+                TreeJoint::new(format!("{name}.slide"), BodyMotion::Slide, Vector3::unit(2));
             tree.couplings.push(Coupling::of(
                 slide.name.clone(),
                 leader.clone(),
                 *factor,
                 0.0,
             ));
-            tree.bodies.push(Body {
+            tree.bodies.push(TreeBody {
                 joints: vec![slide],
-                ..Body::new(format!("{name}.tube"), Some(end), Pose::identity())
+                ..TreeBody::new(format!("{name}.tube"), Some(end), Pose::identity())
             });
             end += 1;
         }
@@ -243,6 +246,6 @@ fn rods(tree: &mut Tree) {
             frame: format!("{name}.end"),
             pose: Pose::translation(Vector3::unit(2).times(far)),
         };
-        tree.loops[i] = Loop::new(name, ClosureKind::Spherical, [tip, b]);
+        tree.loops[i] = TreeLoop::new(name, ClosureKind::Spherical, [tip, b]);
     }
 }

@@ -11,7 +11,7 @@ use crate::description::{
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Coupling, Extent, Joint, Loop, Motion};
+use crate::interchange::tree::{Attachment, BodyMotion, Coupling, Extent, TreeJoint, TreeLoop};
 
 impl Unroller<'_> {
     /// The name of a frame; a new one is made where it has none.
@@ -74,7 +74,7 @@ impl Unroller<'_> {
         }
         let (mut closures, mut labels): (Closures, _) = (Vec::new(), HashSet::new());
         for closing in self.balls().iter().chain(&self.tree.loops) {
-            let Loop {
+            let TreeLoop {
                 name, kind, sides, ..
             } = closing;
             let movers = [0, 1].map(|side| self.mover(sides[side].body));
@@ -142,15 +142,15 @@ impl Unroller<'_> {
     }
 
     /// Ball joints as loops: spherical closures between parents and platforms.
-    fn balls(&self) -> Vec<Loop> {
+    fn balls(&self) -> Vec<TreeLoop> {
         let bodies = self.tree.bodies.iter().enumerate();
         let balls = bodies.filter_map(|(i, body)| {
             let ball = body.joints.iter().find(|joint| joint.motion.floats())?;
             let point = Pose::translation(ball.point);
             let ends = [(body.parent?, body.pose * point), (i, point)];
-            let sides = Loop::sides(&ball.name, ends);
-            let closing = || Loop::new(ball.name.clone(), ClosureKind::Spherical, sides);
-            (ball.motion == Motion::Ball).then(closing)
+            let sides = TreeLoop::sides(&ball.name, ends);
+            let closing = || TreeLoop::new(ball.name.clone(), ClosureKind::Spherical, sides);
+            (ball.motion == BodyMotion::Ball).then(closing)
         });
         balls.collect()
     }
@@ -160,7 +160,7 @@ impl Unroller<'_> {
         let leads = |(leader, factor): &(String, f64)| {
             *factor != 0.0 && self.variables.contains_key(leader)
         };
-        let moves = |joint: &Joint| {
+        let moves = |joint: &TreeJoint| {
             let following = self.followers.get(&joint.name);
             following.is_none_or(|following| following.terms.iter().any(leads))
         };

@@ -6,7 +6,7 @@ use super::Unroller;
 use crate::algebra::Expression;
 use crate::description::{Entry, JointDescription, Named, Role};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::Motion;
+use crate::interchange::tree::BodyMotion;
 
 impl Unroller<'_> {
     /// constant + Σ coefficient · joint in terms of variables: joints that follow are replaced by their leaders.
@@ -40,7 +40,7 @@ impl Unroller<'_> {
         let turning = self
             .tree
             .joints()
-            .filter(|joint| joint.motion == Motion::Turn);
+            .filter(|joint| joint.motion == BodyMotion::Turn);
         let angles = turning.flat_map(|joint| match self.followers.get(&joint.name) {
             Some(following) => following
                 .terms
@@ -55,7 +55,7 @@ impl Unroller<'_> {
                 continue;
             };
             let (name, value) = (joint.name.clone(), following.offset);
-            let unit = if joint.motion == Motion::Turn {
+            let unit = if joint.motion == BodyMotion::Turn {
                 "rad"
             } else {
                 "m"
@@ -76,7 +76,7 @@ impl Unroller<'_> {
             if following.terms.is_empty() || joint.name.contains('.') {
                 continue;
             }
-            let slides = joint.motion == Motion::Slide;
+            let slides = joint.motion == BodyMotion::Slide;
             let terms = following.terms.iter().filter_map(|(leader, factor)| {
                 let variable = self.variables.get(leader)?;
                 let term = match slides && angles.contains(leader) {
@@ -108,7 +108,7 @@ impl Unroller<'_> {
                 continue;
             };
             let (mut limits, mut actuated) = (joint.limits, joint.actuated);
-            let mut angle = joint.motion == Motion::Turn;
+            let mut angle = joint.motion == BodyMotion::Turn;
             let coupled = self.tree.joints().filter_map(|follower| {
                 let following = self.followers.get(&follower.name)?;
                 match &following.terms[..] {
@@ -120,7 +120,7 @@ impl Unroller<'_> {
             });
             for (follower, offset, factor) in coupled {
                 actuated |= follower.actuated;
-                angle |= follower.motion == Motion::Turn;
+                angle |= follower.motion == BodyMotion::Turn;
                 if let Some((low, high)) = follower.limits {
                     let ends = [low, high].map(|end| (end - offset) / factor);
                     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));

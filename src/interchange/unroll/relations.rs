@@ -22,12 +22,12 @@ pub(in crate::interchange) fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
 
 /// A joint that follows others: offset + Σ factor · value.
 #[derive(Debug, Default)]
-pub(super) struct Following {
+pub(super) struct FollowingJoint {
     pub offset: f64,
     pub terms: Vec<(String, f64)>,
 }
 
-impl Following {
+impl FollowingJoint {
     /// Adds a joint; what is lost in rounding of what was there cancels.
     fn add(&mut self, joint: &str, factor: f64) {
         match self.terms.iter().position(|(known, _)| known == joint) {
@@ -44,7 +44,7 @@ impl Following {
     }
 
     /// Puts what a joint follows in its place.
-    fn replace(&mut self, joint: &str, by: &Following) {
+    fn replace(&mut self, joint: &str, by: &FollowingJoint) {
         let Some(place) = self.terms.iter().position(|(known, _)| known == joint) else {
             return;
         };
@@ -58,15 +58,15 @@ impl Following {
 
 /// The joints that follow: of each coupling one, if it can be one that is not driven, and first the one that follows in the
 /// file. Those that lead follow none.
-pub(super) fn followers(tree: &Tree) -> Result<HashMap<String, Following>, ImportProblemKind> {
+pub(super) fn followers(tree: &Tree) -> Result<HashMap<String, FollowingJoint>, ImportProblemKind> {
     let driven = tree.joints().filter(|joint| joint.actuated);
     let driven: HashSet<&str> = driven.map(|joint| joint.name.as_str()).collect();
-    let mut found: HashMap<String, Following> = HashMap::new();
+    let mut found: HashMap<String, FollowingJoint> = HashMap::new();
     // the followers of each joint that leads
     let mut led: HashMap<String, Vec<String>> = HashMap::new();
     for coupling in tree.couplings.iter().filter(|of| of.bend.is_none()) {
         // offset + Σ factor · value = 0, in terms of joints that lead
-        let mut sum = Following {
+        let mut sum = FollowingJoint {
             offset: -coupling.constant,
             terms: Vec::new(),
         };
@@ -91,7 +91,7 @@ pub(super) fn followers(tree: &Tree) -> Result<HashMap<String, Following>, Impor
             continue;
         };
         sum.terms.remove(place);
-        let following = Following {
+        let following = FollowingJoint {
             offset: -sum.offset / own,
             terms: (sum.terms.into_iter())
                 .map(|(leader, factor)| (leader, -factor / own))

@@ -17,7 +17,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, along_z, child, children, pose_of, tag};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Loop, Tree};
+use crate::interchange::tree::{Tree, TreeLoop};
 
 /// The types of joints that can close a loop, in the words of the formats.
 const TYPES: [(&str, ClosureKind); 10] = [
@@ -49,7 +49,7 @@ pub(super) fn read(
     tree: &Tree,
     problems: &mut Problems,
     remarks: &mut Vec<Remark>,
-) -> Vec<Loop> {
+) -> Vec<TreeLoop> {
     let links = tree.bodies.iter().enumerate();
     let mut reader = LoopReader {
         tree,
@@ -94,7 +94,7 @@ pub(super) fn read(
 }
 
 /// A kind of joint and the frames that it joins, by their bodies.
-type Closing = (ClosureKind, [(usize, Pose<f64>); 2]);
+type LoopClosing = (ClosureKind, [(usize, Pose<f64>); 2]);
 
 struct LoopReader<'a> {
     tree: &'a Tree,
@@ -102,7 +102,7 @@ struct LoopReader<'a> {
     bodies: HashMap<&'a str, usize>,
     problems: &'a mut Problems,
     names: HashSet<String>,
-    loops: Vec<Loop>,
+    loops: Vec<TreeLoop>,
 }
 
 impl LoopReader<'_> {
@@ -136,12 +136,12 @@ impl LoopReader<'_> {
         while !self.names.insert(name.clone()) {
             name += "_";
         }
-        let sides = Loop::sides(&name, ends);
-        self.loops.push(Loop::new(name, kind, sides));
+        let sides = TreeLoop::sides(&name, ends);
+        self.loops.push(TreeLoop::new(name, kind, sides));
     }
 
     /// `loop_joint`, `constraint`, `loop`: two links, a frame on each, a type, and axes in the frames.
-    fn joined(&mut self, node: Node) -> Option<Closing> {
+    fn joined(&mut self, node: Node) -> Option<LoopClosing> {
         let kind = self.problems.word(node, "type", &TYPES)?;
         // the documentation of Isaac Sim writes `link1` for both
         let mut ends = [children(node, "link1"), children(node, "link2")].concat();
@@ -189,7 +189,7 @@ impl LoopReader<'_> {
     }
 
     /// Points P on body A and Q on body B coincide.
-    fn ball(&mut self, node: Node) -> Option<Closing> {
+    fn ball(&mut self, node: Node) -> Option<LoopClosing> {
         let mut sides = Vec::new();
         for (body, point) in [("body_A", "p_AP"), ("body_B", "p_BQ")] {
             let [body, point] = [body, point].map(|name| format!("ball_constraint_{name}"));
@@ -203,7 +203,7 @@ impl LoopReader<'_> {
     }
 
     /// A joint of SDFormat: its frame is given in the child, and where that is at zero it is on the parent too.
-    fn gazebo(&mut self, node: Node) -> Option<Closing> {
+    fn gazebo(&mut self, node: Node) -> Option<LoopClosing> {
         let kind = self.problems.word(node, "type", &TYPES)?;
         let mut bodies = Vec::new();
         for end in ["parent", "child"] {

@@ -6,14 +6,14 @@ use crate::description::first_free;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{child, children, least_along};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Joint, Motion};
+use crate::interchange::tree::{BodyMotion, TreeJoint};
 use roxmltree::Node;
 
 /// The type of a joint.
 #[derive(Clone, Copy)]
 pub(super) enum JointType {
     /// A motion, and true if limits bound it.
-    Moving(Motion, bool),
+    Moving(BodyMotion, bool),
     /// Two slides across the axis and a turn about it.
     Planar,
     Fixed,
@@ -21,13 +21,13 @@ pub(super) enum JointType {
 
 /// The types of joints, in the words of the format.
 pub(super) const TYPES: [(&str, JointType); 7] = [
-    ("revolute", JointType::Moving(Motion::Turn, true)),
-    ("continuous", JointType::Moving(Motion::Turn, false)),
-    ("prismatic", JointType::Moving(Motion::Slide, true)),
+    ("revolute", JointType::Moving(BodyMotion::Turn, true)),
+    ("continuous", JointType::Moving(BodyMotion::Turn, false)),
+    ("prismatic", JointType::Moving(BodyMotion::Slide, true)),
     ("fixed", JointType::Fixed),
-    ("floating", JointType::Moving(Motion::Free, false)),
+    ("floating", JointType::Moving(BodyMotion::Free, false)),
     ("planar", JointType::Planar),
-    ("spherical", JointType::Moving(Motion::Ball, false)),
+    ("spherical", JointType::Moving(BodyMotion::Ball, false)),
 ];
 
 /// A joint: the links that it joins, and how the child moves.
@@ -50,17 +50,17 @@ pub(super) fn moving(
     name: &str,
     actuated: bool,
     free: &dyn Fn(&str) -> bool,
-) -> Vec<Joint> {
+) -> Vec<TreeJoint> {
     let (axis, limits) = (part.axis, part.limits);
     let finite = limits.0.is_finite() && limits.1.is_finite();
     // two zeros mean absent limits
     let limited = finite && limits.0 <= limits.1 && limits != (0.0, 0.0);
-    let joint = |name: String, motion: Motion, axis: Vector3<f64>, limited: bool| {
+    let joint = |name: String, motion: BodyMotion, axis: Vector3<f64>, limited: bool| {
         let limits = limited.then_some(limits);
-        Joint {
+        TreeJoint {
             limits,
             actuated,
-            ..Joint::new(name, motion, axis)
+            ..TreeJoint::new(name, motion, axis)
         }
     };
     match part.kind {
@@ -75,9 +75,9 @@ pub(super) fn moving(
             // no other joint has the name of a part
             let part = |word: &str| first_free(&format!("{name}_{word}"), "_", free);
             vec![
-                joint(part("x"), Motion::Slide, x, false),
-                joint(part("y"), Motion::Slide, axis.cross(&x), false),
-                joint(part("turn"), Motion::Turn, axis, false),
+                joint(part("x"), BodyMotion::Slide, x, false),
+                joint(part("y"), BodyMotion::Slide, axis.cross(&x), false),
+                joint(part("turn"), BodyMotion::Turn, axis, false),
             ]
         }
     }

@@ -18,7 +18,7 @@ use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::page::{Problems, child, children, direction, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Coupling, Motion, Tree};
+use crate::interchange::tree::{BodyMotion, Coupling, Tree, TreeBody};
 
 /// A tree with remarks.
 pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
@@ -27,7 +27,7 @@ pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
 pub(crate) fn read(text: &str) -> Read {
     let document = document(text).map_err(|problem| vec![problem])?;
     let robot = document.root_element();
-    let mut reader = Reader {
+    let mut reader = UrdfReader {
         problems: Problems(Vec::new()),
         remarks: Vec::new(),
         version: version(robot),
@@ -49,7 +49,7 @@ fn version(robot: Node) -> (u32, u32) {
     robot.attribute("version").and_then(parse).unwrap_or((1, 0))
 }
 
-struct Reader<'a, 'i> {
+struct UrdfReader<'a, 'i> {
     problems: Problems,
     remarks: Vec<Remark>,
     version: (u32, u32),
@@ -59,7 +59,7 @@ struct Reader<'a, 'i> {
     joints: Vec<(Node<'a, 'i>, String)>,
 }
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a, 'i> UrdfReader<'a, 'i> {
     /// Checks names of links and joints, and reports unknown ones.
     fn elements(&mut self, robot: Node<'a, 'i>) {
         let mut ignored: BTreeMap<String, usize> = BTreeMap::new();
@@ -124,12 +124,12 @@ impl<'a, 'i> Reader<'a, 'i> {
         let driven = driven(robot, &joints, closed, &mut self.remarks);
         let children = hangs.iter().enumerate();
         let joint_of: HashMap<&str, usize> = children.map(|(i, h)| (h.child.as_str(), i)).collect();
-        let mut bodies: Vec<Body> = Vec::new();
+        let mut bodies: Vec<TreeBody> = Vec::new();
         let mut couplings = Vec::new();
         let links = order.iter().enumerate();
         let index: HashMap<&str, usize> = links.map(|(i, link)| (link.as_str(), i)).collect();
         for link in &order {
-            let mut body = Body::new(link.clone(), None, Pose::identity());
+            let mut body = TreeBody::new(link.clone(), None, Pose::identity());
             body.frames.push((link.clone(), Pose::identity()));
             body.heavy = self.masses.get(link).copied();
             if let Some(&i) = joint_of.get(link.as_str()) {
@@ -213,9 +213,9 @@ impl<'a, 'i> Reader<'a, 'i> {
             && let Some(given) = self.problems.numbers::<3>(axis, "xyz")
         {
             let unit = match kind {
-                Some(JointType::Planar | JointType::Moving(Motion::Turn | Motion::Slide, _)) => {
-                    self.problems.axis(given, name, AXIS, axis)
-                }
+                Some(
+                    JointType::Planar | JointType::Moving(BodyMotion::Turn | BodyMotion::Slide, _),
+                ) => self.problems.axis(given, name, AXIS, axis),
                 _ => direction(given),
             };
             along = unit.unwrap_or(along);

@@ -4,7 +4,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, RollPitchYaw, Vector3};
 use crate::interchange::masses::Heavy;
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Coupling, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{BodyMotion, Coupling, Tree, TreeBody, TreeJoint, TreeLoop};
 use crate::interchange::xml::{Xml, numbers, vector};
 
 /// The limit of a prismatic joint that has none, in units of the size of the mechanism.
@@ -62,7 +62,7 @@ struct UrdfWriter<'a> {
 
 impl UrdfWriter<'_> {
     /// The lengths of distances: joints of bodies that nothing else follows.
-    fn is_lost(&self, body: &Body) -> bool {
+    fn is_lost(&self, body: &TreeBody) -> bool {
         let [joint] = body.joints.as_slice() else {
             return false;
         };
@@ -70,13 +70,13 @@ impl UrdfWriter<'_> {
         body.frames.is_empty() && !couplings.any(|(_, leader, ..)| leader == joint.name)
     }
 
-    fn rigid(&self) -> impl Iterator<Item = &Loop> {
+    fn rigid(&self) -> impl Iterator<Item = &TreeLoop> {
         let loops = self.tree.loops.iter();
         loops.filter(|l| l.kind == ClosureKind::Rigid)
     }
 
     /// The closure that fixes a floating body to a frame of another one, and the body's side of it.
-    fn fixing(&self, body: usize) -> Option<(&Loop, usize)> {
+    fn fixing(&self, body: usize) -> Option<(&TreeLoop, usize)> {
         let mut sides = self.rigid().flat_map(|l| [(l, 0), (l, 1)]);
         // an earlier body cannot be a child of this one
         sides.find(|(l, side)| {
@@ -90,7 +90,7 @@ impl UrdfWriter<'_> {
         while let Some(body) = at.filter(|body| *body != on) {
             let part = &self.tree.bodies[body];
             // a floating body may itself be fixed to another one
-            let touches = |l: &Loop| l.sides.iter().any(|side| side.body == body);
+            let touches = |l: &TreeLoop| l.sides.iter().any(|side| side.body == body);
             if part.home.is_some() && self.rigid().any(touches) {
                 return true;
             }
@@ -99,7 +99,7 @@ impl UrdfWriter<'_> {
         at.is_some()
     }
 
-    fn body(&mut self, index: usize, body: &Body, home: &Pose<f64>) {
+    fn body(&mut self, index: usize, body: &TreeBody, home: &Pose<f64>) {
         let tree = self.tree;
         let Some(parent) = body.parent else {
             self.link(&body.name, false, None);
@@ -114,7 +114,7 @@ impl UrdfWriter<'_> {
                 false => format!("{}.{}", body.name, joint.name),
             };
             let mut kind = None;
-            if joint.motion == Motion::Free {
+            if joint.motion == BodyMotion::Free {
                 (kind, parent, origin) = self.floating(index, parent, home);
             }
             self.joint(joint, kind, [&parent, &child], &origin);
@@ -151,7 +151,7 @@ impl UrdfWriter<'_> {
     }
 
     /// Frames that are not the body's own, as links fixed to it.
-    fn frames(&mut self, body: &Body) {
+    fn frames(&mut self, body: &TreeBody) {
         for (name, pose) in &body.frames {
             if *name == body.name && *pose == Pose::identity() {
                 continue;
@@ -168,19 +168,19 @@ impl UrdfWriter<'_> {
 
     fn joint(
         &mut self,
-        joint: &Joint,
+        joint: &TreeJoint,
         kind: Option<&'static str>,
         links: [&str; 2],
         origin: &Pose<f64>,
     ) {
         let far = FAR * self.tree.size;
         let (own, limits) = match (joint.motion, joint.limits) {
-            (Motion::Turn, None) => ("continuous", None),
-            (Motion::Turn, limits) => ("revolute", limits),
-            (Motion::Slide, limits) => ("prismatic", limits.or(Some((-far, far)))),
-            (Motion::Ball | Motion::Free, _) => ("floating", None),
+            (BodyMotion::Turn, None) => ("continuous", None),
+            (BodyMotion::Turn, limits) => ("revolute", limits),
+            (BodyMotion::Slide, limits) => ("prismatic", limits.or(Some((-far, far)))),
+            (BodyMotion::Ball | BodyMotion::Free, _) => ("floating", None),
         };
-        if joint.motion == Motion::Slide && joint.limits.is_none() {
+        if joint.motion == BodyMotion::Slide && joint.limits.is_none() {
             self.unlimited.push(joint.name.clone());
         }
         let mut couplings = self.tree.couplings.iter().filter_map(Coupling::pair);
@@ -252,7 +252,7 @@ impl UrdfWriter<'_> {
     }
 
     fn losses(&self) -> Vec<Remark> {
-        let fixes = |of: &Loop| {
+        let fixes = |of: &TreeLoop| {
             let fixes = |remark: &Remark| matches!(remark, Remark::Fixed { closure, .. } if *closure == of.name);
             self.remarks.iter().any(fixes)
         };
@@ -266,7 +266,7 @@ impl UrdfWriter<'_> {
         }
         for body in self.tree.bodies.iter().filter(|body| self.is_lost(body)) {
             let joint = &body.joints[0].name;
-            let uses = |of: &&Loop| {
+            let uses = |of: &&TreeLoop| {
                 let mut terms = of.length.iter().flat_map(|length| &length.terms);
                 terms.any(|(name, _)| name == joint)
             };

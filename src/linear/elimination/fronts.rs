@@ -1,11 +1,11 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use crate::linear::Rows;
+use crate::linear::RowGroup;
 
 /// Groups of rows in which unknowns are not yet eliminated.
 pub struct Fronts {
-    groups: Vec<Option<Rows>>,
+    groups: Vec<Option<RowGroup>>,
     /// For each unknown the groups that contain it.
     of: Vec<Vec<usize>>,
     /// For each unknown how many others these contain, counted by group.
@@ -17,7 +17,7 @@ pub struct Fronts {
 }
 
 impl Fronts {
-    pub fn new(columns: usize, groups: &[Rows]) -> Self {
+    pub fn new(columns: usize, groups: &[RowGroup]) -> Self {
         let mut fronts = Fronts {
             groups: Vec::with_capacity(2 * groups.len()),
             of: vec![Vec::new(); columns],
@@ -55,9 +55,9 @@ impl Fronts {
     }
 
     /// All rows with an unknown, taken away; first the unknowns that no other rows contain, and how many these are.
-    pub fn merged(&mut self, unknown: usize) -> (Rows, usize) {
+    pub fn merged(&mut self, unknown: usize) -> (RowGroup, usize) {
         let taken = std::mem::take(&mut self.of[unknown]);
-        let parts: Vec<Rows> = taken
+        let parts: Vec<RowGroup> = taken
             .iter()
             .filter_map(|&g| self.groups[g].take())
             .collect();
@@ -90,7 +90,7 @@ impl Fronts {
             }
             row += part.count;
         }
-        let front = Rows {
+        let front = RowGroup {
             count,
             unknowns: order,
             entries,
@@ -99,7 +99,7 @@ impl Fronts {
     }
 
     /// Puts back the remainder of rows.
-    pub fn put(&mut self, rows: Rows) {
+    pub fn put(&mut self, rows: RowGroup) {
         let (place, unknowns) = (self.groups.len(), rows.unknowns.clone());
         if rows.count > 0 {
             unknowns.iter().for_each(|&i| self.of[i].push(place));

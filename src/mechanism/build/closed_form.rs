@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::super::model::{ClosedForm, Formula, Given, Symbol};
+use super::super::model::{ClosedForm, Formula, GivenForm, Symbol};
 use super::{Frame, ModelBuilder};
 use crate::description::{self, Description, Entry, MatrixEntry, Named, Noun, Scope, names_of};
 
@@ -25,7 +25,7 @@ impl ModelBuilder<'_> {
     fn closed_form(
         &mut self,
         form: &description::ClosedFormDescription,
-    ) -> Option<(Vec<(String, Formula)>, Given)> {
+    ) -> Option<(Vec<(String, Formula)>, GivenForm)> {
         let names = names_of(&form.locals);
         let indices: HashMap<&str, usize> = names.enumerate().map(|(i, n)| (n, i)).collect();
         let scope = Scope::ClosedForm;
@@ -94,12 +94,12 @@ impl ModelBuilder<'_> {
             .map(|&i| (form.locals[i].name.value.clone(), renumber(&formulas[i])));
         let locals = locals.collect();
         let gives = match of {
-            Some(of) => Given::Pose {
+            Some(of) => GivenForm::Pose {
                 of: of?,
                 relative_to: relative_to?,
                 entries: entries.iter().map(|(e, f)| (*e, renumber(f))).collect(),
             },
-            None => Given::Identities(
+            None => GivenForm::Identities(
                 identities
                     .iter()
                     .map(|(n, f)| (n.clone(), renumber(f)))

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::super::model::{Closure, Row};
+use super::super::model::{ChainRow, Closure};
 use super::super::relation::joints_of;
 use super::super::{Body, Frame};
 use super::{ModelBuilder, ResolvedChain};
@@ -120,7 +120,7 @@ impl ModelBuilder<'_> {
     }
 
     /// True if a name in the row may be that of a joint after all.
-    fn may_move(&self, row: &Row) -> bool {
+    fn may_move(&self, row: &ChainRow) -> bool {
         let [_, _, d, theta] = &row.written;
         [d, theta].into_iter().any(|written| {
             let mut words = written.split(|c: char| !(c.is_alphanumeric() || c == '_'));

@@ -6,7 +6,8 @@ use super::super::Mechanism;
 use super::ModelBuilder;
 use crate::algebra::Measure;
 use crate::description::{
-    AxesProblem, AxisKind, AxisPlace, Coordinates, Entry, Problem, ProblemKind, rounding_of_text,
+    AxesProblem, AxisKind, AxisPlace, Entry, JointCoordinates, Problem, ProblemKind,
+    rounding_of_text,
 };
 use crate::geometry::Vector3;
 use crate::number::real;
@@ -14,7 +15,7 @@ use crate::number::tolerance::ROUNDING;
 
 impl ModelBuilder<'_> {
     /// Axes need a direction, those of universal joints a right angle between them.
-    pub(super) fn check_coordinates(&mut self, coordinates: &Coordinates) {
+    pub(super) fn check_coordinates(&mut self, coordinates: &JointCoordinates) {
         for joint in &coordinates.axes.joints {
             let places = [Some(&joint.value.place), joint.value.second.as_ref()];
             for place in places.into_iter().flatten() {

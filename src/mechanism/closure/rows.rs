@@ -31,7 +31,7 @@ impl Side {
 
 /// The rows of a closure at a configuration: residuals and the wrenches that measure twists.
 #[derive(Clone, Debug)]
-pub(crate) struct Rows<T> {
+pub(crate) struct ResidualRows<T> {
     /// Residuals, in the order point, moments, forces.
     pub residual: [T; MOST_ROWS],
     kept: Kept,
@@ -74,10 +74,10 @@ pub(super) fn distance<T: Number>(gap: &Vector3<T>, length: T, inverse_length: f
 
 const CYCLIC: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 
-impl<T: Number> Rows<T> {
+impl<T: Number> ResidualRows<T> {
     #[inline(always)]
     pub(super) fn new(inverse_length: f64, points: [Vector3<T>; 2], kept: Kept) -> Self {
-        Rows {
+        ResidualRows {
             residual: [T::zero(); MOST_ROWS],
             kept,
             considered: 0,
@@ -207,7 +207,7 @@ impl<T: Number> Rows<T> {
     }
 
     /// The rate of every row along a motion of one side, given as rotation rate and the velocity
-    /// at that side's [`Rows::velocity_point`].
+    /// at that side's [`ResidualRows::velocity_point`].
     #[inline(always)]
     pub(crate) fn rates(&self, side: Side, omega: &Vector3<T>, v: &Vector3<T>, out: &mut [T]) {
         let sign = side.sign();

@@ -8,12 +8,12 @@ use crate::number::Number;
 /// The straight way of fixed displacements from those of one mechanism to those of another: positions and quaternions
 /// with their changes, where there are any.
 #[derive(Clone, Debug)]
-pub(crate) struct Course<T> {
+pub(crate) struct KinematicsCourse<T> {
     shifts: Vec<(usize, Vector3<T>, Vector3<T>)>,
     turns: Vec<(usize, Quaternion<T>, Quaternion<T>)>,
 }
 
-impl<T: Number> Course<T> {
+impl<T: Number> KinematicsCourse<T> {
     /// Multiplies all changes.
     pub(crate) fn stretch(&mut self, factor: f64) {
         let shifts = self.shifts.iter_mut().flat_map(|shift| &mut shift.2.0);
@@ -47,7 +47,7 @@ impl<T: Number> PlacedStep<T> {
 impl<T: Number> Kinematics<T> {
     /// The plan by which all displacements between those of two mechanisms of one structure are evaluated, and the way
     /// from one to the other. `None` if more than fixed displacements differs.
-    pub(crate) fn towards(&self, other: &Self) -> Option<(Self, Course<T>)> {
+    pub(crate) fn towards(&self, other: &Self) -> Option<(Self, KinematicsCourse<T>)> {
         let alike = self.frames == other.frames && self.steps.len() == other.steps.len();
         let pairs = || self.steps.iter().zip(&other.steps).filter(|_| alike);
         let steps = pairs().map(|(from, to)| from.beside(to));
@@ -72,11 +72,11 @@ impl<T: Number> Kinematics<T> {
             frames: self.frames.clone(),
             moving: self.moving.clone(),
         };
-        Some((plan, Course { shifts, turns }))
+        Some((plan, KinematicsCourse { shifts, turns }))
     }
 
     /// The displacements at another place of the way. Nothing allocates.
-    pub(crate) fn go(&mut self, course: &Course<T>, s: T, placement: &mut Placement<T>) {
+    pub(crate) fn go(&mut self, course: &KinematicsCourse<T>, s: T, placement: &mut Placement<T>) {
         for (i, from, change) in &course.shifts {
             self.steps[*i].fixed.position = *from + change.times(s);
             self.ground(*i, placement);
@@ -93,7 +93,7 @@ impl<T: Number> Kinematics<T> {
     pub(crate) fn drift(
         &self,
         (joints, rates): (&[T], &[T]),
-        way: Option<(&Course<T>, T)>,
+        way: Option<(&KinematicsCourse<T>, T)>,
         placement: &Placement<T>,
         slots: &mut [(Vector3<T>, Vector3<T>)],
     ) {

@@ -7,7 +7,7 @@ use crate::number::{Number, real};
 
 /// A platform carried by the joint of a closure, or free.
 #[derive(Clone, Debug)]
-pub(crate) struct Carried {
+pub(crate) struct CarriedPlatform {
     /// The platform.
     pub platform: usize,
     /// The frame that carries it and the frame of the platform that the joint guides.
@@ -18,7 +18,7 @@ pub(crate) struct Carried {
     pub first: usize,
 }
 
-impl Carried {
+impl CarriedPlatform {
     /// The variables in order: displacements and turns of the guided frame in the carrying one.
     pub fn freedoms(&self) -> Vec<PoseCoordinate> {
         let all = self.kind.map_or(FREE, ClosureKind::freedoms).iter();

@@ -1,5 +1,5 @@
 use super::prismatic;
-use super::{JointAxis, SerialAxes, Table, TableRow};
+use super::{DhTable, JointAxis, SerialAxes, TableRow};
 use crate::description::Convention;
 use crate::geometry::{Line, Pose, Relation, Rotation, Vector3};
 use crate::linear::RANK_TOLERANCE;
@@ -7,9 +7,9 @@ use crate::number::real;
 
 /// Frames placed on joint axes, and the table read off them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Assignment {
+pub struct FrameAssignment {
     /// The table.
-    pub table: Table,
+    pub table: DhTable,
     /// The axes as the table has them; those of prismatic joints have a place now.
     pub axes: Vec<Line>,
     /// N₀ … N_n: from the base to axis 1, between consecutive axes, from axis n to the tool.
@@ -108,7 +108,7 @@ fn perpendicular<const N: usize>(z: &Vector3<f64>, vectors: [Vector3<f64>; N]) -
 
 impl SerialAxes {
     /// Places the frames and reads the table off them. Any number of axes, also none.
-    pub fn assign(&self, convention: Convention) -> Assignment {
+    pub fn assign(&self, convention: Convention) -> FrameAssignment {
         let length = self.length();
         let mut axes: Vec<Line> = self.joints.iter().map(|joint| joint.line).collect();
         let start = self.base.map_or(Vector3::zero(), |base| base.position);
@@ -237,7 +237,7 @@ impl SerialAxes {
         normals: Vec<Normal>,
         starts_at_base: bool,
         length: f64,
-    ) -> Assignment {
+    ) -> FrameAssignment {
         let row = |(k, joint): (usize, &JointAxis)| {
             let (before, after) = (&normals[k], &normals[k + 1]);
             let z = &axes[k].direction;
@@ -263,7 +263,7 @@ impl SerialAxes {
             (Some(base), true) => base,
             _ => normals[0].frame(0),
         };
-        let mut table = Table {
+        let mut table = DhTable {
             convention,
             base,
             rows,
@@ -276,7 +276,7 @@ impl SerialAxes {
             table.tip = tidy(&(table.tool().inverse() * tool), length);
         }
         let (turned, moved) = self.difference(&table);
-        Assignment {
+        FrameAssignment {
             table,
             axes,
             normals,
@@ -288,7 +288,7 @@ impl SerialAxes {
     }
 
     /// The largest angle (rad) and distance (m) between the axes and tool given and those of a table with as many rows.
-    pub fn difference(&self, table: &Table) -> (f64, f64) {
+    pub fn difference(&self, table: &DhTable) -> (f64, f64) {
         let made = table.axes();
         let mut turned = 0.0_f64;
         let mut moved = 0.0_f64;

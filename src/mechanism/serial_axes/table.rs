@@ -6,7 +6,7 @@ use crate::geometry::{Axis, Line, Pose, Vector3};
 
 /// A Denavit–Hartenberg table as numbers: base · row₁ · … · row_n · tip.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct DhTable {
     /// Convention of the rows.
     pub convention: Convention,
     /// To frame 0, in the coordinates of the axes.
@@ -53,7 +53,7 @@ impl TableRow {
     }
 }
 
-impl Table {
+impl DhTable {
     /// Frames 0 to n in the home configuration, in the coordinates of the axes.
     pub fn frames(&self) -> Vec<Pose<f64>> {
         let mut frames = vec![self.base];

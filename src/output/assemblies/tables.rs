@@ -27,7 +27,7 @@ pub(super) fn met(report: &AssembliesReport, multiplicity: usize) -> String {
 }
 
 /// Assemblies in one pose of the platforms.
-pub(super) struct Pose<'r> {
+pub(super) struct PoseGroup<'r> {
     number: usize,
     modes: Vec<&'r Assembly>,
 }
@@ -44,28 +44,28 @@ pub(super) fn are_posed(report: &AssembliesReport) -> &'static str {
 
 /// The positions of the bodies where assemblies share them, or the poses where there are several and assemblies share them;
 /// otherwise a row for each assembly tells as much.
-pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<Pose<'_>>> {
+pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<PoseGroup<'_>>> {
     let (poses, least) = match report.positions.is_empty() {
         true => (&report.poses, 2),
         false => (&report.positions, 1),
     };
     let shared = (least..report.assemblies.len()).contains(&poses.len());
-    let poses = (1..).zip(poses).map(|(number, modes)| Pose {
+    let poses = (1..).zip(poses).map(|(number, modes)| PoseGroup {
         number,
         modes: (report.assemblies.iter())
             .filter(|a| modes.contains(&a.mode))
             .collect(),
     });
-    let all: Vec<Pose> = shared.then(|| poses.collect())?;
+    let all: Vec<PoseGroup> = shared.then(|| poses.collect())?;
     (all.iter().all(|pose| !pose.modes.is_empty())).then_some(all)
 }
 
-pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
-    let numbers = |pose: &Pose| {
+pub(super) fn by_pose<'p>(poses: &'p [PoseGroup<'_>]) -> Table {
+    let numbers = |pose: &PoseGroup| {
         let modes: Vec<usize> = pose.modes.iter().map(|a| a.mode).collect();
         ranges(&modes).join(", ")
     };
-    let condition = |pose: &Pose| {
+    let condition = |pose: &PoseGroup| {
         let of = pose.modes.iter();
         let of = of.map(|a| a.condition.unwrap_or(f64::INFINITY));
         let least = of.clone().fold(f64::INFINITY, f64::min);
@@ -75,7 +75,7 @@ pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
             false => format!("{} to {}", ends[0], ends[1]),
         }
     };
-    let part = |pose: &Pose, of: fn(&Assembly) -> bool, words: &str, none: &str| {
+    let part = |pose: &PoseGroup, of: fn(&Assembly) -> bool, words: &str, none: &str| {
         let n = pose.modes.iter().filter(|a| of(a)).count();
         match n {
             0 => none.to_owned(),
@@ -84,7 +84,7 @@ pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
         }
     };
     Table::of(poses)
-        .numbers("pose", |pose: &'p Pose| pose.number)
+        .numbers("pose", |pose: &'p PoseGroup| pose.number)
         .numbers("modes", |pose| pose.modes.len())
         .words("which", numbers)
         .words("condition", condition)

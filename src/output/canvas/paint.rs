@@ -89,7 +89,7 @@ fn draw(map: &mut Pixmap, whole: Transform, face: &Face, shape: &Shape) {
             anchor,
             upwards,
         } => {
-            let mut letters = Letters {
+            let mut letters = LetterOutlines {
                 path: PathBuilder::new(),
                 scale: *size as f32 / f32::from(face.units_per_em()),
                 across: 0.0,
@@ -119,19 +119,19 @@ fn draw(map: &mut Pixmap, whole: Transform, face: &Face, shape: &Shape) {
 }
 
 /// Outlines of letters beside one another, y downwards.
-struct Letters {
+struct LetterOutlines {
     path: PathBuilder,
     scale: f32,
     across: f32,
 }
 
-impl Letters {
+impl LetterOutlines {
     fn place(&self, x: f32, y: f32) -> (f32, f32) {
         (self.across + self.scale * x, -self.scale * y)
     }
 }
 
-impl OutlineBuilder for Letters {
+impl OutlineBuilder for LetterOutlines {
     fn move_to(&mut self, x: f32, y: f32) {
         let (x, y) = self.place(x, y);
         self.path.move_to(x, y);

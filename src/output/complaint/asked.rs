@@ -3,7 +3,7 @@
 
 use super::door::{Ranged, Wording};
 use super::question::{frame_names, meant, no_point, no_quantity};
-use super::{Complaint, Part};
+use super::{Complaint, OptionPart};
 use crate::analysis::solver::NoSolver;
 use crate::ask::{AskError, Demand, Question, Remedy, Role, Unmeasured, Value};
 use crate::description::{self, count, listed};
@@ -29,8 +29,8 @@ impl Wording<'_> {
                 let said = self.question(error);
                 let (first, end) = (written.find("..").unwrap_or(written.len()), written.len());
                 match item.value {
-                    Some(0) => said.at(Part::Value(0..first)),
-                    Some(_) => said.at(Part::Value((first + 2).min(end)..end)),
+                    Some(0) => said.at(OptionPart::Value(0..first)),
+                    Some(_) => said.at(OptionPart::Value((first + 2).min(end)..end)),
                     None => said,
                 }
             }
@@ -80,7 +80,7 @@ impl Wording<'_> {
                 }
             }
             AskError::EmptyRange(_, name) => {
-                said.label("empty").at(Part::WholeValue).help(match ranged {
+                said.label("empty").at(OptionPart::WholeValue).help(match ranged {
                     Ranged::Input => {
                         let from = written.split("..").next().unwrap_or_default().trim();
                         format!(
@@ -108,7 +108,7 @@ impl Wording<'_> {
                 let (low, high) = (written(limits.0), written(limits.1));
                 let within = self.give(Role::Input, name, &[&low, &high]);
                 let help = format!("sweep within them, e.g. {within}");
-                said.label("outside").at(Part::WholeValue).help(help)
+                said.label("outside").at(OptionPart::WholeValue).help(help)
             }
             AskError::AlsoHeld { .. } => said.label("also held").help(ONE_OF_THEM),
             AskError::MoreThanATurn(name) => said.help(format!(
@@ -118,7 +118,7 @@ impl Wording<'_> {
             AskError::TooManyTurns { name, .. } => {
                 let turn = self.give(Role::Input, name, &["0deg", "360deg"]);
                 let help = format!("a motion repeats after few turns, often after one: {turn}");
-                said.label("too far").at(Part::WholeValue).help(help)
+                said.label("too far").at(OptionPart::WholeValue).help(help)
             }
             AskError::NothingMoves(driven) => said.help(format!(
                 "give the inputs their ranges, e.g. {}; follow the whole curve with {}; or list circuits with {}",

@@ -1,7 +1,7 @@
 //! Words for questions that cannot be put, with the remedies that would put them right.
 
 use super::door::Wording;
-use super::{Complaint, Part};
+use super::{Complaint, OptionPart};
 use crate::algebra::Expression;
 use crate::ask::{Demand, Remedy, Role};
 use crate::description::{ProblemKind, Scope, listed, nearest};
@@ -164,7 +164,7 @@ impl Wording<'_> {
                 let said = self.driven(error, role);
                 // of several components the wrong one is not known here
                 match said.part {
-                    Part::Value(_) if role == Role::Wrench => said.at(Part::WholeValue),
+                    OptionPart::Value(_) if role == Role::Wrench => said.at(OptionPart::WholeValue),
                     _ => said,
                 }
             }
@@ -180,7 +180,7 @@ impl Wording<'_> {
             }
             ForceError::Components(_) => said("")
                 .help("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m")
-                .at(Part::WholeValue),
+                .at(OptionPart::WholeValue),
             ForceError::UnknownJoint {
                 suggestion, known, ..
             } => said("not known").help(match (suggestion, known.is_empty()) {
@@ -237,7 +237,7 @@ pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
 pub fn no_point(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
-        PointError::Value { text, error } => value(text, error).at(Part::Name),
+        PointError::Value { text, error } => value(text, error).at(OptionPart::Name),
         PointError::TooMany(_) => Complaint::new(error.to_string())
             .label("too many")
             .help("write FRAME+X,Y,Z, e.g. left+0.5,0.2,0"),
@@ -279,12 +279,12 @@ pub(super) fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityErr
 pub(super) fn value(text: &str, error: &ValueError) -> Complaint {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);
-    let whole = |kind: ProblemKind| Complaint::kind(&kind).at(Part::WholeValue);
+    let whole = |kind: ProblemKind| Complaint::kind(&kind).at(OptionPart::WholeValue);
     match error {
         ValueError::Parse(kind) => {
             let said = whole(ProblemKind::Expression(kind.clone()));
             match &parsed {
-                Err(error) if error.kind == *kind => said.at(Part::Value(error.span.clone())),
+                Err(error) if error.kind == *kind => said.at(OptionPart::Value(error.span.clone())),
                 _ => said,
             }
         }
@@ -301,15 +301,15 @@ pub(super) fn value(text: &str, error: &ValueError) -> Complaint {
             };
             let names = parsed.iter().flat_map(Expression::names);
             match names.into_iter().find(|(found, _)| *found == name) {
-                Some((_, span)) => said.at(Part::Value(span.clone())),
+                Some((_, span)) => said.at(OptionPart::Value(span.clone())),
                 None => said,
             }
         }
         ValueError::NoValue(kind) => whole(ProblemKind::NoValue(*kind)),
         ValueError::Unit(kind) => whole(ProblemKind::Unit(*kind)),
-        ValueError::NotANumber => Complaint::new(error.to_string()).at(Part::WholeValue),
+        ValueError::NotANumber => Complaint::new(error.to_string()).at(OptionPart::WholeValue),
         ValueError::NotAPose { .. } => Complaint::new(error.to_string())
             .help("a pose is a list such as [Tz(0.5), Rx(10 deg)], or home")
-            .at(Part::WholeValue),
+            .at(OptionPart::WholeValue),
     }
 }

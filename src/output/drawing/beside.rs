@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::{GROUND, Layer, Piece, Stage};
+use super::{GROUND, Layer, Painted, StagedScene};
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
 use crate::number::real;
-use crate::output::canvas::{Colour, INK, Pixel, Shape, Style};
+use crate::output::canvas::{Colour, INK, OutlineStyle, Pixel, Shape};
 use crate::output::quantity::three_digits;
-use crate::scene::{Arrow, Axis, Travel, Triple, across};
+use crate::scene::{ForceArrow, ScrewAxis, Travel, Triple, across};
 
-type Point = Vector3<f64>;
+type Position = Vector3<f64>;
 
 const LIMIT: Colour = Colour(0x8a7a2a);
 const LOAD: Colour = Colour(0xD55E00);
@@ -21,14 +21,14 @@ const AXES: [Colour; 3] = [Colour(0xD55E00), Colour(0x009E73), Colour(0x0072B2)]
 const LONGEST: f64 = 50.0;
 
 /// Marks that the mechanism covers.
-pub(super) fn under(stage: &Stage) -> Vec<Piece> {
+pub(super) fn under(stage: &StagedScene) -> Vec<Painted> {
     let mut pieces = Vec::new();
     for wheel in &stage.scene.wheels {
-        let dashed = Style::line(GROUND, 1.2).dashed(7.0, 4.0);
+        let dashed = OutlineStyle::line(GROUND, 1.2).dashed(7.0, 4.0);
         pieces.extend(stage.line(&wheel.points(), Layer::Under, dashed));
     }
     for travel in &stage.scene.travels {
-        let style = Style::line(LIMIT, 1.5);
+        let style = OutlineStyle::line(LIMIT, 1.5);
         for line in travelled(stage, travel) {
             pieces.extend(stage.line(&line, Layer::Under, style));
         }
@@ -37,11 +37,11 @@ pub(super) fn under(stage: &Stage) -> Vec<Piece> {
 }
 
 /// The way of a joint from limit to limit, with a stroke across each end.
-fn travelled(stage: &Stage, travel: &Travel) -> [Vec<Triple>; 3] {
+fn travelled(stage: &StagedScene, travel: &Travel) -> [Vec<Triple>; 3] {
     let metres = stage.metres();
     let (at, axis) = (Vector3(travel.at), Vector3(travel.axis));
     let [low, high] = travel.ends;
-    let stroke = |ends: [Point; 2]| ends.map(|end| end.0).to_vec();
+    let stroke = |ends: [Position; 2]| ends.map(|end| end.0).to_vec();
     match travel.arm {
         Some(arm) => {
             let (radius, arm) = (3.4 * metres, Vector3(arm));
@@ -72,7 +72,7 @@ fn travelled(stage: &Stage, travel: &Travel) -> [Vec<Triple>; 3] {
 }
 
 /// Marks that cover the mechanism, and the names beside it.
-pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
+pub(super) fn over(stage: &StagedScene) -> (Vec<Shape>, Vec<(String, Position)>) {
     let (mut shapes, mut named) = (Vec::new(), Vec::new());
     let scene = stage.scene;
     let metres = stage.metres();
@@ -80,14 +80,14 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
         let at = Vector3(frame.at);
         for (axis, colour) in frame.axes.iter().zip(AXES) {
             let tip = at + Vector3(*axis).times(2.5 * metres);
-            shapes.push(stage.open(&[at, tip], Style::line(colour, 1.6)));
+            shapes.push(stage.open(&[at, tip], OutlineStyle::line(colour, 1.6)));
         }
         named.push((frame.name.clone(), at));
     }
     for screw in &scene.screws {
         let (at, along) = (Vector3(screw.at), Vector3(screw.along));
         let half = along.times(7.0 * metres);
-        let dashed = Style::line(GAINED, 2.0).dashed(9.0, 4.0);
+        let dashed = OutlineStyle::line(GAINED, 2.0).dashed(9.0, 4.0);
         shapes.push(stage.open(&[at - half, at + half], dashed));
         shapes.extend(head(stage.pixel(&at), stage.pixel(&(at + half)), GAINED));
         if screw.pitch.is_some() {
@@ -97,12 +97,12 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
     }
     for centre in &scene.centres {
         let (x, y) = stage.pixel(&Vector3(centre.at));
-        let (far, style) = (4.0, Style::line(INK, 1.5));
+        let (far, style) = (4.0, OutlineStyle::line(INK, 1.5));
         shapes.push(Shape::line([(x - far, y - far), (x + far, y + far)], style));
         shapes.push(Shape::line([(x - far, y + far), (x + far, y - far)], style));
         named.push((centre.name.clone(), Vector3(centre.at)));
     }
-    let sizes = |of: fn(&Arrow) -> Triple| {
+    let sizes = |of: fn(&ForceArrow) -> Triple| {
         let sizes = scene.arrows.iter().map(|arrow| Vector3(of(arrow)).norm());
         sizes.fold(0.0, f64::max)
     };
@@ -114,7 +114,7 @@ pub(super) fn over(stage: &Stage) -> (Vec<Shape>, Vec<(String, Point)>) {
 }
 
 /// Motion of a body about and along a screw, in words.
-pub fn movement(screw: &Axis) -> String {
+pub fn movement(screw: &ScrewAxis) -> String {
     match screw.pitch {
         None => format!("{} slides", screw.name),
         Some(0.0) => format!("{} turns", screw.name),
@@ -127,11 +127,11 @@ pub fn movement(screw: &Axis) -> String {
 
 /// A force as an arrow that begins, or if it is applied ends, at its point; a moment as an arc about its axis.
 fn force(
-    stage: &Stage,
-    arrow: &Arrow,
+    stage: &StagedScene,
+    arrow: &ForceArrow,
     largest: [f64; 2],
     shapes: &mut Vec<Shape>,
-    named: &mut Vec<(String, Point)>,
+    named: &mut Vec<(String, Position)>,
 ) {
     /// Parts of the largest that are not seen.
     const SMALL: f64 = 1e-6;
@@ -145,7 +145,7 @@ fn force(
             true => (at - step, at),
             false => (at, at + step),
         };
-        shapes.push(stage.open(&[tail, tip], Style::line(colour, 2.4)));
+        shapes.push(stage.open(&[tail, tip], OutlineStyle::line(colour, 2.4)));
         shapes.extend(head(stage.pixel(&tail), stage.pixel(&tip), colour));
         let end = if arrow.applied { tail } else { tip };
         named.push((three_digits(size, SiUnit::NEWTON), end));
@@ -162,19 +162,19 @@ fn force(
 
 /// An arc about an axis as an arrow, and a place beside it.
 fn turning(
-    stage: &Stage,
-    at: Point,
-    axis: Point,
+    stage: &StagedScene,
+    at: Position,
+    axis: Position,
     radius: f64,
     colour: Colour,
-) -> (Vec<Shape>, Point) {
+) -> (Vec<Shape>, Position) {
     let [right, up] = across(&axis);
     let place = |k: u32| {
         let (sin, cos) = real::sin_cos(0.75 * TAU * f64::from(k) / 24.0);
         at + (right.times(cos) + up.times(sin)).times(radius)
     };
-    let arc: Vec<Point> = (0..=24).map(place).collect();
-    let line = stage.open(&arc, Style::line(colour, 2.0));
+    let arc: Vec<Position> = (0..=24).map(place).collect();
+    let line = stage.open(&arc, OutlineStyle::line(colour, 2.0));
     let head = head(stage.pixel(&arc[22]), stage.pixel(&arc[24]), colour);
     (std::iter::once(line).chain(head).collect(), arc[8])
 }
@@ -190,5 +190,6 @@ fn head(from: Pixel, to: Pixel, colour: Colour) -> Option<Shape> {
             to.1 - long * y + side * wide * x,
         )
     };
-    (length > 3.0).then(|| Shape::polygon([to, foot(1.0), foot(-1.0)], Style::filled(colour)))
+    (length > 3.0)
+        .then(|| Shape::polygon([to, foot(1.0), foot(-1.0)], OutlineStyle::filled(colour)))
 }

@@ -6,7 +6,7 @@ use crate::scene::{Triple, least_and_greatest};
 
 /// View of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum View {
+pub enum Viewpoint {
     /// Along the normal of the plane of motion; a spatial mechanism as with `Isometric`.
     #[default]
     Natural,
@@ -29,10 +29,10 @@ pub(crate) struct Camera {
 }
 
 impl Camera {
-    pub fn new(view: View, normal: Option<Triple>) -> Self {
-        let isometric = View::From((-45_f64).to_radians(), real::atan(1.0 / 2_f64.sqrt()));
+    pub fn new(view: Viewpoint, normal: Option<Triple>) -> Self {
+        let isometric = Viewpoint::From((-45_f64).to_radians(), real::atan(1.0 / 2_f64.sqrt()));
         let (towards, up) = match (view, normal) {
-            (View::Natural, Some(normal)) => {
+            (Viewpoint::Natural, Some(normal)) => {
                 // seen so that the axis of ground nearest to the normal points to the viewer
                 let normal = Vector3(normal);
                 let main = (0..3).max_by(|&i, &k| normal.0[i].abs().total_cmp(&normal.0[k].abs()));
@@ -47,10 +47,12 @@ impl Camera {
                     Vector3::unit(if main == 2 { 1 } else { 2 }),
                 )
             }
-            (View::Natural, None) | (View::Isometric, _) => return Camera::new(isometric, None),
-            (View::Front, _) => (Vector3([0.0, -1.0, 0.0]), Vector3::unit(2)),
-            (View::Top, _) => (Vector3::unit(2), Vector3::unit(1)),
-            (View::From(azimuth, elevation), _) => {
+            (Viewpoint::Natural, None) | (Viewpoint::Isometric, _) => {
+                return Camera::new(isometric, None);
+            }
+            (Viewpoint::Front, _) => (Vector3([0.0, -1.0, 0.0]), Vector3::unit(2)),
+            (Viewpoint::Top, _) => (Vector3::unit(2), Vector3::unit(1)),
+            (Viewpoint::From(azimuth, elevation), _) => {
                 let ((sin, cos), (rise, level)) =
                     (real::sin_cos(azimuth), real::sin_cos(elevation));
                 let towards = Vector3([level * cos, level * sin, rise]);

@@ -1,6 +1,6 @@
 //! Labels beside the things they name, where there is room.
 
-use super::{HEIGHT, Pixel, Stage, WIDTH};
+use super::{HEIGHT, Pixel, StagedScene, WIDTH};
 use crate::geometry::Vector3;
 use crate::number::real;
 
@@ -22,7 +22,7 @@ pub(super) struct Labels {
 impl Labels {
     /// Labels of everything that has a name beside it anyhow and, if all are wanted, of everything named in a scene.
     pub fn of(
-        stage: &Stage,
+        stage: &StagedScene,
         all: bool,
         beside: Vec<(String, Vector3<f64>)>,
     ) -> Vec<(String, Pixel)> {

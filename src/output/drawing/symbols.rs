@@ -1,15 +1,15 @@
 //! Symbols of joints: in the plane those of a kinematic diagram, in space small solids.
 
-use super::{Camera, DRIVEN, GROUND, Layer, Piece, Stage};
+use super::{Camera, DRIVEN, GROUND, Layer, Painted, StagedScene};
 use crate::geometry::Vector3;
 use crate::number::real;
-use crate::output::canvas::{Colour, INK, Style, WHITE};
-use crate::scene::{JointShape, Symbol, across};
+use crate::output::canvas::{Colour, INK, OutlineStyle, WHITE};
+use crate::scene::{JointShape, JointSymbol, across};
 
-type Point = Vector3<f64>;
+type Position = Vector3<f64>;
 
 /// The pieces of a joint.
-pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
+pub(super) fn joint(stage: &StagedScene, joint: &JointShape) -> Vec<Painted> {
     let at = Vector3(joint.at);
     let fill = if joint.driven { DRIVEN } else { WHITE };
     let mut bodies = joint.bodies.iter();
@@ -20,48 +20,54 @@ pub(super) fn joint(stage: &Stage, joint: &JointShape) -> Vec<Piece> {
     // what it stands on or slides along
     let mut pieces = match joint.kind {
         _ if telescopes(stage, joint) => Vec::new(),
-        Symbol::Cylindrical | Symbol::Prismatic => guide(stage, &at, &axis(0), on_ground),
+        JointSymbol::Cylindrical | JointSymbol::Prismatic => guide(stage, &at, &axis(0), on_ground),
         _ if !on_ground => Vec::new(),
-        Symbol::Revolute | Symbol::Helical if flat(0) => support(stage, &at, carried(stage, joint)),
-        Symbol::Revolute | Symbol::Helical | Symbol::Universal => bearing(stage, joint, &axis(0)),
-        Symbol::Spherical => plate(stage, &at, &Vector3::unit(2)),
-        Symbol::Planar | Symbol::Rigid => Vec::new(),
+        JointSymbol::Revolute | JointSymbol::Helical if flat(0) => {
+            support(stage, &at, carried(stage, joint))
+        }
+        JointSymbol::Revolute | JointSymbol::Helical | JointSymbol::Universal => {
+            bearing(stage, joint, &axis(0))
+        }
+        JointSymbol::Spherical => plate(stage, &at, &Vector3::unit(2)),
+        JointSymbol::Planar | JointSymbol::Rigid => Vec::new(),
     };
     pieces.extend(match joint.kind {
-        Symbol::Revolute | Symbol::Helical if flat(0) => ball(stage, &at, 0.75, fill),
-        Symbol::Revolute | Symbol::Helical => cylinder(stage, &at, &axis(0), 0.75, 1.1, fill),
-        Symbol::Cylindrical => cylinder(stage, &at, &axis(0), 0.75, 1.4, fill),
-        Symbol::Prismatic if telescopes(stage, joint) => {
+        JointSymbol::Revolute | JointSymbol::Helical if flat(0) => ball(stage, &at, 0.75, fill),
+        JointSymbol::Revolute | JointSymbol::Helical => {
+            cylinder(stage, &at, &axis(0), 0.75, 1.1, fill)
+        }
+        JointSymbol::Cylindrical => cylinder(stage, &at, &axis(0), 0.75, 1.4, fill),
+        JointSymbol::Prismatic if telescopes(stage, joint) => {
             cylinder(stage, &at, &axis(0), 0.85, 0.5, fill)
         }
-        Symbol::Prismatic => block(stage, &at, &axis(0), [1.4, 0.8, 0.8], fill),
-        Symbol::Universal => {
+        JointSymbol::Prismatic => block(stage, &at, &axis(0), [1.4, 0.8, 0.8], fill),
+        JointSymbol::Universal => {
             let halves = [0, 1].map(|k| cylinder(stage, &at, &axis(k), 0.35, 1.2, fill));
             halves.into_iter().flatten().collect()
         }
-        Symbol::Spherical => ball(stage, &at, 0.9, fill),
-        Symbol::Planar => block(stage, &at, &axis(0), [0.3, 1.5, 1.5], fill),
-        Symbol::Rigid => Vec::new(),
+        JointSymbol::Spherical => ball(stage, &at, 0.9, fill),
+        JointSymbol::Planar => block(stage, &at, &axis(0), [0.3, 1.5, 1.5], fill),
+        JointSymbol::Rigid => Vec::new(),
     });
     pieces
 }
 
 /// A slide in space between two bodies that both move, as in a leg.
-pub(super) fn telescopes(stage: &Stage, joint: &JointShape) -> bool {
+pub(super) fn telescopes(stage: &StagedScene, joint: &JointShape) -> bool {
     let mut bodies = joint.bodies.iter();
     let moves = bodies.all(|&body| !stage.scene.bodies[body].ground);
-    joint.kind == Symbol::Prismatic && !stage.flat && moves
+    joint.kind == JointSymbol::Prismatic && !stage.flat && moves
 }
 
 /// The middle of what a joint on ground carries, with others that stand in its place; none if that is nothing that is drawn.
-fn carried(stage: &Stage, joint: &JointShape) -> Option<Point> {
+fn carried(stage: &StagedScene, joint: &JointShape) -> Option<Position> {
     let at = Vector3(joint.at);
     let here = |of: &&JointShape| (Vector3(of.at) - at).norm() < 0.1 * stage.metres();
     let bodies = stage.scene.joints.iter().filter(here);
     let bodies = bodies.flat_map(|of| of.bodies.map(|body| &stage.scene.bodies[body]));
     let moved = bodies.filter(|body| !body.ground);
     let points = moved.flat_map(|body| body.lines.iter().flatten().chain(&body.corners));
-    let points: Vec<Point> = points.map(|point| Vector3(*point)).collect();
+    let points: Vec<Position> = points.map(|point| Vector3(*point)).collect();
     let sum = points
         .iter()
         .fold(Vector3::zero(), |sum, point| sum + *point);
@@ -70,10 +76,10 @@ fn carried(stage: &Stage, joint: &JointShape) -> Option<Point> {
 
 /// A bearing block: under a level axis, with a cheek at either end, on the side away from the link; a plate under an
 /// upright one.
-fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
+fn bearing(stage: &StagedScene, joint: &JointShape, axis: &Position) -> Vec<Painted> {
     let (at, metres) = (Vector3(joint.at), stage.metres());
-    let across = |way: Point| way - axis.times(way.dot(axis));
-    let unit = |way: Point| way.times(1.0 / way.norm().max(f64::MIN_POSITIVE));
+    let across = |way: Position| way - axis.times(way.dot(axis));
+    let unit = |way: Position| way.times(1.0 / way.norm().max(f64::MIN_POSITIVE));
     let down = across(Vector3([0.0, 0.0, -1.0]));
     let away = at - carried(stage, joint).unwrap_or(at);
     let side = down + unit(across(away)).times(0.8);
@@ -85,10 +91,13 @@ fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
     let place = |along: f64, over: f64, below: f64| {
         at + axis.times(along * metres) + third.times(over * metres) + side.times(below * metres)
     };
-    let face = |corners: [Point; 4]| Piece {
+    let face = |corners: [Position; 4]| Painted {
         layer: Layer::Ground,
         near: stage.near(&corners),
-        shape: stage.polygon(&corners, Style::filled(Colour(0xcccccc)).edged(GROUND, 1.0)),
+        shape: stage.polygon(
+            &corners,
+            OutlineStyle::filled(Colour(0xcccccc)).edged(GROUND, 1.0),
+        ),
     };
     let square = |x: f64, y: f64| place(1.75 * x, 1.2 * y, 1.35);
     let mut faces = vec![face([
@@ -109,7 +118,12 @@ fn bearing(stage: &Stage, joint: &JointShape, axis: &Point) -> Vec<Piece> {
 }
 
 /// The ball at the end of a rod, with its base.
-pub(super) fn rod_end(stage: &Stage, at: &Point, other: &Point, on_ground: bool) -> Vec<Piece> {
+pub(super) fn rod_end(
+    stage: &StagedScene,
+    at: &Position,
+    other: &Position,
+    on_ground: bool,
+) -> Vec<Painted> {
     let under = match stage.flat {
         _ if !on_ground => Vec::new(),
         true => support(stage, at, Some(*other)),
@@ -120,23 +134,23 @@ pub(super) fn rod_end(stage: &Stage, at: &Point, other: &Point, on_ground: bool)
 }
 
 /// A round joint.
-fn ball(stage: &Stage, at: &Point, size: f64, fill: Colour) -> Vec<Piece> {
+fn ball(stage: &StagedScene, at: &Position, size: f64, fill: Colour) -> Vec<Painted> {
     let Camera { right, up, .. } = stage.camera;
     let outline = ring(at, &right, &up, size * stage.metres());
-    vec![Piece {
+    vec![Painted {
         layer: Layer::Pin,
         ..solid(stage, &outline, fill, 0.5)
     }]
 }
 
 fn cylinder(
-    stage: &Stage,
-    at: &Point,
-    axis: &Point,
+    stage: &StagedScene,
+    at: &Position,
+    axis: &Position,
     radius: f64,
     half: f64,
     fill: Colour,
-) -> Vec<Piece> {
+) -> Vec<Painted> {
     let [right, up] = across(axis);
     let towards = match stage.camera.facing(axis) < 0.0 {
         true => axis.times(-1.0),
@@ -155,7 +169,13 @@ fn cylinder(
 }
 
 /// A box with its first edge along the axis.
-fn block(stage: &Stage, at: &Point, axis: &Point, halves: [f64; 3], fill: Colour) -> Vec<Piece> {
+fn block(
+    stage: &StagedScene,
+    at: &Position,
+    axis: &Position,
+    halves: [f64; 3],
+    fill: Colour,
+) -> Vec<Painted> {
     // in the plane of the picture where the axis is, so that the box does not stand askew
     let side = axis.cross(&stage.camera.towards);
     let [right, up] = match side.norm() > 1e-6 && stage.scene.normal.is_some() {
@@ -187,7 +207,7 @@ fn block(stage: &Stage, at: &Point, axis: &Point, halves: [f64; 3], fill: Colour
 }
 
 /// The line along which a slide moves, hatched where it is fixed to ground.
-fn guide(stage: &Stage, at: &Point, axis: &Point, on_ground: bool) -> Vec<Piece> {
+fn guide(stage: &StagedScene, at: &Position, axis: &Position, on_ground: bool) -> Vec<Painted> {
     let metres = stage.metres();
     let ends = [-3.5, 3.5].map(|part| *at + axis.times(part * metres));
     let colour = if on_ground { GROUND } else { INK };
@@ -203,7 +223,7 @@ fn guide(stage: &Stage, at: &Point, axis: &Point, on_ground: bool) -> Vec<Piece>
 const HANGS: f64 = 0.35;
 
 /// A pin on ground: a triangle on a hatched line, below the pin, or above it where what it carries hangs down.
-fn support(stage: &Stage, at: &Point, carried: Option<Point>) -> Vec<Piece> {
+fn support(stage: &StagedScene, at: &Position, carried: Option<Position>) -> Vec<Painted> {
     let metres = stage.metres();
     let Camera { right, up, .. } = stage.camera;
     let way = carried.map_or(up, |middle| middle - *at);
@@ -213,8 +233,8 @@ fn support(stage: &Stage, at: &Point, carried: Option<Point>) -> Vec<Piece> {
     };
     let foot = |x: f64| *at + right.times(x * metres) - up.times(1.9 * metres);
     let triangle = [*at, foot(-1.1), foot(1.1)];
-    let style = Style::filled(Colour(0xdddddd)).edged(GROUND, 1.2);
-    let mut pieces = vec![Piece {
+    let style = OutlineStyle::filled(Colour(0xdddddd)).edged(GROUND, 1.2);
+    let mut pieces = vec![Painted {
         layer: Layer::Ground,
         near: stage.near(&[*at]) - 0.2 * metres,
         shape: stage.polygon(&triangle, style),
@@ -226,7 +246,13 @@ fn support(stage: &Stage, at: &Point, carried: Option<Point>) -> Vec<Piece> {
 }
 
 /// Short strokes along a line, on the side of the ground.
-fn hatch(stage: &Stage, at: &Point, along: &Point, into: &Point, half: f64) -> Vec<Piece> {
+fn hatch(
+    stage: &StagedScene,
+    at: &Position,
+    along: &Position,
+    into: &Position,
+    half: f64,
+) -> Vec<Painted> {
     let metres = stage.metres();
     let strokes = (2.0 * half / 0.6).round() as i32;
     let stroke = |k: i32| {
@@ -243,7 +269,7 @@ fn hatch(stage: &Stage, at: &Point, along: &Point, into: &Point, half: f64) -> V
 }
 
 /// A square of ground under a spatial joint.
-fn plate(stage: &Stage, at: &Point, axis: &Point) -> Vec<Piece> {
+fn plate(stage: &StagedScene, at: &Position, axis: &Position) -> Vec<Painted> {
     let metres = stage.metres();
     let [right, up] = across(axis);
     let down = match axis.0[2] < -0.5 {
@@ -257,33 +283,33 @@ fn plate(stage: &Stage, at: &Point, axis: &Point) -> Vec<Piece> {
         corner(1.6, 1.6),
         corner(-1.6, 1.6),
     ];
-    let style = Style::filled(Colour(0xcccccc)).edged(GROUND, 1.0);
-    vec![Piece {
+    let style = OutlineStyle::filled(Colour(0xcccccc)).edged(GROUND, 1.0);
+    vec![Painted {
         layer: Layer::Ground,
         near: stage.near(&corners),
         shape: stage.polygon(&corners, style),
     }]
 }
 
-fn line(stage: &Stage, points: &[Point], colour: Colour, width: f64) -> Piece {
-    Piece {
+fn line(stage: &StagedScene, points: &[Position], colour: Colour, width: f64) -> Painted {
+    Painted {
         layer: Layer::Ground,
         // under the joint that stands on it
         near: stage.near(points) - 0.1 * stage.metres(),
-        shape: stage.open(points, Style::line(colour, width)),
+        shape: stage.open(points, OutlineStyle::line(colour, width)),
     }
 }
 
 /// A filled outline, a little nearer than its base.
-fn solid(stage: &Stage, points: &[Point], fill: Colour, nearer: f64) -> Piece {
-    Piece {
+fn solid(stage: &StagedScene, points: &[Position], fill: Colour, nearer: f64) -> Painted {
+    Painted {
         layer: Layer::Slide,
         near: stage.near(points) + nearer * stage.metres(),
-        shape: stage.polygon(points, Style::filled(fill).edged(INK, 1.3)),
+        shape: stage.polygon(points, OutlineStyle::filled(fill).edged(INK, 1.3)),
     }
 }
 
-fn ring(middle: &Point, right: &Point, up: &Point, radius: f64) -> Vec<Point> {
+fn ring(middle: &Position, right: &Position, up: &Position, radius: f64) -> Vec<Position> {
     let places = (0..24).map(|k| {
         let (sin, cos) = real::sin_cos(f64::from(k) * std::f64::consts::TAU / 24.0);
         *middle + right.times(radius * cos) + up.times(radius * sin)

@@ -12,7 +12,7 @@ use crate::number::sorting::{sort_by, sort_by_key};
 
 /// A function for each transform, closure and Jacobian; they need nothing but `f64`.
 pub fn rust(report: &FormulasReport) -> String {
-    let mut writer = Writer {
+    let mut writer = RustWriter {
         arguments: arguments(&report.letters),
         functions: BTreeSet::new(),
     };
@@ -118,7 +118,7 @@ fn spaced(code: &str) -> String {
     code.replace('*', " * ").replace('/', " / ")
 }
 
-struct Writer<'r> {
+struct RustWriter<'r> {
     arguments: Vec<(&'r str, String)>,
     functions: BTreeSet<String>,
 }
@@ -126,7 +126,7 @@ struct Writer<'r> {
 /// The sines and cosines of a function, by the text of their angle, with their number.
 type Angles = BTreeMap<String, (usize, bool, bool)>;
 
-impl Writer<'_> {
+impl RustWriter<'_> {
     /// The arguments that expressions use, beside what is found on the way.
     fn given<'e>(
         &self,

@@ -10,7 +10,7 @@ use crate::analysis::formulas::{
     TransformFormula,
 };
 use crate::description::{ClosureKind, count, listed};
-use crate::output::document::{Document, Formula, Section};
+use crate::output::document::{Document, FormulaBlock, Section};
 use crate::output::quantity::form;
 use crate::output::report::Report;
 
@@ -21,8 +21,9 @@ impl Report for FormulasReport {
     fn document(&self) -> Document {
         let notation = Notation::new(&self.names, Script::Unicode);
         let tex = Notation::new(&self.names, Script::Latex);
-        let section = |title: &str, formulas: Vec<Formula>| Section::new(title).formulas(formulas);
-        let transforms = |transforms: &[TransformFormula]| -> Vec<Formula> {
+        let section =
+            |title: &str, formulas: Vec<FormulaBlock>| Section::new(title).formulas(formulas);
+        let transforms = |transforms: &[TransformFormula]| -> Vec<FormulaBlock> {
             let each = transforms.iter();
             each.map(|t| titled(transform(&notation, t), latex::transform_of(&tex, t)))
                 .collect()
@@ -55,13 +56,13 @@ impl Report for FormulasReport {
 }
 
 /// A formula whose text begins with its title.
-fn titled(text: String, latex: String) -> Formula {
+fn titled(text: String, latex: String) -> FormulaBlock {
     let (title, lines) = text.split_once('\n').unwrap_or_default();
     // the lines stand below the title without the indentation that a terminal gives them
     let lines = lines
         .lines()
         .map(|line| line.strip_prefix("  ").unwrap_or(line));
-    Formula {
+    FormulaBlock {
         title: title.to_owned(),
         unicode: lines.collect::<Vec<_>>().join("\n"),
         latex,
@@ -175,7 +176,7 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
     Some(text)
 }
 
-fn closure(notation: &Notation, tex: &Notation, closure: &ClosureFormula) -> Formula {
+fn closure(notation: &Notation, tex: &Notation, closure: &ClosureFormula) -> FormulaBlock {
     let [a, b] = &closure.between;
     let (name, kind) = (&closure.name, closure.kind.word());
     let mut text = match closure.kind {
@@ -213,7 +214,7 @@ fn closure(notation: &Notation, tex: &Notation, closure: &ClosureFormula) -> For
         below.push(same.to_owned());
     }
     let latex = latex::closure_of(tex, closure).unwrap_or_default();
-    Formula {
+    FormulaBlock {
         below,
         ..titled(text, latex)
     }

@@ -9,15 +9,15 @@ use crate::output::canvas::Colour;
 
 /// Placement of a solid: stretched, then turned, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct SolidPlacement {
     pub at: Vector3<f64>,
     pub turn: Quaternion<f64>,
     pub scale: [f64; 3],
 }
 
-impl Placed {
+impl SolidPlacement {
     pub fn at(at: Vector3<f64>) -> Self {
-        Placed {
+        SolidPlacement {
             at,
             turn: Quaternion::identity(),
             scale: [1.0; 3],
@@ -39,7 +39,7 @@ impl Placed {
 const PROPERTIES: [&str; 3] = ["translation", "rotation", "scale"];
 
 /// Signs of quaternions so that each is near the one before.
-pub(super) fn without_flips(places: &mut [Placed]) {
+pub(super) fn without_flips(places: &mut [SolidPlacement]) {
     for k in 1..places.len() {
         let before = places[k - 1].turn.0;
         let turn = &mut places[k].turn.0;
@@ -64,7 +64,7 @@ pub(super) struct File {
     solids: Vec<(Solid, Value)>,
     meshes: Vec<(usize, usize)>,
     nodes: Vec<Value>,
-    moved: Vec<(usize, Vec<Placed>)>,
+    moved: Vec<(usize, Vec<SolidPlacement>)>,
 }
 
 impl File {
@@ -74,7 +74,7 @@ impl File {
         name: &str,
         solid: &Solid,
         (colour, opacity): (Colour, f64),
-        places: Vec<Placed>,
+        places: Vec<SolidPlacement>,
     ) {
         let material = place_of(&mut self.materials, (colour, opacity));
         let known = self.solids.iter().position(|(known, _)| known == solid);

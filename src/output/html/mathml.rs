@@ -8,7 +8,7 @@ use super::escaped;
 /// A displayed formula. Of TeX it knows what [`latex`](crate::output::formulas::latex) writes: another command stands there by
 /// its name.
 pub fn render(latex: &str) -> String {
-    let mut reader = Reader {
+    let mut reader = FormulaReader {
         rest: latex.chars().peekable(),
     };
     format!(
@@ -17,7 +17,7 @@ pub fn render(latex: &str) -> String {
     )
 }
 
-struct Reader<'t> {
+struct FormulaReader<'t> {
     rest: Peekable<Chars<'t>>,
 }
 
@@ -69,7 +69,7 @@ fn operator(text: &str) -> String {
     tag("mo", &escaped(text))
 }
 
-impl Reader<'_> {
+impl FormulaReader<'_> {
     /// What stands up to the end of a group, a cell, a row, an environment or the text; `end` becomes what ended it.
     fn row(&mut self, end: &mut String) -> String {
         let mut row = String::new();

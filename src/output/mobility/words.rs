@@ -1,7 +1,7 @@
 //! Mobility of a mechanism, in sentences.
 
 use crate::analysis::mobility::{
-    Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, Wrench,
+    Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, RedundantWrench,
 };
 use crate::description::{count, listed};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
@@ -279,7 +279,7 @@ pub(super) fn redundancy(redundancy: &Redundancy) -> String {
 }
 
 /// `(0, 2)` for a force along z, `(1, 0)` for a moment about x.
-fn axis(wrench: &Wrench) -> Option<(usize, usize)> {
+fn axis(wrench: &RedundantWrench) -> Option<(usize, usize)> {
     let parts = [wrench.force, wrench.moment];
     let places = (0..6).map(|i| (i / 3, i % 3));
     let nonzero: Vec<(usize, usize)> = places.filter(|&(part, i)| parts[part][i] != 0.0).collect();
@@ -289,7 +289,7 @@ fn axis(wrench: &Wrench) -> Option<(usize, usize)> {
     }
 }
 
-fn general(wrench: &Wrench) -> String {
+fn general(wrench: &RedundantWrench) -> String {
     let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let triple = |v: &[f64; 3], length: f64| triple(&v.map(|x| x / length));
     let (force, moment) = (size(&wrench.force), size(&wrench.moment));

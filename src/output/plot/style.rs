@@ -1,6 +1,6 @@
 //! Styles of curves, marks and values.
 
-use crate::output::canvas::{Colour, Style};
+use crate::output::canvas::{Colour, OutlineStyle};
 
 /// Colours that people with any colour vision distinguish, from M. Okabe and K. Ito 2008.
 const COLOURS: [Colour; 7] = [
@@ -14,8 +14,8 @@ const COLOURS: [Colour; 7] = [
 ];
 
 /// The line of the i-th series: colours first, then dashes and dots.
-pub(super) fn stroke(i: usize) -> Style {
-    let style = Style::line(COLOURS[i % COLOURS.len()], 1.5);
+pub(super) fn stroke(i: usize) -> OutlineStyle {
+    let style = OutlineStyle::line(COLOURS[i % COLOURS.len()], 1.5);
     match i / COLOURS.len() % 3 {
         0 => style,
         1 => style.dashed(6.0, 4.0),

@@ -1,7 +1,7 @@
 //! Singularity loci in a box of two coordinates.
 
 use super::{kind_word, note, words};
-use crate::analysis::singularities::{Cusp, Kind, Locus, LocusReport, Shape};
+use crate::analysis::singularities::{Cusp, ImageShape, Kind, Locus, LocusReport};
 use crate::description::count;
 use crate::mechanism::Variable;
 use crate::output::document::{Cell, Document, Section, Table, cells};
@@ -47,8 +47,8 @@ impl Report for LocusReport {
                 kind_word(locus.kind),
                 locus.singularity.gosselin_angeles.map(usize::from),
                 cusp.unwrap_or(match locus.shape {
-                    Shape::Curve => "curve",
-                    Shape::Point => "point",
+                    ImageShape::Curve => "curve",
+                    ImageShape::Point => "point",
                 }),
                 locus.configurations,
             ];

@@ -1,9 +1,9 @@
 //! Loci drawn in their box.
 
 use super::kind_word;
-use crate::analysis::singularities::{Locus, LocusReport, Shape};
+use crate::analysis::singularities::{ImageShape, Locus, LocusReport};
 use crate::description::listed;
-use crate::output::plot::{self, Chart, Series};
+use crate::output::plot::{self, LineChart, Series};
 use crate::output::quantity;
 
 /// The loci as SVG.
@@ -13,16 +13,16 @@ pub fn svg(report: &LocusReport) -> String {
     let bounds = report.bounds.each_ref();
     let [x, y] = bounds.map(|bound| plot::label(&bound.name, bound.unit));
     let kind = |locus: &Locus| kind_word(locus.kind);
-    let of = |shape: Shape| {
+    let of = |shape: ImageShape| {
         let loci = report.loci.iter().enumerate();
         loci.filter(move |(_, locus)| locus.shape == shape)
     };
-    let series = of(Shape::Curve).map(|(i, locus)| {
+    let series = of(ImageShape::Curve).map(|(i, locus)| {
         let label = format!("{} {}", kind(locus), i + 1);
         Series::new(label, locus.points.iter().map(point))
     });
     let single = ["direct", "inverse"].map(|wanted| {
-        let points = of(Shape::Point).filter(|(_, locus)| kind(locus) == wanted);
+        let points = of(ImageShape::Point).filter(|(_, locus)| kind(locus) == wanted);
         let numbers = points.clone().map(|(i, _)| (i + 1).to_string());
         let points = points.flat_map(|(_, locus)| &locus.points);
         Series::new(format!("{wanted} {}", listed(numbers)), points.map(point))
@@ -44,14 +44,14 @@ pub fn svg(report: &LocusReport) -> String {
     let cusps = report.loci.iter().flat_map(|locus| &locus.cusps);
     let cusps = Series::new("cusps", cusps.map(|cusp| point(&cusp.point)));
     let marks = single.into_iter().chain([crossings, cusps]);
-    plot::stacked(&[Chart {
+    plot::stacked(&[LineChart {
         title: format!("{}: singularities", report.mechanism),
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
         series: series.chain([Series::new("box", corners)]).collect(),
         marks: marks.filter(|marks| !marks.points.is_empty()).collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }])
     .svg()
 }

@@ -2,7 +2,7 @@
 
 use super::names;
 use crate::analysis::singularities::{
-    AlongReport, Crossing, Kind, Locus, LocusEnd, LocusReport, Movement, Shape, Singularity,
+    AlongReport, Crossing, ImageShape, Kind, Locus, LocusEnd, LocusReport, Movement, Singularity,
     Zlatanov,
 };
 use crate::description::{count, listed};
@@ -165,7 +165,7 @@ pub(super) fn ending(report: &AlongReport) -> String {
 }
 
 pub(super) fn loci(report: &LocusReport) -> String {
-    let of = |kind: Kind, shape: Shape| {
+    let of = |kind: Kind, shape: ImageShape| {
         let loci = report.loci.iter();
         let loci = loci.filter(|locus| locus.kind == kind && locus.shape == shape);
         loci.count()
@@ -173,8 +173,11 @@ pub(super) fn loci(report: &LocusReport) -> String {
     let bounds = report.bounds.iter();
     let in_box = bounds.map(|of| range(&of.name, of.from, of.to, of.unit));
     let curves = |kind: Kind, word: &str| {
-        let of = [(Shape::Curve, "curve"), (Shape::Point, "single point")]
-            .map(|(shape, noun)| (of(kind, shape), noun));
+        let of = [
+            (ImageShape::Curve, "curve"),
+            (ImageShape::Point, "single point"),
+        ]
+        .map(|(shape, noun)| (of(kind, shape), noun));
         let some = of.into_iter().filter(|(number, _)| *number > 0);
         let some: Vec<String> = some.map(|(number, noun)| count(number, noun)).collect();
         match some.is_empty() {
@@ -285,7 +288,7 @@ pub(super) fn ends(locus: &Locus) -> String {
         LocusEnd::Lost => "lost",
     };
     match locus.ends {
-        _ if locus.shape == Shape::Point => "point".into(),
+        _ if locus.shape == ImageShape::Point => "point".into(),
         [a, b] if a == b => end(a).into(),
         [a, b] => format!("{}, {}", end(a), end(b)),
     }

@@ -165,7 +165,7 @@ pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String
     }
 }
 
-type Series = &'static [f64];
+type PowerSeries = &'static [f64];
 
 impl Code {
     /// A constant.
@@ -231,7 +231,7 @@ impl Code {
     }
 
     /// Σ cₖ zᵏ in pairs, by w = z²: more at once than one after the other.
-    fn series(&self, of: Series) -> String {
+    fn series(&self, of: PowerSeries) -> String {
         let number = |x: f64| self.operand(x);
         let pairs = of.chunks(2).map(|pair| match pair {
             [x, y] => format!("({} + z * {})", number(*x), number(*y)),
@@ -246,7 +246,7 @@ impl Code {
     /// The angle a of a tangent t, |t| ≤ √2 − 1.
     pub(super) fn arctangent(&self) -> String {
         // (atan t − t)/t³ by powers of t²
-        let series: Series = match self.precision {
+        let series: PowerSeries = match self.precision {
             Precision::Double => &[
                 -3.333_333_333_333_293e-1,
                 1.999_999_999_987_648_3e-1,
@@ -277,7 +277,7 @@ impl Code {
     pub(super) fn sine(&self) -> String {
         // π/2 in three parts, the first two with zeros in their last bits, so that products with k are exact; then
         // (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ by powers of r²
-        let (parts, sine, cosine): ([f64; 3], Series, Series) = match self.precision {
+        let (parts, sine, cosine): ([f64; 3], PowerSeries, PowerSeries) = match self.precision {
             Precision::Double => (
                 [
                     1.570_796_326_734_125_6,
@@ -316,7 +316,7 @@ impl Code {
             ),
         };
         let number = |x: f64| self.operand(x);
-        let series = |of: Series| self.series(of);
+        let series = |of: PowerSeries| self.series(of);
         let [p, q, s] = parts.map(number);
         let half = self.literal(0.5);
         let one = self.literal(1.0);

@@ -13,14 +13,14 @@ use crate::analysis::solver::{Component, Solver};
 use text::Text;
 
 /// Writes operations in the language of the code.
-pub(super) struct Writer<'a> {
+pub(super) struct OperationWriter<'a> {
     code: &'a Code,
     solver: &'a Solver,
     /// For each operation, true if it depends on held coordinates only.
     given: Vec<bool>,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> OperationWriter<'a> {
     pub fn new(code: &'a Code, solver: &'a Solver) -> Self {
         let mut given: Vec<bool> = Vec::with_capacity(solver.operations.len());
         for operation in &solver.operations {
@@ -30,7 +30,7 @@ impl<'a> Writer<'a> {
             };
             given.push(of_inputs);
         }
-        Writer {
+        OperationWriter {
             code,
             solver,
             given,

@@ -48,39 +48,39 @@ impl<T> Thinned<T> {
 
 /// Places along motions.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Course {
-    motions: Vec<Places>,
+pub(super) struct DrawnCourse {
+    motions: Vec<DrawnPlaces>,
     /// Points that are traced.
     points: Vec<Point>,
 }
 
 #[derive(Clone, Debug)]
-struct Places {
+struct DrawnPlaces {
     mode: Option<usize>,
     taken: Thinned<Configuration<f64>>,
 }
 
-impl Course {
+impl DrawnCourse {
     /// Places of one motion at most.
     const MOST: usize = 120;
 
     /// With points that are traced.
     pub fn of(points: impl Iterator<Item = Point>) -> Self {
-        Course {
+        DrawnCourse {
             points: points.collect(),
-            ..Course::default()
+            ..DrawnCourse::default()
         }
     }
 
     /// Takes in a place of the motion in a mode; another mode begins another motion.
     pub fn take(&mut self, mode: Option<usize>, at: &Configuration<f64>) {
         if self.motions.last().is_none_or(|places| places.mode != mode) {
-            self.motions.push(Places {
+            self.motions.push(DrawnPlaces {
                 mode,
                 taken: Thinned::new(Vec::new()),
             });
         }
-        if let Some(Places { taken, .. }) = self.motions.last_mut() {
+        if let Some(DrawnPlaces { taken, .. }) = self.motions.last_mut() {
             taken.take(taken.wants_next().then(|| at.clone()), Self::MOST);
         }
     }

@@ -2,7 +2,7 @@
 
 mod charts;
 
-use super::course::{Course, Thinned};
+use super::course::{DrawnCourse, Thinned};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row};
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Variable};
@@ -30,7 +30,7 @@ pub struct Picture {
     double_points: Vec<Triple>,
     /// Quantities without bound, by name, with the abscissa where they have none.
     unbounded: Vec<(String, Vec<f64>)>,
-    course: Course,
+    course: DrawnCourse,
 }
 
 #[derive(Clone, Debug)]
@@ -96,7 +96,7 @@ impl Picture {
             what: "mode",
             double_points: Vec::new(),
             unbounded: Vec::new(),
-            course: Course::of(points.iter().map(|named| named.point)),
+            course: DrawnCourse::of(points.iter().map(|named| named.point)),
         }
     }
 

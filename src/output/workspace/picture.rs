@@ -1,7 +1,7 @@
 //! Maps drawn: a picture for each mode, with its boundary over its conditioning.
 
 use crate::analysis::workspace::{AxisReport, BoundaryKind, WorkspaceReport};
-use crate::output::plot::{self, Chart, Heat, Series, sheet};
+use crate::output::plot::{self, Heat, LineChart, Series, sheet};
 use crate::output::quantity;
 
 /// Pictures drawn at most: more make a file that nothing shows.
@@ -11,20 +11,20 @@ const MOST: usize = 120;
 const COLUMNS: usize = 4;
 
 /// Numbers of modes, and of slices of each, that are drawn.
-struct Drawn {
+struct DrawnModes {
     modes: usize,
     /// Nodes of the third coordinate, evenly spread.
     slices: Vec<usize>,
 }
 
-fn drawn(report: &WorkspaceReport) -> Drawn {
+fn drawn(report: &WorkspaceReport) -> DrawnModes {
     let modes = report.modes.len().min(MOST);
     let slices = report.axes.get(2).map_or(Vec::new(), |z| {
         let number = (MOST / modes.max(1)).clamp(1, z.nodes);
         let places = (0..number).map(|k| (2 * k + 1) * z.nodes / (2 * number));
         places.collect()
     });
-    Drawn { modes, slices }
+    DrawnModes { modes, slices }
 }
 
 /// Part of a map that is drawn, if there is too much of it to draw all: `120 of 576 slices drawn`.
@@ -43,14 +43,14 @@ pub fn left_out(report: &WorkspaceReport) -> Option<String> {
 /// The map as SVG: where it has two coordinates a picture for each mode, where it has three also for
 /// each slice of the third, where it has one a curve for each mode. All have one scale of colours.
 pub fn svg(report: &WorkspaceReport) -> String {
-    let Drawn { modes, slices } = drawn(report);
+    let DrawnModes { modes, slices } = drawn(report);
     let inside = report.cells.iter().filter(|cell| cell.aspect.is_some());
     let highest = inside
         .map(|cell| quality(cell.condition))
         .fold(0.0, f64::max);
     let highest = if highest > 0.0 { highest } else { 1.0 };
     let draw = |axes, mode, slice| picture(report, axes, mode, slice, highest);
-    let (columns, charts): (usize, Vec<Chart>) = match &report.axes[..] {
+    let (columns, charts): (usize, Vec<LineChart>) = match &report.axes[..] {
         [axis] => (1, vec![along(report, axis)]),
         [x, y] => {
             let charts = (1..=modes).map(|mode| draw([x, y], mode, None));
@@ -91,7 +91,7 @@ fn picture(
     mode: usize,
     slice: Option<(&AxisReport, usize)>,
     highest: f64,
-) -> Chart {
+) -> LineChart {
     let plane = x.nodes * y.nodes;
     let mut rows = vec![vec![f64::NAN; x.nodes]; y.nodes];
     for cell in report.cells.iter().filter(|cell| cell.mode == mode) {
@@ -124,7 +124,7 @@ fn picture(
         let value = third.unwrap_or(0.0);
         format!(", {}", quantity::at(&z.name, value, z.unit))
     });
-    Chart {
+    LineChart {
         title: format!("{}: mode {mode}{at}", report.mechanism),
         x: label(x),
         y: label(y),
@@ -137,13 +137,13 @@ fn picture(
             label: "1/condition".into(),
         }),
         series: series.collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }
 }
 
-type Wanted = fn(&BoundaryKind) -> bool;
+type BoundaryFilter = fn(&BoundaryKind) -> bool;
 
-const KINDS: &[(&str, Wanted)] = &[
+const KINDS: &[(&str, BoundaryFilter)] = &[
     ("direct singularity", |kind| *kind == BoundaryKind::Direct),
     ("inverse singularity", |kind| *kind == BoundaryKind::Inverse),
     ("limit of a joint", |kind| {
@@ -153,7 +153,7 @@ const KINDS: &[(&str, Wanted)] = &[
 ];
 
 /// Chart of the conditioning over a single coordinate.
-fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
+fn along(report: &WorkspaceReport, axis: &AxisReport) -> LineChart {
     let series = report.modes.iter().map(|mode| {
         let mut points = Vec::new();
         let mut before = None;
@@ -167,11 +167,11 @@ fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
         }
         Series::new(format!("mode {}", mode.mode), points)
     });
-    Chart {
+    LineChart {
         title: format!("{}: conditioning", report.mechanism),
         x: label(axis),
         y: "1/condition".into(),
         series: series.collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::copies::{Copies, RowsWork};
 use super::program::coordinates;
-use super::sides::Rows;
+use super::sides::RowGroup;
 use crate::geometry::Quaternion;
 use crate::number::Complex;
 use crate::solve::Homotopy;
@@ -17,7 +17,7 @@ pub struct Along<'c, 'b, 'm> {
     rates: Vec<C>,
     values: Vec<C>,
     work: RowsWork,
-    shared: Rows,
+    shared: RowGroup,
     /// The step that cancels the residual, and that along the way, of the last linearisation.
     steps: [Vec<C>; 2],
     largest: f64,
@@ -33,7 +33,7 @@ impl<'c, 'b, 'm> Along<'c, 'b, 'm> {
             values: from.clone(),
             from,
             work: RowsWork::default(),
-            shared: Rows {
+            shared: RowGroup {
                 width: count + 2,
                 entries: Vec::new(),
             },

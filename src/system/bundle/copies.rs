@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::program::{Program, configuration, coordinates};
-use super::sides::Rows;
+use super::sides::RowGroup;
 use super::{Bundle, Bundled};
 use crate::mechanism::Configuration;
 use crate::number::{Complex, Number};
@@ -192,7 +192,7 @@ impl<'b, 'm> Copies<'b, 'm> {
     pub(super) fn rows(&self, x: &[C], values: &[C], rates: &[C], work: &mut RowsWork) {
         let zero = C::new(0.0, 0.0);
         let width = self.unknowns + self.bundle.numbers.len() + 2;
-        let empty = || Rows {
+        let empty = || RowGroup {
             width,
             entries: Vec::new(),
         };
@@ -228,5 +228,5 @@ impl<'b, 'm> Copies<'b, 'm> {
 pub(super) struct RowsWork {
     inputs: Vec<C>,
     values: Vec<C>,
-    pub rows: Vec<Rows>,
+    pub rows: Vec<RowGroup>,
 }

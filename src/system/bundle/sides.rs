@@ -6,12 +6,12 @@ type C = Complex<f64>;
 
 /// Rows of a matrix with two right-hand sides at their ends.
 #[derive(Clone, Debug)]
-pub(super) struct Rows {
+pub(super) struct RowGroup {
     pub width: usize,
     pub entries: Vec<C>,
 }
 
-impl Rows {
+impl RowGroup {
     pub fn row(&self, i: usize) -> &[C] {
         &self.entries[i * self.width..(i + 1) * self.width]
     }

@@ -4,22 +4,22 @@ use std::collections::BTreeSet;
 
 use num_rational::Ratio;
 
-use super::single::{Content, Unknown, content};
+use super::single::{Content, SingleUnknown, content};
 use super::{ClosedSolution, Rule, Step, free_stem, platform_is_held};
 use crate::algebra::{Budget, ByUnknowns, Expression, Symbolic, Trigonometric, Wave, arrange};
 use crate::mechanism::{Configuration, Formal, JointKind, Letters, Mechanism};
 use crate::system::Question;
 
 /// Equations of a closure, several of which may be the components of one vector.
-pub(super) struct Group {
+pub(super) struct EquationGroup {
     closure: usize,
     pub(super) rows: Vec<Trigonometric>,
 }
 
 /// The rule found for an unknown angle or slide, with the known angle `beside` it in its sum.
-pub(super) struct Found {
+pub(super) struct FoundRule {
     pub closure: usize,
-    pub unknown: Unknown,
+    pub unknown: SingleUnknown,
     pub beside: Wave,
     pub rule: Rule<Trigonometric>,
 }
@@ -34,7 +34,7 @@ pub(super) struct Derivation<'a> {
     /// The stem of the names of angles, and how many there are.
     stem: &'static str,
     angles: u32,
-    pub(super) groups: Vec<Group>,
+    pub(super) groups: Vec<EquationGroup>,
     steps: Vec<Step>,
     /// Joint variables that follow once their whole sum is known, with the closure it is from.
     pending: Vec<(u32, Wave, usize)>,
@@ -92,7 +92,7 @@ impl<'a> Derivation<'a> {
             let mut put = |values: Vec<Symbolic>| {
                 let rows = values.iter().filter_map(|value| value.formula());
                 let rows = rows.map(|row| row.without_rounding()).collect();
-                self.groups.push(Group { closure, rows });
+                self.groups.push(EquationGroup { closure, rows });
             };
             let conditions = own.kind.conditions();
             if conditions.origins {
@@ -108,7 +108,7 @@ impl<'a> Derivation<'a> {
 
     pub fn run(mut self) -> ClosedSolution {
         loop {
-            self.groups.iter_mut().for_each(Group::tidy);
+            self.groups.iter_mut().for_each(EquationGroup::tidy);
             self.settle();
             let Some(found) = self.next() else {
                 break;
@@ -187,7 +187,7 @@ impl<'a> Derivation<'a> {
     }
 
     /// The next unknown: without a choice of sign if possible, by elimination only if none stands alone.
-    fn next(&mut self) -> Option<Found> {
+    fn next(&mut self) -> Option<FoundRule> {
         let sorted: Vec<(usize, Vec<ByUnknowns>)> = (self.groups.iter())
             .map(|group| {
                 let rows = group.rows.iter();
@@ -214,7 +214,7 @@ impl<'a> Derivation<'a> {
             }
         }
         // a joint variable rather than an angle between bodies, and a short formula
-        let mut best: Option<((bool, usize), Found)> = None;
+        let mut best: Option<((bool, usize), FoundRule)> = None;
         for group in 0..self.groups.len() {
             let closure = self.groups[group].closure;
             for equation in self.eliminated(group) {
@@ -225,7 +225,7 @@ impl<'a> Derivation<'a> {
                 }) else {
                     continue;
                 };
-                let between = matches!(&unknown, Unknown::Angle(angle) if angle.len() > 1);
+                let between = matches!(&unknown, SingleUnknown::Angle(angle) if angle.len() > 1);
                 let rank = (between, equation.len());
                 if best.as_ref().is_some_and(|(least, _)| *least <= rank) {
                     continue;
@@ -238,19 +238,19 @@ impl<'a> Derivation<'a> {
     }
 
     /// Makes an unknown known.
-    fn take(&mut self, found: Found) -> Option<()> {
-        let Found {
+    fn take(&mut self, found: FoundRule) -> Option<()> {
+        let FoundRule {
             closure,
             unknown,
             beside,
             rule,
         } = found;
         let symbol = match unknown {
-            Unknown::Slide(slide) => {
+            SingleUnknown::Slide(slide) => {
                 self.unknown.remove(&slide);
                 slide
             }
-            Unknown::Angle(angle) => match angle.as_slice() {
+            SingleUnknown::Angle(angle) => match angle.as_slice() {
                 [(only, k)] if beside.0.is_empty() && *k == Ratio::from(1) => {
                     self.unknown.remove(only);
                     *only
@@ -325,7 +325,7 @@ impl<'a> Derivation<'a> {
     }
 }
 
-impl Group {
+impl EquationGroup {
     /// Without rows that have become zero.
     fn tidy(&mut self) {
         let rows = self.rows.iter().map(Trigonometric::without_rounding);

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use num_rational::Ratio;
 
 use super::Rule;
-use super::derivation::{Derivation, Found};
-use super::single::{Circular, Unknown, beside, cross, dot, polynomial};
+use super::derivation::{Derivation, FoundRule};
+use super::single::{Circular, SingleUnknown, beside, cross, dot, polynomial};
 use crate::algebra::{ByUnknowns, Trigonometric, Wave};
 use crate::number::real;
 
@@ -74,17 +74,17 @@ impl Derivation<'_> {
         &mut self,
         closure: usize,
         rows: &[&ByUnknowns],
-        unknown: Unknown,
+        unknown: SingleUnknown,
         alone: bool,
-    ) -> Option<Found> {
+    ) -> Option<FoundRule> {
         let (rule, beside) = match &unknown {
-            Unknown::Slide(slide) => {
+            SingleUnknown::Slide(slide) => {
                 if self.never.contains(slide) {
                     return None;
                 }
                 (self.slide(rows, *slide, alone)?, Wave::default())
             }
-            Unknown::Angle(angle) => {
+            SingleUnknown::Angle(angle) => {
                 let solvable = |(x, k): &(u32, Ratio<i64>)| {
                     !self.never.contains(x) && k.numer().abs() == 1 && *k.denom() == 1
                 };
@@ -109,7 +109,7 @@ impl Derivation<'_> {
                 (rule, beside)
             }
         };
-        Some(Found {
+        Some(FoundRule {
             closure,
             unknown,
             beside,

@@ -9,7 +9,7 @@ use crate::algebra::{Budget, ByUnknowns, Monomial, Trigonometric, Wave};
 
 /// The unknown of an equation: an angle that is a sum of joint variables, or a slide.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Unknown {
+pub(super) enum SingleUnknown {
     Angle(Vec<(u32, Ratio<i64>)>),
     Slide(u32),
 }
@@ -17,7 +17,7 @@ pub(super) enum Unknown {
 /// Unknowns of an equation.
 pub(super) enum Content {
     Nothing,
-    One(Unknown),
+    One(SingleUnknown),
     More,
 }
 
@@ -28,14 +28,14 @@ pub(super) fn content(equation: &ByUnknowns) -> Content {
         match (monomial.angle.as_slice(), monomial.powers.as_slice()) {
             ([], []) => {}
             ([], [(slide, 1 | 2)]) => {
-                found.insert(Unknown::Slide(*slide));
+                found.insert(SingleUnknown::Slide(*slide));
             }
             (_, []) => {
                 let positive = match monomial.is_positive() {
                     true => monomial.clone(),
                     false => monomial.reversed(),
                 };
-                found.insert(Unknown::Angle(positive.angle));
+                found.insert(SingleUnknown::Angle(positive.angle));
             }
             _ => return Content::More,
         }

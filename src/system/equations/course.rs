@@ -8,14 +8,14 @@ use crate::number::Dual;
 
 /// The straight way of all constants from those of one system to those of another.
 #[derive(Clone, Debug)]
-pub(crate) struct Course<T> {
+pub(crate) struct ConstantsCourse<T> {
     kinematics: KinematicsCourse<T>,
     /// For rods whose length changes, its square and the change of that, as nothing else of it is in the equations; the
     /// length itself where joints are in it too.
     lengths: Vec<(usize, bool, T, T)>,
 }
 
-impl<T: Factorable> Course<T> {
+impl<T: Factorable> ConstantsCourse<T> {
     /// With all changes multiplied.
     pub(crate) fn stretched(mut self, factor: f64) -> Self {
         self.kinematics.stretch(factor);
@@ -27,7 +27,7 @@ impl<T: Factorable> Course<T> {
 impl<T: Factorable> System<T> {
     /// A system whose dimensions go from these to those of another of the same structure, with the way. `None` if more
     /// differs than fixed displacements and lengths.
-    pub(crate) fn towards(&self, other: &Self) -> Option<(Self, Course<T>)> {
+    pub(crate) fn towards(&self, other: &Self) -> Option<(Self, ConstantsCourse<T>)> {
         let (kinematics, course) = self.kinematics.towards(&other.kinematics)?;
         let pairs = || self.closures.iter().zip(&other.closures);
         if pairs().any(|(from, to)| from.bends_unlike(to)) {
@@ -41,7 +41,7 @@ impl<T: Factorable> System<T> {
             let (from, to) = (power(from.length), power(to.length));
             (i, squared, from, to - from)
         });
-        let course = Course {
+        let course = ConstantsCourse {
             kinematics: course,
             lengths: lengths.collect(),
         };
@@ -58,7 +58,7 @@ impl<T: Factorable> System<T> {
         &self,
         at: &Configuration<T>,
         rates: &[T],
-        way: Option<(&Course<T>, T)>,
+        way: Option<(&ConstantsCourse<T>, T)>,
         slots: &mut [(Vector3<T>, Vector3<T>)],
         work: &mut Work<T>,
     ) {
@@ -121,7 +121,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// The dimensions at another place of the way. Nothing allocates.
-    pub(crate) fn go(&mut self, course: &Course<T>, s: T, work: &mut Work<T>) {
+    pub(crate) fn go(&mut self, course: &ConstantsCourse<T>, s: T, work: &mut Work<T>) {
         (self.kinematics).go(&course.kinematics, s, &mut work.placement);
         for (closure, squared, from, change) in &course.lengths {
             let power = *from + *change * s;

@@ -1,7 +1,7 @@
 //! The Jacobian decomposed: as a whole, or a large one group of rows after another.
 
 use super::{System, Work};
-use crate::linear::{Decomposition, Rows, SPECTRUM_LIMIT, dense, dot};
+use crate::linear::{Decomposition, RowGroup, SPECTRUM_LIMIT, dense, dot};
 
 impl System<f64> {
     /// True if there are more unknowns than all singular values are computed for.
@@ -15,7 +15,7 @@ impl System<f64> {
     }
 
     /// Rows over so many columns, decomposed in the way that suits this system.
-    pub fn decomposed(&self, columns: usize, groups: Vec<Rows>) -> Decomposition {
+    pub fn decomposed(&self, columns: usize, groups: Vec<RowGroup>) -> Decomposition {
         if self.is_large() {
             return Decomposition::of_groups(columns, groups);
         }
@@ -38,8 +38,8 @@ impl System<f64> {
     }
 
     /// The Jacobian last evaluated as groups of rows, in their order, with the unknowns that each group touches.
-    pub fn jacobian_rows(&self, work: &Work<f64>) -> Vec<Rows> {
-        let blocks = work.jacobian.blocks().iter().map(|filled| Rows {
+    pub fn jacobian_rows(&self, work: &Work<f64>) -> Vec<RowGroup> {
+        let blocks = work.jacobian.blocks().iter().map(|filled| RowGroup {
             count: filled.block.rows,
             unknowns: filled.block.unknowns().collect(),
             entries: filled.entries.clone(),
@@ -48,7 +48,7 @@ impl System<f64> {
         let holds = work.hold_rows.chunks_exact(shared.len().max(1));
         let holds = holds.map(|entries| {
             let touched = shared.iter().copied().zip(entries.iter().copied());
-            Rows::single(touched.filter(|(_, entry)| *entry != 0.0))
+            RowGroup::single(touched.filter(|(_, entry)| *entry != 0.0))
         });
         blocks.chain(holds).collect()
     }

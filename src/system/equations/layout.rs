@@ -2,8 +2,8 @@
 
 use super::Spin;
 use crate::geometry::Rotation;
-use crate::linear::{Block, Factorable, SparseStep};
-use crate::mechanism::{Closure, Configuration, Mechanism, PoseCoordinate};
+use crate::linear::{ColumnBlock, Factorable, SparseStep};
+use crate::mechanism::{ClosureEquations, Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
 
 /// Held coordinates of a platform.
@@ -215,7 +215,7 @@ impl<T> HoldRow<T> {
 pub(crate) struct Layout {
     pub unknowns: Vec<Unknown>,
     pub places_of_unknowns: Places,
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<ColumnBlock>,
     /// For each closure its block and its first row in it.
     pub places: Vec<(usize, usize)>,
     pub shared: Vec<usize>,
@@ -223,7 +223,7 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// Closures that share a free joint variable form a block; platforms tie the blocks together.
-    pub fn new<T: Factorable>(closures: &[Closure<T>], held: &Held<T>) -> Self {
+    pub fn new<T: Factorable>(closures: &[ClosureEquations<T>], held: &Held<T>) -> Self {
         let free = (0..held.joints.len()).filter(|joint| !held.joints[*joint]);
         let mut unknowns: Vec<Unknown> = free.map(Unknown::Joint).collect();
         let joints = unknowns.len();
@@ -238,7 +238,7 @@ impl Layout {
         // one block of all would be the border itself, which over complex numbers elimination is fastest for
         let whole = !T::REAL && unknowns.len() == joints;
         let owned = if sparse || whole { 0 } else { joints };
-        let unknowns_of = |closure: &Closure<T>| {
+        let unknowns_of = |closure: &ClosureEquations<T>| {
             let joints = closure.joints().into_iter();
             joints.filter_map(|joint| places_of_unknowns.of(Unknown::Joint(joint)))
         };
@@ -252,12 +252,12 @@ impl Layout {
             }
         }
 
-        let mut blocks: Vec<Block> = Vec::new();
+        let mut blocks: Vec<ColumnBlock> = Vec::new();
         let mut block_of_root = vec![None; closures.len()];
         let mut places = Vec::with_capacity(closures.len());
         for (c, closure) in closures.iter().enumerate() {
             let number = *block_of_root[root(&mut owner, c)].get_or_insert_with(|| {
-                blocks.push(Block::default());
+                blocks.push(ColumnBlock::default());
                 blocks.len() - 1
             });
             let block = &mut blocks[number];
@@ -276,9 +276,9 @@ impl Layout {
         for (unknown, closure) in closure_of.iter().enumerate() {
             match closure {
                 Some(c) => blocks[places[*c].0].own.push(unknown),
-                None => blocks.push(Block {
+                None => blocks.push(ColumnBlock {
                     own: vec![unknown],
-                    ..Block::default()
+                    ..ColumnBlock::default()
                 }),
             }
         }

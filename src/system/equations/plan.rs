@@ -2,7 +2,7 @@
 
 use super::layout::{Layout, Unknown};
 use crate::linear::Factorable;
-use crate::mechanism::{Closure, Mover, Side};
+use crate::mechanism::{ClosureEquations, Mover, Side};
 
 /// Places of the derivatives of one closure: rows, and a column for each unknown.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub(super) struct ClosurePlan<T> {
 impl<T: Factorable> ClosurePlan<T> {
     /// Plan of a closure whose rows begin at a row of a block; `starts` are the first rows of all blocks.
     pub fn new(
-        closure: &Closure<T>,
+        closure: &ClosureEquations<T>,
         layout: &Layout,
         (block, block_row): (usize, usize),
         starts: &[usize],

@@ -9,7 +9,7 @@ use crate::geometry::RollPitchYaw;
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::Newton;
-use crate::system::{Coordinate, Mobility, System};
+use crate::system::{Coordinate, RegularFreedoms, System};
 
 /// The number of held coordinates compared with the freedoms of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,7 +61,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     };
     let mut refused = None;
     for at in places.into_iter().filter_map(place) {
-        let Some(mobility) = Mobility::near(mechanism, &at) else {
+        let Some(mobility) = RegularFreedoms::near(mechanism, &at) else {
             continue;
         };
         let verdict = compared(question, &at, &mobility);
@@ -82,7 +82,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
 /// mechanism does not assemble.
 pub fn redundant_motors(mechanism: &Mechanism) -> Vec<String> {
     let motors = Question::new(mechanism).held_coordinates();
-    let Some(mobility) = Mobility::near(mechanism, &mechanism.home()) else {
+    let Some(mobility) = RegularFreedoms::near(mechanism, &mechanism.home()) else {
         return Vec::new();
     };
     let chosen = mobility.independent(mechanism, &motors);
@@ -94,7 +94,7 @@ pub fn redundant_motors(mechanism: &Mechanism) -> Vec<String> {
 fn compared(
     question: &Question,
     start: &Configuration<f64>,
-    mobility: &Mobility,
+    mobility: &RegularFreedoms,
 ) -> Result<Count, QuestionError> {
     let mechanism = question.mechanism();
     let held = question.held_coordinates();
@@ -116,7 +116,7 @@ fn compared(
     // a dependence at a singular configuration only is left to the analysis
     if !free.is_empty()
         && !hold.is_empty()
-        && Mobility::beside(mechanism, start)
+        && RegularFreedoms::beside(mechanism, start)
             .is_some_and(|beside| beside.independent(mechanism, &held).len() == held.len())
     {
         return Ok(count);

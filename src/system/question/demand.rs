@@ -100,19 +100,21 @@ impl Display for Demand {
 
 /// The joint, coordinate or platform of a demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Target {
+pub(crate) enum DemandTarget {
     /// A joint or a coordinate of a platform.
     Coordinate(Coordinate),
     /// The whole pose of the platform of that index.
     Pose(usize),
 }
 
-impl Target {
+impl DemandTarget {
     /// True if both are the same, or one is part of the other.
-    pub(crate) fn meets(self, other: Target) -> bool {
+    pub(crate) fn meets(self, other: DemandTarget) -> bool {
         match (self, other) {
-            (Target::Pose(whole), Target::Coordinate(part))
-            | (Target::Coordinate(part), Target::Pose(whole)) => part.platform() == Some(whole),
+            (DemandTarget::Pose(whole), DemandTarget::Coordinate(part))
+            | (DemandTarget::Coordinate(part), DemandTarget::Pose(whole)) => {
+                part.platform() == Some(whole)
+            }
             _ => self == other,
         }
     }

@@ -8,7 +8,7 @@ use crate::algebra::Measure;
 use crate::description::nearest;
 use crate::geometry::Axis;
 use crate::mechanism::{PoseCoordinate, Value};
-use crate::system::{Coordinate, Mobility};
+use crate::system::{Coordinate, RegularFreedoms};
 
 /// Rates and accelerations of the held coordinates of a question, in m and rad and seconds.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ type GivenAngles = (usize, [[f64; 3]; 2]);
 
 /// Derivative given to a coordinate.
 #[derive(Clone, Copy)]
-enum Order {
+enum DriveOrder {
     Rate,
     Acceleration,
 }
@@ -107,7 +107,7 @@ impl Drive {
         name: &str,
         value: impl Into<Value>,
     ) -> Result<Self, DriveError> {
-        self.give(question, name, &value.into(), Order::Rate)
+        self.give(question, name, &value.into(), DriveOrder::Rate)
     }
 
     /// Gives a held coordinate an acceleration, in m/s² or rad/s².
@@ -120,7 +120,7 @@ impl Drive {
         name: &str,
         value: impl Into<Value>,
     ) -> Result<Self, DriveError> {
-        self.give(question, name, &value.into(), Order::Acceleration)
+        self.give(question, name, &value.into(), DriveOrder::Acceleration)
     }
 
     fn give(
@@ -128,7 +128,7 @@ impl Drive {
         question: &Question,
         name: &str,
         value: &Value,
-        order: Order,
+        order: DriveOrder,
     ) -> Result<Self, DriveError> {
         let mechanism = question.mechanism();
         let follower = mechanism.follower(name);
@@ -162,8 +162,8 @@ impl Drive {
         let place = self.coordinates.iter().position(|c| *c == coordinate);
         let place = place.expect("what is neither driven nor an angle was not found");
         let given = match order {
-            Order::Rate => &mut self.rates,
-            Order::Acceleration => &mut self.accelerations,
+            DriveOrder::Rate => &mut self.rates,
+            DriveOrder::Acceleration => &mut self.accelerations,
         };
         given[place] = value;
         Ok(self)
@@ -239,7 +239,7 @@ impl Drive {
 
 /// True if the mechanism has no freedom near the start of a question.
 fn is_structure(question: &Question) -> bool {
-    let near = Mobility::near(question.mechanism(), &question.start());
+    let near = RegularFreedoms::near(question.mechanism(), &question.start());
     near.is_some_and(|mobility| mobility.count() == 0)
 }
 

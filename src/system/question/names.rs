@@ -1,6 +1,6 @@
 //! Resolves names and values given to a question.
 
-use super::demand::{Demand, Role, Target};
+use super::demand::{Demand, DemandTarget, Role};
 use super::{Question, QuestionError, actuated};
 use crate::description::nearest;
 use crate::mechanism::{PoseCoordinate, Value};
@@ -16,8 +16,8 @@ impl Question<'_> {
             return Ok(actuated(self.mechanism));
         }
         Ok(match self.target(name)? {
-            Target::Coordinate(coordinate) => vec![coordinate],
-            Target::Pose(platform) => PoseCoordinate::ALL
+            DemandTarget::Coordinate(coordinate) => vec![coordinate],
+            DemandTarget::Pose(platform) => PoseCoordinate::ALL
                 .map(|c| Coordinate::Pose(platform, c))
                 .to_vec(),
         })
@@ -32,7 +32,7 @@ impl Question<'_> {
         name: &str,
         value: impl Into<Value>,
     ) -> Result<(Coordinate, f64), QuestionError> {
-        let Target::Coordinate(coordinate) = self.target(name)? else {
+        let DemandTarget::Coordinate(coordinate) = self.target(name)? else {
             return Err(QuestionError::NotAJoint(name.into()));
         };
         Ok((coordinate, self.number(name, &value.into(), coordinate)?))
@@ -44,7 +44,7 @@ impl Question<'_> {
         role: Role,
         name: &str,
         value: Option<&Value>,
-    ) -> Result<Target, QuestionError> {
+    ) -> Result<DemandTarget, QuestionError> {
         let target = self.target(name)?;
         let second = Demand::new(role, name, value);
         let mut demands = self.demands.iter();
@@ -73,12 +73,12 @@ impl Question<'_> {
         Ok(follower.map_or(number, |follower| follower.joint_at(number)))
     }
 
-    fn target(&self, name: &str) -> Result<Target, QuestionError> {
+    fn target(&self, name: &str) -> Result<DemandTarget, QuestionError> {
         if let Some(joint) = self.mechanism.joint(name) {
-            return Ok(Target::Coordinate(Coordinate::Joint(joint)));
+            return Ok(DemandTarget::Coordinate(Coordinate::Joint(joint)));
         }
         if let Some(platform) = self.mechanism.platform(name) {
-            return Ok(Target::Pose(platform));
+            return Ok(DemandTarget::Pose(platform));
         }
         if let Some((platform, coordinate)) = name.rsplit_once('.')
             && let (Some(platform), Some(coordinate)) = (
@@ -86,10 +86,12 @@ impl Question<'_> {
                 PoseCoordinate::from_word(coordinate),
             )
         {
-            return Ok(Target::Coordinate(Coordinate::Pose(platform, coordinate)));
+            return Ok(DemandTarget::Coordinate(Coordinate::Pose(
+                platform, coordinate,
+            )));
         }
         if let Some(follower) = self.mechanism.follower(name) {
-            return Ok(Target::Coordinate(Coordinate::Joint(follower.joint)));
+            return Ok(DemandTarget::Coordinate(Coordinate::Joint(follower.joint)));
         }
         let platforms = self.mechanism.platforms().iter();
         let coordinates = Coordinate::all(self.mechanism).map(|of| of.name(self.mechanism));

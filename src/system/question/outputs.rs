@@ -8,7 +8,7 @@ use super::Question;
 use super::spins::Still;
 use crate::geometry::Axis;
 use crate::mechanism::{Body, Frame, Mechanism, PoseCoordinate, Role};
-use crate::system::{Coordinate, Held, HeldPlatform, Lock, Mobility};
+use crate::system::{Coordinate, Held, HeldPlatform, Lock, RegularFreedoms};
 
 /// The actuated joints, in the order of the file.
 pub fn actuated(mechanism: &Mechanism) -> Vec<Coordinate> {
@@ -129,7 +129,7 @@ pub fn coordinate_outputs(question: &Question, held: &[Coordinate]) -> Vec<Coord
     let all = Coordinate::all(mechanism);
     let candidates = all.filter(|c| c.platform().is_some_and(|platform| !spins(platform)));
     let candidates: Vec<Coordinate> = candidates.collect();
-    let mobility = Mobility::near(mechanism, &mechanism.home());
+    let mobility = RegularFreedoms::near(mechanism, &mechanism.home());
     mobility.map_or_else(Vec::new, |mobility| {
         mobility.independent(mechanism, &candidates)
     })

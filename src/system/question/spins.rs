@@ -4,7 +4,7 @@ use super::Question;
 use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::system::{Coordinate, Held, Mobility, Neighbourhood, Spin, System, Unknown};
+use crate::system::{Coordinate, Held, Neighbourhood, RegularFreedoms, Spin, System, Unknown};
 
 /// A coordinate that stays where it is so that a link does not spin about its own line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ impl Question<'_> {
             return self;
         }
         // near home, so that questions that differ in values make the same choice
-        let near = |at| Mobility::near(mechanism, &at);
+        let near = |at| RegularFreedoms::near(mechanism, &at);
         let Some(mobility) = near(mechanism.home()).or_else(|| near(self.start())) else {
             return self;
         };

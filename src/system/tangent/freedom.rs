@@ -127,23 +127,23 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
 
 /// The freedoms of a mechanism with nothing held, at a regular assembled configuration.
 #[derive(Clone, Debug)]
-pub struct Mobility {
+pub struct RegularFreedoms {
     freedoms: Freedoms,
     at: Configuration<f64>,
     idle: usize,
 }
 
-impl Mobility {
+impl RegularFreedoms {
     /// Mobility at the assembled configuration near one given with the fewest freedoms, and of these the fewest local
     /// ones, so
     /// that those of a special configuration, as in gimbal lock, do not count. `None` if none is found.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
-        Mobility::among(mechanism, start, 0..4)
+        RegularFreedoms::among(mechanism, start, 0..4)
     }
 
-    /// As [`Mobility::near`], without the start itself, which may be singular.
+    /// As [`RegularFreedoms::near`], without the start itself, which may be singular.
     pub fn beside(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
-        Mobility::among(mechanism, start, 1..4)
+        RegularFreedoms::among(mechanism, start, 1..4)
     }
 
     fn among(
@@ -164,7 +164,7 @@ impl Mobility {
             let freedoms = Freedoms::of(near.system(), &at, &mut work);
             // no other configuration has fewer
             if freedoms.motions.len() == fewest && near.tangent(at.clone()).idle.is_empty() {
-                return Some(Mobility {
+                return Some(RegularFreedoms {
                     freedoms,
                     at,
                     idle: 0,
@@ -184,7 +184,7 @@ impl Mobility {
             }
         }
         let (freedoms, at, idle) = best?;
-        Some(Mobility { freedoms, at, idle })
+        Some(RegularFreedoms { freedoms, at, idle })
     }
 
     /// The configuration whose freedoms they are.

@@ -8,7 +8,9 @@ use std::collections::HashSet;
 use super::STILL;
 use super::twists::{FrameTwists, Twist};
 use crate::description::Role;
-use crate::linear::{Decomposition, Rows, Svd, add, complement, independent, orthonormal, rank_of};
+use crate::linear::{
+    Decomposition, RowGroup, Svd, add, complement, independent, orthonormal, rank_of,
+};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::equations::solve;
@@ -197,7 +199,7 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// The rates that vanish in local freedoms, as those of origins, platforms and driven joints, over the motions.
-    fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<Rows> {
+    fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<RowGroup> {
         let mechanism = self.mechanism;
         let placement = self.frames.placed(at);
         let scale = 1.0 / mechanism.characteristic_length();
@@ -286,7 +288,7 @@ impl<'a> Neighbourhood<'a> {
             touched.sort_unstable();
             touched.dedup();
             let twist = |motion: &usize| self.frames.twist(place, &placement, &motions[*motion]);
-            Rows {
+            RowGroup {
                 count: 3,
                 entries: touched.iter().flat_map(|of| rates(twist(of))).collect(),
                 unknowns: touched,
@@ -314,7 +316,7 @@ impl<'a> Neighbourhood<'a> {
                 }
                 Unknown::Twist(platform, _) => !rods.contains(&platform),
             });
-        let rates = counted.map(|(k, _)| Rows {
+        let rates = counted.map(|(k, _)| RowGroup {
             count: 1,
             entries: moving[k].iter().map(|&motion| motions[motion][k]).collect(),
             unknowns: moving[k].clone(),

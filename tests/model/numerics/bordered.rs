@@ -4,7 +4,7 @@ use linkwork::linear::*;
 
 /// Two blocks of three rows with one own unknown each, three shared unknowns, one extra row.
 fn example() -> (Bordered<f64>, Vec<f64>, Vec<f64>) {
-    let layout = |own| Block {
+    let layout = |own| ColumnBlock {
         rows: 3,
         own: vec![own],
         shared: vec![2, 3, 4],

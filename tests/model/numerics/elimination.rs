@@ -10,7 +10,11 @@ fn transposed(rows: usize, entries: &[f64]) -> Vec<f64> {
 
 /// A ring of groups of rows, each of a given rank over its own unknown, two that it shares with its neighbours, and
 /// one that all share.
-fn ring(groups: usize, next: &mut impl FnMut() -> f64, rank: impl Fn(usize) -> usize) -> Vec<Rows> {
+fn ring(
+    groups: usize,
+    next: &mut impl FnMut() -> f64,
+    rank: impl Fn(usize) -> usize,
+) -> Vec<RowGroup> {
     let group = |k: usize| {
         let unknowns = vec![2 * k, 2 * k + 1, (2 * k + 3) % (2 * groups), 2 * groups];
         let wide = rank(k).min(4);
@@ -20,7 +24,7 @@ fn ring(groups: usize, next: &mut impl FnMut() -> f64, rank: impl Fn(usize) -> u
             (0..wide).map(|m| left[5 * m + i] * right[4 * m + j]).sum()
         };
         let entries = (0..20).map(|k| entry(k % 5, k / 5)).collect();
-        Rows {
+        RowGroup {
             count: 5,
             unknowns,
             entries,
@@ -98,8 +102,8 @@ fn the_change_beside_a_matrix_is_that_of_the_singular_values() {
     let mut next = numbers(4321);
     let (before, groups) = (ring(8, &mut next, |_| 2), 8);
     let columns = 2 * groups + 1;
-    let after: Vec<Rows> = (before.iter())
-        .map(|group| Rows {
+    let after: Vec<RowGroup> = (before.iter())
+        .map(|group| RowGroup {
             entries: group.entries.iter().map(|x| x + 0.1 * next()).collect(),
             ..group.clone()
         })
@@ -123,7 +127,7 @@ fn the_change_beside_a_matrix_is_that_of_the_singular_values() {
 #[test]
 fn a_column_within_the_rank_tolerance_is_free_and_one_beyond_it_is_not() {
     for (size, rank) in [(1e-9, 1), (1e-5, 2)] {
-        let rows = Rows {
+        let rows = RowGroup {
             count: 2,
             unknowns: vec![0, 1],
             entries: vec![1.0, 0.0, 1.0, size],

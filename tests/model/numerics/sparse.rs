@@ -1,6 +1,6 @@
 //! Sparse least-squares steps.
 
-use linkwork::linear::Block;
+use linkwork::linear::ColumnBlock;
 use linkwork::linear::*;
 
 #[test]
@@ -10,7 +10,7 @@ fn the_sparse_step_is_the_least_squares_step_with_and_without_damping() {
     let entry = |k: usize| ((k * 29 + 7) % 13) as f64 / 5.0 - 1.1;
     let blocks: Vec<Filled<f64>> = (0..size - 1)
         .map(|k| Filled {
-            block: Block {
+            block: ColumnBlock {
                 rows: 3,
                 own: vec![],
                 shared: vec![k, k + 1],

@@ -7,7 +7,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Dual;
 use crate::solve::Equations;
-use crate::system::{Course, System, Work};
+use crate::system::{ConstantsCourse, System, Work};
 
 /// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ pub(crate) struct MemberEquations {
     inputs: Vec<C>,
     s: Option<C>,
     /// The way of the dimensions as numbers, where their relations need not be kept.
-    numbers: Option<Arc<Course<C>>>,
+    numbers: Option<Arc<ConstantsCourse<C>>>,
     /// Rates of joints.
     rates: Vec<C>,
     /// Rotation rates and velocities of ground, platforms and all frames that are placed.
@@ -90,7 +90,7 @@ impl MemberEquations {
         family: &Family,
         course: &Segment,
         system: System<C>,
-        numbers: Option<Arc<Course<C>>>,
+        numbers: Option<Arc<ConstantsCourse<C>>>,
     ) -> Self {
         let mut place = MemberEquations {
             work: system.work(),

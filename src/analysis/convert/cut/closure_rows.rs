@@ -14,7 +14,7 @@ use crate::algebra::{Expression, Node, Operator};
 use crate::description::steps::{negated, zero};
 use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
-    Row, free_variable, names_of,
+    RowDescription, free_variable, names_of,
 };
 use crate::geometry::{Pose, Rotation};
 use crate::mechanism::{Mechanism, joint_values};
@@ -129,14 +129,14 @@ impl ClosureRows {
     }
 
     /// The rows in a convention.
-    pub fn rows(&self, convention: Convention) -> Vec<Row> {
+    pub fn rows(&self, convention: Convention) -> Vec<RowDescription> {
         let twist = |k: usize| self.parts.get(k).map_or(zero(), |part| part.0.clone());
         let rows = self.parts.iter().enumerate().map(|(k, (_, d, theta))| {
             let alpha = match convention {
                 Convention::Modified => twist(k),
                 Convention::Standard => twist(k + 1),
             };
-            Row::new(alpha, zero(), d.clone(), theta.clone())
+            RowDescription::new(alpha, zero(), d.clone(), theta.clone())
         });
         rows.collect()
     }

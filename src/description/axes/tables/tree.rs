@@ -4,7 +4,7 @@ use super::{PlacedBody, Tables};
 use crate::description::axes::places::{along, at, origin};
 use crate::description::axes::{AxisKind, AxisPlace};
 use crate::description::steps::{between, joined, signed_sum, zero};
-use crate::description::{ChainDescription, Displacement, Entry, Named, Row, Spanned};
+use crate::description::{ChainDescription, Displacement, Entry, Named, RowDescription, Spanned};
 
 impl Tables<'_> {
     /// Places everything that hangs on a body.
@@ -106,14 +106,14 @@ impl Tables<'_> {
     }
 
     /// The row of a joint with one variable that moves by a value.
-    pub(in super::super) fn row(&self, joint: usize, by: Entry) -> Row {
+    pub(in super::super) fn row(&self, joint: usize, by: Entry) -> RowDescription {
         let described = &self.axes.joints[joint].value;
         let (d, theta) = match (described.kind, &described.pitch) {
             (AxisKind::Prismatic, _) => (by, zero()),
             (AxisKind::Helical, Some(pitch)) => (along(&by, pitch), by),
             _ => (zero(), by),
         };
-        Row::new(zero(), zero(), d, theta)
+        RowDescription::new(zero(), zero(), d, theta)
     }
 
     fn chain(
@@ -128,7 +128,7 @@ impl Tables<'_> {
         let moves = !d.expression.is_zero() || !theta.expression.is_zero();
         let chain = match moves {
             true => ChainDescription {
-                rows: vec![Row::new(zero(), zero(), d, theta)],
+                rows: vec![RowDescription::new(zero(), zero(), d, theta)],
                 tip,
                 ..ChainDescription::frame(on, base)
             },

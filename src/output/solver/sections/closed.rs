@@ -1,9 +1,9 @@
 //! The state in closed form.
 
-use super::Writer;
+use super::OperationWriter;
 use crate::algebra::Place;
 
-impl Writer<'_> {
+impl OperationWriter<'_> {
     /// The state in closed form; nothing if it has none.
     pub fn closed(&self) -> String {
         let Some(closed) = &self.solver.closed else {

@@ -1,9 +1,9 @@
 //! Code that keeps a solver to its branch and its limits, and its rates.
 
-use super::Writer;
+use super::OperationWriter;
 use crate::output::solver::language::bound;
 
-impl Writer<'_> {
+impl OperationWriter<'_> {
     /// Rows and Jacobian of the iteration into arrays.
     pub fn slopes(&self) -> String {
         let solver = self.solver;

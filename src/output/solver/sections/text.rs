@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use super::Writer;
+use super::OperationWriter;
 use crate::algebra::{Operation, Place};
 use crate::output::solver::language::{bound, operation};
 
 /// The text of one function, with what is already written in it.
 pub(super) struct Text<'w, 'a> {
-    pub(super) writer: &'w Writer<'a>,
+    pub(super) writer: &'w OperationWriter<'a>,
     pub(super) text: String,
     pub(super) indent: usize,
     pub(super) known: BTreeSet<Place>,
@@ -39,7 +39,7 @@ impl Text<'_, '_> {
 
     /// Gives up where a pivot that is used is too small.
     pub(super) fn pivots(&mut self, used: &BTreeSet<Place>) {
-        let Writer { code, solver, .. } = self.writer;
+        let OperationWriter { code, solver, .. } = self.writer;
         let pivots = solver.pivots.iter();
         for pivot in pivots.filter(|pivot| used.contains(&pivot.inverse)) {
             self.operations(self.writer.needed([pivot.place]));

@@ -5,17 +5,17 @@ use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
 use crate::mechanism::{Mechanism, Variable};
 use crate::output::canvas::Canvas;
-use crate::output::drawing::{Camera, View};
-use crate::output::plot::{self, Chart, Series, Strobe, stacked};
+use crate::output::drawing::{Camera, Viewpoint};
+use crate::output::plot::{self, LineChart, Series, Strobe, stacked};
 use crate::scene::{Scene, Triple, least_and_greatest};
 
 /// A curve with its name: where it is for the values of a row.
-type Curve<'c> = (String, Plotted<'c>);
+type NamedCurve<'c> = (String, Plotted<'c>);
 
 impl Picture {
     /// The mechanism in several places with the paths of points, seen from where it is said, then the curves.
-    pub fn drawn(&self, mechanism: &Mechanism, view: Option<View>) -> Canvas {
-        let mut charts: Vec<Chart> = self.places(mechanism, view).into_iter().collect();
+    pub fn drawn(&self, mechanism: &Mechanism, view: Option<Viewpoint>) -> Canvas {
+        let mut charts: Vec<LineChart> = self.places(mechanism, view).into_iter().collect();
         charts.extend(match (self.points.is_empty(), self.quantities.is_empty()) {
             (true, true) => {
                 let units = [true, false].map(SiUnit::of_coordinate);
@@ -52,7 +52,7 @@ impl Picture {
     }
 
     /// Curves with their names, and marks on all of them.
-    fn chart(&self, curves: &[Curve]) -> (Vec<Series>, Vec<Series>) {
+    fn chart(&self, curves: &[NamedCurve]) -> (Vec<Series>, Vec<Series>) {
         let mut series = Vec::new();
         let mut marks: Vec<Series> = Vec::new();
         for drawn in &self.motions {
@@ -77,10 +77,10 @@ impl Picture {
         units: &[SiUnit],
         columns: impl Iterator<Item = (&'p Variable, usize)> + Clone,
         together: fn(SiUnit) -> &'static str,
-    ) -> Vec<Chart> {
+    ) -> Vec<LineChart> {
         let panel = |unit: &SiUnit| {
             let of_it = columns.clone().filter(|(of, _)| of.unit == *unit);
-            let curves: Vec<Curve> = of_it
+            let curves: Vec<NamedCurve> = of_it
                 .map(|(of, place)| (of.name.clone(), column(place)))
                 .collect();
             let name = match &curves[..] {
@@ -93,7 +93,7 @@ impl Picture {
         units.iter().filter_map(panel).collect()
     }
 
-    fn over_input(&self, pairs: &[Curve], label: String) -> Chart {
+    fn over_input(&self, pairs: &[NamedCurve], label: String) -> LineChart {
         let (mut series, marks) = self.chart(pairs);
         let unbounded = |label: &str| -> Vec<f64> {
             let of_it = self.unbounded.iter().filter(|(name, _)| {
@@ -112,19 +112,19 @@ impl Picture {
         }
         let mut all = series.iter();
         let any = all.any(|series| !unbounded(&series.label).is_empty());
-        Chart {
+        LineChart {
             title: self.title.clone(),
             x: self.input_label.clone(),
             y: label,
             within: any.then(|| plot::most(heights)).flatten(),
             series,
             marks,
-            ..Chart::default()
+            ..LineChart::default()
         }
     }
 
     /// The mechanism in several places, and the paths; nothing of circuits.
-    fn places(&self, mechanism: &Mechanism, view: Option<View>) -> Option<Chart> {
+    fn places(&self, mechanism: &Mechanism, view: Option<Viewpoint>) -> Option<LineChart> {
         let scenes = self.course.strobe(mechanism);
         let normal = scenes.first()?.normal;
         let first = 1 + self.outputs.len();
@@ -134,14 +134,14 @@ impl Picture {
             .map(|point| [point[0], point[1], point[2]]);
         let view = view.unwrap_or_else(|| match (normal, self.points.is_empty()) {
             (None, false) => widest(&traced.collect::<Vec<Triple>>()),
-            _ => View::Natural,
+            _ => Viewpoint::Natural,
         });
         let camera = Camera::new(view, normal);
         let seen = move |point: &[f64]| {
             let (x, y, _) = camera.project(&[point[0], point[1], point[2]]);
             (x, y)
         };
-        let curves: Vec<Curve> = (self.points.iter().enumerate())
+        let curves: Vec<NamedCurve> = (self.points.iter().enumerate())
             .map(|(i, point)| {
                 let from = first + 3 * i;
                 let at = move |row: &[f64]| seen(&row[from..from + 3]);
@@ -155,7 +155,7 @@ impl Picture {
         }
         let points: Vec<Triple> = scenes.iter().flat_map(Scene::points).collect();
         let bounds = camera.bounds(&points);
-        Some(Chart {
+        Some(LineChart {
             title: self.title.clone(),
             x: axis(&camera.right, "across"),
             y: axis(&camera.up, "up"),
@@ -167,7 +167,7 @@ impl Picture {
             }),
             series,
             marks,
-            ..Chart::default()
+            ..LineChart::default()
         })
     }
 }
@@ -192,13 +192,13 @@ fn axis(along: &Vector3<f64>, otherwise: &str) -> String {
 }
 
 /// Along the axis along which points extend least.
-fn widest(points: &[Triple]) -> View {
+fn widest(points: &[Triple]) -> Viewpoint {
     let extent = |axis: usize| {
         let (low, high) = least_and_greatest(points.iter().map(|point| point[axis]));
         high - low
     };
-    let views = [View::From(0.0, 0.0), View::Front, View::Top];
+    let views = [Viewpoint::From(0.0, 0.0), Viewpoint::Front, Viewpoint::Top];
     let ordered = views.into_iter().enumerate().rev();
     let least = ordered.min_by(|(a, _), (b, _)| extent(*a).total_cmp(&extent(*b)));
-    least.map_or(View::Top, |(_, view)| view)
+    least.map_or(Viewpoint::Top, |(_, view)| view)
 }
