@@ -11,15 +11,16 @@ mod words;
 use std::ffi::OsString;
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyFloat};
 
+use crate::algebra::Measure;
 use crate::analysis::convert::to_axes;
 use crate::analysis::rounding::posed;
-use crate::ask::{AskError, Points, Study};
+use crate::ask::{AskError, Points, Study, Unreached};
 use crate::description::{Description, FileError, Role};
 use crate::mechanism;
 use crate::output::Rows;
@@ -32,6 +33,21 @@ use crate::scene::Scene;
 use asked::{Asked, values};
 use report::Report;
 use watched::watched;
+
+/// Values of rows that are followed where they are asked for, without a thread beside.
+const FEW: usize = 1000;
+
+/// Reason for which a row was not reached.
+fn said(why: Unreached) -> &'static str {
+    match why {
+        Unreached::NotFinite => "a value is not finite",
+        Unreached::NoPath => {
+            "no path on one branch leads there from the row before or from the start: it is beyond a dead point or out of \
+             reach, which search=True tells apart"
+        }
+        Unreached::NotFound => "no assembly was found there: `solve` says how near it comes",
+    }
+}
 
 type Columns<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
@@ -57,8 +73,11 @@ create_exception!(
 /// A mechanism as a text describes it.
 #[pyclass(frozen, module = "linkwork._linkwork")]
 struct Mechanism {
-    text: String,
-    description: Description,
+    text: Arc<str>,
+    /// The text with the parameters that were given when it was read.
+    description: Arc<Description>,
+    /// Parameters that were given after that.
+    set: Vec<(String, f64)>,
     mechanism: Arc<mechanism::Mechanism>,
 }
 
@@ -85,8 +104,9 @@ impl Mechanism {
         }
         match posed(description.clone()) {
             Ok((description, mechanism)) => Ok(Mechanism {
-                text,
-                description,
+                text: text.into(),
+                description: description.into(),
+                set: Vec::new(),
                 mechanism: mechanism.into(),
             }),
             Err(problems) => {
@@ -125,13 +145,54 @@ impl Mechanism {
         diagnostics::warnings(&self.mechanism, name, &self.text, Style::Plain)
     }
 
+    /// The mechanism with other values of parameters, where they are plain numbers; none where the text has to be read
+    /// again, which also says what is wrong.
+    fn with_parameters(&self, parameters: &Bound<'_, PyDict>) -> Option<Mechanism> {
+        /// A larger angle needs a unit, which the reader of texts asks for.
+        const TWO_TURNS: f64 = 12.0;
+        let known = self.mechanism.parameters();
+        let mut set = self.set.clone();
+        let mut given = Vec::with_capacity(parameters.len());
+        for (name, value) in parameters {
+            let (name, value) = (
+                name.extract::<String>().ok()?,
+                value.cast_exact::<PyFloat>().ok()?,
+            );
+            let (value, place) = (
+                value.value(),
+                known.iter().position(|of| *of.name == *name)?,
+            );
+            if value.abs() > TWO_TURNS && known[place].measure != Measure::Length {
+                return None;
+            }
+            given.push((place, value));
+            set.retain(|(of, _)| *of != name);
+            set.push((name, value));
+        }
+        // rounded numbers that close a loop are corrected when the text is read
+        let exact = self.mechanism.rounding().is_none() && !given.is_empty();
+        let mechanism = exact.then(|| self.mechanism.with_values(&given).ok())??;
+        Some(Mechanism {
+            text: self.text.clone(),
+            description: self.description.clone(),
+            set,
+            mechanism: mechanism.into(),
+        })
+    }
+
     /// The mechanism as a file of tables, or of joint coordinates.
     fn ron(&self, axes: bool) -> PyResult<String> {
         let refused = |error: &dyn std::fmt::Display| Error::new_err(error.to_string());
+        let mut description = Description::clone(&self.description);
+        for (name, value) in &self.set {
+            let given = Given::new("with_parameters", name, None);
+            description = (description.with_parameter(name, &format!("{value:?}")))
+                .map_err(|e| Error::new_err(diagnostics::replacement(&e, &given, Style::Plain)))?;
+        }
         match axes {
-            false => self.description.to_ron().map_err(|e| refused(&e)),
+            false => description.to_ron().map_err(|e| refused(&e)),
             true => {
-                let made = to_axes(&self.mechanism, &self.description);
+                let made = to_axes(&self.mechanism, &description);
                 let (axes, _) = made.map_err(|e| refused(&e))?;
                 axes.to_ron().map_err(|e| refused(&e))
             }
@@ -142,7 +203,7 @@ impl Mechanism {
         let set = values("parameters", set)?.into_iter();
         Ok(page(&Viewed {
             file: file.into(),
-            text: self.text.clone(),
+            text: self.text.to_string(),
             set: set.map(|(name, value)| (name, value.to_string())).collect(),
             watch: false,
         }))
@@ -186,31 +247,71 @@ impl Mechanism {
         Ok(sheet(&panels, &settings).svg())
     }
 
-    /// Configurations for rows of held values: the columns, their values row by row, and whether each row was reached.
-    #[allow(clippy::type_complexity)]
+    /// Configurations for rows of held values: the columns, their values row by row, whether each row was reached, and why
+    /// not; then the quantities with their units, row by row, and Jacobians with their rows and columns.
+    #[allow(clippy::type_complexity, clippy::too_many_arguments)]
     fn solve_many<'py>(
         &self,
         py: Python<'py>,
         given: &Bound<'py, PyDict>,
         names: Vec<String>,
         values: PyReadonlyArray2<'py, f64>,
+        jacobian: bool,
+        search: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(
         Vec<String>,
         Bound<'py, PyArray2<f64>>,
         Bound<'py, PyArray1<bool>>,
+        Vec<(usize, &'static str)>,
+        Option<(Vec<(String, String)>, Bound<'py, PyArray2<f64>>)>,
+        Option<(Vec<String>, Vec<String>, Bound<'py, PyArray3<f64>>)>,
     )> {
         let asked = Asked::new(self.mechanism.clone(), given)?;
+        let question = &asked.question;
+        let measured = jacobian || given.contains("report")?;
         let rows = values.as_slice()?;
-        let many = watched(py, progress, true, |watch| {
-            asked.question.solve_many(&names, rows, watch)
+        let long = measured || search || rows.len() > FEW;
+        let found = watched(py, progress, long, |watch| {
+            let mut many = question.solve_many(&names, rows, watch)?;
+            if search {
+                question.search_many(&names, rows, &mut many, watch)?;
+            }
+            let measured = measured.then(|| question.measure_many(&names, &many, jacobian, watch));
+            Ok::<_, AskError>((many, measured.transpose()?))
         })?;
-        let many = many.map_err(|error| asked.refusal(&error.into()))?;
+        let (many, measured) = found.map_err(|error: AskError| asked.refusal(&error.into()))?;
         let (rows, width) = (many.reached.len(), many.names.len());
+        let lost = many.lost.iter().map(|(row, why)| (*row, said(*why)));
+        let (quantities, jacobians) = match measured {
+            None => (None, None),
+            Some(of) => {
+                let titles = of.columns.iter();
+                let titles: Vec<_> = titles
+                    .map(|of| (of.name.clone(), of.unit.to_string()))
+                    .collect();
+                let shape = [rows, titles.len()];
+                let values = PyArray1::from_vec(py, of.values).reshape(shape)?;
+                let jacobians = of.jacobians.map(|of| {
+                    let [outputs, inputs] = [&of.rows, &of.columns].map(|axes| {
+                        axes.iter()
+                            .map(|axis| axis.name.clone())
+                            .collect::<Vec<_>>()
+                    });
+                    let shape = [rows, outputs.len(), inputs.len()];
+                    let entries = PyArray1::from_vec(py, of.entries).reshape(shape)?;
+                    Ok::<_, PyErr>((outputs, inputs, entries))
+                });
+                (Some((titles, values)), jacobians.transpose()?)
+            }
+        };
         Ok((
             many.names,
             PyArray1::from_vec(py, many.values).reshape([rows, width])?,
             PyArray1::from_vec(py, many.reached),
+            lost.collect(),
+            quantities,
+            jacobians,
         ))
     }
 

@@ -74,7 +74,7 @@ impl Report {
     }
 
     fn html(&self) -> String {
-        html::render(&self.0.document())
+        html::fragment(&self.0.document())
     }
 }
 

@@ -126,7 +126,9 @@ def test_reports_say_what_the_command_line_says(four_bar):
     assert repr(report) == command("mobility", file).stdout.rstrip("\n")
     assert report.to_json() == command("mobility", file, "--format", "json").stdout
     assert report.to_markdown() == command("mobility", file, "--format", "markdown").stdout
-    assert report._repr_html_().lstrip().lower().startswith("<!doctype html")
+    # a part of a notebook's page: no policy, which counts in a head only, and no rules for what is outside
+    shown = report._repr_html_()
+    assert shown.startswith('<div class="linkwork">') and "<meta" not in shown and "\n.linkwork {" in shown
     assert "sentence" in dir(report) and report["sentence"] == report.sentence
     with pytest.raises(AttributeError, match="there is no `freedom`"):
         report.freedom  # noqa: B018
@@ -470,6 +472,50 @@ def test_a_jacobian_is_an_array():
     singular = linkwork.load(SHIPPED / "parallelogram.ron")
     with pytest.raises(QuestionError):
         singular.jacobian()
+
+
+def test_jacobians_of_many_rows_are_those_of_velocity():
+    three_rps = linkwork.load(SHIPPED / "three_rps.ron")
+    rng = np.random.default_rng(3)
+    rows = np.array([2 / 3, 3 / 5, 3 / 4]) + rng.uniform(-0.05, 0.05, (300, 3))
+    many = three_rps.solve_many(rows, report="condition", jacobian=True)
+    assert many["reached"].all() and many["jacobian"].shape == (300, len(many.outputs), 3)
+    assert many.inputs == ["l1", "l2", "l3"]
+    for row in (0, 7, 299):
+        held = dict(zip(("l1", "l2", "l3"), rows[row]))
+        guess = {name: many[name][row] for name in ("phi1", "phi2", "phi3")}
+        report = three_rps.velocity(guess=guess, **held)
+        assert [axis["name"] for axis in report.to_dict()["jacobian"]["rows"]] == many.outputs
+        alone = three_rps.jacobian(guess=guess, **held)
+        assert np.allclose(alone, many["jacobian"][row], rtol=1e-6, atol=1e-9)
+        assert report.jacobian.condition == pytest.approx(many["condition"][row], rel=1e-6)
+    # and are what differences of neighbouring rows say
+    step = 1e-6
+    moved = three_rps.solve_many(np.array([rows[0], rows[0] + [step, 0, 0]]))
+    slope = (moved["top.z"][1] - moved["top.z"][0]) / step
+    assert slope == pytest.approx(many["jacobian"][0][many.outputs.index("top vz"), 0], rel=1e-4)
+
+
+def test_rows_that_fail_say_why_and_can_be_searched(four_bar):
+    short = four_bar.with_parameters(l1=2.0, l2=2.5)
+    rows = np.array([1.0, np.nan, 3.1, 1.1])
+    many = short.solve_many(rows)
+    assert list(many["reached"]) == [True, False, False, True]
+    assert set(many.reasons) == {1, 2} and "finite" in many.reasons[1] and "search=True" in many.reasons[2]
+    assert "row 1" in repr(many) and "2 of 4 rows" in repr(many)
+    searched = short.solve_many(rows, search=True)
+    assert "no assembly" in searched.reasons[2] and not short.solve(theta1=3.1)
+    assert np.isnan(searched["phi1"][2]) and np.array_equal(searched["phi1"][[0, 3]], many["phi1"][[0, 3]])
+
+
+def test_numbers_of_parameters_are_put_in_as_they_are_read(four_bar):
+    fast, read = four_bar.with_parameters(l2=3.25), four_bar.with_parameters(l2="3.25")
+    assert fast.parameters == read.parameters and fast.parameters["l2"] == 3.25
+    assert fast.solve(theta1=1.0).joints == read.solve(theta1=1.0).joints
+    assert "3.25" in fast.to_ron() and fast.with_parameters(l1=1.5).parameters["l2"] == 3.25
+    assert pickle.loads(pickle.dumps(fast)).solve(theta1=1.0).joints == fast.solve(theta1=1.0).joints
+    with pytest.raises(linkwork.MechanismError):
+        four_bar.with_parameters(l9=3.25)
 
 
 def test_parts_are_listed_and_imported():

@@ -39,12 +39,13 @@ from . import _given, _linkwork, executors, parts
 from ._given import Value, Wrench, wrenches
 from ._linkwork import Error, MechanismError, QuestionError, __version__
 from ._progress import Bar, Progress, bar
-from ._reports import Fields, Report, Rows
+from ._reports import Fields, Many, Report, Rows
 from ._study import Study, study, study_into
 
 __all__ = [
     "Error",
     "Fields",
+    "Many",
     "Mechanism",
     "MechanismError",
     "Progress",
@@ -180,9 +181,14 @@ class Mechanism:
         return dict(self._core.parameters())
 
     def with_parameters(self, **values: Value) -> Mechanism:
-        """The same mechanism with other values of parameters."""
+        """The same mechanism with other values of parameters. Numbers are put in at once; texts are read with the file."""
         text, name, before = self._made_of
-        return Mechanism._of(text, name, {**before, **values})
+        core = self._core.with_parameters(values)
+        if core is None:
+            return Mechanism._of(text, name, {**before, **values})
+        made = Mechanism.__new__(Mechanism)
+        made._made_of, made._core, made._joints = (text, name, {**before, **values}), core, self._joints
+        return made
 
     def to_ron(self, axes: bool = False) -> str:
         """The mechanism as a file of tables, or of joint coordinates."""
@@ -374,13 +380,30 @@ class Mechanism:
         """The closed forms of the file against its chains."""
         return self._ask("compare", given, samples=samples)  # type: ignore[no-any-return]
 
-    def solve_many(self, values: npt.ArrayLike, names: Names | None = None, **given: Any) -> dict[str, Any]:
+    def solve_many(
+        self,
+        values: npt.ArrayLike,
+        names: Names | None = None,
+        *,
+        report: Names | None = None,
+        jacobian: bool = False,
+        search: bool = False,
+        wrench: Mapping[str, Wrench] | None = None,
+        load: Values | None = None,
+        rate: Values | None = None,
+        output: Names | None = None,
+        **given: Any,
+    ) -> Many:
         """A configuration for each row of held values, without reports, on all cores.
 
         ``values`` has a column for each of ``names``, which are the driven joints unless given, in m and rad. The way
         goes from the configuration of the question straight from row to row, so that neighbouring rows are on one
         branch; limits of joints are not looked at. The answer has an array for each joint and platform coordinate, and
-        ``"reached"``; rows that no way leads to are not numbers.
+        ``"reached"``; rows that no way leads to are not numbers, and ``reasons`` says why. With ``search=True`` these
+        are searched for as :meth:`solve` does, on whatever branch.
+
+        ``report="condition, transmission"`` adds an array of each quantity; ``jacobian=True`` adds ``"jacobian"`` of
+        the shape (rows, outputs, inputs), whose ``outputs`` and ``inputs`` are named in the answer.
         """
         if names is None:
             names = [name for name, _, driven, *_ in self._core.joints() if driven]
@@ -390,14 +413,15 @@ class Mechanism:
             rows = rows.reshape(-1, 1)
         if rows.ndim != 2 or rows.shape[1] != len(names):
             raise ValueError(f"give a column for each of {', '.join(names)}; `values` has the shape {rows.shape}")
+        jacobian, search = _given.flag("jacobian", jacobian), _given.flag("search", search)
         progress = bar(given.pop("progress", None))
         try:
-            put = self._given("solve_many", given, {})
-            titles, found, reached = self._core.solve_many(put, names, rows, progress)
+            options = {"report": report, "wrench": wrenches(wrench), "load": load, "rate": rate, "output": output}
+            put = self._given("solve_many", given, options)
+            return Many(*self._core.solve_many(put, names, rows, jacobian, search, progress))
         finally:
             if isinstance(progress, Bar):
                 progress.close()
-        return {**{title: found[:, i] for i, title in enumerate(titles)}, "reached": reached}
 
 
 def _command() -> None:

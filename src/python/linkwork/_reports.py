@@ -184,3 +184,49 @@ class Rows(Report, dict[str, Column]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (_Kept(self._core), self._columns)
+
+    def __repr__(self) -> str:
+        return Report.__repr__(self)
+
+
+class Many(dict[str, npt.NDArray[Any]]):
+    """Configurations for rows of held values: a mapping from names to numpy arrays, which ``pandas.DataFrame`` takes.
+
+    ``"reached"`` is true for rows that were reached; the others are not numbers.
+    """
+
+    #: Why rows were not reached, by their numbers.
+    reasons: dict[int, str]
+    #: The units of the columns; empty for what has none.
+    units: dict[str, str]
+    #: Names of the rows and columns of each Jacobian; empty unless it was asked for.
+    outputs: list[str]
+    inputs: list[str]
+
+    def __init__(
+        self,
+        titles: list[str],
+        found: npt.NDArray[np.float64],
+        reached: npt.NDArray[np.bool_],
+        lost: list[tuple[int, str]],
+        quantities: tuple[list[tuple[str, str]], npt.NDArray[np.float64]] | None,
+        jacobians: tuple[list[str], list[str], npt.NDArray[np.float64]] | None,
+    ) -> None:
+        super().__init__({title: found[:, i] for i, title in enumerate(titles)})
+        self["reached"] = reached
+        self.reasons = dict(lost)
+        self.units = {}
+        self.outputs, self.inputs = [], []
+        if quantities is not None:
+            for i, (name, unit) in enumerate(quantities[0]):
+                self[name] = quantities[1][:, i]
+                self.units[name] = "" if unit == "1" else unit
+        if jacobians is not None:
+            self.outputs, self.inputs, self["jacobian"] = jacobians
+
+    def __repr__(self) -> str:
+        rows, reached = len(self["reached"]), int(self["reached"].sum())
+        names = ", ".join(self)
+        first = next(iter(self.reasons.items()), None)
+        lost = "" if first is None else f"; row {first[0]}: {first[1]}"
+        return f"<{reached} of {rows} rows reached{lost}; arrays: {names}>"
