@@ -477,7 +477,8 @@ def test_a_jacobian_is_an_array():
 def test_jacobians_of_many_rows_are_those_of_velocity():
     three_rps = linkwork.load(SHIPPED / "three_rps.ron")
     rng = np.random.default_rng(3)
-    rows = np.array([2 / 3, 3 / 5, 3 / 4]) + rng.uniform(-0.05, 0.05, (300, 3))
+    # away from the dead points of the branch
+    rows = np.array([2 / 3, 0.65, 3 / 4]) + rng.uniform(-0.02, 0.02, (300, 3))
     many = three_rps.solve_many(rows, report="condition", jacobian=True)
     assert many["reached"].all() and many["jacobian"].shape == (300, len(many.outputs), 3)
     assert many.inputs == ["l1", "l2", "l3"]

@@ -181,7 +181,7 @@ class Mechanism:
         return dict(self._core.parameters())
 
     def with_parameters(self, **values: Value) -> Mechanism:
-        """The same mechanism with other values of parameters. Numbers are put in at once; texts are read with the file."""
+        """The same mechanism with other parameters. Numbers are put in at once; texts are read with the file."""
         text, name, before = self._made_of
         core = self._core.with_parameters(values)
         if core is None:
