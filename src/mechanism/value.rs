@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 
 use super::Mechanism;
 use crate::algebra::{
-    EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind, Unit,
+    EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind, SiUnit,
+    Unit,
 };
 use crate::description::{Displacement, ProblemKind, Scope, nearest};
 use crate::geometry::Pose;
@@ -45,8 +46,8 @@ impl Value {
         }
     }
 
-    /// The number of a rate (`order` 1) or an acceleration (2), whose unit may be written with that of time, `360 deg/s`,
-    /// or without: an angle of more than two turns per second has its unit.
+    /// The number of a rate (`order` 1) or an acceleration (2), whose unit may be written with that of time, `360 deg/s` or
+    /// `60 rpm`, or without: an angle of more than two turns per second has its unit.
     pub(crate) fn per_time(
         &self,
         mechanism: &Mechanism,
@@ -54,7 +55,17 @@ impl Value {
         order: usize,
     ) -> Result<f64, ValueError> {
         let (value, bare) = match self {
-            Value::Text(text) => read(mechanism, before_time(mechanism, text, order), wanted)?,
+            Value::Text(text) => {
+                let speed = Measure::Other(SiUnit::PER_SECOND);
+                match read(mechanism, before_time(mechanism, text, order), wanted) {
+                    Err(ValueError::Unit(MeasureErrorKind::Wrong { wanted, found }))
+                        if (wanted, found, order) == (Measure::Angle, speed, 1) =>
+                    {
+                        read(mechanism, text, speed)?
+                    }
+                    read => read?,
+                }
+            }
             value => value.read(mechanism, wanted)?,
         };
         match bare {

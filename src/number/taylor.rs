@@ -16,12 +16,13 @@ pub struct Taylor {
 
 const TERMS: usize = 6;
 
-const UNBOUNDED: Taylor = Taylor {
-    terms: [0.0; TERMS],
-    rest: f64::INFINITY,
-};
-
 impl Taylor {
+    /// What may be anything.
+    pub const UNBOUNDED: Self = Taylor {
+        terms: [0.0; TERMS],
+        rest: f64::INFINITY,
+    };
+
     /// All that lies between two numbers.
     fn within(low: f64, high: f64) -> Self {
         let mut model = Self::from_f64(0.5 * (low + high));
@@ -115,7 +116,7 @@ impl Taylor {
             return if x == 0.0 && reach == 0.0 {
                 Self::from_f64(f64::NAN)
             } else {
-                UNBOUNDED
+                Self::UNBOUNDED
             };
         }
         if x < 0.0 {
@@ -151,7 +152,7 @@ operators!([Taylor]
         }
         // nothing times what has no bound has none
         if rest.is_nan() && terms.iter().all(|term| term.is_finite()) {
-            return UNBOUNDED;
+            return Taylor::UNBOUNDED;
         }
         Taylor { terms, rest }
     };
@@ -226,7 +227,7 @@ impl Number for Taylor {
             let series = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0].map(|n| value / n);
             match high.is_finite() {
                 true => x.composed(series, high / 720.0).narrower(low, high),
-                false => UNBOUNDED,
+                false => Self::UNBOUNDED,
             }
         },
         ln: {
@@ -236,7 +237,7 @@ impl Number for Taylor {
             }
             let low = at - reach;
             if low <= 0.0 {
-                return UNBOUNDED;
+                return Self::UNBOUNDED;
             }
             let series = std::array::from_fn(|n| match n {
                 0 => pxfm::f_log(at),

@@ -184,6 +184,9 @@ fn rates_are_read_with_their_units_and_a_bare_rate_of_many_turns_is_refused() {
         ("360deg / s", turn),
         ("2*180 deg/s", turn),
         ("360 deg", turn),
+        ("60 rpm", turn),
+        ("-30 rpm", -0.5 * turn),
+        ("2*30 rpm", turn),
         ("360 rad/s", 360.0),
         ("360 rad", 360.0),
         ("12.5", 12.5),
@@ -199,7 +202,7 @@ fn rates_are_read_with_their_units_and_a_bare_rate_of_many_turns_is_refused() {
         let error = driven(rate).unwrap_err().to_string();
         assert!(error.contains("without a unit is in rad/s"), "{error}");
     }
-    for rate in ["360 deg/s^2", "360 m/s", "360 deg*s", "s", "/s", "360 s"] {
+    for rate in ["360 deg/s^2", "360 m/s", "360 deg*s", "s", "/s", "360 s", "60 rpm/s", "60 N"] {
         assert!(driven(rate).is_err(), "{rate}");
     }
     let accelerated = |value: &str| {

@@ -166,7 +166,10 @@ impl<'m> Course<'m> {
                 model
             })
             .collect();
-        of.program.evaluate(&|name: &usize| names[*name]).ok()
+        let model = of.program.evaluate(&|name: &usize| names[*name]).ok();
+        // bounds may be too large where no value is
+        let value = || self.value(of, at.piece, at.middle).0;
+        model.or_else(|| value().map(|_| Taylor::UNBOUNDED))
     }
 
     /// Walks along the curve and halves pieces as long as the visitor wants it, who is given a model of an expression,
