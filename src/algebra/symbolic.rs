@@ -251,6 +251,22 @@ impl Number for Symbolic {
             })
         })
     }
+    /// Decided for numbers alone, as the sign of a letter is not known.
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+        use num_traits::Signed;
+        let above = other - self;
+        let number = above.formula().and_then(|above| above.as_rational());
+        match number {
+            Some(number) if number.is_positive() => then,
+            Some(_) => otherwise,
+            None if then == otherwise => then,
+            None => made(|arena| {
+                let [x, y, z] = [above, then, otherwise].map(|x| arena.formula(x));
+                let arguments = [(*x?).clone(), (*y?).clone(), (*z?).clone()];
+                Some(Trigonometric::call(Function::If, &arguments))
+            }),
+        }
+    }
     fn lesser(self, other: Self) -> Self {
         self.extreme(other, Function::Min)
     }

@@ -56,12 +56,15 @@ impl Value {
     ) -> Result<f64, ValueError> {
         let (value, bare) = match self {
             Value::Text(text) => {
-                let speed = Measure::Other(SiUnit::PER_SECOND);
-                match read(mechanism, before_time(mechanism, text, order), wanted) {
-                    Err(ValueError::Unit(MeasureErrorKind::Wrong { wanted, found }))
-                        if (wanted, found, order) == (Measure::Angle, speed, 1) =>
+                let before = before_time(mechanism, text, order);
+                match read(mechanism, before, wanted) {
+                    Err(ValueError::Unit(MeasureErrorKind::Wrong { found, .. }))
+                        if wanted == Measure::Angle
+                            && found == Measure::Other(SiUnit::PER_SECOND)
+                            && order == 1
+                            && before == text =>
                     {
-                        read(mechanism, text, speed)?
+                        read(mechanism, text, found)?
                     }
                     read => read?,
                 }

@@ -197,6 +197,14 @@ impl Number for Interval {
             _ => interval(0.0, x.magnitude()),
         },
     );
+    /// Hull of both where the comparison is not decided.
+    fn if_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+        match (self.high < other.low, self.low >= other.high) {
+            (true, _) => then,
+            (_, true) => otherwise,
+            _ => interval(then.low.min(otherwise.low), then.high.max(otherwise.high)),
+        }
+    }
     #[inline(never)]
     fn atan2(self, x: Self) -> Self {
         let half_pi = interval(FRAC_PI_2, FRAC_PI_2.next_up());

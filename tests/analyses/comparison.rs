@@ -478,6 +478,41 @@ fn a_factor_that_is_zero_in_the_mechanism_is_not_left_out() {
     }
 }
 
+/// Which branch is taken is not known of letters, and a root of terms that cancel is nothing but their rounding.
+#[test]
+fn comparisons_and_roots_of_what_cancels_are_neither_proved_nor_refuted() {
+    for form in [
+        "identity: \"if(t < 0, Y, 0)\"",
+        "identity: \"sqrt(Y^2)\"",
+        "identity: \"ln(1 + Y^2)\"",
+        "identity: \"(Y^2)^(1/3)\"",
+        "identity: \"if(Y < 1e-6, 0, 1)\"",
+    ] {
+        let (report, said) = identity(form);
+        let proof = &report.closed_forms[0].components[0].proof;
+        let open = matches!(proof, ComponentProof::NotDecided { .. });
+        assert!(report.agree && open, "{form}: {said}");
+    }
+    for form in [
+        "if(t < 0, 1, 0)",
+        "if(t < 3, 0, X - 1)",
+        "if(Y < 1e-6, 1e-3, Y)",
+        "sqrt(Y^2 + 1e-8)",
+    ] {
+        let (report, said) = identity(&format!("identity: \"{form}\""));
+        let proof = &report.closed_forms[0].components[0].proof;
+        assert!(!report.agree && !proof.proved(), "{form}: {said}");
+        assert!(!said.contains("It is proved"), "{said}");
+    }
+    // zero on some configurations, and interval arithmetic must not take its middle for all of it
+    let (report, said) = identity("identity: \"Y/if(t < -1, 0, 1)\"");
+    let component = &report.closed_forms[0].components[0];
+    assert!(
+        component.divisors[0].zeros > 0 && component.samples > 0,
+        "{said}"
+    );
+}
+
 #[test]
 fn what_is_refuted_below_the_tolerance_does_not_agree() {
     let wrong = "disagrees with the chains by less than the tolerance of 1e-9";

@@ -202,7 +202,16 @@ fn rates_are_read_with_their_units_and_a_bare_rate_of_many_turns_is_refused() {
         let error = driven(rate).unwrap_err().to_string();
         assert!(error.contains("without a unit is in rad/s"), "{error}");
     }
-    for rate in ["360 deg/s^2", "360 m/s", "360 deg*s", "s", "/s", "360 s", "60 rpm/s", "60 N"] {
+    for rate in [
+        "360 deg/s^2",
+        "360 m/s",
+        "360 deg*s",
+        "s",
+        "/s",
+        "360 s",
+        "60 rpm/s",
+        "60 N",
+    ] {
         assert!(driven(rate).is_err(), "{rate}");
     }
     let accelerated = |value: &str| {

@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 
-use super::super::evaluation;
+use super::super::{Function, evaluation};
 use super::{Atom, Powers, Trigonometric};
 use crate::number::Number;
 
@@ -39,6 +39,14 @@ impl Atom {
             Atom::Symbol(symbol) => value_of(*symbol),
             Atom::Inverse(inside) => 1.0 / inside.value(value_of),
             Atom::Root(inside) => inside.value(value_of).sqrt(),
+            Atom::Call(Function::If, arguments) => {
+                let taken = if arguments[0].value(value_of) > 0.0 {
+                    1
+                } else {
+                    2
+                };
+                arguments[taken].value(value_of)
+            }
             Atom::Call(function, arguments) => {
                 let x = arguments[0].value(value_of);
                 let y = arguments.get(1).map_or(x, |y| y.value(value_of));

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::formula::{NamedValues, measured};
 use super::proof::{self, ComponentProof, Reason};
-use super::{ComponentQuantity, ComponentReport};
+use super::{ComponentQuantity, ComponentReport, NEAR_SINGULAR};
 use crate::algebra::{Expression, Function, Node, Operator};
 use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
 use crate::number::Interval;
@@ -66,16 +66,22 @@ impl ProofConditions {
     pub fn hold(&mut self, mechanism: &Mechanism, form: &ClosedForm, joints: &[f64]) -> bool {
         let is_zero = |formula: &Formula| {
             let measured = measured(mechanism, form, formula, joints);
-            measured.map(|measured| measured.is_zero())
+            measured.is_ok_and(|measured| measured.is_zero())
         };
         let mut hold = true;
         for (divisor, zeros) in &mut self.divisors {
-            if is_zero(divisor) == Ok(true) {
+            if is_zero(divisor) {
                 *zeros += 1;
                 hold = false;
             }
         }
-        let differs = |formula: &Formula| is_zero(formula) == Ok(false);
+        // terms that cancel may leave a root of their rounding
+        let differs = |formula: &Formula| {
+            let scales = &mechanism.dimensions().joint_scales;
+            let near = (joints.iter().zip(scales))
+                .map(|(joint, scale)| Interval::around(*joint, NEAR_SINGULAR * scale));
+            is_not_zero(mechanism, form, formula, near.collect())
+        };
         self.refuted |= hold && self.difference.as_ref().is_some_and(differs);
         hold
     }
@@ -158,17 +164,22 @@ fn divisor(mechanism: &Mechanism, operation: &Formula) -> Option<Formula> {
 
 /// True if interval arithmetic shows that a formula is not zero at any joint values.
 fn is_never_zero(mechanism: &Mechanism, form: &ClosedForm, formula: &Formula) -> bool {
-    let mut encloses = true;
-    visit(form, formula, &mut BTreeSet::new(), &mut |part| {
-        // these compare middles of intervals
-        let compares = matches!(part.node, Node::Call(Function::Min | Function::Max, _));
-        encloses &= !compares;
-    });
+    let anywhere = |_| Interval::around(0.0, ANYWHERE);
+    let joints = mechanism.joints().iter().map(anywhere);
+    is_not_zero(mechanism, form, formula, joints.collect())
+}
+
+/// True if interval arithmetic shows that a formula is not zero at any of some joint values.
+fn is_not_zero(
+    mechanism: &Mechanism,
+    form: &ClosedForm,
+    formula: &Formula,
+    joints: Vec<Interval>,
+) -> bool {
     let parameters = mechanism.parameters().iter();
     let parameters = parameters.map(|parameter| Interval::point(parameter.value));
-    let joints = vec![Interval::around(0.0, ANYWHERE); mechanism.joints().len()];
     let range = NamedValues::new(form, parameters.collect(), joints, &[]).of(formula);
-    encloses && range.is_ok_and(|range| !range.contains(0.0))
+    range.is_ok_and(|range| !range.contains(0.0))
 }
 
 /// The formula with names as they are written.
