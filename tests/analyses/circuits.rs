@@ -408,3 +408,18 @@ fn limits_cut_a_circuit_into_the_pieces_between_them() {
         );
     }
 }
+
+/// Curves that end on the way may be parts of one circuit, and are not counted as circuits.
+#[test]
+fn curves_that_were_not_followed_to_their_end_are_not_counted_as_circuits() {
+    let text = four_bar([5.0, 1.0, 3.0, 4.0], 1.0, 1.0).unwrap();
+    let mut report = circuits(&text);
+    assert_eq!(report.circuits.len(), 2);
+    report.circuits[1].whole = false;
+    let said = report.document().answer;
+    assert!(said.starts_with("At least 2 circuits with"), "{said}");
+    report.circuits[0].whole = false;
+    let said = report.document().answer;
+    let one = "At least 1 circuit for t: 2 curves were not followed to their end, and may be parts of one circuit.";
+    assert_eq!(said, one);
+}

@@ -131,6 +131,15 @@ fn other_class(report: &CircuitsReport) -> Option<String> {
 
 fn sentence(report: &CircuitsReport) -> String {
     let circuits = report.circuits.len();
+    let open = report.circuits.iter().filter(|c| !c.whole).count();
+    if open > 1 {
+        return format!(
+            "At least {} for {}: {} were not followed to their end, and may be parts of one circuit.",
+            count(circuits - open + 1, "circuit"),
+            report.input,
+            count(open, "curve")
+        );
+    }
     let branches: usize = report.circuits.iter().map(|c| c.branches.len()).sum();
     let crossing = report.circuits.iter().any(|c| !c.crossings.is_empty());
     let what = match crossing {
