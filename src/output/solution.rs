@@ -170,6 +170,9 @@ fn others(report: &AssemblyReport) -> Option<String> {
 }
 
 fn found(report: &AssemblyReport) -> String {
+    if is_fixed(report) {
+        return format!("nothing was solved; residual {}", size(report.residual));
+    }
     let restarts = match report.restarts {
         0 => String::new(),
         n => {
