@@ -191,7 +191,8 @@ struct Start<'a> {
 
 impl<'a> Start<'a> {
     fn dynamics(&self, at: &Configuration<f64>) -> Result<Dynamics<'a>, NoRest> {
-        let held = self.held.clone();
+        let (locked, still) = self.held.clone();
+        let held = (0, locked, still);
         Ok(Dynamics::new(
             self.mechanism,
             self.load,

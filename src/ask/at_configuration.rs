@@ -2,15 +2,19 @@
 
 use std::sync::Arc;
 
-use super::{AskError, Mode, Question, Role, Value};
+use super::{AskError, Demand, Item, Mode, Question, Role, Unmeasured, Value};
+use crate::algebra::{Expression, MeasureError, MeasureErrorKind, SiUnit};
 use crate::analysis::compare::{CompareReport, CompareSettings, compare};
 use crate::analysis::equilibrium::{EquilibriumReport, EquilibriumSettings, equilibrium};
 use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas, solution};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
-use crate::analysis::simulation::{SimulationReport, SimulationSettings, simulation};
+use crate::analysis::simulation::{SimulationReport, SimulationSettings, Speed, simulation};
 use crate::analysis::statics::{StaticsReport, statics};
 use crate::analysis::velocity::{VelocityReport, velocity};
-use crate::mechanism::{Body, NamedPoint, Point, PoseCoordinate};
+use crate::mechanism::{
+    Along, Body, GivenEffort, GivenForce, GivenValue, Measured, NamedPoint, Point, PoseCoordinate,
+    Quantity, QuantityError,
+};
 use crate::solve::Watch;
 use crate::system::{
     self, Analysed, Closed, Closing, Coordinate, Drive, ForceError, Load, check_angle,
@@ -83,13 +87,81 @@ impl Question {
     ) -> Result<Analysed<SimulationReport>, AskError> {
         self.takes("simulate")?;
         let question = self.in_mode(watch)?;
+        let mut locked = self.locked(watch)?;
+        let speeds = self.speeds(&question, &locked)?;
+        locked.retain(|of| speeds.iter().all(|(_, speed)| speed.coordinate != *of));
+        let drive = self.drive_but(&question, |item| speeds.iter().any(|(of, _)| *of == item))?;
         let settings = SimulationSettings {
-            locked: self.locked(watch)?,
+            locked,
+            speeds: speeds.into_iter().map(|(_, speed)| speed).collect(),
             points: self.followed()?,
             ..settings.clone()
         };
-        let (drive, load) = (self.drive(&question)?, self.load_of(&question)?);
+        let load = self.load_of(&question)?;
         Ok(simulation(&question, &drive, &load, &settings, watch))
+    }
+
+    /// The locked coordinates that have rates, which may be expressions of time.
+    fn speeds(
+        &self,
+        question: &system::Question,
+        locked: &[Coordinate],
+    ) -> Result<Vec<(Item, Speed)>, AskError> {
+        let mechanism = &**self.mechanism();
+        let mut speeds = Vec::new();
+        for (item, demand) in self.once(Role::Rate)? {
+            let named = question.coordinates(&demand.name);
+            let Some(&coordinate) = (named.as_deref().ok())
+                .and_then(|of| <&[Coordinate; 1]>::try_from(of).ok())
+                .map(|[of]| of)
+                .filter(|of| locked.contains(of))
+            else {
+                continue;
+            };
+            let unit = SiUnit::of_coordinate(coordinate.is_angle(mechanism)).per_second();
+            let known = |of: &Measured| of.is_constant() || *of == Measured::Time;
+            let rate = self.law(item, demand, unit, ("time", known))?;
+            speeds.push((
+                item,
+                Speed {
+                    coordinate,
+                    rate,
+                    parameters: mechanism.parameters().iter().map(|of| of.value).collect(),
+                },
+            ));
+        }
+        Ok(speeds)
+    }
+
+    /// The expression that a demand gives to a name, in a unit, over quantities that are known.
+    fn law(
+        &self,
+        item: Item,
+        demand: &Demand,
+        unit: SiUnit,
+        (what, known): (&'static str, impl Fn(&Measured) -> bool),
+    ) -> Result<Expression<Measured>, AskError> {
+        let text = demand.value(0).to_string();
+        let refused = |error| AskError::Quantity {
+            item,
+            text: text.clone(),
+            error: Box::new(error),
+        };
+        let read = Quantity::read(self.mechanism(), &demand.name, &text).map_err(refused)?;
+        if !read.measured().all(known) {
+            return Err(AskError::Unmeasured {
+                item,
+                quantity: text,
+                error: Unmeasured::Follows { what },
+            });
+        }
+        match [SiUnit::ONE, unit.without_angle()].contains(&read.unit.without_angle()) {
+            true => Ok(read.expression),
+            false => Err(refused(QuantityError::Unit(MeasureError {
+                kind: MeasureErrorKind::Instead(unit, read.unit),
+                span: 0..text.len(),
+            }))),
+        }
     }
 
     /// The question near its start, or near the configuration of the mode that is asked for.
@@ -136,10 +208,39 @@ impl Question {
             load = loaded.map_err(item.loaded())?;
         }
         for (item, demand) in self.of(Role::Load) {
+            if let Some(force) = self.changing(item, demand)? {
+                Arc::make_mut(&mut load.own).forces.push(force);
+                continue;
+            }
             let loaded = load.joint(question, &demand.name, demand.value(0));
             load = loaded.map_err(item.loaded())?;
         }
         Ok(load)
+    }
+
+    /// A load along a joint that follows from time, joints or rates, such as that of a motor with its law.
+    fn changing(&self, item: Item, demand: &Demand) -> Result<Option<GivenForce>, AskError> {
+        let mechanism = &**self.mechanism();
+        let (Value::Text(text), Some(joint)) = (demand.value(0), mechanism.joint(&demand.name))
+        else {
+            return Ok(None);
+        };
+        // what is no expression over quantities is refused as a number
+        let Ok(read) = Quantity::read(mechanism, &demand.name, &text) else {
+            return Ok(None);
+        };
+        if read.measured().all(Measured::is_constant) {
+            return Ok(None);
+        }
+        let unit = SiUnit::of_effort(mechanism.joints()[joint].kind.is_angle());
+        let known = |of: &Measured| !of.follows_from_forces();
+        let follows = "time, joints, points and their rates";
+        let value = self.law(item, demand, unit, (follows, known))?;
+        let value = GivenValue { value, table: None };
+        Ok(Some(GivenForce {
+            name: format!("load on {}", demand.name),
+            on: GivenEffort::Along(Along::Joint(joint), Box::new(value)),
+        }))
     }
 
     /// Resolves the locked coordinates.
@@ -199,8 +300,17 @@ impl Question {
     }
 
     pub(super) fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
+        self.drive_but(question, |_| false)
+    }
+
+    /// The rates and accelerations but for some.
+    fn drive_but(
+        &self,
+        question: &system::Question,
+        but: impl Fn(Item) -> bool,
+    ) -> Result<Drive, AskError> {
         let mut drive = Drive::still(question);
-        for (item, demand) in self.once(Role::Rate)? {
+        for (item, demand) in (self.once(Role::Rate)?.into_iter()).filter(|(item, _)| !but(*item)) {
             let driven = drive.rate(question, &demand.name, demand.value(0));
             drive = driven.map_err(item.driven())?;
         }

@@ -293,6 +293,12 @@ pub enum Unmeasured {
         /// Names of the coordinates that are held or moved as inputs.
         held: Vec<String>,
     },
+    /// A speed or a load of a motion follows from what is not known before it is.
+    #[error("it follows from {what} alone")]
+    Follows {
+        /// What it may follow from.
+        what: &'static str,
+    },
     /// Nothing is loaded.
     #[error("without a load all forces are zero")]
     NoLoad,

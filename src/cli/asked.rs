@@ -62,7 +62,8 @@ pub struct Forces {
         allow_hyphen_values = true
     )]
     wrench: Vec<Assignment>,
-    /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
+    /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2; it may follow from time, joints and rates, as
+    /// that of a motor does: --load "phi1=20 N*m*(1 - phi1) - 3 N*m*s*velocity:phi1"
     #[arg(long, value_name = "JOINT=FORCE")]
     load: Vec<Assignment>,
     /// Leave out what the file says acts: `weight`, `inertia`, `springs`, `forces`, `friction`, or one by its name

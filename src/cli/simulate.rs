@@ -31,10 +31,12 @@ pub struct Simulate {
     /// Number of rows after the first, equal in time
     #[arg(long, value_name = "ROWS", default_value_t = SimulationSettings::default().rows)]
     rows: usize,
-    /// Rate of a held joint or coordinate at the start, e.g. --rate theta1=2
+    /// Rate of a held joint or coordinate at the start, e.g. --rate theta1=2; of a locked one its speed, which may change
+    /// with time, e.g. --lock theta1 --rate "theta1=2*pi*time"
     #[arg(long, value_name = "NAME=RATE")]
     rate: Vec<Assignment>,
-    /// Keep a joint, a platform coordinate or a platform where it is; `actuated` keeps all actuated joints
+    /// Keep a joint, a platform coordinate or a platform where it is, or drive it with its --rate; `actuated` keeps all
+    /// actuated joints
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
     /// Also give the position of a frame's origin, or of a point beside it in its axes, e.g. --point left+0.5,0.2
@@ -47,6 +49,9 @@ pub struct Simulate {
     /// Go on straight through configurations at which branches of motion meet
     #[arg(long)]
     through: bool,
+    /// Linearise the equations of motion at the start, in place of moving: A, B, C and D for control
+    #[arg(long)]
+    linearise: bool,
     /// Error of one step of the integrator, relative, and absolute in rad, characteristic lengths and these per s
     #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance)]
     #[arg(value_parser = |text: &str| within(text, 1e-14, 1e-2), allow_negative_numbers = true)]
@@ -69,6 +74,7 @@ impl Simulate {
             tolerance: self.error,
             restitution: self.restitution,
             through: self.through,
+            linearised: self.linearise,
             ..SimulationSettings::default()
         };
         posed.answer(self.format, |question, watch| {

@@ -37,6 +37,21 @@ impl Heavy {
         [xx, yy, zz, xy, xz, yz]
     }
 
+    /// Those of a body that resists every turn, for programs that refuse others: moments of a thin rod or a point are raised
+    /// by `least`.
+    pub fn moments_above(&self, least: f64) -> [f64; 6] {
+        let mut moments = self.moments();
+        if self.principal_moments().min() < least {
+            moments[..3].iter_mut().for_each(|moment| *moment += least);
+        }
+        moments
+    }
+
+    /// The principal moments.
+    fn principal_moments(&self) -> nalgebra::Vector3<f64> {
+        nalgebra::Matrix3::from_fn(|i, j| self.inertia[i][j]).symmetric_eigenvalues()
+    }
+
     /// A mass about a pose in a frame: its centre at the origin there, its moments along the axes.
     pub fn at(mass: f64, moments: [f64; 6], pose: &Pose<f64>) -> Self {
         let own = Heavy {
@@ -58,8 +73,7 @@ impl Heavy {
         if self.mass < 0.0 || !numbers.all(fine) {
             return false;
         }
-        let tensor = nalgebra::Matrix3::from_fn(|i, j| self.inertia[i][j]);
-        let moments = tensor.symmetric_eigenvalues();
+        let moments = self.principal_moments();
         let (least, most) = (moments.min(), moments.max());
         least >= -ROUNDING * most.abs() && 2.0 * most <= moments.sum() + ROUNDING * most.abs()
     }

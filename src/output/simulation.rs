@@ -6,7 +6,8 @@ use super::quantity::{bound, number, quantity};
 use super::report::{Report, Rows};
 use crate::algebra::SiUnit;
 use crate::analysis::simulation::{
-    Happened, NoSimulation, SimulationEnd, SimulationEvent, SimulationReport,
+    Happened, Linear, NoSimulation, SimulationColumn, SimulationEnd, SimulationEvent,
+    SimulationReport,
 };
 use crate::description::{count, listed};
 
@@ -14,11 +15,14 @@ impl Report for SimulationReport {
     fn document(&self) -> Document {
         let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
         let document = Document::new(&self.mechanism, answer)
-            .yes_if(self.end == SimulationEnd::Over)
+            .yes_if([SimulationEnd::Over, SimulationEnd::Linearised].contains(&self.end))
             .warnings(closing::outside_limits(&self.pose.outside_limits))
             .notes(closing::notes(&self.pose));
         if self.rows.is_empty() {
             return document;
+        }
+        if let Some(linear) = &self.linear {
+            return document.sections(linearised(linear));
         }
         let kind = match self.stiff {
             true => " (stiff: implicit steps of order 5)",
@@ -50,7 +54,11 @@ fn sentence(report: &SimulationReport) -> String {
     let time = quantity(report.reached, SiUnit::SECOND);
     let freedoms = count(report.freedoms, "freedom");
     match &report.end {
+        SimulationEnd::Over if report.freedoms == 0 => format!("Moves for {time} as it is driven."),
         SimulationEnd::Over => format!("Moves for {time} with {freedoms}."),
+        SimulationEnd::Linearised => {
+            format!("Linearised at the start, with {freedoms}: x' = f + A dx + B u, y = y0 + C dx.")
+        }
         SimulationEnd::Interrupted => format!("Interrupted after {time} of motion."),
         SimulationEnd::Limit { joint, limit, unit } => {
             let limit = quantity(*limit, *unit);
@@ -97,15 +105,48 @@ fn balance(report: &SimulationReport) -> String {
         true => format!(", {} lost in impacts", joules(energy.lost)),
         false => String::new(),
     };
+    let corrected = match energy.corrected > 0.0 {
+        true => format!(
+            ", where rates were corrected by {} J in all",
+            bound(energy.corrected)
+        ),
+        false => String::new(),
+    };
     format!(
         "kinetic and potential energy {} at the start, {} at the end, work of forces and dampers {}{lost}; \
-         the balance is kept within {} J at every row; kinetic energy up to {}",
+         the balance is kept within {} J at every row{corrected}; kinetic energy up to {}",
         joules(energy.start),
         joules(energy.end),
         joules(energy.supplied),
         bound(energy.error),
         joules(energy.kinetic)
     )
+}
+
+/// The matrices of linear equations, with f beside A; D is zero.
+fn linearised(of: &Linear) -> [Section; 3] {
+    let head = |column: &SimulationColumn| format!("{} ({})", column.name, column.unit);
+    let matrix = |title: &str, rows: &[String], columns: &[String], entries: &[Vec<f64>]| {
+        let rows = rows.iter().zip(entries);
+        let table = Table::of(rows).words("", |(name, _)| name.as_str());
+        let columns = columns.iter().enumerate();
+        let table = columns.fold(table, |table, (i, name)| {
+            table.numbers(name.clone(), move |(_, row)| row[i])
+        });
+        Section::new(title).table(table)
+    };
+    let [states, inputs, outputs] = [&of.states, &of.inputs, &of.outputs];
+    let heads = |of: &[SimulationColumn]| of.iter().map(head).collect::<Vec<String>>();
+    let (states, inputs, outputs) = (heads(states), heads(inputs), heads(outputs));
+    let rates: Vec<String> = states.iter().map(|name| format!("d/dt {name}")).collect();
+    let widened = |(row, f): (&Vec<f64>, &f64)| row.iter().chain([f]).copied().collect();
+    let with_f: Vec<Vec<f64>> = of.a.iter().zip(&of.change).map(widened).collect();
+    let with_name: Vec<String> = states.iter().cloned().chain(["f".into()]).collect();
+    [
+        matrix("A, and f", &rates, &with_name, &with_f),
+        matrix("B", &rates, &inputs, &of.b),
+        matrix("C", &outputs, &states, &of.c),
+    ]
 }
 
 fn events(events: &[SimulationEvent]) -> Section {

@@ -163,11 +163,11 @@ fn means(motion: &MotionReport) -> Option<Section> {
         .words("quantity", |of| &of.name)
         .numbers("mean", move |of| cell(of.mean, of))
         .numbers("root mean square", move |of| cell(of.rms, of));
+    let joules = |value: Option<f64>| value.map(|x| Cell::quantity(x, SiUnit::NEWTON_METRE));
     let table = match known.iter().any(|of| of.fluctuation.is_some()) {
-        true => table.numbers("fluctuation of energy", |of| {
-            let energy = of.fluctuation;
-            energy.map(|energy| Cell::quantity(energy, SiUnit::NEWTON_METRE))
-        }),
+        true => table
+            .numbers("work", move |of| joules(of.work))
+            .numbers("fluctuation of energy", move |of| joules(of.fluctuation)),
         false => table,
     };
     (!known.is_empty()).then(|| Section::new("Means over the time").table(table))

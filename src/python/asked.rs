@@ -11,6 +11,8 @@ use super::QuestionError;
 use super::words::{Keywords, Refused, message, worded};
 use crate::analysis::assemblies::Wanted;
 use crate::analysis::compare::CompareSettings;
+use crate::analysis::equilibrium::EquilibriumSettings;
+use crate::analysis::simulation::SimulationSettings;
 use crate::analysis::singularities::SingularitiesSettings;
 use crate::analysis::sweep::{Law, SweepSettings};
 use crate::analysis::workspace::WorkspaceSettings;
@@ -109,6 +111,8 @@ pub struct Settings {
     pub sweep: SweepSettings,
     pub workspace: WorkspaceSettings,
     pub compare: CompareSettings,
+    pub equilibrium: EquilibriumSettings,
+    pub simulation: SimulationSettings,
     pub of: Option<String>,
     pub relative_to: Option<String>,
 }
@@ -147,6 +151,21 @@ fn range(name: &str, given: &Bound<PyAny>) -> PyResult<(Number, Number)> {
         )),
         _ => {
             let said = format!("`{name}` is two values, (from, to), not {}", ends.len());
+            Err(QuestionError::new_err(said))
+        }
+    }
+}
+
+/// A number between two others.
+fn within(key: &str, number: f64, least: f64, most: f64) -> PyResult<f64> {
+    match (least..=most).contains(&number) {
+        true => Ok(number),
+        false => {
+            let least = match least == f64::MIN_POSITIVE {
+                true => "more than 0 and at most".to_owned(),
+                false => format!("between {least} and"),
+            };
+            let said = format!("`{key}` is {least} {most}, not {number}");
             Err(QuestionError::new_err(said))
         }
     }
@@ -251,6 +270,7 @@ impl Asked {
             }
             "seed" => {
                 let seed = taken(key, COUNT, given)?;
+                settings.equilibrium.seed = seed;
                 self.change(|question| question.seed(seed));
             }
             "all_complex" => settings.assemblies.all_complex = taken(key, FLAG, given)?,
@@ -271,7 +291,24 @@ impl Asked {
             "starts" => {
                 settings.workspace.starts = taken(key, COUNT, given)?;
                 settings.singularities.starts = settings.workspace.starts;
+                settings.equilibrium.starts = settings.workspace.starts;
             }
+            "all" => settings.equilibrium.all = taken(key, FLAG, given)?,
+            "time" => {
+                let time = taken(key, "a number of seconds", given)?;
+                settings.simulation.duration = within(key, time, f64::MIN_POSITIVE, 1e9)?;
+            }
+            "rows" => settings.simulation.rows = taken(key, COUNT, given)?,
+            "error" => {
+                let error = taken(key, "a number", given)?;
+                settings.simulation.tolerance = within(key, error, 1e-14, 1e-2)?;
+            }
+            "restitution" => {
+                let part = taken(key, "a number", given)?;
+                settings.simulation.restitution = Some(within(key, part, 0.0, 1.0)?);
+            }
+            "linearise" => settings.simulation.linearised = taken(key, FLAG, given)?,
+            "through" => settings.simulation.through = taken(key, FLAG, given)?,
             "search" => settings.workspace.searched = taken(key, COUNT, given)?,
             "samples" => settings.compare.samples = taken(key, COUNT, given)?,
             "of" => settings.of = Some(taken(key, "the name of a frame", given)?),

@@ -158,6 +158,14 @@ pub fn answer(
         "mobility" => prefaced(mechanism, question.mobility(watch)?),
         "velocity" => prefaced(mechanism, question.velocity(watch)?),
         "statics" => prefaced(mechanism, question.statics(watch)?),
+        "equilibrium" => prefaced(
+            mechanism,
+            question.equilibrium(&settings.equilibrium, watch)?,
+        ),
+        "simulate" => prefaced(
+            mechanism,
+            question.simulation(&settings.simulation, watch)?,
+        ),
         "singularities" => prefaced(mechanism, question.singularities(singularities, watch)?),
         "along" => prefaced(mechanism, question.along(singularities, watch)?),
         "loci" => prefaced(mechanism, question.loci(singularities, watch)?),

@@ -174,7 +174,9 @@ impl Integrator {
     /// Begins, or goes on, at a time and state.
     pub fn start(&mut self, flow: &mut dyn Flow, time: f64, state: &[f64]) -> Result<(), TooShort> {
         let method = if self.stiff { implicit } else { explicit };
-        self.method = method(self.tolerance, self.step, state.len());
+        // the methods refuse a first step beyond the end
+        let step = self.step.min(self.end - time);
+        self.method = method(self.tolerance, step, state.len());
         (self.method).begin(&SharedFlow::of(flow), [time, self.end], &state.to_vec())
     }
 
@@ -361,6 +363,25 @@ mod tests {
             "{state:?}"
         );
         assert!(!end.is_stiff());
+    }
+
+    #[test]
+    fn it_goes_on_near_the_end_with_a_longer_step_than_is_left() {
+        let mut flow = Of(|t: f64, _: &[f64], dy: &mut [f64]| {
+            dy[0] = t;
+            true
+        });
+        let mut integrator = Integrator::new(1e-11, 100.0);
+        integrator.start(&mut flow, 0.0, &[0.0]).unwrap();
+        while integrator.time() < 99.0 {
+            integrator.step(&mut flow).unwrap();
+            let (time, state) = (integrator.time(), integrator.state().to_vec());
+            integrator.start(&mut flow, time, &state).unwrap();
+        }
+        while integrator.time() < 100.0 {
+            integrator.step(&mut flow).unwrap();
+        }
+        assert!((integrator.state()[0] - 5000.0).abs() < 1e-7);
     }
 
     #[test]

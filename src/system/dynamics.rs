@@ -17,11 +17,13 @@ use chart::{Base, Chart, accelerations};
 pub struct Dynamics<'a> {
     mechanism: &'a Mechanism,
     load: &'a Load,
-    /// Coordinates that keep their values.
+    /// Coordinates that move as they are told, then those that keep their values.
     locked: Vec<Coordinate>,
+    /// The number of the former.
+    driven: usize,
     still: Vec<Still>,
     chart: Chart,
-    /// Rates of all unknowns for unit rates of each independent coordinate.
+    /// Rates of all unknowns for unit rates of each coordinate that [moves](Dynamics::moved).
     responses: Vec<Vec<f64>>,
     residual: f64,
     /// An assembled configuration with the values and responses there: closing begins from it along its path, so that
@@ -44,8 +46,10 @@ pub struct Accelerated {
     pub kinetic: f64,
     /// Potential energy of weights and springs, in J.
     pub potential: f64,
-    /// The power of given forces less that of dampers, in W.
+    /// The power of given forces and drives less that of dampers, in W.
     pub supplied: f64,
+    /// The forces of what drives coordinates, in N and N·m.
+    pub drives: Vec<f64>,
 }
 
 /// Reasons for which a mechanism has no equations of motion at a configuration.
@@ -65,14 +69,15 @@ const SETTLING: usize = 30;
 const FASTEST: f64 = 4.0;
 
 impl<'a> Dynamics<'a> {
-    /// The equations near an assembled configuration with so many freedoms left by what is locked.
+    /// The equations near an assembled configuration with so many freedoms left by what is locked, of which the first ones
+    /// move as they are told.
     ///
     /// # Errors
     /// If it is singular.
     pub fn new(
         mechanism: &'a Mechanism,
         load: &'a Load,
-        (locked, still): (Vec<Coordinate>, Vec<Still>),
+        (driven, locked, still): (usize, Vec<Coordinate>, Vec<Still>),
         freedoms: usize,
         at: &Configuration<f64>,
     ) -> Result<Self, NoDynamics> {
@@ -90,6 +95,7 @@ impl<'a> Dynamics<'a> {
             latest: (Vec::new(), Vec::new()),
             mechanism,
             load,
+            driven,
             locked,
             still,
         };
@@ -103,6 +109,11 @@ impl<'a> Dynamics<'a> {
         &self.chart.coordinates[..self.chart.free]
     }
 
+    /// The independent coordinates, then those that are driven.
+    pub fn moved(&self) -> &[Coordinate] {
+        &self.chart.coordinates[..self.chart.free + self.driven]
+    }
+
     /// The configuration last closed.
     pub fn configuration(&self) -> &Configuration<f64> {
         self.chart.tracker.configuration()
@@ -113,7 +124,7 @@ impl<'a> Dynamics<'a> {
         self.chart.motion.known()[0]
     }
 
-    /// Rates of all unknowns for unit rates of each independent coordinate, as last evaluated.
+    /// Rates of all unknowns for unit rates of each coordinate that moves, as last evaluated.
     pub fn responses(&self) -> &[Vec<f64>] {
         &self.responses
     }
@@ -123,15 +134,15 @@ impl<'a> Dynamics<'a> {
         &self.chart.motion
     }
 
-    /// Values of the independent coordinates at a configuration, in m and rad.
+    /// Values of the coordinates that move at a configuration, in m and rad.
     pub fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
-        let coordinates = self.coordinates().iter();
+        let coordinates = self.moved().iter();
         coordinates.map(|of| of.of(self.mechanism, at)).collect()
     }
 
-    /// The sizes of the independent coordinates' dimensionless units, in m and rad.
+    /// The sizes of the dimensionless units of the coordinates that move, in m and rad.
     pub fn units(&self) -> Vec<f64> {
-        let coordinates = self.coordinates().iter();
+        let coordinates = self.moved().iter();
         coordinates.map(|of| of.scale(self.mechanism)).collect()
     }
 
@@ -152,7 +163,7 @@ impl<'a> Dynamics<'a> {
         };
     }
 
-    /// Goes to the assembled configuration with these values of the independent coordinates that is reached from the
+    /// Goes to the assembled configuration with these values of the coordinates that move that is reached from the
     /// [base](Dynamics::stand) along its path. False if there is none.
     pub fn close(&mut self, values: &[f64]) -> bool {
         let mechanism = self.mechanism;
@@ -214,7 +225,7 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Chooses other independent coordinates if something moves much faster than these, and returns the rates of the new
-    /// ones for those of the old.
+    /// ones for those of the old, driven ones last.
     ///
     /// # Errors
     /// If the configuration is singular.
@@ -241,7 +252,7 @@ impl<'a> Dynamics<'a> {
         Ok(Some(rates))
     }
 
-    /// The rate of a coordinate for unit rates of each independent coordinate where these were last evaluated.
+    /// The rate of a coordinate for unit rates of each that moves where these were last evaluated.
     pub fn rates_of(&self, of: Coordinate) -> Vec<f64> {
         let joints = self.mechanism.joints().len();
         let scale = of.scale(self.mechanism);
@@ -289,7 +300,7 @@ impl<'a> Dynamics<'a> {
             return None;
         }
         let free = *free;
-        self.responses.resize(free, Vec::new());
+        self.responses.resize(free + self.driven, Vec::new());
         for (i, response) in self.responses.iter_mut().enumerate() {
             response.clear();
             response.extend_from_slice(motion.response(i));
@@ -356,45 +367,55 @@ impl<'a> Dynamics<'a> {
         balance.forces.iter().map(|held| -held).collect()
     }
 
-    /// Evaluates the equations of motion at the configuration last closed, for rates of the independent coordinates in
-    /// m/s and rad/s. `None` if they do not determine the motion, or a force has no value.
-    pub fn evaluate(&mut self, rates: &[f64], time: f64) -> Option<Accelerated> {
+    /// Evaluates the equations of motion at the configuration last closed, for rates of the independent coordinates, then of
+    /// those that are driven, in m/s and rad/s, and accelerations of the latter. `None` if they do not determine the motion,
+    /// or a force has no value.
+    pub fn evaluate(&mut self, rates: &[f64], driven: &[f64], time: f64) -> Option<Accelerated> {
         let mass = self.mass()?;
+        let free = self.chart.free;
         let motion = &mut self.chart.motion;
         let mut given = vec![0.0; self.chart.coordinates.len()];
         given[..rates.len()].copy_from_slice(rates);
         motion.rates(&given);
         given.fill(0.0);
+        given[free..free + driven.len()].copy_from_slice(driven);
         motion.accelerations(&given);
         self.latest = (rates.to_vec(), motion.known()[1].to_vec());
-        let forces = self.powers(time, None);
+        let mut forces = self.powers(time, None);
+        let mut drives = forces.split_off(free);
         let mut found = accelerations(&mass, &forces);
         // friction depends on reactions, and these on accelerations: what is left unbalanced corrects them
-        for _ in 0..if self.load.has_friction() {
-            SETTLING
-        } else {
-            0
-        } {
-            given[..found.len()].copy_from_slice(&found);
+        let corrections = match (self.load.has_friction(), driven) {
+            (true, _) => SETTLING,
+            (false, []) => 0,
+            _ => 1,
+        };
+        for _ in 0..corrections {
+            given[..free].copy_from_slice(&found);
             self.chart.motion.accelerations(&given);
-            let correction = accelerations(&mass, &self.powers(time, None));
+            let mut left = self.powers(time, None);
+            drives = left.split_off(free);
+            let correction = accelerations(&mass, &left);
             let (size, change) = (norm(&found), norm(&correction));
             add(&mut found, 1.0, &correction);
             if change <= 1e-13 * size || change == 0.0 {
                 break;
             }
         }
+        drives.iter_mut().for_each(|drive| *drive = -*drive);
         let acting = &self.chart.balance.acting;
         let now = Accelerated {
             accelerations: found,
             kinetic: acting.kinetic,
             potential: acting.potential,
-            supplied: acting.supplied,
+            supplied: acting.supplied + dot(&drives, &rates[free..]),
+            drives,
             forces,
             mass,
         };
         let numbers = now.accelerations.iter().chain(&now.forces);
-        let known = numbers.chain([&now.potential]).all(|x| x.is_finite());
+        let others = now.drives.iter().chain([&now.potential]);
+        let known = numbers.chain(others).all(|x| x.is_finite());
         known.then_some(now)
     }
 }

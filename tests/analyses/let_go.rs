@@ -234,6 +234,141 @@ fn what_is_balanced_stays_and_what_falls_without_end_is_said() {
     );
 }
 
+/// A rod 2 m long with 3 kg on a pin at its end, along x at 0.
+const PENDULUM: &str = r#"Axes(version: 1, name: "pendulum", gravity: (0, -9.81, 0),
+    joints: { "pin": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: ("ground", "rod"), role: Actuated) },
+    points: { "middle": (body: "rod", at: (1, 0, 0)) }, masses: { "middle": (mass: 3, shape: Rod(2)) })"#;
+
+#[test]
+fn energy_is_kept_over_many_swings() {
+    let settings = SimulationSettings {
+        duration: 60.0,
+        rows: 10,
+        ..SimulationSettings::default()
+    };
+    let report = simulated(&four_bar(""), &settings);
+    assert_eq!(report.end, SimulationEnd::Over);
+    assert!(report.energy.error < 1e-8, "{:?}", report.energy);
+    assert!(report.energy.corrected < 1e-6, "{:?}", report.energy);
+}
+
+#[test]
+fn a_motor_follows_its_law() {
+    // 4 kg·m² on a spring of 20 N·m and a damper of 3 N·m·s: θ = 1 − e^(−σt)·(cos ωt + σ/ω·sin ωt)
+    let law = "20 N*m*(1 - pin) - 3 N*m*s*velocity:pin";
+    let driven = question(PENDULUM).without("weight").load("pin", law);
+    let report = let_go(&driven, 2.0, 4);
+    let (sigma, square) = (0.375, 5.0f64);
+    let omega = (square - sigma * sigma).sqrt();
+    for t in [0.5f64, 1.0, 2.0] {
+        let swing = (omega * t).cos() + sigma / omega * (omega * t).sin();
+        near(&at(&report, t, &["pin"]), &[1.0 - (-sigma * t).exp() * swing], 1e-8);
+    }
+    let settings = SimulationSettings::default();
+    let refused = |question: Question| question.simulation(&settings, &Watch::none()).err();
+    assert!(refused(question(PENDULUM).load("pin", "3 m*pin")).is_some());
+    assert!(refused(question(PENDULUM).load("pin", "force:pin*1")).is_some());
+}
+
+#[test]
+fn a_driven_joint_goes_at_its_speed_and_tells_its_force() {
+    // θ = t², held by 4·2 N·m and against the weight 3·9.81 N at 1 m
+    let driven = question(PENDULUM).lock("pin").rate("pin", "2 rad/s^2*time");
+    let report = let_go(&driven, 1.0, 4);
+    assert_eq!((report.end.clone(), report.freedoms), (SimulationEnd::Over, 0));
+    for t in [0.25f64, 0.5, 1.0] {
+        let (angle, force) = (t * t, 8.0 + 3.0 * 9.81 * (t * t).cos());
+        near(&at(&report, t, &["pin", "rate:pin", "force:pin"]), &[angle, 2.0 * t, force], 1e-8);
+    }
+    assert!(report.energy.error < 1e-8, "{:?}", report.energy);
+    // the crank of the four-bar at 25 rad/s, whose torque is known at 24 angles
+    let driven = four_bar("").hold("theta", 0.0).lock("theta").rate("theta", 25.0);
+    let report = let_go(&driven, std::f64::consts::TAU / 25.0, 24);
+    let known: Value = serde_json::from_str(include_str!("../data/loads_four_bar.json")).unwrap();
+    for (k, row) in rows(&known["answer"]).iter().enumerate().take(24) {
+        let torque = report.rows[k].len() - 4;
+        assert_eq!(report.columns[torque].name, "force:theta");
+        near(&[report.rows[k][1], report.rows[k][torque]], &row[..2], 1e-7);
+    }
+    // what depends on a joint is no law of time
+    let wrong = question(PENDULUM).lock("pin").rate("pin", "2*pin");
+    let settings = SimulationSettings::default();
+    assert!(wrong.simulation(&settings, &Watch::none()).is_err());
+}
+
+#[test]
+fn equations_are_linearised_as_textbooks_do() {
+    // an inverted pendulum of 0.2 kg at 0.5 m on a cart of 0.8 kg: ẍ = (u + m·g·θ)/M, θ̈ = (u + (M + m)·g·θ)/(M·l)
+    let cart = question(
+        r#"Axes(version: 1, name: "cart", gravity: (0, -9.81, 0),
+            joints: {
+                "x": Prismatic(direction: (1, 0, 0), between: ("ground", "cart"), role: Actuated),
+                "pole": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: ("cart", "pole")),
+            },
+            points: { "c": (body: "cart", at: (0, 0, 0)), "p": (body: "pole", at: (0, 0.5, 0)) },
+            masses: { "c": (mass: 0.8), "p": (mass: 0.2) })"#,
+    );
+    let settings = SimulationSettings {
+        linearised: true,
+        ..SimulationSettings::default()
+    };
+    let report = simulated(&cart, &settings);
+    assert_eq!(report.end, SimulationEnd::Linearised);
+    let linear = report.linear.unwrap();
+    let place = |name: &str| linear.states.iter().position(|of| of.name == name).unwrap();
+    let (x, pole) = (place("rate:x"), place("rate:pole"));
+    let (m, big, g, l) = (0.2, 0.8, 9.81, 0.5);
+    near(
+        &[linear.a[x][place("pole")], linear.a[pole][place("pole")]],
+        &[m * g / big, (big + m) * g / (big * l)],
+        1e-9,
+    );
+    near(&[linear.b[x][0], linear.b[pole][0]], &[1.0 / big, 1.0 / (big * l)], 1e-12);
+    assert_eq!(linear.inputs[0].name, "force:x");
+    let row = linear.outputs.iter().position(|of| of.name == "pole").unwrap();
+    near(&[linear.c[row][place("pole")], linear.c[row][place("x")]], &[1.0, 0.0], 1e-12);
+    // hanging it swings: A turns its sign
+    let hangs = simulated(&cart.hold("x", 0.0).guess("pole", std::f64::consts::PI), &settings);
+    let a = &hangs.linear.unwrap().a;
+    near(&[a[pole][place("pole")]], &[-(big + m) * g / (big * l)], 1e-8);
+}
+
+#[test]
+fn accelerations_are_those_of_another_program() {
+    let known: Value = serde_json::from_str(include_str!("../data/accelerations.json")).unwrap();
+    for case in known["cases"].as_array().unwrap() {
+        let name = case["file"].as_str().unwrap();
+        let file = format!("{}/mechanisms/loads/{name}.ron", env!("CARGO_MANIFEST_DIR"));
+        let mut question = Question::new(Mechanism::load(file).unwrap());
+        for group in ["springs", "forces", "friction"] {
+            question = question.without(group);
+        }
+        for (joint, rate) in case["rates"].as_object().unwrap() {
+            let place = question.mechanism().joint(joint).unwrap();
+            let home = question.mechanism().joints()[place].home;
+            question = question.hold(joint, home).rate(joint, rate.as_f64().unwrap());
+        }
+        let settings = SimulationSettings {
+            linearised: true,
+            ..SimulationSettings::default()
+        };
+        let linear = simulated(&question, &settings).linear.unwrap();
+        let known = &case["accelerations"];
+        let numbers = known.as_object().unwrap().values();
+        let largest = numbers.fold(0.0, |most: f64, x| most.max(x.as_f64().unwrap().abs()));
+        let mut compared = 0;
+        for (state, change) in linear.states.iter().zip(&linear.change) {
+            let joint = state.name.strip_prefix("rate:").map(|joint| &known[joint]);
+            if let Some(expected) = joint.and_then(Value::as_f64) {
+                let off = (change - expected).abs() / largest;
+                assert!(off < 1e-9, "{name}: {} {change} instead of {expected}", state.name);
+                compared += 1;
+            }
+        }
+        assert!(compared > 0, "{name}");
+    }
+}
+
 /// The potential energy of the four-bar with its crank along ground.
 fn at_zero() -> f64 {
     let still = four_bar("").hold("theta", 0.0);

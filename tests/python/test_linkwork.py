@@ -531,3 +531,32 @@ def test_parts_are_listed_and_imported():
 def test_the_module_is_the_command_line():
     said = subprocess.run([sys.executable, "-m", "linkwork", "--version"], capture_output=True, text=True)
     assert said.returncode == 0 and said.stdout == f"linkwork {linkwork.__version__}\n"
+
+
+#: A rod 2 m long on a pin, hanging along -y at -90 degrees.
+PENDULUM = """Axes(version: 1, name: "pendulum", gravity: (0, -9.81, 0),
+    joints: { "pin": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: ("ground", "rod"), role: Actuated) },
+    points: { "middle": (body: "rod", at: (1, 0, 0)) }, masses: { "middle": (mass: 3, shape: Rod(2)) })"""
+
+
+def test_a_pendulum_is_let_go_and_rests() -> None:
+    pendulum = linkwork.parse(PENDULUM)
+    motion = pendulum.simulate(1.0, rows=4, pin="-80 deg", rate={"pin": 0.5}, of="middle")
+    assert motion["t"].tolist() == [0, 0.25, 0.5, 0.75, 1]
+    assert motion.units["rate:pin"] == "rad/s"
+    assert np.allclose(motion["middle.x"], np.cos(motion["pin"]))
+    # inertia about the pin 4 kg m2; energy from the angle and the rate
+    energy = 2 * motion["rate:pin"] ** 2 + 3 * 9.81 * np.sin(motion["pin"])
+    assert np.ptp(energy) < 1e-8
+    assert motion["kinetic energy"][0] == pytest.approx(0.5)
+    hangs = pendulum.equilibrium()
+    assert hangs.positions[0].joints.pin == pytest.approx(-np.pi / 2, abs=1e-9)
+    assert hangs.positions[0].stability == "stable"
+    assert len(pendulum.equilibrium(all=True, starts=20).positions) == 2
+    # held along x by the moment of the weight, and by none without it
+    assert pendulum.statics(pin=0.0).to_dict() != pendulum.statics(pin=0.0, without="weight").to_dict()
+    with pytest.raises(linkwork.QuestionError, match="restitution"):
+        pendulum.simulate(restitution=2)
+    with pytest.raises(linkwork.QuestionError, match="time"):
+        pendulum.simulate(-1.0)
+    assert not pendulum.simulate(1.0, lock="pin")

@@ -38,6 +38,7 @@ pub(crate) fn located(
         Extremum {
             mean: means.map(|of| of.mean),
             rms: means.map(|of| of.rms),
+            work: swing.map(|of| of.mean * meter.duration()),
             fluctuation: swing.map(|of| of.swing * meter.duration()),
             ..found
         }
@@ -62,6 +63,7 @@ fn extremum(
         missing: None,
         mean: None,
         rms: None,
+        work: None,
         fluctuation: None,
     };
     let [Some(least), Some(greatest)] = bounds.best else {

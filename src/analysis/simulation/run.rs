@@ -2,11 +2,12 @@
 
 mod across;
 mod events;
+mod linearise;
 mod rows;
 
 use super::{
     EnergyBalance, Happened, SimulationColumn, SimulationEnd, SimulationEvent, SimulationReport,
-    SimulationSettings,
+    SimulationSettings, Speed,
 };
 use across::across;
 use events::Met;
@@ -14,16 +15,17 @@ use events::Met;
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, add, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate};
+use crate::number::tolerance::SUMMED;
 use crate::solve::{Flow, Integrator, Stage, Watch, edge};
 use crate::system::{Accelerated, Coordinate, Dynamics, FrameTwists, GivenPose};
 
-/// A simulation under way: the state is the values of the independent coordinates, their rates and the work supplied.
+/// A simulation under way: the state is the values of the coordinates that move, the rates of the independent ones and the
+/// work supplied.
 pub(super) struct Run<'a, 'd> {
     mechanism: &'a Mechanism,
     dynamics: &'d mut Dynamics<'a>,
     settings: &'d SimulationSettings,
-    /// Sizes of the coordinates' dimensionless units, in m and rad.
-    units: Vec<f64>,
+    laws: Laws<'d>,
     /// Points and frames of platforms whose positions are given.
     points: Vec<Point>,
     state: Vec<f64>,
@@ -36,53 +38,80 @@ pub(super) struct Run<'a, 'd> {
     widest: f64,
 }
 
+/// The meaning of a state.
+struct Laws<'d> {
+    /// Sizes of the dimensionless units of the coordinates that move, in m and rad.
+    units: Vec<f64>,
+    /// Speeds of the last ones.
+    speeds: &'d [Speed],
+}
+
+impl Laws<'_> {
+    /// The number of independent coordinates.
+    fn free(&self) -> usize {
+        self.units.len() - self.speeds.len()
+    }
+
+    /// Values of the coordinates of a state, in m and rad.
+    fn values(&self, state: &[f64]) -> Vec<f64> {
+        let both = state.iter().zip(&self.units);
+        both.map(|(x, unit)| x * unit).collect()
+    }
+
+    /// Rates of the coordinates in a state, in m/s and rad/s, and accelerations of those that are driven.
+    fn rates(&self, time: f64, state: &[f64]) -> [Vec<f64>; 2] {
+        let rates = state[self.units.len()..].iter().zip(&self.units);
+        let mut rates: Vec<f64> = rates.map(|(x, unit)| x * unit).collect();
+        rates.truncate(self.free());
+        let driven = self.speeds.iter().map(|of| of.at(time));
+        let (speeds, changes): (Vec<f64>, Vec<f64>) = driven.map(|[v, a]| (v, a)).unzip();
+        rates.extend(speeds);
+        [rates, changes]
+    }
+}
+
 /// The equations of motion over the state.
-struct Equations<'d, 'a> {
-    dynamics: &'d mut Dynamics<'a>,
-    units: &'d [f64],
+struct Equations<'r, 'd, 'a> {
+    dynamics: &'r mut Dynamics<'a>,
+    laws: &'r Laws<'d>,
     /// The margin below which they are taken from both sides.
     sick: f64,
 }
 
-impl Flow for Equations<'_, '_> {
+impl Flow for Equations<'_, '_, '_> {
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) -> bool {
-        let (units, free) = (self.units, self.units.len());
-        let found = across(self.dynamics, units, state, self.sick, |dynamics, state| {
-            let (_, instant) = at(dynamics, units, time, state)?;
+        let laws = self.laws;
+        let [moving, _] = laws.rates(time, state);
+        let moved = moving.iter().zip(&laws.units).map(|(x, unit)| x / unit);
+        rates.iter_mut().zip(moved).for_each(|(to, rate)| *to = rate);
+        let found = across(self.dynamics, laws, (time, state), self.sick, |dynamics, state| {
+            let (_, instant) = at(dynamics, laws, time, state)?;
             let mut changes = instant.accelerations;
-            changes
-                .iter_mut()
-                .zip(units)
-                .for_each(|(a, unit)| *a /= unit);
+            let units = changes.iter_mut().zip(&laws.units);
+            units.for_each(|(a, unit)| *a /= unit);
             changes.push(instant.supplied);
             Some(changes)
         });
         let Some(found) = found else {
             return false;
         };
-        rates[..free].copy_from_slice(&state[free..2 * free]);
-        rates[free..].copy_from_slice(&found);
+        rates[laws.units.len()..].copy_from_slice(&found);
         true
     }
 }
 
-/// Closes the mechanism in a state and evaluates it there: rates of the independent coordinates, and the instant.
+/// Closes the mechanism in a state and evaluates it there: rates of the coordinates that move, and the instant.
 fn at(
     dynamics: &mut Dynamics,
-    units: &[f64],
+    laws: &Laws,
     time: f64,
     state: &[f64],
 ) -> Option<(Vec<f64>, Accelerated)> {
-    let free = units.len();
-    let part = |from: usize| {
-        let numbers = state[from..from + free].iter().zip(units);
-        numbers.map(|(x, unit)| x * unit).collect::<Vec<f64>>()
-    };
-    if !dynamics.close(&part(0)) {
+    if !dynamics.close(&laws.values(state)[..laws.units.len()]) {
         return None;
     }
-    let rates = part(free);
-    let instant = dynamics.evaluate(&rates, time)?;
+    let [rates, driven] = laws.rates(time, state);
+    let instant = dynamics.evaluate(&rates, &driven, time)?;
     Some((rates, instant))
 }
 
@@ -92,15 +121,22 @@ impl<'a, 'd> Run<'a, 'd> {
         mechanism: &'a Mechanism,
         dynamics: &'d mut Dynamics<'a>,
         settings: &'d SimulationSettings,
-        rates: Vec<f64>,
+        mut rates: Vec<f64>,
     ) -> Option<Self> {
         let at = dynamics.configuration().clone();
-        let instant = dynamics.evaluate(&rates, 0.0)?;
+        let laws = Laws {
+            units: dynamics.units(),
+            speeds: &settings.speeds,
+        };
+        let (speeds, driven): (Vec<f64>, Vec<f64>) =
+            laws.speeds.iter().map(|of| of.at(0.0).into()).unzip();
+        rates.extend(speeds);
+        let instant = dynamics.evaluate(&rates, &driven, 0.0)?;
         let start = instant.kinetic + instant.potential;
         let mut run = Run {
             mechanism,
             settings,
-            units: Vec::new(),
+            laws,
             points: settings.points.clone(),
             state: Vec::new(),
             energy: EnergyBalance {
@@ -122,15 +158,19 @@ impl<'a, 'd> Run<'a, 'd> {
 
     /// The state at a configuration, with the work supplied so far.
     fn restate(&mut self, at: &Configuration<f64>, rates: &[f64]) {
-        self.units = self.dynamics.units();
+        self.laws.units = self.dynamics.units();
         let supplied = self.state.last().copied().unwrap_or(0.0);
         let values = self.dynamics.values(at);
-        let both = values
-            .iter()
-            .zip(&self.units)
-            .chain(rates.iter().zip(&self.units));
+        let units = &self.laws.units;
+        let free = &rates[..self.laws.free()];
+        let both = values.iter().zip(units).chain(free.iter().zip(units));
         self.state = both.map(|(x, unit)| x / unit).collect();
         self.state.push(supplied);
+    }
+
+    /// The number of independent coordinates.
+    fn free(&self) -> usize {
+        self.laws.free()
     }
 
     /// Integrates to the end.
@@ -140,12 +180,22 @@ impl<'a, 'd> Run<'a, 'd> {
         let mut time = 0.0;
         let state = self.state.clone();
         self.row(time, &state);
+        let linear = match self.settings.linearised {
+            true => self.linear(),
+            false => None,
+        };
         let started = integrator.start(&mut self.equations(), time, &state);
         let mut margin = self.dynamics.margin();
         self.widest = margin;
         let end = loop {
             if started.is_err() {
                 break SimulationEnd::Stuck;
+            }
+            if self.settings.linearised {
+                break match linear {
+                    Some(_) => SimulationEnd::Linearised,
+                    None => SimulationEnd::Stuck,
+                };
             }
             if time >= duration {
                 break SimulationEnd::Over;
@@ -173,49 +223,54 @@ impl<'a, 'd> Run<'a, 'd> {
             if met.is_none() && margin < self.sick() {
                 continue;
             }
-            let Some((rates, instant)) = at(self.dynamics, &self.units, time, &self.state) else {
+            let Some((rates, instant)) = at(self.dynamics, &self.laws, time, &self.state) else {
                 break SimulationEnd::Stuck;
             };
             self.energy.kinetic = self.energy.kinetic.max(instant.kinetic);
             self.dynamics.stand();
             let ends = match met {
                 None => None,
-                Some((_, Met::Singular)) => Some(SimulationEnd::Singular),
+                Some((_, Met::Singular)) => Some(Some(SimulationEnd::Singular)),
                 Some((_, Met::Limit { joint, limit })) => {
-                    self.bounce(&mut integrator, time, (joint, limit), &rates, &instant)
+                    Some(self.bounce(&mut integrator, time, (joint, limit), &rates, &instant))
                 }
             };
-            if let Some(end) = ends {
-                let state = self.state.clone();
-                if self.rows.last().is_none_or(|row| row[0] < time) {
-                    self.row(time, &state);
-                }
-                break end;
-            }
-            match self.dynamics.choose(&rates) {
-                Ok(None) => {}
-                Ok(Some(rates)) => {
-                    let at = self.dynamics.configuration().clone();
-                    self.restate(&at, &rates);
+            match ends {
+                None => {}
+                Some(None) => continue,
+                Some(Some(end)) => {
                     let state = self.state.clone();
-                    if integrator
-                        .start(&mut self.equations(), time, &state)
-                        .is_err()
-                    {
-                        break SimulationEnd::Stuck;
+                    if self.rows.last().is_none_or(|row| row[0] < time) {
+                        self.row(time, &state);
                     }
+                    break end;
                 }
+            }
+            let scale = match integrator.is_stiff() {
+                true => None,
+                false => self.projection(&instant),
+            };
+            let kept: Vec<f64> = rates.iter().map(|rate| rate * scale.unwrap_or(1.0)).collect();
+            let (at, others) = match self.dynamics.choose(&kept) {
+                Ok(None) if scale.is_none() => continue,
+                Ok(others) => (self.dynamics.configuration().clone(), others),
                 Err(_) => break SimulationEnd::Singular,
+            };
+            self.restate(&at, &others.unwrap_or(kept));
+            let state = self.state.clone();
+            if (integrator.start(&mut self.equations(), time, &state)).is_err() {
+                break SimulationEnd::Stuck;
             }
         };
         SimulationReport {
             mechanism: self.mechanism.name().into(),
-            freedoms: self.units.len(),
+            freedoms: self.free(),
             columns: self.columns(),
             rows: self.rows,
             reached: time,
             end,
             events: self.events,
+            linear,
             energy: self.energy,
             residual: self.residual,
             steps: self.steps,
@@ -224,21 +279,40 @@ impl<'a, 'd> Run<'a, 'd> {
         }
     }
 
-    fn equations(&mut self) -> Equations<'_, 'a> {
+    fn equations(&mut self) -> Equations<'_, 'd, 'a> {
         Equations {
             sick: self.sick(),
             dynamics: self.dynamics,
-            units: &self.units,
+            laws: &self.laws,
         }
+    }
+
+    /// The factor of the rates that brings kinetic and potential energy into balance with the work, where the kinetic energy
+    /// is not small and steps have changed the balance by more than rounding.
+    fn projection(&mut self, instant: &Accelerated) -> Option<f64> {
+        /// Part of the largest kinetic energy that may be missing.
+        const KEPT: f64 = 1e-11;
+        /// Part of it below which the kinetic energy is small.
+        const SMALL: f64 = 0.1;
+        let energy = &mut self.energy;
+        let supplied = self.state.last().copied().unwrap_or(0.0);
+        let sum = instant.kinetic + instant.potential;
+        let missing = energy.start + supplied - energy.lost - sum;
+        let rounding = SUMMED * (instant.potential.abs() + energy.kinetic);
+        let wanted = missing.abs() > (KEPT * energy.kinetic).max(rounding)
+            && instant.kinetic > SMALL * energy.kinetic
+            && self.laws.speeds.is_empty();
+        wanted.then(|| {
+            energy.corrected += missing.abs();
+            (1.0 + missing / instant.kinetic).max(0.0).sqrt()
+        })
     }
 
     /// The reason for which no further step is possible.
     fn stuck(&mut self, integrator: &Integrator) -> SimulationEnd {
         /// Less than this part of the largest margin is a singular configuration.
         const SINGULAR: f64 = 0.03;
-        let state = integrator.state();
-        let values = state.iter().zip(&self.units).map(|(x, unit)| x * unit);
-        self.dynamics.close(&values.collect::<Vec<f64>>());
+        self.dynamics.close(&self.laws.values(integrator.state()));
         match self.dynamics.margin() < SINGULAR * self.widest {
             true => SimulationEnd::Singular,
             false => SimulationEnd::Stuck,

@@ -100,6 +100,9 @@ pub struct Extremum {
     /// The root of its mean square over the time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rms: Option<f64>,
+    /// Of a power the work, in J: its integral over the time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work: Option<f64>,
     /// Of a power the fluctuation of energy in J: the largest less the least of ∫ (P − mean) dt. A flywheel of inertia
     /// ΔE/(δ·ω²) keeps the speed within a fluctuation δ = (ω_max − ω_min)/ω.
     #[serde(default, skip_serializing_if = "Option::is_none")]

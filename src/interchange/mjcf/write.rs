@@ -204,23 +204,23 @@ impl MjcfWriter<'_> {
             let [pos, quat] = place(&body.pose);
             xml.open("body name pos quat", &[&body.name, &pos, &quat]);
             let size = self.tree.size;
+            let least = rounded(1e-12 * size * size);
+            // MuJoCo refuses bodies without mass, or without inertia about a line, that move
             match (&body.heavy, self.tree.is_heavy()) {
                 (Some(heavy), _) if heavy.mass > 0.0 && heavy.moments() != [0.0; 6] => xml.leaf(
                     "inertial pos mass fullinertia",
                     &[
                         &vector(&heavy.centre),
                         &heavy.mass,
-                        &numbers(heavy.moments()),
+                        &numbers(heavy.moments_above(least)),
                     ],
                 ),
-                // MuJoCo refuses bodies without mass or inertia that move
                 (heavy, true) => {
                     let centre = heavy.map_or(Vector3::zero(), |of| of.centre);
                     let mass = heavy.map_or(1e-9, |of| of.mass.max(1e-9));
-                    let inertia = numbers([rounded(1e-12 * size * size); 3]);
                     xml.leaf(
                         "inertial pos mass diaginertia",
-                        &[&vector(&centre), &mass, &inertia],
+                        &[&vector(&centre), &mass, &numbers([least; 3])],
                     );
                 }
                 (_, false) => {

@@ -558,7 +558,7 @@ impl Measured {
     }
 
     /// True for what is known only once all forces are.
-    fn follows_from_forces(&self) -> bool {
+    pub(crate) fn follows_from_forces(&self) -> bool {
         match self {
             Measured::Parameter(_) | Measured::Time => false,
             Measured::Joint(_, order) | Measured::Place(_, _, order) | Measured::Size(_, order) => {

@@ -248,6 +248,9 @@ impl Wording<'_> {
                 true => "only inputs and held coordinates have a force".into(),
                 false => format!("report the force that holds one of {}", listed(held)),
             }),
+            Unmeasured::Follows { what } => {
+                said.label("not known").help(format!("it is an expression of {what}"))
+            }
             Unmeasured::NoLoad => said.label("no load").help(format!(
                 "give a load with {} or {}",
                 self.give(Role::Wrench, "FRAME", &["Fx,Fy,Fz"]),

@@ -87,7 +87,7 @@ _ALWAYS = ("free", "hold", "guess", "mode", "seed")
 
 #: What maps names to something, and what names.
 _MAPPINGS = {"hold", "guess", "rate", "acceleration", "load", "dwell", "wrench", "input", "locus", "map"}
-_NAMES = {"free", "lock", "output", "point", "trace", "report"}
+_NAMES = {"free", "lock", "output", "point", "trace", "report", "without"}
 
 
 class Mechanism:
@@ -270,6 +270,7 @@ class Mechanism:
         dwell: Values | None = None,
         wrench: Mapping[str, Wrench] | None = None,
         load: Values | None = None,
+        without: Names | None = None,
         **given: Any,
     ) -> Rows:
         """A motion of an input from ``start`` to ``stop`` in equal ``steps``, with a numpy array for each column.
@@ -299,6 +300,7 @@ class Mechanism:
             dwell=dwell,
             wrench=wrenches(wrench),
             load=load,
+            without=without,
             steps=steps,
         )
 
@@ -336,10 +338,85 @@ class Mechanism:
         return entries.reshape(len(found["rows"]), len(found["columns"]))
 
     def statics(
-        self, *, wrench: Mapping[str, Wrench] | None = None, load: Values | None = None, **given: Any
+        self,
+        *,
+        wrench: Mapping[str, Wrench] | None = None,
+        load: Values | None = None,
+        without: Names | None = None,
+        **given: Any,
     ) -> Report:
-        """Joint forces that balance ``wrench={"top": (Fx, Fy, Fz, Mx, My, Mz)}`` (N, N·m) and ``load={"phi1": 2}``."""
-        return self._ask("statics", given, wrench=wrenches(wrench), load=load)  # type: ignore[no-any-return]
+        """Joint forces that balance ``wrench={"top": (Fx, Fy, Fz, Mx, My, Mz)}`` (N, N·m) and ``load={"phi1": 2}``.
+
+        Weights, springs and forces of the file act too, except those ``without``: ``"weight"``, ``"friction"``, a name.
+        """
+        return self._ask("statics", given, wrench=wrenches(wrench), load=load, without=without)  # type: ignore[no-any-return]
+
+    def equilibrium(
+        self,
+        *,
+        all: bool | None = None,
+        starts: int | None = None,
+        lock: Names | None = None,
+        wrench: Mapping[str, Wrench] | None = None,
+        load: Values | None = None,
+        without: Names | None = None,
+        **given: Any,
+    ) -> Report:
+        """Where the mechanism rests under its weights, springs and forces: ``.positions``, with stability and modes.
+
+        It walks downhill in potential energy; ``all=True`` looks for other rest positions from so many ``starts``.
+        """
+        return self._ask(  # type: ignore[no-any-return]
+            "equilibrium",
+            given,
+            all=all,
+            starts=starts,
+            lock=lock,
+            wrench=wrenches(wrench),
+            load=load,
+            without=without,
+        )
+
+    def simulate(
+        self,
+        time: float | None = None,
+        *,
+        rows: int | None = None,
+        rate: Values | None = None,
+        lock: Names | None = None,
+        of: Names | None = None,
+        restitution: float | None = None,
+        through: bool | None = None,
+        error: float | None = None,
+        linearise: bool | None = None,
+        wrench: Mapping[str, Wrench] | None = None,
+        load: Values | None = None,
+        without: Names | None = None,
+        **given: Any,
+    ) -> Rows:
+        """The motion for ``time`` (s) of the mechanism let go, with a numpy array for each column.
+
+        It starts with the rates of ``rate`` (m/s, rad/s) at what is held; ``lock`` keeps joints where they are, or
+        drives them with their rates, ``"2*pi*time"``; ``of`` gives positions of points. ``restitution`` sends joints
+        back from their limits, ``through=True`` goes on where branches of motion meet, and ``error`` is that of one
+        step. ``linearise=True`` gives A, B, C and D at the start as ``.linear`` instead.
+        """
+        return self._ask(  # type: ignore[no-any-return]
+            "simulate",
+            given,
+            time=time,
+            rows=rows,
+            rate=rate,
+            lock=lock,
+            trace=None if of is None else _given.names("of", of),
+            restitution=restitution,
+            through=through,
+            error=error,
+            linearise=linearise,
+            wrench=wrenches(wrench),
+            load=load,
+            without=without,
+        )
 
     def singularities(
         self,

@@ -158,6 +158,7 @@ impl Chart {
 /// M⁻¹·Q.
 pub(super) fn accelerations(mass: &[f64], forces: &[f64]) -> Vec<f64> {
     match forces {
+        [] => Vec::new(),
         [force] => vec![force / mass[0]],
         _ => Decomposition::of(forces.len(), forces.len(), mass).solve(forces),
     }

@@ -10,8 +10,8 @@ use super::*;
 /// state is evaluated itself. `None` where there is no value.
 pub(super) fn across(
     dynamics: &mut Dynamics,
-    units: &[f64],
-    state: &[f64],
+    laws: &Laws,
+    (time, state): (f64, &[f64]),
     sick: f64,
     mut evaluate: impl FnMut(&mut Dynamics, &[f64]) -> Option<Vec<f64>>,
 ) -> Option<Vec<f64>> {
@@ -19,19 +19,19 @@ pub(super) fn across(
     const WEIGHTS: [f64; 4] = [0.8, -0.4, 4.0 / 35.0, -1.0 / 70.0];
     /// Steps tried, in rad and characteristic lengths.
     const STEPS: [f64; 6] = [0.05, 0.075, 0.1, 0.14, 0.2, 0.28];
-    if sick == 0.0 || margin(dynamics, units, state)? >= sick {
+    if sick == 0.0 || margin(dynamics, laws, state)? >= sick {
         return evaluate(dynamics, state);
     }
-    let free = units.len();
-    let speed = norm(&state[free..2 * free]);
+    let [rates, _] = laws.rates(time, state);
+    let rates = rates.iter().zip(&laws.units).map(|(x, unit)| x / unit);
+    let rates: Vec<f64> = rates.collect();
+    let speed = norm(&rates);
     if speed == 0.0 {
         return None;
     }
     let beside = |by: f64| {
         let mut beside = state.to_vec();
-        for i in 0..free {
-            beside[i] += by * state[free + i] / speed;
-        }
+        add(&mut beside[..rates.len()], by / speed, &rates);
         beside
     };
     'steps: for step in STEPS {
@@ -39,7 +39,7 @@ pub(super) fn across(
         for (k, weight) in (1..).zip(WEIGHTS) {
             for side in [-1.0, 1.0] {
                 let there = beside(side * f64::from(k) * step);
-                if margin(dynamics, units, &there).is_none_or(|found| found < sick) {
+                if margin(dynamics, laws, &there).is_none_or(|found| found < sick) {
                     continue 'steps;
                 }
                 let Some(found) = evaluate(dynamics, &there) else {
@@ -55,9 +55,8 @@ pub(super) fn across(
 }
 
 /// The margin of the closure equations at a state.
-fn margin(dynamics: &mut Dynamics, units: &[f64], state: &[f64]) -> Option<f64> {
-    let values = state.iter().zip(units).map(|(x, unit)| x * unit);
-    let closed = dynamics.close(&values.collect::<Vec<f64>>());
+fn margin(dynamics: &mut Dynamics, laws: &Laws, state: &[f64]) -> Option<f64> {
+    let closed = dynamics.close(&laws.values(state)[..laws.units.len()]);
     closed.then(|| dynamics.margin())
 }
 

@@ -22,9 +22,10 @@ impl Run<'_, '_> {
         const AT_REST: f64 = 1e-4;
         let of = Coordinate::Joint(joint);
         let name = self.mechanism.joints()[joint].name.clone();
-        let normal = self.dynamics.rates_of(of);
+        let mut normal = self.dynamics.rates_of(of);
         let speed = dot(&normal, rates);
-        let free = rates.len();
+        let free = self.free();
+        normal.truncate(free);
         let pushed = Decomposition::of(free, free, &instant.mass).solve(&normal);
         let restitution = self.settings.restitution.unwrap_or(0.0);
         if speed.abs() * restitution < AT_REST * of.scale(self.mechanism) {
@@ -36,7 +37,7 @@ impl Run<'_, '_> {
         }
         let inertia = 1.0 / dot(&normal, &pushed);
         let mut rates = rates.to_vec();
-        add(&mut rates, -(1.0 + restitution) * speed * inertia, &pushed);
+        add(&mut rates[..free], -(1.0 + restitution) * speed * inertia, &pushed);
         let loss = 0.5 * (1.0 - restitution * restitution) * speed * speed * inertia;
         self.energy.lost += loss;
         let event = Happened::Impact {
@@ -61,8 +62,8 @@ impl Run<'_, '_> {
         time: f64,
     ) -> Option<Configuration<f64>> {
         let state = integrator.within(time);
-        let values = state.iter().zip(&self.units).map(|(x, unit)| x * unit);
-        let closed = self.dynamics.close(&values.collect::<Vec<f64>>());
+        let values = self.laws.values(&state);
+        let closed = self.dynamics.close(&values[..self.laws.units.len()]);
         closed.then(|| self.dynamics.configuration().clone())
     }
 
@@ -160,14 +161,9 @@ impl Run<'_, '_> {
         time: f64,
     ) -> Option<[f64; 2]> {
         let state = integrator.within(time);
-        let free = self.units.len();
-        let at = self.within(integrator, time)?;
-        let rates = match self.dynamics.mass() {
-            Some(_) => self.dynamics.rates_of(Coordinate::Joint(joint)),
-            None => vec![0.0; free],
-        };
-        let parts = rates.iter().zip(&state[free..]).zip(&self.units);
-        let rate: f64 = parts.map(|((slope, rate), unit)| slope * rate * unit).sum();
+        at(self.dynamics, &self.laws, time, &state)?;
+        let at = self.dynamics.configuration();
+        let rate = self.dynamics.rates()[joint];
         Some([side * (at.joints[joint] - limit), side * rate])
     }
 

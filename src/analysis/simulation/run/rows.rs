@@ -44,23 +44,32 @@ impl Run<'_, '_> {
                 columns.push(column(format!("{name}.{c}"), SiUnit::METRE));
             }
         }
+        for of in self.settings.speeds.iter().map(|of| of.coordinate) {
+            let name = format!("force:{}", of.name(self.mechanism));
+            let unit = SiUnit::of_effort(of.is_angle(self.mechanism));
+            columns.push(column(name, unit));
+        }
         for name in ["kinetic energy", "potential energy", "work"] {
             columns.push(column(name.into(), SiUnit::NEWTON_METRE));
         }
         columns
     }
 
+    /// The values of a row but for its time and work; `None` if it has none.
+    pub(super) fn values(&mut self, time: f64, state: &[f64]) -> Option<Vec<f64>> {
+        let (mechanism, laws, points, sick) =
+            (self.mechanism, &self.laws, &self.points, self.sick());
+        across(self.dynamics, laws, (time, state), sick, |dynamics, state| {
+            values(mechanism, dynamics, laws, points, (time, state))
+        })
+    }
+
     /// Adds the row of a state, and takes its energies into the balance; false if it has no values.
     pub(super) fn row(&mut self, time: f64, state: &[f64]) -> bool {
-        let (mechanism, units, points, sick) =
-            (self.mechanism, &self.units, &self.points, self.sick());
-        let found = across(self.dynamics, units, state, sick, |dynamics, state| {
-            values(mechanism, dynamics, units, points, (time, state))
-        });
-        let Some(values) = found else {
+        let Some(values) = self.values(time, state) else {
             return false;
         };
-        let supplied = state[2 * self.units.len()];
+        let supplied = state.last().copied().unwrap_or(0.0);
         let energy = &mut self.energy;
         let [.., kinetic, potential] = values[..] else {
             return false;
@@ -76,15 +85,16 @@ impl Run<'_, '_> {
     }
 }
 
-/// Values of joints with their rates, platforms and points at a state, and its kinetic and potential energy.
+/// Values of joints with their rates, platforms, points and forces of drives at a state, and its kinetic and potential
+/// energy.
 fn values(
     mechanism: &Mechanism,
     dynamics: &mut Dynamics,
-    units: &[f64],
+    laws: &Laws,
     points: &[Point],
     (time, state): (f64, &[f64]),
 ) -> Option<Vec<f64>> {
-    let (_, instant) = at(dynamics, units, time, state)?;
+    let (_, instant) = at(dynamics, laws, time, state)?;
     let at = dynamics.configuration();
     let rates = dynamics.rates();
     let mut row = Vec::new();
@@ -103,6 +113,7 @@ fn values(
         let place = twists.origin(i, &placement).0;
         row.extend(place.iter().zip(centre).map(|(x, c)| x + c));
     }
+    row.extend(instant.drives);
     row.extend([instant.kinetic, instant.potential]);
     Some(row)
 }

@@ -1,0 +1,92 @@
+//! The state linearised.
+
+use super::super::Linear;
+use super::*;
+use crate::description::Role;
+
+impl Run<'_, '_> {
+    /// The equations linearised at the state; `None` where something has no value.
+    pub(super) fn linear(&mut self) -> Option<Linear> {
+        const STEP: f64 = 1e-3;
+        let (mechanism, free) = (self.mechanism, self.free());
+        let (rates, instant) = at(self.dynamics, &self.laws, 0.0, &self.state)?;
+        let names = self.dynamics.coordinates().iter();
+        let names = names.map(|of| (of.name(mechanism), of.is_angle(mechanism)));
+        let states: Vec<(String, SiUnit)> = names
+            .map(|(name, angle)| (name, SiUnit::of_coordinate(angle)))
+            .collect();
+        let rates_of = states
+            .iter()
+            .map(|(name, unit)| (format!("rate:{name}"), unit.per_second()));
+        let columns = |of: Vec<(String, SiUnit)>| -> Vec<SimulationColumn> {
+            let named = of.into_iter();
+            named
+                .map(|(name, unit)| SimulationColumn { name, unit })
+                .collect()
+        };
+        let joints = mechanism.joints().iter().enumerate();
+        let driven = |joint: usize| {
+            let held = self.settings.locked.iter();
+            let driven = self.settings.speeds.iter().map(|of| &of.coordinate);
+            held.chain(driven).any(|of| *of == Coordinate::Joint(joint))
+        };
+        let actuated: Vec<usize> = joints
+            .filter(|(i, joint)| joint.role == Role::Actuated && !driven(*i))
+            .map(|(i, _)| i)
+            .collect();
+        let effort = |&i: &usize| {
+            let joint = &mechanism.joints()[i];
+            let unit = SiUnit::of_effort(joint.kind.is_angle());
+            (format!("force:{}", joint.name), unit)
+        };
+        let mass = Decomposition::of(free, free, &instant.mass);
+        let shares: Vec<Vec<f64>> = (actuated.iter())
+            .map(|&i| mass.solve(&self.dynamics.rates_of(Coordinate::Joint(i))[..free]))
+            .collect();
+        let outputs: Vec<SimulationColumn> = {
+            let all = self.columns();
+            let energies = 3 + self.settings.speeds.len();
+            all[1..all.len() - energies].to_vec()
+        };
+        // accelerations, then outputs, over values and rates in dimensionless units
+        let state = self.state.clone();
+        let scales: Vec<f64> = [&self.laws.units[..free], &self.laws.units[..free]].concat();
+        let places: Vec<usize> = (0..free)
+            .chain((0..free).map(|i| self.laws.units.len() + i))
+            .collect();
+        let mut columns_of: Vec<Vec<f64>> = Vec::new();
+        for (place, scale) in places.iter().zip(&scales) {
+            let mut slope = vec![0.0; free + outputs.len()];
+            for (steps, weight) in [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)] {
+                let mut moved = state.clone();
+                moved[*place] += steps * STEP;
+                let (_, instant) = at(self.dynamics, &self.laws, 0.0, &moved)?;
+                let values = self.values(0.0, &moved)?;
+                let found = [&instant.accelerations[..], &values[..outputs.len()]].concat();
+                add(&mut slope, weight / (12.0 * STEP * scale), &found);
+            }
+            let largest = slope.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let rounding = SUMMED / STEP * largest;
+            for x in slope.iter_mut().filter(|x| x.abs() <= rounding) {
+                *x = 0.0;
+            }
+            columns_of.push(slope);
+        }
+        let row = |i: usize| columns_of.iter().map(|of| of[i]).collect::<Vec<f64>>();
+        let unit = |i: usize| (0..2 * free).map(|j| f64::from(u8::from(j == free + i))).collect();
+        let none = || vec![0.0; actuated.len()];
+        Some(Linear {
+            change: [&rates[..free], &instant.accelerations[..]].concat(),
+            a: (0..free).map(unit).chain((0..free).map(row)).collect(),
+            b: (0..free)
+                .map(|_| none())
+                .chain((0..free).map(|i| shares.iter().map(|of| of[i]).collect()))
+                .collect(),
+            c: (0..outputs.len()).map(|i| row(free + i)).collect(),
+            d: (0..outputs.len()).map(|_| none()).collect(),
+            inputs: columns(actuated.iter().map(effort).collect()),
+            states: columns(states.iter().cloned().chain(rates_of).collect()),
+            outputs,
+        })
+    }
+}
