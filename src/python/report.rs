@@ -162,10 +162,7 @@ pub fn answer(
             mechanism,
             question.equilibrium(&settings.equilibrium, watch)?,
         ),
-        "simulate" => prefaced(
-            mechanism,
-            question.simulation(&settings.simulation, watch)?,
-        ),
+        "simulate" => prefaced(mechanism, question.simulation(&settings.simulation, watch)?),
         "singularities" => prefaced(mechanism, question.singularities(singularities, watch)?),
         "along" => prefaced(mechanism, question.along(singularities, watch)?),
         "loci" => prefaced(mechanism, question.loci(singularities, watch)?),

@@ -262,7 +262,11 @@ fn a_motor_follows_its_law() {
     let omega = (square - sigma * sigma).sqrt();
     for t in [0.5f64, 1.0, 2.0] {
         let swing = (omega * t).cos() + sigma / omega * (omega * t).sin();
-        near(&at(&report, t, &["pin"]), &[1.0 - (-sigma * t).exp() * swing], 1e-8);
+        near(
+            &at(&report, t, &["pin"]),
+            &[1.0 - (-sigma * t).exp() * swing],
+            1e-8,
+        );
     }
     let settings = SimulationSettings::default();
     let refused = |question: Question| question.simulation(&settings, &Watch::none()).err();
@@ -275,20 +279,34 @@ fn a_driven_joint_goes_at_its_speed_and_tells_its_force() {
     // θ = t², held by 4·2 N·m and against the weight 3·9.81 N at 1 m
     let driven = question(PENDULUM).lock("pin").rate("pin", "2 rad/s^2*time");
     let report = let_go(&driven, 1.0, 4);
-    assert_eq!((report.end.clone(), report.freedoms), (SimulationEnd::Over, 0));
+    assert_eq!(
+        (report.end.clone(), report.freedoms),
+        (SimulationEnd::Over, 0)
+    );
     for t in [0.25f64, 0.5, 1.0] {
         let (angle, force) = (t * t, 8.0 + 3.0 * 9.81 * (t * t).cos());
-        near(&at(&report, t, &["pin", "rate:pin", "force:pin"]), &[angle, 2.0 * t, force], 1e-8);
+        near(
+            &at(&report, t, &["pin", "rate:pin", "force:pin"]),
+            &[angle, 2.0 * t, force],
+            1e-8,
+        );
     }
     assert!(report.energy.error < 1e-8, "{:?}", report.energy);
     // the crank of the four-bar at 25 rad/s, whose torque is known at 24 angles
-    let driven = four_bar("").hold("theta", 0.0).lock("theta").rate("theta", 25.0);
+    let driven = four_bar("")
+        .hold("theta", 0.0)
+        .lock("theta")
+        .rate("theta", 25.0);
     let report = let_go(&driven, std::f64::consts::TAU / 25.0, 24);
     let known: Value = serde_json::from_str(include_str!("../data/loads_four_bar.json")).unwrap();
     for (k, row) in rows(&known["answer"]).iter().enumerate().take(24) {
         let torque = report.rows[k].len() - 4;
         assert_eq!(report.columns[torque].name, "force:theta");
-        near(&[report.rows[k][1], report.rows[k][torque]], &row[..2], 1e-7);
+        near(
+            &[report.rows[k][1], report.rows[k][torque]],
+            &row[..2],
+            1e-7,
+        );
     }
     // what depends on a joint is no law of time
     let wrong = question(PENDULUM).lock("pin").rate("pin", "2*pin");
@@ -323,14 +341,33 @@ fn equations_are_linearised_as_textbooks_do() {
         &[m * g / big, (big + m) * g / (big * l)],
         1e-9,
     );
-    near(&[linear.b[x][0], linear.b[pole][0]], &[1.0 / big, 1.0 / (big * l)], 1e-12);
+    near(
+        &[linear.b[x][0], linear.b[pole][0]],
+        &[1.0 / big, 1.0 / (big * l)],
+        1e-12,
+    );
     assert_eq!(linear.inputs[0].name, "force:x");
-    let row = linear.outputs.iter().position(|of| of.name == "pole").unwrap();
-    near(&[linear.c[row][place("pole")], linear.c[row][place("x")]], &[1.0, 0.0], 1e-12);
+    let row = linear
+        .outputs
+        .iter()
+        .position(|of| of.name == "pole")
+        .unwrap();
+    near(
+        &[linear.c[row][place("pole")], linear.c[row][place("x")]],
+        &[1.0, 0.0],
+        1e-12,
+    );
     // hanging it swings: A turns its sign
-    let hangs = simulated(&cart.hold("x", 0.0).guess("pole", std::f64::consts::PI), &settings);
+    let hangs = simulated(
+        &cart.hold("x", 0.0).guess("pole", std::f64::consts::PI),
+        &settings,
+    );
     let a = &hangs.linear.unwrap().a;
-    near(&[a[pole][place("pole")]], &[-(big + m) * g / (big * l)], 1e-8);
+    near(
+        &[a[pole][place("pole")]],
+        &[-(big + m) * g / (big * l)],
+        1e-8,
+    );
 }
 
 #[test]
@@ -346,7 +383,9 @@ fn accelerations_are_those_of_another_program() {
         for (joint, rate) in case["rates"].as_object().unwrap() {
             let place = question.mechanism().joint(joint).unwrap();
             let home = question.mechanism().joints()[place].home;
-            question = question.hold(joint, home).rate(joint, rate.as_f64().unwrap());
+            question = question
+                .hold(joint, home)
+                .rate(joint, rate.as_f64().unwrap());
         }
         let settings = SimulationSettings {
             linearised: true,
@@ -361,7 +400,11 @@ fn accelerations_are_those_of_another_program() {
             let joint = state.name.strip_prefix("rate:").map(|joint| &known[joint]);
             if let Some(expected) = joint.and_then(Value::as_f64) {
                 let off = (change - expected).abs() / largest;
-                assert!(off < 1e-9, "{name}: {} {change} instead of {expected}", state.name);
+                assert!(
+                    off < 1e-9,
+                    "{name}: {} {change} instead of {expected}",
+                    state.name
+                );
                 compared += 1;
             }
         }

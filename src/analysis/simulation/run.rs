@@ -83,15 +83,24 @@ impl Flow for Equations<'_, '_, '_> {
         let laws = self.laws;
         let [moving, _] = laws.rates(time, state);
         let moved = moving.iter().zip(&laws.units).map(|(x, unit)| x / unit);
-        rates.iter_mut().zip(moved).for_each(|(to, rate)| *to = rate);
-        let found = across(self.dynamics, laws, (time, state), self.sick, |dynamics, state| {
-            let (_, instant) = at(dynamics, laws, time, state)?;
-            let mut changes = instant.accelerations;
-            let units = changes.iter_mut().zip(&laws.units);
-            units.for_each(|(a, unit)| *a /= unit);
-            changes.push(instant.supplied);
-            Some(changes)
-        });
+        rates
+            .iter_mut()
+            .zip(moved)
+            .for_each(|(to, rate)| *to = rate);
+        let found = across(
+            self.dynamics,
+            laws,
+            (time, state),
+            self.sick,
+            |dynamics, state| {
+                let (_, instant) = at(dynamics, laws, time, state)?;
+                let mut changes = instant.accelerations;
+                let units = changes.iter_mut().zip(&laws.units);
+                units.for_each(|(a, unit)| *a /= unit);
+                changes.push(instant.supplied);
+                Some(changes)
+            },
+        );
         let Some(found) = found else {
             return false;
         };
@@ -250,7 +259,10 @@ impl<'a, 'd> Run<'a, 'd> {
                 true => None,
                 false => self.projection(&instant),
             };
-            let kept: Vec<f64> = rates.iter().map(|rate| rate * scale.unwrap_or(1.0)).collect();
+            let kept: Vec<f64> = rates
+                .iter()
+                .map(|rate| rate * scale.unwrap_or(1.0))
+                .collect();
             let (at, others) = match self.dynamics.choose(&kept) {
                 Ok(None) if scale.is_none() => continue,
                 Ok(others) => (self.dynamics.configuration().clone(), others),

@@ -37,7 +37,11 @@ impl Run<'_, '_> {
         }
         let inertia = 1.0 / dot(&normal, &pushed);
         let mut rates = rates.to_vec();
-        add(&mut rates[..free], -(1.0 + restitution) * speed * inertia, &pushed);
+        add(
+            &mut rates[..free],
+            -(1.0 + restitution) * speed * inertia,
+            &pushed,
+        );
         let loss = 0.5 * (1.0 - restitution * restitution) * speed * speed * inertia;
         self.energy.lost += loss;
         let event = Happened::Impact {

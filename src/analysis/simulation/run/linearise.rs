@@ -73,7 +73,11 @@ impl Run<'_, '_> {
             columns_of.push(slope);
         }
         let row = |i: usize| columns_of.iter().map(|of| of[i]).collect::<Vec<f64>>();
-        let unit = |i: usize| (0..2 * free).map(|j| f64::from(u8::from(j == free + i))).collect();
+        let unit = |i: usize| {
+            (0..2 * free)
+                .map(|j| f64::from(u8::from(j == free + i)))
+                .collect()
+        };
         let none = || vec![0.0; actuated.len()];
         Some(Linear {
             change: [&rates[..free], &instant.accelerations[..]].concat(),

@@ -59,9 +59,13 @@ impl Run<'_, '_> {
     pub(super) fn values(&mut self, time: f64, state: &[f64]) -> Option<Vec<f64>> {
         let (mechanism, laws, points, sick) =
             (self.mechanism, &self.laws, &self.points, self.sick());
-        across(self.dynamics, laws, (time, state), sick, |dynamics, state| {
-            values(mechanism, dynamics, laws, points, (time, state))
-        })
+        across(
+            self.dynamics,
+            laws,
+            (time, state),
+            sick,
+            |dynamics, state| values(mechanism, dynamics, laws, points, (time, state)),
+        )
     }
 
     /// Adds the row of a state, and takes its energies into the balance; false if it has no values.
