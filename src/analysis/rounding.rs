@@ -18,6 +18,7 @@ use crate::algebra::Measure;
 use crate::description::{Description, Literal, LoadError, Problem, roundings};
 use crate::mechanism::{Configuration, Mechanism, NumberChange, Rounded, Rounding};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::SOLVED;
 use crate::solve::{LeastSquares, LevenbergMarquardt};
 use crate::system::{Bundle, Bundled, Gap};
 use explained::least_largest;
@@ -317,8 +318,6 @@ impl RoundedDirections<'_> {
         file: &[f64],
         configurations: &[Configuration<f64>],
     ) -> Option<(Bundled, Vec<f64>, Vec<Vec<f64>>)> {
-        /// What is left of all rows then is rounding of doubles.
-        const CLOSED: f64 = 1e-12;
         const ROUNDS: usize = 10;
         /// A condition counts that is larger than what is left, by this factor; a tenth of the last that counted at first.
         const TOLD_APART: f64 = 30.0;
@@ -342,7 +341,7 @@ impl RoundedDirections<'_> {
             let end = search.solve(&nearest, at);
             let left = end.misfit.equations.sqrt();
             at = end.point;
-            if left < CLOSED {
+            if left < SOLVED {
                 let change = self.bundle.departures(&at.numbers, file);
                 let rows = nearest.model(&at)?.rows();
                 return Some((at, change, rows));

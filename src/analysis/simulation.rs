@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, add, dot};
 use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{
     Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, NoDynamics, Question,
@@ -316,7 +317,6 @@ fn massless(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Result<Vec<String
 
 /// Rates of the independent coordinates for those of a drive: of many those of least kinetic energy, M⁻¹Aᵀ(A M⁻¹Aᵀ)⁺r.
 fn initial(question: &Question, drive: &Drive, dynamics: &mut Dynamics) -> Option<Vec<f64>> {
-    const MET: f64 = 1e-9;
     let free = dynamics.coordinates().len();
     let still = vec![0.0; free];
     if !drive.given {
@@ -346,5 +346,7 @@ fn initial(question: &Question, drive: &Drive, dynamics: &mut Dynamics) -> Optio
     let size = wanted.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let met = rows.iter().zip(&wanted);
     let met = met.map(|(row, wanted)| (dot(row, &rates) - wanted).abs());
-    met.fold(0.0, f64::max).le(&(MET * size)).then_some(rates)
+    met.fold(0.0, f64::max)
+        .le(&(ROUNDING * size))
+        .then_some(rates)
 }

@@ -30,6 +30,7 @@ pub use dwell::Dwell;
 pub(crate) use dwell::{Sample, dwell};
 pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
+pub(crate) use motion::Thinned;
 pub use motion::{
     Columns, Extreme, Extremum, KeptRows, Missing, MotionReport, MotionsReport, Pole,
 };

@@ -7,6 +7,7 @@ use crate::analysis::assemblies::{Assembly, AssemblySolver, Fit, Wanted};
 use crate::analysis::sweep::{CircuitsReport, CircuitsSettings, Slice, Swept, circuits};
 use crate::description;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, turn_near};
+use crate::number::tolerance::SAME;
 use crate::solve::{Stage, Watch};
 use crate::system::{self, Coordinate, check_count, sampling_range};
 
@@ -66,8 +67,6 @@ impl Question {
     /// The order of the path of a point: with so many different points, real or complex, a plane meets it. `None` if
     /// the search for them may have missed some.
     fn order(&self, point: &crate::mechanism::Point, watch: &Watch) -> Option<usize> {
-        /// Points this near, over the characteristic length, are one that several configurations share.
-        const SAME: f64 = 1e-6;
         let cut = (self.mechanism()).with_point_on_a_plane(point.frame, point.offset);
         let length = cut.characteristic_length();
         let asked = Question {

@@ -8,6 +8,7 @@ use std::sync::{Arc, OnceLock};
 use super::{AskError, Question, Role};
 use crate::analysis::sweep::{Row, SweepEnd, SweepReport, SweepSettings, sweep};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::SUMMED;
 use crate::solve::Watch;
 use crate::system::{self, Coordinate, Driven, Held, QuestionError, Still, check_count};
 
@@ -30,9 +31,6 @@ pub struct Steering {
 /// Before a dead point a motion stops at least this far away, in rad or characteristic lengths: the rest of the mechanism,
 /// which goes by the square root, is then a thousandth away from it, where the branch is still unique.
 const BEFORE: f64 = 1e-6;
-
-/// Ways shorter than this part of where they begin, or of a rad or characteristic length, are rounding.
-const ROUNDING: f64 = 1e-13;
 
 impl Question {
     /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by its held coordinates. If
@@ -182,7 +180,7 @@ impl Steering {
                 .coordinate
                 .scale(&self.mechanism)
                 .max(input.from.abs());
-            (input.to - input.from).abs() > ROUNDING * size
+            (input.to - input.from).abs() > SUMMED * size
         };
         let inputs: Vec<Driven> = inputs.filter(moves).collect();
         if inputs.is_empty() {

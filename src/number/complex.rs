@@ -89,37 +89,3 @@ impl Field for Complex<f64> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// On a grid that meets both sides of each branch cut, against num-complex on the platform's functions.
-    #[test]
-    fn functions_agree_with_those_of_the_platform() {
-        type Function = fn(Complex<f64>) -> Complex<f64>;
-        let pairs: [(Function, Function); 6] = [
-            (Number::sqrt, Complex::sqrt),
-            (Number::asin, Complex::asin),
-            (Number::acos, Complex::acos),
-            (Number::atan, Complex::atan),
-            (Number::exp, Complex::exp),
-            (Number::ln, Complex::ln),
-        ];
-        let steps = || (-7..=7).map(|k| 0.37 * f64::from(k));
-        for z in steps().flat_map(|x| steps().map(move |y| Complex::new(x, y))) {
-            for (ours, theirs) in pairs {
-                let (got, wanted) = (ours(z), theirs(z));
-                let both = got.is_finite() && wanted.is_finite();
-                assert!(
-                    !both || (got - wanted).norm() <= 4e-15 * wanted.norm().max(1.0),
-                    "{z}: {got}, {wanted}"
-                );
-            }
-        }
-        assert!(
-            (Number::exp(Complex::new(1.0, 1.0)) - Complex::exp(Complex::new(1.0, 1.1))).norm()
-                > 0.1
-        );
-    }
-}

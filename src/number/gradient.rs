@@ -144,25 +144,3 @@ impl<T: Field> Field for Gradient<T> {
         Gradient::constant(self.value.phase())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::number::Dual;
-
-    #[test]
-    fn every_lane_is_a_dual() {
-        fn f<T: Number>(x: T, y: T) -> T {
-            let (sin, cos) = (x * y).sin_cos();
-            (sin / (cos + T::from_f64(2.0))).atan2(x.sqrt()) + (x - y).exp().ln() * y.acos().abs()
-        }
-        let (x, y) = (0.7, 0.4);
-        let found = f(Gradient::variable(x, 2), Gradient::variable(y, 5));
-        let by_x = f(Dual::variable(x), Dual::constant(y));
-        let by_y = f(Dual::constant(x), Dual::variable(y));
-        assert_eq!(found.value, by_x.value);
-        assert!((found.slopes[2] - by_x.slope).abs() < 1e-15);
-        assert!((found.slopes[5] - by_y.slope).abs() < 1e-15);
-        assert!((0..8).all(|i| i == 2 || i == 5 || found.slopes[i] == 0.0));
-    }
-}

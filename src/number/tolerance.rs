@@ -18,6 +18,9 @@ pub const SOLVED: f64 = 1e-12;
 /// A condition number beyond the inverse of this has no digit in double precision.
 pub const ILL_CONDITIONED: f64 = 1e-12;
 
+/// Numbers of files and answers, in SI units or relative to the largest, below this are the rounding of a zero.
+pub const WRITTEN_ZERO: f64 = 1e-12;
+
 /// A change that no printed digit shows.
 pub const NOT_PRINTED: f64 = 1e-10;
 

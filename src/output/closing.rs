@@ -4,13 +4,13 @@ use super::document::Document;
 use super::quantity::{clause, degrees, if_any, metres, quantity};
 use super::report::{Report, Rows};
 use crate::linear::SPECTRUM_LIMIT;
+use crate::number::tolerance::ROUNDING;
 use crate::system::{Analysed, GivenPose, Moved, NotClosed, TooLarge};
 
 /// `0.213 m and 4.2°`
 pub(super) fn gap(distance: f64, angle: f64) -> String {
     // what rounding leaves of a gap is none
-    const NONE: f64 = 1e-9;
-    match (distance < NONE, angle < NONE) {
+    match (distance < ROUNDING, angle < ROUNDING) {
         (_, true) => metres(distance),
         (true, false) => degrees(angle),
         (false, false) => format!("{} and {}", metres(distance), degrees(angle)),

@@ -17,12 +17,10 @@ use crate::description::{Convention, count, listed, quoted};
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Mechanism;
+use crate::number::tolerance::WRITTEN_ZERO;
 
 /// Axes this near to parallel get a remark though their normal is used.
 const NEARLY_PARALLEL: f64 = 1e-3;
-
-/// Differences below this are rounding.
-const ROUNDING: f64 = 1e-12;
 
 impl Report for FramesReport {
     fn document(&self) -> Document {
@@ -155,13 +153,13 @@ fn remark(normal: &PlacedNormal) -> Option<String> {
     let found = normal.relation?;
     let off = normal.angle.min(std::f64::consts::PI - normal.angle);
     let tolerance = size(RANK_TOLERANCE);
-    if found.is_parallel() && off > ROUNDING {
+    if found.is_parallel() && off > WRITTEN_ZERO {
         return Some(format!(
             "treated as parallel: {} rad apart, within {tolerance}",
             size(off)
         ));
     }
-    if found.meets() && normal.distance > ROUNDING {
+    if found.meets() && normal.distance > WRITTEN_ZERO {
         return Some(format!(
             "treated as intersecting: {} m apart, within {tolerance} of the size",
             size(normal.distance)

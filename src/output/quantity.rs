@@ -3,6 +3,7 @@
 use crate::algebra::SiUnit;
 use crate::description::{count, listed};
 use crate::mechanism::Variable;
+use crate::number::tolerance::WRITTEN_ZERO;
 
 /// A count with the minus sign of the formulas it stands in.
 pub(super) fn signed(count: i64) -> String {
@@ -13,7 +14,7 @@ pub(super) fn signed(count: i64) -> String {
 pub fn number(value: f64) -> String {
     let size = value.abs();
     if value.is_nan() || (size != 0.0 && !(1e-4..1e7).contains(&size)) {
-        return match size < ROUNDING {
+        return match size < WRITTEN_ZERO {
             true => "0".into(),
             false => format!("{value:.4e}"),
         };
@@ -31,13 +32,10 @@ pub(super) fn short(value: f64) -> String {
     number((value * 1e4).round() / 1e4)
 }
 
-/// Numbers in SI units below this are the rounding of a zero.
-const ROUNDING: f64 = 1e-12;
-
 /// A number as it is shown: that of an angle in degrees.
 pub(super) fn shown(value: f64, unit: SiUnit) -> f64 {
     match unit.is_angle() {
-        true if value.abs() < ROUNDING => 0.0,
+        true if value.abs() < WRITTEN_ZERO => 0.0,
         true => value.to_degrees(),
         false => value,
     }

@@ -20,6 +20,7 @@ use crate::analysis::sweep::{
     Certificate, Columns, Extreme, Extremum, MetKind, MotionReport, MotionsReport, Row, SweepReport,
 };
 use crate::mechanism::Variable;
+use crate::number::tolerance::WRITTEN_ZERO;
 
 impl Report for MotionsReport {
     fn document(&self) -> Document {
@@ -203,15 +204,13 @@ fn rows(motion: &MotionReport) -> Section {
 
 /// The columns of z, roll and pitch of frames that stay in the plane of x and y: there is nothing to read in them.
 fn flat(columns: &[Variable], values: &[Vec<Option<f64>>]) -> Vec<usize> {
-    /// Coordinates below this are the rounding of a zero, in m or rad.
-    const ROUNDING: f64 = 1e-12;
     let across = |i: &usize| {
         let (owner, part) = columns[*i].name.rsplit_once('.')?;
         ["z", "roll", "pitch"].contains(&part).then_some(owner)
     };
     let is_zero = |i: &usize| {
         let mut values = values.iter().filter_map(|row| row[*i]);
-        values.all(|value| value.abs() < ROUNDING)
+        values.all(|value| value.abs() < WRITTEN_ZERO)
     };
     let all = (0..columns.len()).filter(|i| across(i).is_some());
     let lies = |i: &usize| {

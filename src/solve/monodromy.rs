@@ -12,6 +12,7 @@ use super::homotopy::{Arrival, Homotopy, Stages, Tracker};
 use super::threads::each;
 use super::{Progress, Stage, Watch};
 use crate::number::Complex;
+use crate::number::tolerance::SAME;
 
 type C = Complex<f64>;
 
@@ -97,7 +98,6 @@ impl Known {
 
 /// The place of a key among others: no part differs by more than this from it, relative to its size.
 pub fn place(keys: &[Vec<C>], key: &[C]) -> Option<usize> {
-    const SAME: f64 = 1e-6;
     let size = key.iter().map(|x| x.norm_sqr()).fold(1.0, f64::max).sqrt();
     let near = |other: &Vec<C>| {
         let mut parts = other.iter().zip(key);

@@ -21,6 +21,7 @@ use crate::algebra::SiUnit;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
+use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, Work};
 use real::{complex_key, key, order, tidied, tidied_complex};
@@ -227,7 +228,6 @@ impl Question<'_> {
 
     /// True if each held roll, pitch or yaw has its value, false if one is half a turn from it.
     fn has_held_angles(&self, x: &[C]) -> bool {
-        const UNDETERMINED: f64 = 1e-9;
         let joints = self.coordinates.free_joints.len();
         let poses = x[joints..].chunks_exact(7);
         (self.coordinates.free_platforms.iter().zip(poses)).all(|(&p, x)| {
@@ -235,7 +235,7 @@ impl Question<'_> {
             let rotation = Quaternion([x[0], x[1], x[2], x[3]]).rotation();
             let along =
                 |(c, value): &(PoseCoordinate, f64)| c.along(&rotation, C::from_f64(*value));
-            (coordinates.iter().filter_map(along)).all(|along| along.re > UNDETERMINED)
+            (coordinates.iter().filter_map(along)).all(|along| along.re > ROUNDING)
         })
     }
 

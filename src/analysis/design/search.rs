@@ -6,6 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::SAME;
 use crate::number::{real, sorting::sort_by};
 use crate::solve::{LeastSquares, LevenbergMarquardt, Stage, Watch, each};
 use crate::system::{Bundle, Bundled, Held};
@@ -60,9 +61,6 @@ pub struct Searched {
     /// True if it was stopped early.
     pub interrupted: bool,
 }
-
-/// Ends whose numbers differ by less than this part of their sizes are one.
-const SAME: f64 = 1e-6;
 
 /// A sum of squares below this part of that of the targets' size is rounding: the targets are met.
 const EXACT: f64 = 1e-20;

@@ -203,13 +203,57 @@ impl Columns {
     }
 }
 
+/// A long series thinned to a number of its members, evenly spread.
+#[derive(Clone, Debug)]
+pub(crate) struct Thinned<T> {
+    pub kept: Vec<T>,
+    every: usize,
+    seen: usize,
+}
+
+impl<T> Thinned<T> {
+    /// With members that stand before the first.
+    pub fn of(kept: Vec<T>) -> Self {
+        Thinned {
+            kept,
+            every: 1,
+            seen: 0,
+        }
+    }
+
+    /// True before the first one.
+    pub fn begins(&self) -> bool {
+        self.seen == 0
+    }
+
+    /// True if the next one is to be kept.
+    pub fn wants_next(&self) -> bool {
+        self.seen.is_multiple_of(self.every)
+    }
+
+    /// Takes in the next one, if it is kept; of more than the most every other one is left. True if it stays.
+    pub fn take(&mut self, next: Option<T>, most: usize) -> bool {
+        let mut stays = next.is_some();
+        self.kept.extend(next);
+        if self.kept.len() > most {
+            let mut keep = false;
+            self.kept.retain(|_| {
+                keep = !keep;
+                keep
+            });
+            self.every *= 2;
+            stays = keep;
+        }
+        self.seen += 1;
+        stays
+    }
+}
+
 /// Rows that are kept: all, or no more than a number, evenly spread.
 #[derive(Clone, Debug)]
 pub struct KeptRows {
-    rows: Vec<Vec<Option<f64>>>,
+    rows: Thinned<Vec<Option<f64>>>,
     most: usize,
-    every: usize,
-    seen: usize,
     last: Vec<Option<f64>>,
     last_is_kept: bool,
 }
@@ -218,12 +262,10 @@ impl KeptRows {
     /// Keeps at most this many rows, at least two.
     pub fn of(most: usize) -> Self {
         KeptRows {
-            rows: Vec::new(),
+            rows: Thinned::of(Vec::new()),
             most: most.max(2),
-            every: 1,
-            seen: 0,
             last: Vec::new(),
-            last_is_kept: false,
+            last_is_kept: true,
         }
     }
 
@@ -233,28 +275,14 @@ impl KeptRows {
         self.last.push(row.step.map(|step| step as f64));
         let values = columns.values(row);
         values.for_each(|value| self.last.push(value.is_finite().then_some(value)));
-        self.last_is_kept = self.seen.is_multiple_of(self.every);
-        if self.last_is_kept && self.rows.len() == self.most {
-            // every second goes, and from now on twice as many are left out
-            let mut keep = false;
-            self.rows.retain(|_| {
-                keep = !keep;
-                keep
-            });
-            self.every *= 2;
-            self.last_is_kept = self.seen.is_multiple_of(self.every);
-        }
-        if self.last_is_kept {
-            self.rows.push(self.last.clone());
-        }
-        self.seen += 1;
+        let next = self.rows.wants_next().then(|| self.last.clone());
+        self.last_is_kept = self.rows.take(next, self.most);
     }
 
     /// The rows with the last one there was.
-    pub fn finished(mut self) -> Vec<Vec<Option<f64>>> {
-        if self.seen > 0 && !self.last_is_kept {
-            self.rows.push(self.last);
-        }
-        self.rows
+    pub fn finished(self) -> Vec<Vec<Option<f64>>> {
+        let mut rows = self.rows.kept;
+        rows.extend((!self.last_is_kept).then_some(self.last));
+        rows
     }
 }

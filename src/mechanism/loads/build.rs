@@ -13,6 +13,7 @@ use crate::description::{
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::mechanism::build::problem_of;
 use crate::mechanism::{Body, Measured, Mechanism, Order, Point};
+use crate::number::tolerance::ROUNDING;
 
 /// Collects problems while values are read; a part with a problem is left out.
 struct Reading<'a> {
@@ -291,7 +292,6 @@ impl Reading<'_> {
             }
         };
         if values.iter().all(|x| x.is_finite()) {
-            const ROUNDING: f64 = 1e-9;
             let symmetric = nalgebra::Matrix3::from_fn(|i, j| tensor[i][j]);
             let mut moments: [f64; 3] = symmetric.symmetric_eigenvalues().into();
             crate::number::sorting::sort_by(&mut moments, |a, b| a.total_cmp(b));

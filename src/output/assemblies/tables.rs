@@ -3,6 +3,7 @@
 use crate::algebra::SiUnit;
 use crate::analysis::assemblies::{AssembliesReport, Assembly, ComplexAssembly, Fit, ListedJoint};
 use crate::description::listed;
+use crate::number::tolerance::NOT_PRINTED;
 use crate::output::document::{Cell, Section, Table, TableOf};
 use crate::output::quantity::{number, quantity, shown, size, with_unit};
 
@@ -251,12 +252,11 @@ pub(super) fn complex(report: &AssembliesReport) -> Section {
 /// A value with rounding of zero removed: solutions are good to some 1e-12 rad or
 /// characteristic lengths, and rounding differs from one way to them to another.
 fn settled(value: f64, report: &AssembliesReport, unit: SiUnit) -> f64 {
-    const ROUNDING: f64 = 1e-10;
     let scale = match unit {
         SiUnit::METRE => report.characteristic_length,
         _ => 1.0,
     };
-    match value.abs() < ROUNDING * scale {
+    match value.abs() < NOT_PRINTED * scale {
         true => 0.0,
         false => value,
     }

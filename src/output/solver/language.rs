@@ -24,14 +24,6 @@ pub enum Precision {
 }
 
 impl Language {
-    /// The ending of its files.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Language::C => "h",
-            Language::Rust => "rs",
-        }
-    }
-
     /// The ending of a program.
     pub fn program_ending(self) -> &'static str {
         match self {

@@ -5,6 +5,7 @@ use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion, Swept};
 use crate::description::{count, listed};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::SAME;
 use crate::output::document::{Cell, Document, Section, Table};
 use crate::output::quantity::{self, metres, number, quantity};
 use crate::output::report::Report;
@@ -223,7 +224,6 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
 /// Values in order, each once, with the number of crossings there if there are several: they differ
 /// in other joints.
 fn places(values: impl Iterator<Item = f64>, unit: SiUnit) -> Vec<String> {
-    const SAME: f64 = 1e-6;
     let mut values: Vec<f64> = values.collect();
     sort_by(&mut values, f64::total_cmp);
     let same = values.chunk_by(|a, b| b - a < SAME);

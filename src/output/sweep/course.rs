@@ -1,50 +1,9 @@
 //! The places of a mechanism along a motion, to be drawn over one another or one after the other.
 
+use crate::analysis::sweep::Thinned;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::scene::Scene;
-
-/// A long series thinned to what can be distinguished, evenly spread.
-#[derive(Clone, Debug)]
-pub(super) struct Thinned<T> {
-    pub kept: Vec<T>,
-    every: usize,
-    seen: usize,
-}
-
-impl<T> Thinned<T> {
-    pub fn new(kept: Vec<T>) -> Self {
-        Thinned {
-            kept,
-            every: 1,
-            seen: 0,
-        }
-    }
-
-    /// True before the first one.
-    pub fn begins(&self) -> bool {
-        self.seen == 0
-    }
-
-    /// True if the next one is to be kept.
-    pub fn wants_next(&self) -> bool {
-        self.seen.is_multiple_of(self.every)
-    }
-
-    /// Takes in the next one, if it is kept; of more than the most every other one is left.
-    pub fn take(&mut self, next: Option<T>, most: usize) {
-        self.kept.extend(next);
-        if self.kept.len() > most {
-            let mut keep = false;
-            self.kept.retain(|_| {
-                keep = !keep;
-                keep
-            });
-            self.every *= 2;
-        }
-        self.seen += 1;
-    }
-}
 
 /// Places along motions.
 #[derive(Clone, Debug, Default)]
@@ -77,7 +36,7 @@ impl DrawnCourse {
         if self.motions.last().is_none_or(|places| places.mode != mode) {
             self.motions.push(DrawnPlaces {
                 mode,
-                taken: Thinned::new(Vec::new()),
+                taken: Thinned::of(Vec::new()),
             });
         }
         if let Some(DrawnPlaces { taken, .. }) = self.motions.last_mut() {

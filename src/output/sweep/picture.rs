@@ -2,9 +2,9 @@
 
 mod charts;
 
-use super::course::{DrawnCourse, Thinned};
+use super::course::DrawnCourse;
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row};
+use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row, Thinned};
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Variable};
 use crate::output::plot;
 use crate::output::quantity;
@@ -45,7 +45,7 @@ impl Drawn {
     fn new(mode: Option<usize>, rows: Vec<Vec<f64>>) -> Self {
         Drawn {
             mode,
-            rows: Thinned::new(rows),
+            rows: Thinned::of(rows),
             marks: Vec::new(),
         }
     }

@@ -6,6 +6,7 @@ use super::elimination::Linear;
 use super::{Bundle, Bundled, Lanes, Target};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
+use crate::number::tolerance::SOLVED;
 use crate::solve::Equations;
 use crate::system::{Held, System, Work};
 
@@ -134,7 +135,7 @@ impl Closer<'_, '_> {
             if !(open.is_finite() && size.is_finite()) {
                 return None;
             }
-            if open < CLOSED && (size < 1e-10 || size >= 0.5 * before) {
+            if open < SOLVED && (size < 1e-10 || size >= 0.5 * before) {
                 return Some(at);
             }
             let factor = (LONGEST / size).min(1.0);
@@ -150,6 +151,3 @@ impl Closer<'_, '_> {
         None
     }
 }
-
-/// A configuration is closed when no row exceeds this, in rad or characteristic lengths.
-const CLOSED: f64 = 1e-12;

@@ -111,11 +111,6 @@ impl<'m> Walk<'m> {
         &self.place
     }
 
-    /// The length of the curve so far, in rad and characteristic lengths.
-    pub fn gone(&self) -> f64 {
-        self.gone
-    }
-
     /// Walks leg by leg until the visitor breaks; returns its value.
     ///
     /// # Errors

@@ -11,6 +11,7 @@ use crate::analysis::assemblies::search::GenericSolutions;
 use crate::analysis::assemblies::track::{Local, ParameterHomotopy};
 use crate::mechanism::Configuration;
 use crate::number::Number;
+use crate::number::tolerance::CANCELLED;
 use crate::solve::{Homotopy, Newton};
 use crate::system::{Cone, Neighbourhood, independent_parts};
 
@@ -21,8 +22,6 @@ const MANY_STARTS: usize = 400;
 /// Samples of a set of one dimension, and how far they are apart at least.
 const SAMPLES: usize = 6;
 const APART: f64 = 1e-3;
-/// Rounding of the closures at a multiple solution, relative to its size.
-const ROUNDING: f64 = 1e-14;
 
 impl Question<'_> {
     /// True if Newton's method may have ended at a point on its way to a known assembly: the closures
@@ -132,7 +131,7 @@ impl Question<'_> {
                 (None, _) => {
                     let refined = local.refined(&x);
                     // beside solutions that nearly meet it leads to where they would
-                    let most = homotopy.residual(END, &x).max(ROUNDING * (1.0 + size(&x)));
+                    let most = homotopy.residual(END, &x).max(CANCELLED * (1.0 + size(&x)));
                     let refined = match homotopy.residual(END, &refined) <= most {
                         true => refined,
                         false => x.clone(),
@@ -148,7 +147,7 @@ impl Question<'_> {
             // where solutions meet, no more than rounding is left. What Newton's method calls solved may
             // be beside a set of solutions of other inputs, a hair from these
             let left = homotopy.residual(END, &x);
-            if !expected && multiplicity > 1 && left > ROUNDING * (1.0 + size(&x)) {
+            if !expected && multiplicity > 1 && left > CANCELLED * (1.0 + size(&x)) {
                 continue;
             }
             let alike = samples.iter().filter(|f| f.dimension == dimension);

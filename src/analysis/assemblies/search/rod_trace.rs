@@ -17,11 +17,10 @@ use super::solutions::GenericSolutions;
 use crate::analysis::assemblies::family::{C, Family, Member, known_bound};
 use crate::analysis::assemblies::track::{ParameterHomotopy, tracked};
 use crate::mechanism::ClosureKind;
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, complex::norm};
 use crate::solve::{Progress, Watch};
 
-/// A sum that is zero but for rounding, relative to the sum of absolute values.
-const ROUNDING: f64 = 1e-9;
 /// And relative to the least change of a known solution's term, so that one like it would be missed.
 const SEEN: f64 = 1e-3;
 /// Choices of rod and joint that are looked at.

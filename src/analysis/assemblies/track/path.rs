@@ -7,6 +7,7 @@ use super::homotopy::{FAR, ParameterHomotopy};
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use crate::analysis::assemblies::family::{C, size};
+use crate::number::tolerance::EXACT;
 use crate::number::{Number, complex, real};
 use crate::solve::{
     Arrival, Homotopy, Newton, PathEnd, Progress, Stages, Tracker, Watch, path_end,
@@ -35,8 +36,6 @@ impl End {
     }
 }
 
-/// Rounding relative to the square of the size of a solution.
-const ROUNDING: f64 = 1e-15;
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
 /// Distance to the side at which points far out on the real way are passed, through complex s.
@@ -221,7 +220,7 @@ fn go_round(
                 return End::Either(both);
             }
             // what Newton's method calls solved; where more is left solutions pass each other
-            let meeting = Newton::default().tolerance.max(ROUNDING * size(&x).powi(2));
+            let meeting = Newton::default().tolerance.max(EXACT * size(&x).powi(2));
             let x = Local::new(homotopy, false).refined(&x);
             match homotopy.residual(end, &x) <= meeting {
                 true => End::Singular(x),

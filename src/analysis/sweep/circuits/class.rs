@@ -4,6 +4,7 @@ use super::{Circuit, FourBarClass, Grashof};
 use crate::description::ClosureKind;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, JointKind, Mechanism};
+use crate::number::tolerance::WRITTEN_ZERO;
 
 /// A joint as chain, row and variable.
 type Placed = (usize, usize, usize);
@@ -87,8 +88,6 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
 ///
 /// Source: F. Grashof, Theoretische Maschinenlehre, 1883.
 pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Option<Grashof> {
-    /// Lengths that add up this closely, in parts of the longest, are equal: rounding of written numbers.
-    const EQUAL: f64 = 1e-12;
     let Loop { grounded, others } = planar_loop(mechanism)?;
     let ([(chain, row, _)], 4) = (&others[..], mechanism.bodies().len()) else {
         return None;
@@ -122,7 +121,7 @@ pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Optio
     let [shortest, second, third, longest] = sorted;
     let excess = shortest + longest - second - third;
     let class = match excess {
-        x if x.abs() <= EQUAL * longest => FourBarClass::ChangePoint,
+        x if x.abs() <= WRITTEN_ZERO * longest => FourBarClass::ChangePoint,
         x if x > 0.0 => FourBarClass::TripleRocker,
         _ if shortest == lengths[0] => FourBarClass::DoubleCrank,
         _ if shortest == lengths[2] => FourBarClass::DoubleRocker,

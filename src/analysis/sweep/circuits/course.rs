@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{At, Branch, Found, JointMotion};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, turn_near, turns};
+use crate::number::tolerance::ROUNDING;
 use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve};
 
@@ -52,8 +53,6 @@ impl<'m> Course<'m> {
         found: &Found,
         of: Coordinate,
     ) -> Option<Self> {
-        /// A rate this small relative to a unit tangent is rounding.
-        const STILL: f64 = 1e-9;
         /// Angles that change more in one step do not follow from the pose.
         const JUMP: f64 = 0.5;
         let is_angle = of.is_angle(mechanism);
@@ -76,7 +75,7 @@ impl<'m> Course<'m> {
             .map(|place| curve.rate(&place.at, &place.tangent, of))
             .collect();
         let moving: Vec<usize> = (0..rates.len())
-            .filter(|&i| rates[i].abs() > STILL)
+            .filter(|&i| rates[i].abs() > ROUNDING)
             .collect();
         let (first, last) = (*moving.first()?, *moving.last()?);
         let mut turnings = Vec::new();
@@ -143,11 +142,10 @@ impl<'m> Course<'m> {
 
     /// Pieces between places where it turns back; none where it stands still.
     pub fn branches(&self) -> Vec<Branch> {
-        const STILL: f64 = 1e-9;
         if self
             .values
             .iter()
-            .all(|x| (x - self.values[0]).abs() < STILL)
+            .all(|x| (x - self.values[0]).abs() < ROUNDING)
         {
             return Vec::new();
         }
