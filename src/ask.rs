@@ -54,7 +54,7 @@ pub use remedy::Remedy;
 pub use schedule::{TableError, TableErrorKind};
 pub use solver::SampleAnswer;
 pub use steering::Steering;
-pub use study::{Points, Spread, Study, StudyRows, part_of, regions};
+pub use study::{Points, ScatteredPoints, Study, StudyRows, part_of, regions};
 pub use study_error::StudyError;
 pub use workspace::MOST_BYTES;
 

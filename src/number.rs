@@ -28,6 +28,9 @@ pub use num_complex::Complex;
 pub(crate) use taylor::Taylor;
 pub(crate) use widest::widest;
 
+/// A complex number in double precision.
+pub(crate) type C = Complex<f64>;
+
 /// A number the kinematics can be evaluated over.
 ///
 /// Every function is the analytic continuation of the real one, so that an identity between

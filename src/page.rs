@@ -32,7 +32,7 @@ use crate::output::rounding::Prefaced;
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
-use request::{Analysis, Load, MeasureKind, Press, Request, Sweep};
+use request::{Analysis, LoadRequest, MeasureKind, Press, Request, SweepRequest};
 use state::State;
 
 /// State of a page between requests.
@@ -165,7 +165,7 @@ impl Page {
     }
 
     /// Reads a file; its errors come back with lines and columns.
-    fn load(&mut self, load: &Load, watch: &Watch) -> Result<Value, RefusedReply> {
+    fn load(&mut self, load: &LoadRequest, watch: &Watch) -> Result<Value, RefusedReply> {
         let text = &load.text;
         let wrong = |problems: &[Problem]| {
             RefusedReply(json!({ "problems": shown::problems(text, problems) }))
@@ -255,7 +255,7 @@ impl Page {
         })
     }
 
-    fn sweep(&self, sweep: &Sweep, watch: &Watch) -> Result<String, RefusedReply> {
+    fn sweep(&self, sweep: &SweepRequest, watch: &Watch) -> Result<String, RefusedReply> {
         let mechanism = &self.mechanism()?;
         let asked = self.asked(mechanism);
         let mut asked = match &sweep.input {

@@ -28,7 +28,7 @@ pub use crate::mechanism::{PointError, Value, ValueError};
 pub use balance::{Balance, Instant};
 pub use bearing::{Bearings, Carried};
 pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
-pub use bundle::{Along, Arrow, Bundle, Bundled, Closer, Copies, Target, TargetError};
+pub use bundle::{Arrow, Bundle, Bundled, Closer, Copies, PathForm, Target, TargetError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{
     Bound, ComplexCurve, ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor,

@@ -10,7 +10,7 @@ mod exact;
 mod report;
 mod search;
 
-pub use course::{Course, course};
+pub use course::{DesignCourse, course};
 pub use exact::{Exact, NotAll};
 pub use report::{Defect, Design, DesignReport, Deviation, Moves, VariedNumber};
-pub use search::{Found, Searched, Task};
+pub use search::{FoundEnd, SearchedEnds, Task};

@@ -20,7 +20,7 @@ mod schedule;
 mod straightness;
 
 pub(crate) use between::{Passage, Stretch};
-use certified::Certifier;
+use certified::RowCertifier;
 pub use certified::{Certificate, Uncertified};
 pub use circuits::{
     Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, Grashof, JointMotion, Slice,
@@ -49,8 +49,8 @@ pub use crate::system::SweepEnd;
 use crate::system::{Bound, Curve, Driven, Event, Held, Walk};
 use begin::{MOST_STEPS, beginning};
 use met::Record;
-use paths::Trail;
-use rows::{Rows, holding};
+use paths::TracedTrail;
+use rows::{RowMaker, holding};
 
 type At = Place<Configuration<f64>>;
 
@@ -136,7 +136,7 @@ impl<'a> Row<'a> {
 pub type Sink<'s> = dyn FnMut(&Row) + 's;
 
 /// Receiver inside a sweep, which may end the motion.
-type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
+type RowFlow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
 /// Outcome of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -215,8 +215,8 @@ pub fn sweep(
     let steps = Some(settings.steps);
     let mut reached = 0;
     let mut certifier = (settings.certify && driven)
-        .then(|| Certifier::new(mechanism, holding(held, inputs), inputs, start, watch));
-    let sink: &mut Flow = &mut |row| {
+        .then(|| RowCertifier::new(mechanism, holding(held, inputs), inputs, start, watch));
+    let sink: &mut RowFlow = &mut |row| {
         if let Some(Ok(certifier)) = &mut certifier
             && !row.between
         {
@@ -255,7 +255,7 @@ pub fn sweep(
             false,
         ),
     };
-    let mut rows = Rows::new(mechanism, held, &curve, &place, settings);
+    let mut rows = RowMaker::new(mechanism, held, &curve, &place, settings);
     if rows.first(&place, sink).is_break() {
         return interrupted(record.report(SweepEnd::Stopped, 1, 0.0));
     }
@@ -264,7 +264,7 @@ pub fn sweep(
         return record.report(SweepEnd::Fold, 1, 0.0);
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    let mut trail = Trail::new(mechanism, &curve, &settings.points, method);
+    let mut trail = TracedTrail::new(mechanism, &curve, &settings.points, method);
     let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         let done = curve.part(&leg.from.at).clamp(0.0, 1.0) * settings.steps as f64;
@@ -342,7 +342,7 @@ pub fn sweep(
         ..Certificate::default()
     };
     interrupted(SweepReport {
-        certificate: certifier.map(|of| of.map_or_else(unfit, Certifier::certificate)),
+        certificate: certifier.map(|of| of.map_or_else(unfit, RowCertifier::certificate)),
         paths: trail.reports(&mut curve, ending == SweepEnd::Closed),
         ..record.report(ending, rows.sent.count, length)
     })

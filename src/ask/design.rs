@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::analysis::design::{self, DesignReport, Found, Task, VariedNumber};
+use crate::analysis::design::{self, DesignReport, FoundEnd, Task, VariedNumber};
 use crate::description::{Description, DesignDescription, DesignPart, DesignProblem, Problem};
 use crate::mechanism::Mechanism;
 use crate::solve::{LeastSquares, Watch};
@@ -139,7 +139,7 @@ impl Design {
         let (exact, searched) = match exact {
             Some((exact, searched)) => (Some(exact), searched),
             None => {
-                let good = |found: &Found| judge.defects(found).0.is_empty();
+                let good = |found: &FoundEnd| judge.defects(found).0.is_empty();
                 (None, task.search(&good, watch))
             }
         };
@@ -202,7 +202,7 @@ impl Design {
         })
     }
 
-    fn design(&self, task: &Task, judge: &Judge, found: &Found) -> Option<design::Design> {
+    fn design(&self, task: &Task, judge: &Judge, found: &FoundEnd) -> Option<design::Design> {
         let (defects, driver) = judge.defects(found);
         let deviations = task.bundle.deviations(&found.at)?.into_iter();
         let deviations = deviations.filter(|(target, _)| !target.exact);

@@ -11,7 +11,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-pub use points::{Points, Spread};
+pub use points::{Points, ScatteredPoints};
 pub use regions::regions;
 
 use super::study_error::StudyError;
@@ -34,7 +34,7 @@ pub struct Study {
     question: Question,
     points: Points,
     varied: Vec<Varied>,
-    ranges: Vec<Spread>,
+    ranges: Vec<ScatteredPoints>,
     /// True if assemblies are counted.
     counted: bool,
     columns: Vec<Variable>,
@@ -155,13 +155,13 @@ impl Study {
             let (name, from, to) = (&demand.name, demand.value(0), demand.value(1));
             if let Some((index, parameter)) = parameter(&mechanism, name)? {
                 let number = |value| number(&mechanism, index, value);
-                ranges.push(Spread::Even(number(&from)?, number(&to)?));
+                ranges.push(ScatteredPoints::Even(number(&from)?, number(&to)?));
                 varied.push(Varied::parameter(index, parameter));
                 continue;
             }
             let (of, from) = (plain.value(name, from)).map_err(item.value(0).named())?;
             let (_, to) = (plain.value(name, to)).map_err(item.value(1).named())?;
-            ranges.push(Spread::Even(from, to));
+            ranges.push(ScatteredPoints::Even(from, to));
             // what follows a joint is that joint
             let name = of.name(&mechanism);
             varied.push(Varied::coordinate(&name, of, &mechanism));
@@ -197,7 +197,7 @@ impl Study {
             if deviation.is_nan() || deviation < 0.0 {
                 return Err(StudyError::Deviation(name.clone()).into());
             }
-            ranges.push(Spread::Normal(value, deviation));
+            ranges.push(ScatteredPoints::Normal(value, deviation));
         }
         let wanted = varied.len();
         let width = |given| Err(StudyError::Width { given, wanted }.into());

@@ -60,6 +60,9 @@ pub(crate) const GROUND: Colour = Colour(0x666666);
 pub(crate) const DRIVEN: Colour = Colour(0xE69F00);
 pub(crate) const PATH: Colour = Colour(0xD55E00);
 
+/// A place in ground, in m.
+type Position = Vector3<f64>;
+
 /// Something drawn. In the plane what is of a higher layer covers what is of a lower one; in space what is nearer to the
 /// viewer, in m, covers what is farther.
 struct Painted {

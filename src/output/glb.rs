@@ -13,7 +13,7 @@ use crate::geometry::{Quaternion, Rotation, Vector3};
 use crate::scene::{BodyShape, JointShape, JointSymbol, Scene, across};
 use file::{File, SolidPlacement};
 
-type Position = Vector3<f64>;
+type Vertex = Vector3<f64>;
 
 /// The mechanism of the first scene as GLB; several scenes are an animation that lasts so many seconds.
 pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
@@ -31,11 +31,11 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
         };
         let radius = if body.ground { 0.2 } else { 0.35 };
         let bars = scenes.iter().map(|scene| bars(&scene.bodies[index]));
-        let bars: Vec<Vec<[Position; 2]>> = bars.collect();
+        let bars: Vec<Vec<[Vertex; 2]>> = bars.collect();
         for k in 0..bars[0].len() {
             // a link that a slide draws out may begin at nothing
             let ends = bars.iter().map(|of| of.get(k).copied());
-            let ends = ends.map(|ends| ends.unwrap_or([Position::zero(); 2]));
+            let ends = ends.map(|ends| ends.unwrap_or([Vertex::zero(); 2]));
             let places = along(first, ends, thick(radius));
             file.node(&body.name, &cylinder, (colour, 1.0), places);
         }
@@ -50,7 +50,7 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
         let places = along(first, ends(), thick(0.25));
         file.node(&rod.name, &cylinder, (colour, 1.0), places);
         for end in [0, 1] {
-            let place = |ends: [Position; 2]| SolidPlacement {
+            let place = |ends: [Vertex; 2]| SolidPlacement {
                 scale: [0.6 * size; 3],
                 ..SolidPlacement::at(ends[end])
             };
@@ -82,7 +82,7 @@ pub fn glb(scenes: &[Scene], seconds: f64) -> Vec<u8> {
             &path.name,
             &solids::line(&path.points),
             (PATH, 1.0),
-            vec![SolidPlacement::at(Position::zero())],
+            vec![SolidPlacement::at(Vertex::zero())],
         );
     }
     let times: Vec<f64> = (0..scenes.len())
@@ -108,13 +108,13 @@ fn upright(scene: &Scene) -> Rotation<f64> {
 }
 
 /// The straight pieces of a body.
-fn bars(body: &BodyShape) -> Vec<[Position; 2]> {
+fn bars(body: &BodyShape) -> Vec<[Vertex; 2]> {
     let lines = body.lines.iter();
     let pairs = lines.flat_map(|line| {
         line.windows(2)
             .map(|pair| [Vector3(pair[0]), Vector3(pair[1])])
     });
-    let pairs: Vec<[Position; 2]> = pairs.collect();
+    let pairs: Vec<[Vertex; 2]> = pairs.collect();
     match (&body.corners[..], pairs.is_empty()) {
         ([a, b], true) => vec![[Vector3(*a), Vector3(*b)]],
         _ => pairs,
@@ -124,10 +124,10 @@ fn bars(body: &BodyShape) -> Vec<[Position; 2]> {
 /// Placements of a solid that stretches from z = 0 to 1, from end to end, so wide in x and y, without spin on the way.
 fn along(
     scene: &Scene,
-    ends: impl Iterator<Item = [Position; 2]>,
+    ends: impl Iterator<Item = [Vertex; 2]>,
     [x, y]: [f64; 2],
 ) -> Vec<SolidPlacement> {
-    let mut before: Option<(Position, Quaternion<f64>)> = None;
+    let mut before: Option<(Vertex, Quaternion<f64>)> = None;
     let places = ends.map(|[from, to]| {
         let length = (to - from).norm();
         if length > 0.0 {
@@ -148,7 +148,7 @@ fn along(
 }
 
 /// z along a direction, and x across it in the plane of motion.
-fn beginning(scene: &Scene, along: &Position) -> Rotation<f64> {
+fn beginning(scene: &Scene, along: &Vertex) -> Rotation<f64> {
     let normal = scene.normal.map_or(Vector3::unit(2), Vector3);
     let side = along.cross(&normal);
     let right = match side.norm() > 1e-6 {
@@ -159,7 +159,7 @@ fn beginning(scene: &Scene, along: &Position) -> Rotation<f64> {
 }
 
 /// The shortest way from one direction to another.
-fn shortest(from: &Position, to: &Position) -> Quaternion<f64> {
+fn shortest(from: &Vertex, to: &Vertex) -> Quaternion<f64> {
     let w = 1.0 + from.dot(to);
     match w > 1e-9 {
         true => {
@@ -191,13 +191,13 @@ fn symbol(joint: &JointShape) -> Vec<(solids::Solid, Option<usize>, [f64; 3])> {
 
 /// A body's corners as a plate with its places, if they keep their distances and do not lie in one line.
 fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<SolidPlacement>)> {
-    let corners = |scene: &Scene| -> Vec<Position> {
+    let corners = |scene: &Scene| -> Vec<Vertex> {
         let corners = scene.bodies[index].corners.iter();
         corners.map(|corner| Vector3(*corner)).collect()
     };
     let first = corners(&scenes[0]);
     let size = joint_size(&scenes[0]);
-    let frame = |corners: &[Position], [a, b]: [usize; 2]| {
+    let frame = |corners: &[Vertex], [a, b]: [usize; 2]| {
         let x = corners[a] - corners[0];
         let z = x.cross(&(corners[b] - corners[0]));
         let (x, z) = (x.times(1.0 / x.norm()), z.times(1.0 / z.norm()));
@@ -211,7 +211,7 @@ fn plate(scenes: &[Scene], index: usize) -> Option<(solids::Solid, Vec<SolidPlac
     };
     let b = (1..first.len()).find(wide)?;
     let to = frame(&first, [a, b]);
-    let local = |corners: &[Position], to: &Rotation<f64>| -> Vec<Position> {
+    let local = |corners: &[Vertex], to: &Rotation<f64>| -> Vec<Vertex> {
         let offsets = corners.iter().map(|corner| *corner - corners[0]);
         offsets.map(|offset| to.inverse_rotate(&offset)).collect()
     };

@@ -8,7 +8,7 @@ use super::state::State;
 #[serde(tag = "do", rename_all = "snake_case")]
 pub enum Request {
     /// Reads a mechanism file and assembles it.
-    Load(Load),
+    Load(LoadRequest),
     /// Moves held coordinates together, in rad or m.
     Move { to: Vec<(String, f64)> },
     /// Takes a point of a body or a rod, by its number in the scene, where it is in ground: what holds it.
@@ -58,7 +58,7 @@ pub enum Request {
         as_filed: bool,
     },
     /// Moves one coordinate over a range, or follows the whole curve.
-    Sweep(Sweep),
+    Sweep(SweepRequest),
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -92,7 +92,7 @@ pub struct Press {
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Load {
+pub struct LoadRequest {
     pub text: String,
     /// Parameters with other values.
     #[serde(default)]
@@ -118,7 +118,7 @@ pub enum Analysis {
 }
 
 #[derive(Debug, Deserialize)]
-pub struct Sweep {
+pub struct SweepRequest {
     /// Name, from and to, in rad or m; without it the whole curve is followed.
     #[serde(default)]
     pub input: Option<(String, f64, f64)>,

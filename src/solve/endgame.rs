@@ -7,9 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::homotopy::{Arrival, Homotopy, Stages, Tracker};
-use crate::number::{Complex, real};
-
-type C = Complex<f64>;
+use crate::number::{C, real};
 
 /// A homotopy whose coordinates may be angles.
 pub trait Turning: Homotopy {

@@ -6,9 +6,7 @@
 //! the measure by which Timme 2021 avoids jumping to a neighbouring path.
 
 use super::{Progress, Watch};
-use crate::number::{Complex, real};
-
-type C = Complex<f64>;
+use crate::number::{C, real};
 
 /// Equations with one complex parameter, in flat coordinates.
 pub trait Homotopy {

@@ -11,10 +11,8 @@ use rand_pcg::Pcg64;
 use super::homotopy::{Arrival, Homotopy, Stages, Tracker};
 use super::threads::each;
 use super::{Progress, Stage, Watch};
-use crate::number::Complex;
+use crate::number::C;
 use crate::number::tolerance::SAME;
-
-type C = Complex<f64>;
 
 /// Square systems with parameters.
 pub trait Family: Sync {

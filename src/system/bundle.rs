@@ -21,7 +21,7 @@ mod target;
 
 use std::collections::BTreeMap;
 
-pub use along::Along;
+pub use along::PathForm;
 pub use closer::Closer;
 pub use copies::Copies;
 use elimination::Eliminated;

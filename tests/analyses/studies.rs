@@ -1,9 +1,9 @@
 //! Studies: points by their numbers, regions of grids, and shards put together.
 
-use linkwork::ask::{Points, Spread, regions};
+use linkwork::ask::{Points, ScatteredPoints, regions};
 use linkwork::output::study::{Label, MergeError, mapped, merge, spread};
 
-const UNIT: [Spread; 10] = [Spread::Even(0.0, 1.0); 10];
+const UNIT: [ScatteredPoints; 10] = [ScatteredPoints::Even(0.0, 1.0); 10];
 
 #[test]
 fn each_part_of_each_range_has_one_point_of_a_latin_hypercube() {
@@ -67,7 +67,8 @@ fn sobols_first_points_are_those_published() {
 #[test]
 fn a_grid_has_every_combination_with_the_ends() {
     let points = Points::Grid(vec![3, 1, 2]);
-    let ranges = [(0.0, 0.3), (1.0, 3.0), (-1.0, 1.0)].map(|(from, to)| Spread::Even(from, to));
+    let ranges =
+        [(0.0, 0.3), (1.0, 3.0), (-1.0, 1.0)].map(|(from, to)| ScatteredPoints::Even(from, to));
     let all: Vec<Vec<f64>> = (0..6).map(|i| points.at(i, &ranges, 1)).collect();
     let (middle, end) = (0.5 * 0.3, 0.3);
     let expected = [
@@ -85,7 +86,7 @@ fn a_grid_has_every_combination_with_the_ends() {
 /// Quantiles of the standard normal distribution: Abramowitz and Stegun, table 26.5, and its symmetry.
 #[test]
 fn normal_deviations_have_the_quantiles_of_the_tables() {
-    let normal = Spread::Normal(0.0, 1.0);
+    let normal = ScatteredPoints::Normal(0.0, 1.0);
     // the value below which so many thousandths of all lie
     let at = |of, part| Points::Grid(vec![1001]).at(part, &[of], 1)[0];
     for (part, expected) in [
@@ -97,7 +98,7 @@ fn normal_deviations_have_the_quantiles_of_the_tables() {
         assert!((at(normal, part) - expected).abs() < 1e-13, "{part}");
     }
     assert!(at(normal, 0) < -8.0 && at(normal, 0).is_finite());
-    assert_eq!(at(Spread::Normal(3.0, 0.0), 100), 3.0);
+    assert_eq!(at(ScatteredPoints::Normal(3.0, 0.0), 100), 3.0);
     let count = 4096;
     let squares = (0..count).map(|i| Points::Sobol(count).at(i, &[normal], 1)[0].powi(2));
     assert!((squares.sum::<f64>() / count as f64 - 1.0).abs() < 0.01);

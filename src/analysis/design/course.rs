@@ -16,7 +16,7 @@ const MET: f64 = 1e-7;
 
 /// The curve through the first of some positions.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Course {
+pub struct DesignCourse {
     /// Length of the curve at which each position is met, from the first on; `None` for one that it does not pass.
     pub met: Vec<Option<f64>>,
     /// Lengths at which the driving joint turns back.
@@ -35,7 +35,7 @@ pub struct Course {
     pub turn: f64,
 }
 
-type At = Place<Configuration<f64>>;
+type CoursePlace = Place<Configuration<f64>>;
 
 /// Follows the curve through the first position once round, or from there to both of its ends, in steps that cannot change
 /// branch unnoticed; positions are met between the ends of a step, at the place of the curve that lies across from them.
@@ -48,18 +48,18 @@ pub fn course(
     positions: &[Configuration<f64>],
     driver: Option<usize>,
     watch: &Watch,
-) -> Result<Course, StepFailure> {
+) -> Result<DesignCourse, StepFailure> {
     let mut curve = Curve::new(mechanism, held);
     let method = Continuation::default();
     let first = positions.first().ok_or(StepFailure::NotClosed)?;
     let mut first = first.clone();
     mechanism.turn_to_limits(&mut first.joints);
     let start = method.settle(&mut curve, first)?;
-    let mut course = Course {
+    let mut course = DesignCourse {
         met: vec![None; positions.len()],
-        ..Course::default()
+        ..DesignCourse::default()
     };
-    let mut way = Way {
+    let mut way = DesignWay {
         positions,
         driver,
         course: &mut course,
@@ -72,7 +72,7 @@ pub fn course(
         course.length = length;
     }
     if !course.closed && whole {
-        let mut way = Way {
+        let mut way = DesignWay {
             positions,
             driver,
             course: &mut course,
@@ -88,21 +88,21 @@ pub fn course(
     Ok(course)
 }
 
-struct Way<'a> {
+struct DesignWay<'a> {
     positions: &'a [Configuration<f64>],
     driver: Option<usize>,
-    course: &'a mut Course,
+    course: &'a mut DesignCourse,
     method: &'a Continuation,
     watch: &'a Watch<'a>,
 }
 
-impl Way<'_> {
+impl DesignWay<'_> {
     /// Length of the curve to where it closes or ends; `None` if it was not followed so far.
     fn walk(
         &mut self,
         mechanism: &Mechanism,
         curve: &mut Curve,
-        start: At,
+        start: CoursePlace,
         sign: f64,
     ) -> Option<f64> {
         let from = self.driver.map_or(0.0, |joint| start.at.joints[joint]);
@@ -164,7 +164,7 @@ impl Way<'_> {
                 continue;
             }
             // beside the ends nothing lies between
-            let near = |place: &At| norm(&curve.difference_but_turns(&place.at, at)) < MET;
+            let near = |place: &CoursePlace| norm(&curve.difference_but_turns(&place.at, at)) < MET;
             let place = match [&from, other].into_iter().find(|place| near(place)) {
                 Some(place) => Some(place.clone()),
                 None => self.method.across(curve, &from, s),
@@ -180,7 +180,7 @@ impl Way<'_> {
     }
 }
 
-impl Course {
+impl DesignCourse {
     /// The positions that it does not pass.
     pub fn elsewhere(&self) -> Vec<usize> {
         let positions = self.met.iter().enumerate();

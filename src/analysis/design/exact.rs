@@ -4,14 +4,12 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::search::{Found, Searched, Task};
+use super::search::{FoundEnd, SearchedEnds, Task};
 use crate::mechanism::turn_near;
-use crate::number::{Complex, Number};
+use crate::number::{C, Number};
 use crate::solve::monodromy::{Family, Monodromy, Spread, followed, place, random};
 use crate::solve::{Homotopy, LevenbergMarquardt, Stage, Tracker, Watch, each};
-use crate::system::{Along, Bundled, Copies};
-
-type C = Complex<f64>;
+use crate::system::{Bundled, Copies, PathForm};
 
 /// All solutions of an exact synthesis, counted.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -146,7 +144,7 @@ impl Synthesis<'_, '_, '_> {
 
 impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     type Way<'f>
-        = Along<'f, 'b, 'm>
+        = PathForm<'f, 'b, 'm>
     where
         Self: 'f;
 
@@ -155,7 +153,7 @@ impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     }
 
     fn way(&self, from: &[C], to: &[C]) -> Self::Way<'_> {
-        Along::new(&self.copies, from.to_vec(), to.to_vec())
+        PathForm::new(&self.copies, from.to_vec(), to.to_vec())
     }
 
     fn member(&self, rng: &mut Pcg64) -> Vec<C> {
@@ -260,7 +258,11 @@ impl Task<'_> {
     ///
     /// # Errors
     /// If the search for generic solutions found more than it keeps, or lost paths on every way.
-    pub fn exact(&self, most: usize, watch: &Watch) -> Result<Option<(Exact, Searched)>, NotAll> {
+    pub fn exact(
+        &self,
+        most: usize,
+        watch: &Watch,
+    ) -> Result<Option<(Exact, SearchedEnds)>, NotAll> {
         let nothing = Flip {
             numbers: vec![false; self.angles.len()],
             joints: vec![false; self.mechanism.joints().len()],
@@ -291,9 +293,9 @@ impl Task<'_> {
                 classes: found,
                 ..Exact::default()
             };
-            let searched = Searched {
+            let searched = SearchedEnds {
                 interrupted: true,
-                ..Searched::default()
+                ..SearchedEnds::default()
             };
             return Ok(Some((exact, searched)));
         }
@@ -310,7 +312,7 @@ impl Task<'_> {
 
 impl Synthesis<'_, '_, '_> {
     /// Solutions for the targets of the task, from those for generic ones.
-    fn at_targets(&self, spread: &Spread, rng: &mut Pcg64, watch: &Watch) -> (Exact, Searched) {
+    fn at_targets(&self, spread: &Spread, rng: &mut Pcg64, watch: &Watch) -> (Exact, SearchedEnds) {
         let values = self.copies.values();
         let count = spread.solutions.len();
         let tracker = Tracker {
@@ -365,7 +367,7 @@ impl Synthesis<'_, '_, '_> {
             middle = self.member(rng);
             members = vec![&spread.member, &middle, &values];
         }
-        let mut searched = Searched::default();
+        let mut searched = SearchedEnds::default();
         for alike in &different {
             exact.different += 1;
             self.real(alike, &mut exact, &mut searched);
@@ -383,7 +385,7 @@ impl Synthesis<'_, '_, '_> {
 
     /// Takes in a solution if it is real: of those that differ by signs and half turns the first that lies in the ranges, and each
     /// exchange.
-    fn real(&self, alike: &[Vec<C>], exact: &mut Exact, searched: &mut Searched) {
+    fn real(&self, alike: &[Vec<C>], exact: &mut Exact, searched: &mut SearchedEnds) {
         const REAL: f64 = 1e-7;
         let is_real = |x: &[C]| {
             let size = x.iter().map(|x| x.norm_sqr()).fold(1.0, f64::max).sqrt();
@@ -423,7 +425,7 @@ impl Synthesis<'_, '_, '_> {
             let end = polish.solve(&self.task.bundle, at);
             let mut known = searched.found[first..].iter();
             if !known.any(|of| self.task.same(&of.at, &end.point)) {
-                searched.found.push(Found {
+                searched.found.push(FoundEnd {
                     at: end.point,
                     squares: end.misfit.squares,
                     reached: 1,

@@ -38,7 +38,7 @@ pub struct Task<'m> {
 
 /// An end of the search.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct FoundEnd {
     /// The numbers and the configuration in each position.
     pub at: Bundled,
     /// The weighted sum of squares of all deviations.
@@ -51,9 +51,9 @@ pub struct Found {
 
 /// All different ends of a search, by their sums of squares.
 #[derive(Clone, Debug, Default)]
-pub struct Searched {
+pub struct SearchedEnds {
     /// The ends.
-    pub found: Vec<Found>,
+    pub found: Vec<FoundEnd>,
     /// Number of starts that could be assembled.
     pub starts: usize,
     /// Number of random dimensions that could not.
@@ -67,12 +67,12 @@ const EXACT: f64 = 1e-20;
 
 impl Task<'_> {
     /// Searches until the least sum of squares of an end that `judge` accepts has come again often enough.
-    pub fn search(&self, judge: &dyn Fn(&Found) -> bool, watch: &Watch) -> Searched {
+    pub fn search(&self, judge: &dyn Fn(&FoundEnd) -> bool, watch: &Watch) -> SearchedEnds {
         const BATCH: usize = 8;
         const AGAIN: usize = 3;
         /// Ends that are judged at most.
         const JUDGED: usize = 60;
-        let mut all = Searched::default();
+        let mut all = SearchedEnds::default();
         let mut judged: Vec<(Bundled, bool)> = Vec::new();
         let mut tried = 0;
         while tried < self.starts {
@@ -140,7 +140,7 @@ impl Task<'_> {
         near.all(|near| near)
     }
 
-    fn add(&self, known: &mut Vec<Found>, end: Found) {
+    fn add(&self, known: &mut Vec<FoundEnd>, end: FoundEnd) {
         match known.iter_mut().find(|of| self.same(&of.at, &end.at)) {
             Some(of) => {
                 of.reached += 1;
@@ -153,7 +153,7 @@ impl Task<'_> {
     }
 
     /// The end to which a start leads, and the number of random dimensions before it that could not be assembled.
-    fn end(&self, number: usize) -> (usize, Option<Found>) {
+    fn end(&self, number: usize) -> (usize, Option<FoundEnd>) {
         const TRIES: usize = 60;
         const CANDIDATES: usize = 4;
         let mut rng = Pcg64::seed_from_u64(
@@ -185,7 +185,7 @@ impl Task<'_> {
                 steps: 200,
             };
             let end = method.solve(&self.bundle, start);
-            Found {
+            FoundEnd {
                 at: end.point,
                 squares: end.misfit.squares,
                 reached: 1,

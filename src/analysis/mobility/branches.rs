@@ -12,7 +12,7 @@ use crate::linear::orthonormal;
 use crate::number::sorting::sort_by_key;
 use crate::solve::{Stage, Watch};
 use crate::system::{Cone, Neighbourhood, Tangent, independent_parts};
-use walk::{BranchWalk, Directions, MOVED_ON_A_BRANCH, Seen, contains, same};
+use walk::{BranchWalk, MOVED_ON_A_BRANCH, Seen, WalkDirections, contains, same};
 
 /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
 /// motion that is only infinitesimal to second order leaves a gap of about its square.
@@ -212,8 +212,8 @@ impl FiniteSearch<'_, '_> {
         let (mut tried, mut fruitless) = (0, 0);
         'rounds: while share < 1.0 {
             let mut ahead = match tried == 0 || cone.is_all() {
-                true => Directions::new(&cone, tangent),
-                false => Directions::on_cone(&cone, tangent),
+                true => WalkDirections::new(&cone, tangent),
+                false => WalkDirections::on_cone(&cone, tangent),
             };
             let before = tried;
             while let Some(direction) = ahead.next(&cone, tangent, &mut walk.search.rng) {

@@ -18,13 +18,13 @@ pub(crate) struct Course<'m> {
     /// End of the last of them, with the part of the time, and true if the inputs turn back there.
     last: Option<(Configuration<f64>, f64, bool)>,
     names: Vec<Name>,
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<StretchPiece>,
     /// True if all of it was examined.
     pub whole: bool,
 }
 
 /// A part of a stretch.
-pub(crate) struct Piece {
+pub(crate) struct StretchPiece {
     stretch: usize,
     /// The parts of the stretch where it begins and ends.
     span: [f64; 2],
@@ -39,7 +39,7 @@ pub(crate) struct Piece {
 
 /// A part of a piece, from s = middle − radius to middle + radius.
 #[derive(Clone, Copy)]
-pub(crate) struct Part {
+pub(crate) struct PieceRange {
     pub piece: usize,
     pub middle: f64,
     pub radius: f64,
@@ -118,7 +118,7 @@ impl<'m> Course<'m> {
     }
 
     /// A name over a part of a piece; the last is the time.
-    fn name(&self, name: usize, at: Part) -> Taylor {
+    fn name(&self, name: usize, at: PieceRange) -> Taylor {
         let mut terms = self.pieces[at.piece].terms[name];
         // the polynomial about the middle, by Horner's rule again and again
         for k in 0..TERMS {
@@ -151,7 +151,7 @@ impl<'m> Course<'m> {
     }
 
     /// A model of an expression over a part of a piece, if it has a value there.
-    fn model(&self, of: &Sought, at: Part) -> Option<Taylor> {
+    fn model(&self, of: &Sought, at: PieceRange) -> Option<Taylor> {
         let names: Vec<Taylor> = (self.names.iter().enumerate())
             .map(|(name, what)| {
                 let mut model = self.name(name, at);
@@ -178,11 +178,11 @@ impl<'m> Course<'m> {
         &self,
         of: &Sought,
         mut patience: usize,
-        visit: &mut dyn FnMut(Part, Option<&Taylor>) -> bool,
+        visit: &mut dyn FnMut(PieceRange, Option<&Taylor>) -> bool,
     ) -> bool {
         let mut before = (of.jumps).then(|| self.value(of, 0, -1.0).0).flatten();
         for piece in 0..self.pieces.len() {
-            let mut parts = vec![Part {
+            let mut parts = vec![PieceRange {
                 piece,
                 middle: 0.0,
                 radius: 1.0,
@@ -203,7 +203,7 @@ impl<'m> Course<'m> {
                 if (vague || visit(part, model.as_ref())) && !self.is_narrow(part) {
                     let radius = 0.5 * part.radius;
                     for middle in [part.middle + radius, part.middle - radius] {
-                        parts.push(Part {
+                        parts.push(PieceRange {
                             middle,
                             radius,
                             ..part
@@ -298,7 +298,7 @@ impl<'m> Course<'m> {
     }
 
     /// True if names do not differ by more than rounding from one end of a part to the other.
-    pub fn is_narrow(&self, of: Part) -> bool {
+    pub fn is_narrow(&self, of: PieceRange) -> bool {
         of.radius * self.width(of.piece) < 1e-13
     }
 

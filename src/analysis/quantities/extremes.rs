@@ -91,7 +91,7 @@ fn extremum(
     let mut poles: Vec<Pole> = Vec::new();
     let mut best = [least, greatest].map(|(value, piece, s)| {
         let (stretch, part) = course.place(piece, s);
-        Found {
+        FoundExtreme {
             value,
             stretch,
             part,
@@ -126,7 +126,7 @@ fn extremum(
             // a kink, where there may be more than beside it
             None => {
                 for (best, sense) in best.iter_mut().zip(SENSES) {
-                    let found = Found {
+                    let found = FoundExtreme {
                         stretch,
                         part,
                         beside: KINK,
@@ -180,7 +180,7 @@ const KINK: f64 = 1e-7;
 
 /// The best value so far, at a part of a stretch.
 #[derive(Clone, Copy)]
-struct Found {
+struct FoundExtreme {
     value: f64,
     stretch: usize,
     part: f64,
@@ -188,7 +188,7 @@ struct Found {
     beside: f64,
 }
 
-impl Found {
+impl FoundExtreme {
     /// The value read exactly, where it is best near the place.
     fn refined(self, course: &mut Course, meter: &mut Meter, i: usize, sense: f64) -> Option<Self> {
         let mut read = |part: f64| {
@@ -211,7 +211,7 @@ impl Found {
         let all = [here, top].into_iter().chain(ends).flatten();
         let best = all.reduce(|a, b| if b.1 > a.1 { b } else { a });
         best.filter(|of| of.1.is_finite())
-            .map(|(part, height)| Found {
+            .map(|(part, height)| FoundExtreme {
                 value: sense * height,
                 part,
                 ..self

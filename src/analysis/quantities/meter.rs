@@ -19,8 +19,8 @@ use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
 use crate::number::Number;
 use crate::system::{self, Balance, Coordinate, Driven, Load, Lock, Neighbourhood};
-pub(crate) use block::Block;
-use found::Here;
+pub(crate) use block::MeterBlock;
+use found::KnownHere;
 use probe::{Plan, Probe};
 pub(crate) use programs::Name;
 pub(super) use programs::{evaluated, has_atan2, turns};
@@ -62,7 +62,7 @@ pub(crate) struct Meter<'q> {
     plan: Plan,
     probe: Probe<'q, f64>,
     /// Rows that wait for others.
-    block: Block,
+    block: MeterBlock,
     /// Number of rows read.
     rows: usize,
     /// Program that reads many rows at once.
@@ -92,7 +92,7 @@ pub(crate) struct Meter<'q> {
 }
 
 /// Receiver of rows with the quantities at them.
-pub(crate) type Take<'t> = dyn FnMut(&Block) + 't;
+pub(crate) type Take<'t> = dyn FnMut(&MeterBlock) + 't;
 
 /// The lines about which links spin: none, or those of each configuration.
 enum Spinning<'q> {
@@ -240,7 +240,7 @@ impl<'q> Meter<'q> {
             coordinates,
             plan,
             probe,
-            block: Block::new(programs.len()),
+            block: MeterBlock::new(programs.len()),
             rows: 0,
             recording: None,
             failed: 0,
@@ -386,7 +386,7 @@ impl<'q> Meter<'q> {
             let of = |figure: &Figure| (*figure, classifier.distance(*figure, at));
             figures.extend(distances.iter().map(of));
         }
-        let both = Here::both(at, &found, &figures, (pace, seconds), &self.probe);
+        let both = KnownHere::both(at, &found, &figures, (pace, seconds), &self.probe);
         let mut known = std::mem::take(&mut self.known);
         for (known, (name, number)) in known.iter_mut().zip(&self.names) {
             *known = self.value(&both[usize::from(name.geometric)], &name.of, *number);

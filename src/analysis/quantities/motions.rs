@@ -2,7 +2,7 @@
 
 use super::course::{Course, Sought};
 use super::extremes::located;
-use super::meter::{Block, Meter, Metered, Name};
+use super::meter::{Meter, MeterBlock, Metered, Name};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{
     Columns, Dwell, Extremum, KeptRows, MetKind, MotionReport, MotionsReport, Passage, Paths, Row,
@@ -143,7 +143,7 @@ impl Motions<'_> {
         let how = (self.settings.pace, schedule);
         let passage = Passage::new(self.mechanism, &self.held, inputs, how);
         let mut course = Course::new(passage, names.clone());
-        let mut take = |block: &Block| {
+        let mut take = |block: &MeterBlock| {
             for i in 0..block.len() {
                 let (row, time) = block.row(i);
                 values.clear();

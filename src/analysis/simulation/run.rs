@@ -10,7 +10,7 @@ use super::{
     SimulationSettings, Speed,
 };
 use across::across;
-use events::Met;
+use events::EarliestEvent;
 
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, add, dot, norm};
@@ -71,14 +71,14 @@ impl Laws<'_> {
 }
 
 /// The equations of motion over the state.
-struct Equations<'r, 'd, 'a> {
+struct StateFlow<'r, 'd, 'a> {
     dynamics: &'r mut Dynamics<'a>,
     laws: &'r Laws<'d>,
     /// The margin below which they are taken from both sides.
     sick: f64,
 }
 
-impl Flow for Equations<'_, '_, '_> {
+impl Flow for StateFlow<'_, '_, '_> {
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) -> bool {
         let laws = self.laws;
         let [moving, _] = laws.rates(time, state);
@@ -239,8 +239,8 @@ impl<'a, 'd> Run<'a, 'd> {
             self.dynamics.stand();
             let ends = match met {
                 None => None,
-                Some((_, Met::Singular)) => Some(Some(SimulationEnd::Singular)),
-                Some((_, Met::Limit { joint, limit })) => {
+                Some((_, EarliestEvent::Singular)) => Some(Some(SimulationEnd::Singular)),
+                Some((_, EarliestEvent::Limit { joint, limit })) => {
                     Some(self.bounce(&mut integrator, time, (joint, limit), &rates, &instant))
                 }
             };
@@ -291,8 +291,8 @@ impl<'a, 'd> Run<'a, 'd> {
         }
     }
 
-    fn equations(&mut self) -> Equations<'_, 'd, 'a> {
-        Equations {
+    fn equations(&mut self) -> StateFlow<'_, 'd, 'a> {
+        StateFlow {
             sick: self.sick(),
             dynamics: self.dynamics,
             laws: &self.laws,

@@ -14,7 +14,7 @@ use crate::number::sorting::sort_by;
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
 use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, SweepEnd, Walk};
 
-type At = Place<Configuration<f64>>;
+type AlongPlace = Place<Configuration<f64>>;
 
 /// Singularities met by a motion along a segment of inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -178,7 +178,7 @@ pub fn along(
 const PARTS: u16 = 1000;
 
 struct MetPlace {
-    place: At,
+    place: AlongPlace,
     fold: bool,
     branches: bool,
     /// The direct or the inverse matrix loses rank.
@@ -240,7 +240,12 @@ impl Tests<'_> {
     }
 
     /// Places in a step where the direct or the inverse matrix loses rank.
-    fn vanishing(&mut self, curve: &mut Curve, step: &Segment, method: &Continuation) -> Vec<At> {
+    fn vanishing(
+        &mut self,
+        curve: &mut Curve,
+        step: &Segment,
+        method: &Continuation,
+    ) -> Vec<AlongPlace> {
         let ranks = self.classifier.regular_ranks();
         // steps are made from the regular end
         let singular = step.from.is_singular();

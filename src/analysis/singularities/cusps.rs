@@ -1,11 +1,9 @@
 //! Cusps: configurations of a locus where three solutions meet.
 
+use super::extents::SingularPlace;
 use crate::linear::{dot, norm};
 use crate::number::tolerance::{DOUBLE, ROUNDING};
-use crate::solve::Place;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
-
-type At = Place<Singular>;
 
 /// Cusps of a curve: places at which the gained motion v is possible to second order too, with M(x) v = 0 and (∂M/∂v) v
 /// in the image of M.
@@ -13,14 +11,20 @@ type At = Place<Singular>;
 /// Elsewhere two solutions meet on the locus, there three: in the plane of two inputs its image has a
 /// cusp, round which one solution turns into another without a singularity between them.
 /// Sources: McAree and Daniel 1999; Zein, Wenger and Chablat 2008.
-pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Singular>) -> Vec<At> {
+pub(super) fn cusps(
+    curve: &mut LocusCurve,
+    region: &Region,
+    traced: &Traced<Singular>,
+) -> Vec<SingularPlace> {
     /// A bend below this is rounding: v leads on along a whole motion.
     const STILL: f64 = 1e-7;
     let bends: Vec<Vec<f64>> = (traced.places.iter())
         .map(|place| curve.bend(&place.at))
         .collect();
-    let mut found: Vec<At> = Vec::new();
-    let mut take = |curve: &mut LocusCurve, from: (&At, &[f64]), to: (&At, &[f64])| {
+    let mut found: Vec<SingularPlace> = Vec::new();
+    let mut take = |curve: &mut LocusCurve,
+                    from: (&SingularPlace, &[f64]),
+                    to: (&SingularPlace, &[f64])| {
         let turned = dot(from.1, to.1) < 0.0;
         if !turned || norm(from.1).max(norm(to.1)) < STILL {
             return turned;
@@ -31,10 +35,11 @@ pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Sin
             return turned;
         };
         let along = from.1.to_vec();
-        let mut test = |curve: &mut LocusCurve, p: &At| dot(&curve.bend(&p.at), &along);
+        let mut test = |curve: &mut LocusCurve, p: &SingularPlace| dot(&curve.bend(&p.at), &along);
         let place = region.method.root(curve, &start, &end, &mut test);
-        let one =
-            |curve: &LocusCurve, other: &At| norm(&curve.apart(&other.at, &place.at)) < DOUBLE;
+        let one = |curve: &LocusCurve, other: &SingularPlace| {
+            norm(&curve.apart(&other.at, &place.at)) < DOUBLE
+        };
         let known = found.iter().chain(&traced.crossings);
         if norm(&curve.bend(&place.at)) < ROUNDING && !known.into_iter().any(|at| one(curve, at)) {
             found.push(place);

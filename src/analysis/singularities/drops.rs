@@ -6,10 +6,10 @@ use crate::number::tolerance::SOLVED;
 use crate::solve::{Continuation, Place, edge};
 use crate::system::{Curve, Locked};
 
-type At = Place<Configuration<f64>>;
+type DropPlace = Place<Configuration<f64>>;
 
 struct RankSample {
-    place: At,
+    place: DropPlace,
     matrix: Vec<f64>,
     decomposition: Decomposition,
 }
@@ -49,7 +49,7 @@ impl Drops<'_> {
     /// Between places with the matrices A and B it cannot vanish while σ(A) + σ(B) > 1.5 ‖B − A‖ (Weyl: σ changes no more
     /// than the matrix; a half more allows for a path that is not straight). Otherwise the stretch is halved until it is
     /// short; there the determinant of [`Locked::orientation`] changes sign, or σ falls from both ends to a minimum.
-    pub fn between(&mut self, from: &At, to: &At) -> Vec<At> {
+    pub fn between(&mut self, from: &DropPlace, to: &DropPlace) -> Vec<DropPlace> {
         let from = self.sample(from.clone());
         let to = self.sample(to.clone());
         let mut found = Vec::new();
@@ -57,7 +57,7 @@ impl Drops<'_> {
         found
     }
 
-    fn sample(&mut self, place: At) -> RankSample {
+    fn sample(&mut self, place: DropPlace) -> RankSample {
         let matrix = self.locked.jacobian(&place.at);
         let (rows, columns) = (self.locked.rows(), self.locked.columns());
         RankSample {
@@ -73,7 +73,7 @@ impl Drops<'_> {
         Some(self.sample(place))
     }
 
-    fn search(&mut self, a: &RankSample, b: &RankSample, depth: usize, found: &mut Vec<At>) {
+    fn search(&mut self, a: &RankSample, b: &RankSample, depth: usize, found: &mut Vec<DropPlace>) {
         /// Stretches are not halved more often: 1/32 of a step is short.
         const DEPTH: usize = 5;
         let moved = a.matrix.iter().zip(&b.matrix);
@@ -93,7 +93,7 @@ impl Drops<'_> {
     }
 
     /// The place on a short stretch.
-    fn last(&mut self, a: &RankSample, b: &RankSample, length: f64) -> Option<At> {
+    fn last(&mut self, a: &RankSample, b: &RankSample, length: f64) -> Option<DropPlace> {
         match (a.vanishes(), b.vanishes()) {
             // found on the stretch before, or at the start
             (true, _) => return None,
@@ -107,7 +107,7 @@ impl Drops<'_> {
         let turned = |sample: &RankSample| near.determinant_beside(&sample.matrix) < 0.0;
         let place = if turned(a) != turned(b) {
             let locked = &mut *self.locked;
-            let mut test = |_: &mut Curve, place: &At| locked.orientation(near, &place.at);
+            let mut test = |_: &mut Curve, place: &DropPlace| locked.orientation(near, &place.at);
             (self.method).root(self.curve, &a.place, &b.place, &mut test)
         } else {
             self.lowest(a, b, length)?
@@ -119,7 +119,7 @@ impl Drops<'_> {
 
     /// The place between two where σ is least, if it falls from both ends. Where two singular
     /// values vanish at once each does so linearly, and golden sections find the place to rounding.
-    fn lowest(&mut self, a: &RankSample, b: &RankSample, length: f64) -> Option<At> {
+    fn lowest(&mut self, a: &RankSample, b: &RankSample, length: f64) -> Option<DropPlace> {
         for (end, part) in [(a, 1e-3), (b, 1.0 - 1e-3)] {
             if self.ahead(a, part * length)?.least() >= end.least() {
                 return None;

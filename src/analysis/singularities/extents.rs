@@ -3,7 +3,8 @@
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, Driven, LocusCurve, Region, Singular, Traced};
 
-type At = Place<Singular>;
+/// A place of a singularity locus.
+pub(super) type SingularPlace = Place<Singular>;
 
 /// Least and greatest value of each coordinate on a curve, rad or m: at ends, crossings and turns.
 pub(super) fn extents(
@@ -13,7 +14,7 @@ pub(super) fn extents(
 ) -> [[f64; 2]; 2] {
     [0, 1].map(|k| {
         let side = region.sides[k];
-        let value = |place: &At| region.side(&place.at.at, &side);
+        let value = |place: &SingularPlace| region.side(&place.at.at, &side);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut take = |x: f64| (low, high) = (low.min(x), high.max(x));
         traced.places.iter().for_each(|place| take(value(place)));
@@ -32,14 +33,14 @@ fn turning(
     curve: &mut LocusCurve,
     region: &Region,
     side: &Driven,
-    from: &At,
-    to: &At,
-) -> Option<At> {
+    from: &SingularPlace,
+    to: &SingularPlace,
+) -> Option<SingularPlace> {
     /// Rates below this are those of a coordinate that stands still.
     const STILL: f64 = 1e-8;
     /// Within this of the turn the coordinate is off by its square.
     const THERE: f64 = 1e-6;
-    let mut rate = |curve: &mut LocusCurve, place: &At| {
+    let mut rate = |curve: &mut LocusCurve, place: &SingularPlace| {
         curve
             .closed()
             .rate(&place.at.at, &place.tangent, side.coordinate)

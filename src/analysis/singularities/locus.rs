@@ -4,18 +4,17 @@ use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Kind, Singularity};
 use super::cusps::cusps;
+use super::extents::SingularPlace;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{ImageShape, Projection, groups};
 use super::starts::{FoundCurves, LocusSearch};
 use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, Variable};
 use crate::number::sorting::sort_by;
-use crate::solve::{Continuation, Place, Progress, Stage, Watch};
+use crate::solve::{Continuation, Progress, Stage, Watch};
 use crate::system::{
     Coordinate, Driven, Held, Lock, LocusCurve, LocusEnd, Question, Region, Singular, Traced,
 };
-
-type At = Place<Singular>;
 
 /// The singularity loci in a box of two coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -299,13 +298,13 @@ impl LocusSearch<'_> {
         cusps.collect()
     }
 
-    fn coordinates(&self, place: &At) -> [f64; 2] {
+    fn coordinates(&self, place: &SingularPlace) -> [f64; 2] {
         [0, 1].map(|k| self.region.side(&place.at.at, &self.region.sides[k]))
     }
 }
 
 /// Positions of the platforms, with quaternions and with roll, pitch and yaw.
-fn poses(mechanism: &Mechanism, place: &At) -> Vec<[f64; 10]> {
+fn poses(mechanism: &Mechanism, place: &SingularPlace) -> Vec<[f64; 10]> {
     let platforms = place.at.at.platforms.iter();
     let poses = platforms.map(|pose| {
         let [x, y, z, roll, pitch, yaw] = PoseCoordinate::all_of(&mechanism.in_ground(pose));

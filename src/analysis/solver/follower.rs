@@ -13,7 +13,7 @@ use crate::algebra::{BATCH, Batch, Place, Registers, record};
 use crate::mechanism::Configuration;
 use crate::number::widest;
 use crate::system::{Coordinate, Question};
-use certain::{Certain, Jacobians};
+use certain::{Certain, LaneJacobians};
 use past::{Mask, Past};
 
 /// Settings of a follower.
@@ -211,8 +211,8 @@ impl<'a> Follower<'a> {
         certain.keep(which, &now, self.curvature.largest, registers);
     }
 
-    fn jacobians<'r>(&'r self, registers: &'r Registers) -> Jacobians<'r> {
-        Jacobians {
+    fn jacobians<'r>(&'r self, registers: &'r Registers) -> LaneJacobians<'r> {
+        LaneJacobians {
             jacobian: &self.results.jacobian,
             inverse: &self.results.inverse,
             registers,

@@ -16,7 +16,7 @@ use crate::number::Interval;
 use crate::number::sorting::sort_by;
 use crate::solve::{Conditions, Sides, Stage, Watch, holds_one, nearest};
 use crate::system::{Driven, Held, JointSpace, Unfit};
-use moving::{Moving, joint};
+use moving::{MovingInputs, joint};
 
 /// Half the side of the box that holds a configuration's exact place, in rad or characteristic lengths.
 const EXACT: f64 = 1e-8;
@@ -61,25 +61,25 @@ pub struct Uncertified {
 }
 
 /// Takes the rows one after the other.
-pub(super) struct Certifier<'m> {
+pub(super) struct RowCertifier<'m> {
     mechanism: &'m Mechanism,
     inputs: &'m [Driven],
     space: JointSpace,
-    latest: Option<Place>,
+    latest: Option<ExactPlace>,
     certificate: Certificate,
     watch: &'m Watch<'m>,
 }
 
 /// A configuration on the way.
 #[derive(Clone)]
-struct Place {
+struct ExactPlace {
     inputs: Vec<f64>,
     variables: Vec<f64>,
     /// The box that holds its exact place; none where it is singular.
     exact: Option<Sides>,
 }
 
-impl<'m> Certifier<'m> {
+impl<'m> RowCertifier<'m> {
     /// `held` holds the inputs too; it is `None` where one of them has no value.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl<'m> Certifier<'m> {
             let most = MOST_VARIABLES;
             return Err(Unfit::Large { given, most });
         }
-        Ok(Certifier {
+        Ok(RowCertifier {
             mechanism,
             inputs,
             space,
@@ -130,7 +130,7 @@ impl<'m> Certifier<'m> {
             let known = latest.map(|latest| latest.variables[i]);
             variables[i] = near(variables[i], joint >= joints, known);
         }
-        let row = Place::new(space, self.inputs, inputs, variables);
+        let row = ExactPlace::new(space, self.inputs, inputs, variables);
         if let Some(latest) = self.latest.replace(row.clone()) {
             self.join(latest, row);
         }
@@ -141,10 +141,10 @@ impl<'m> Certifier<'m> {
     }
 
     /// Certifies the branch from one row to the next, or notes where that fails.
-    fn join(&mut self, from: Place, to: Place) {
+    fn join(&mut self, from: ExactPlace, to: ExactPlace) {
         // with the part of the way that is gone before each
         let mut parts = vec![(0.0, from, to)];
-        let mut open: Vec<(f64, Place, Place)> = Vec::new();
+        let mut open: Vec<(f64, ExactPlace, ExactPlace)> = Vec::new();
         let mut length = 1.0;
         for halvings in 0..=HALVINGS {
             length *= 0.5;
@@ -171,7 +171,7 @@ impl<'m> Certifier<'m> {
     }
 
     /// True if one continuous branch is proved to lead from one place to another.
-    fn holds(&mut self, from: &Place, to: &Place) -> bool {
+    fn holds(&mut self, from: &ExactPlace, to: &ExactPlace) -> bool {
         let (Some(start), Some(end), Some(sides)) = (&from.exact, &to.exact, around(from, to))
         else {
             return false;
@@ -180,18 +180,18 @@ impl<'m> Certifier<'m> {
             let mut pairs = sides.iter().zip(exact);
             pairs.all(|(a, b)| a.low < b.low && b.high < a.high)
         };
-        let moving = Moving::new(&mut self.space, self.inputs, &from.inputs, &to.inputs);
+        let moving = MovingInputs::new(&mut self.space, self.inputs, &from.inputs, &to.inputs);
         inside(start) && inside(end) && holds_one(&moving, &sides, &mut moving.work())
     }
 
     /// The place between two others, one of which is regular at least.
-    fn between(&mut self, from: &Place, to: &Place) -> Option<Place> {
+    fn between(&mut self, from: &ExactPlace, to: &ExactPlace) -> Option<ExactPlace> {
         let regular = from.exact.is_some() || to.exact.is_some();
-        regular.then(|| Place::between(&mut self.space, self.inputs, from, to))?
+        regular.then(|| ExactPlace::between(&mut self.space, self.inputs, from, to))?
     }
 
     /// Notes a part that is not certified; a certified stretch between two such parts and not much longer is theirs.
-    fn note(&mut self, from: &Place, to: &Place) {
+    fn note(&mut self, from: &ExactPlace, to: &ExactPlace) {
         const MUCH: f64 = 10.0;
         let apart = |a: &[f64], b: &[f64]| {
             let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
@@ -210,20 +210,20 @@ impl<'m> Certifier<'m> {
     }
 }
 
-impl Place {
+impl ExactPlace {
     fn new(
         space: &mut JointSpace,
         driven: &[Driven],
         inputs: Vec<f64>,
         variables: Vec<f64>,
     ) -> Self {
-        let there = Moving::new(space, driven, &inputs, &inputs);
+        let there = MovingInputs::new(space, driven, &inputs, &inputs);
         let sides: Sides = variables
             .iter()
             .map(|&x| Interval::around(x, EXACT))
             .collect();
         let exact = holds_one(&there, &sides, &mut there.work()).then_some(sides);
-        Place {
+        ExactPlace {
             inputs,
             variables,
             exact,
@@ -234,23 +234,23 @@ impl Place {
     fn between(
         space: &mut JointSpace,
         driven: &[Driven],
-        from: &Place,
-        to: &Place,
+        from: &ExactPlace,
+        to: &ExactPlace,
     ) -> Option<Self> {
         let middle = |a: &[f64], b: &[f64]| -> Vec<f64> {
             a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect()
         };
         let inputs = middle(&from.inputs, &to.inputs);
-        let there = Moving::new(space, driven, &inputs, &inputs);
+        let there = MovingInputs::new(space, driven, &inputs, &inputs);
         let start = middle(&from.variables, &to.variables);
         let variables = nearest(&there, &start, &mut there.work())?;
-        let place = Place::new(space, driven, inputs, variables);
+        let place = ExactPlace::new(space, driven, inputs, variables);
         place.exact.is_some().then_some(place)
     }
 }
 
 /// A box round two places, wider than the way between them is long; `None` if that is not finite.
-fn around(from: &Place, to: &Place) -> Option<Sides> {
+fn around(from: &ExactPlace, to: &ExactPlace) -> Option<Sides> {
     const MARGIN: f64 = 0.3;
     let pairs = || from.variables.iter().zip(&to.variables);
     let way = pairs().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -265,7 +265,7 @@ fn around(from: &Place, to: &Place) -> Option<Sides> {
 mod tests {
     use std::path::Path;
 
-    use super::Certifier;
+    use super::RowCertifier;
     use crate::mechanism::{Configuration, Mechanism};
     use crate::solve::Watch;
     use crate::system::{Coordinate, Driven, Held};
@@ -304,7 +304,7 @@ mod tests {
             let rows = [(1.0, 1.0), (1.2, end)];
             let rows = rows.map(|(crank, side)| assembled(&mechanism, crank, side));
             let held = Some(held.clone());
-            let certifier = Certifier::new(&mechanism, held, &inputs, &rows[0], &watch);
+            let certifier = RowCertifier::new(&mechanism, held, &inputs, &rows[0], &watch);
             let mut certifier = certifier.unwrap();
             rows.iter().for_each(|row| certifier.row(row));
             assert_eq!(certifier.certificate().is_whole(), same);

@@ -22,8 +22,8 @@ use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::{Continuation, Watch};
 use crate::system::{Coordinate, Curve, Held, Still};
 use class::{class, grashof};
-use course::Course;
-use tracing::{Found, SAME, Tracing};
+use course::JointCourse;
+use tracing::{FoundCurve, SAME, Tracing};
 
 /// Settings of a search for circuits.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,7 +138,7 @@ pub fn circuits(
 }
 
 /// A configuration of each piece of a curve that lies within limits.
-fn within_limits(mechanism: &Mechanism, found: &Found) -> Vec<Configuration<f64>> {
+fn within_limits(mechanism: &Mechanism, found: &FoundCurve) -> Vec<Configuration<f64>> {
     let inside = |at: &&At| {
         let mut joints = at.at.joints.clone();
         mechanism.turn_to_limits(&mut joints);
@@ -156,30 +156,29 @@ fn described(
     mechanism: &Mechanism,
     (curve, method): (&mut Curve, &Continuation),
     input: Coordinate,
-    traced: &[Found],
+    traced: &[FoundCurve],
     i: usize,
 ) -> Circuit {
     let found = &traced[i];
-    let platforms: Vec<Course> = match input {
+    let platforms: Vec<JointCourse> = match input {
         Coordinate::Joint(_) => Vec::new(),
         _ => Coordinate::all(mechanism)
             .filter(|of| of.platform().is_some())
-            .filter_map(|of| Course::of_platform(mechanism, (&mut *curve, method), found, of))
+            .filter_map(|of| JointCourse::of_platform(mechanism, (&mut *curve, method), found, of))
             .collect(),
     };
     let branches = match input {
-        Coordinate::Joint(joint) => Course::of_joint(mechanism, joint, found).branches(),
-        of => {
-            (platforms.iter().find(|course| course.of == of)).map_or(Vec::new(), Course::branches)
-        }
+        Coordinate::Joint(joint) => JointCourse::of_joint(mechanism, joint, found).branches(),
+        of => (platforms.iter().find(|course| course.of == of))
+            .map_or(Vec::new(), JointCourse::branches),
     };
     let curve = &*curve;
     let joints: Vec<JointMotion> = (0..mechanism.joints().len())
         .filter(|joint| curve.column(*joint).is_some())
-        .map(|joint| Course::of_joint(mechanism, joint, found).motion())
+        .map(|joint| JointCourse::of_joint(mechanism, joint, found).motion())
         .collect();
     let crossings = &found.crossings;
-    let meets = |other: &Found| {
+    let meets = |other: &FoundCurve| {
         other.crossings.iter().any(|point| {
             (crossings.iter())
                 .any(|own| norm(&curve.difference_but_turns(&own.at, &point.at)) < SAME)
@@ -192,7 +191,7 @@ fn described(
         length: found.length,
         branches,
         joints,
-        platforms: platforms.iter().map(Course::motion).collect(),
+        platforms: platforms.iter().map(JointCourse::motion).collect(),
         crossings: (crossings.iter())
             .map(|point| {
                 let joints = point.at.joints.iter().enumerate();

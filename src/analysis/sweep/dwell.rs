@@ -30,7 +30,7 @@ pub struct Dwell {
 }
 
 /// The time and the value of a quantity at a place of a motion.
-type At<'f> = dyn FnMut(f64) -> Option<[f64; 2]> + 'f;
+type ValueAt<'f> = dyn FnMut(f64) -> Option<[f64; 2]> + 'f;
 
 /// A place with the time and the value there, if there is one.
 pub(crate) type Sample = (f64, Option<[f64; 2]>);
@@ -41,7 +41,11 @@ pub(crate) type Sample = (f64, Option<[f64; 2]>);
 /// Samples are to be so near to one another that a line between two is off by far less than the tolerance, or leaves any
 /// band. A window slides over them; the band of each that may be the longest is then moved as far as the extremes inside
 /// allow, to where the stay is longest.
-pub(crate) fn dwell(samples: &[Sample], tolerance: f64, at: &mut At) -> Option<(f64, [f64; 2])> {
+pub(crate) fn dwell(
+    samples: &[Sample],
+    tolerance: f64,
+    at: &mut ValueAt,
+) -> Option<(f64, [f64; 2])> {
     let width = 2.0 * tolerance;
     let stays = windows(samples, width);
     let stays = stays
@@ -56,7 +60,7 @@ fn stay(
     samples: &[Sample],
     [first, last]: [usize; 2],
     tolerance: f64,
-    at: &mut At,
+    at: &mut ValueAt,
 ) -> (f64, f64, [f64; 2]) {
     /// Bands tried, before the best of them is moved on.
     const BANDS: u32 = 32;
@@ -170,7 +174,7 @@ fn windows(samples: &[Sample], width: f64) -> Vec<[usize; 2]> {
 }
 
 /// Places at which a band is left, before and after a sample in it.
-fn ends(samples: &[Sample], core: usize, [low, high]: [f64; 2], at: &mut At) -> [f64; 2] {
+fn ends(samples: &[Sample], core: usize, [low, high]: [f64; 2], at: &mut ValueAt) -> [f64; 2] {
     let slack = 1e-13 * low.abs().max(high.abs());
     let beyond = |value: f64| match value {
         _ if value > high + slack => Some(high),

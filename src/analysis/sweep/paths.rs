@@ -130,14 +130,14 @@ impl Tracer {
 }
 
 /// The tracers of a motion and the way it went.
-pub(super) struct Trail {
+pub(super) struct TracedTrail {
     tracers: Vec<Tracer>,
     method: Continuation,
     places: Vec<At>,
     cusps: Vec<Vec<PathPoint>>,
 }
 
-impl Trail {
+impl TracedTrail {
     pub fn new(
         mechanism: &Mechanism,
         curve: &Curve,
@@ -147,7 +147,7 @@ impl Trail {
         let tracers = points
             .iter()
             .map(|point| Tracer::new(mechanism, curve, point));
-        Trail {
+        TracedTrail {
             tracers: tracers.collect(),
             method: method.clone(),
             places: Vec::new(),

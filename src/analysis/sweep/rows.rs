@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 
 use super::points::Paths;
-use super::{At, Flow, Law, Row, SweepSettings};
+use super::{At, Law, Row, RowFlow, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
 use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve, Driven, Held, MotionTracker, System};
 
 /// Produces the rows at equal parts of the segment.
-pub(super) struct Rows {
+pub(super) struct RowMaker {
     /// Solves with the inputs held; none if it cannot hold them by value.
     tracker: Option<MotionTracker>,
     inputs: Vec<Driven>,
@@ -25,7 +25,7 @@ pub(super) struct Rows {
     method: Continuation,
 }
 
-impl Rows {
+impl RowMaker {
     pub fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
@@ -47,7 +47,7 @@ impl Rows {
         } else {
             1e-12
         };
-        Rows {
+        RowMaker {
             same: f64::max(rounded, 4e-12 / way.max(1e-12)),
             tracker,
             inputs: inputs.to_vec(),
@@ -63,7 +63,7 @@ impl Rows {
         }
     }
 
-    pub fn first(&mut self, place: &At, sink: &mut Flow) -> ControlFlow<()> {
+    pub fn first(&mut self, place: &At, sink: &mut RowFlow) -> ControlFlow<()> {
         // the inputs are where they were put, not where rounding leaves them
         let mut at = place.at.clone();
         self.put(&mut at, 0.0);
@@ -80,7 +80,7 @@ impl Rows {
         curve: &mut Curve,
         from: &At,
         to: &At,
-        sink: &mut Flow,
+        sink: &mut RowFlow,
     ) -> ControlFlow<()> {
         if self.inputs.is_empty() {
             return ControlFlow::Continue(());
@@ -178,7 +178,7 @@ impl Sent {
 
     /// Sends a row with its number and the traced points.
     #[inline]
-    pub fn send(&mut self, row: Row, sink: &mut Flow) -> ControlFlow<()> {
+    pub fn send(&mut self, row: Row, sink: &mut RowFlow) -> ControlFlow<()> {
         let number = self.count;
         self.count += usize::from(!row.between);
         self.paths.place(row.configuration);

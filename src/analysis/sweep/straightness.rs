@@ -27,13 +27,17 @@ pub struct Straightness {
 }
 
 /// The position of a point at a place of a motion.
-type At<'f> = dyn FnMut(f64) -> Option<[f64; 3]> + 'f;
+type PointAt<'f> = dyn FnMut(f64) -> Option<[f64; 3]> + 'f;
 
 impl Straightness {
     /// Straightness of a path through places near to one another. Those where it is farthest from its line, sought
     /// between those known,
     /// join these until none is farther than they are: an exchange after Remez, for a line with both offset and direction free.
-    pub(crate) fn along(point: &str, mut known: Vec<(f64, [f64; 3])>, at: &mut At) -> Option<Self> {
+    pub(crate) fn along(
+        point: &str,
+        mut known: Vec<(f64, [f64; 3])>,
+        at: &mut PointAt,
+    ) -> Option<Self> {
         const ROUNDS: usize = 24;
         for _ in 0..ROUNDS {
             let places: Vec<[f64; 3]> = known.iter().map(|(_, place)| *place).collect();

@@ -92,12 +92,12 @@ impl TransmissionAngles {
         let mut placement = kinematics.placement();
         kinematics.place(at, &mut placement);
         let joints = 0..mechanism.joints().len();
-        let mut known = Known {
+        let mut known = KnownLinks {
             joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
             closures: HashSet::new(),
         };
         let mut dyads: Vec<Option<Vec<Dyad>>> = found.iter().map(|_| None).collect();
-        let dyad = |one: &HingedLoop, known: &Known| {
+        let dyad = |one: &HingedLoop, known: &KnownLinks| {
             let given = known.parts(one);
             let free = (0..given.len()).filter(|&i| !given[i]);
             free.clone().count() == 3 && free.clone().all(|i| one.hinges[i].is_some())
@@ -210,12 +210,12 @@ fn hinge(part: &LoopPart) -> Option<[f64; 6]> {
 }
 
 /// Joints and closures whose motion follows from the inputs.
-struct Known {
+struct KnownLinks {
     joints: Vec<bool>,
     closures: HashSet<String>,
 }
 
-impl Known {
+impl KnownLinks {
     /// For each part of a loop, true if its motion is known: of a hinge at the cut also by the other turns.
     fn parts(&self, one: &HingedLoop) -> Vec<bool> {
         let parts = &one.all.parts;
@@ -286,7 +286,7 @@ fn drivers(found: &MechanismLoop, known: &[bool]) -> Vec<(usize, bool)> {
 fn dyads_of(
     mechanism: &Mechanism,
     found: &HingedLoop,
-    known: &Known,
+    known: &KnownLinks,
     (kinematics, placement): (&Kinematics<f64>, &Placement<f64>),
 ) -> Vec<Dyad> {
     let given = known.parts(found);

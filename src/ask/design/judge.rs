@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::DesignError;
 use super::read::Read;
 use crate::algebra::{Measure, SiUnit};
-use crate::analysis::design::{Course, Defect, Found, Moves, course};
+use crate::analysis::design::{Defect, DesignCourse, FoundEnd, Moves, course};
 use crate::analysis::sweep::{SweepEnd, SweepSettings};
 use crate::ask::{AskError, Question};
 use crate::description::{Description, DesignDescription, DesignPart, DesignProblem, Entry, Named};
@@ -88,14 +88,14 @@ impl Judge<'_> {
     }
 
     /// The mechanism of a design.
-    fn designed(&self, found: &Found) -> Option<Mechanism> {
+    fn designed(&self, found: &FoundEnd) -> Option<Mechanism> {
         let parameters = self.read.varied.iter().map(|of| of.parameter);
         let values: Vec<(usize, f64)> = parameters.zip(found.at.numbers.iter().copied()).collect();
         self.mechanism.with_values(&values).ok()
     }
 
     /// The file of a design, which begins in the first position.
-    pub fn file(&self, found: &Found) -> String {
+    pub fn file(&self, found: &FoundEnd) -> String {
         let mut description = self.description.clone();
         let names = self.asked.vary.iter().map(|named| &named.name.value);
         for (name, value) in names.zip(&found.at.numbers) {
@@ -115,7 +115,7 @@ impl Judge<'_> {
     }
 
     /// What a design does not do, and how its driving joint moves.
-    pub fn defects(&self, found: &Found) -> (Vec<Defect>, Moves) {
+    pub fn defects(&self, found: &FoundEnd) -> (Vec<Defect>, Moves) {
         let Some(mechanism) = self.designed(found) else {
             return (vec![Defect::NotJudged], Moves::Unknown);
         };
@@ -184,7 +184,7 @@ impl Judge<'_> {
         }
     }
 
-    fn judge(&self, mechanism: &Mechanism, course: &Course, defects: &mut Vec<Defect>) {
+    fn judge(&self, mechanism: &Mechanism, course: &DesignCourse, defects: &mut Vec<Defect>) {
         let numbers = |places: Vec<usize>| places.into_iter().map(|i| i + 1).collect::<Vec<_>>();
         let elsewhere = course.elsewhere();
         if !elsewhere.is_empty() {
@@ -226,7 +226,7 @@ impl Judge<'_> {
         &self,
         mechanism: &Mechanism,
         positions: &[Configuration<f64>],
-        along: Option<&Course>,
+        along: Option<&DesignCourse>,
     ) -> Vec<(String, f64, f64)> {
         let plain = system::Question::new(mechanism);
         let given = self.asked.motion.iter().filter_map(|named| {
@@ -264,7 +264,7 @@ impl Judge<'_> {
         &self,
         mechanism: Mechanism,
         positions: &[Configuration<f64>],
-        along: Option<&Course>,
+        along: Option<&DesignCourse>,
         defects: &mut Vec<Defect>,
     ) {
         let ranges = self.ranges(&mechanism, positions, along);
@@ -364,11 +364,11 @@ fn number(value: f64) -> String {
     format!("{value}")
 }
 
-fn driver_turns(course: &Course) -> bool {
+fn driver_turns(course: &DesignCourse) -> bool {
     course.closed && course.dead.is_empty() && (course.turn.abs() - TAU).abs() < 1e-6
 }
 
-fn driver(course: &Course) -> Moves {
+fn driver(course: &DesignCourse) -> Moves {
     match course {
         of if driver_turns(of) => Moves::Turns,
         of if of.closed && !of.dead.is_empty() || !of.limits.is_empty() => Moves::Rocks,

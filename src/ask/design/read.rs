@@ -11,7 +11,7 @@ use crate::mechanism::{Measured, Mechanism, Quantity};
 use crate::system::{Bundle, Held, Target, Value};
 
 /// A number that varies.
-pub(super) struct Varied {
+pub(super) struct VariedNumber {
     pub parameter: usize,
     pub range: (f64, f64),
     pub unit: SiUnit,
@@ -20,7 +20,7 @@ pub(super) struct Varied {
 
 /// A design question about a mechanism, its names resolved.
 pub(super) struct Read {
-    pub varied: Vec<Varied>,
+    pub varied: Vec<VariedNumber>,
     pub targets: Vec<Target>,
     pub held: Held<f64>,
     /// The first driven joint.
@@ -165,7 +165,7 @@ impl Read {
     /// Closures and targets of all positions.
     pub(super) fn bundle<'m>(&self, mechanism: &'m Mechanism) -> Bundle<'m> {
         // one unit is a metre or a radian, or for lengths the size of the task
-        let unit = |of: &Varied| match of.unit {
+        let unit = |of: &VariedNumber| match of.unit {
             unit if unit == SiUnit::METRE => (of.parameter, self.size),
             _ => (of.parameter, 1.0),
         };
@@ -182,7 +182,10 @@ fn texts(entries: &[Entry]) -> Vec<String> {
     entries.iter().map(|of| of.expression.to_string()).collect()
 }
 
-fn varied(asked: &DesignDescription, mechanism: &Mechanism) -> Result<Vec<Varied>, DesignError> {
+fn varied(
+    asked: &DesignDescription,
+    mechanism: &Mechanism,
+) -> Result<Vec<VariedNumber>, DesignError> {
     let independent = mechanism.independent_parameters();
     let added = |i: usize| mechanism.parameters()[i].name.to_string();
     let mut all = Vec::new();
@@ -218,7 +221,7 @@ fn varied(asked: &DesignDescription, mechanism: &Mechanism) -> Result<Vec<Varied
             Measure::Open | Measure::Number => mechanism.parameters()[parameter].measure,
             known => known,
         };
-        all.push(Varied {
+        all.push(VariedNumber {
             parameter,
             range,
             unit: measure.si_unit().unwrap_or(SiUnit::ONE),

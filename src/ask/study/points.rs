@@ -20,21 +20,21 @@ pub enum Points {
 
 /// Distribution of a varied value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spread {
+pub enum ScatteredPoints {
     /// Evenly from one value to another.
     Even(f64, f64),
     /// Normally about a value, with a standard deviation.
     Normal(f64, f64),
 }
 
-impl Spread {
+impl ScatteredPoints {
     /// The value below which this part of all lies.
     fn at(self, part: f64) -> f64 {
         match self {
-            Spread::Even(_, to) if part == 1.0 => to,
-            Spread::Even(from, to) => from + part * (to - from),
+            ScatteredPoints::Even(_, to) if part == 1.0 => to,
+            ScatteredPoints::Even(from, to) => from + part * (to - from),
             // Φ⁻¹(p) = -√2 erfc⁻¹(2p); a hypercube may begin in its corner
-            Spread::Normal(mean, deviation) => {
+            ScatteredPoints::Normal(mean, deviation) => {
                 let part = part.max(2.0_f64.powi(-54));
                 mean - deviation * SQRT_2 * pxfm::f_erfcinv(2.0 * part)
             }
@@ -72,7 +72,7 @@ impl Points {
     }
 
     /// The point of a number, with a coordinate in each range.
-    pub fn at(&self, index: usize, ranges: &[Spread], seed: u64) -> Vec<f64> {
+    pub fn at(&self, index: usize, ranges: &[ScatteredPoints], seed: u64) -> Vec<f64> {
         let ranges = ranges.iter().copied().enumerate();
         match self {
             Points::Given(rows) => rows[index].clone(),

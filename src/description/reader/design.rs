@@ -19,7 +19,7 @@ impl DesignDescription {
 
 /// The order in which positions are passed.
 #[derive(Clone, Copy)]
-enum Order {
+enum ReadOrder {
     Kept,
     Any,
 }
@@ -45,13 +45,13 @@ impl FileReader {
             at_least: self.named(f, "at_least", Noun::Output, Self::entry),
             at_most: self.named(f, "at_most", Noun::Output, Self::entry),
             any_order: f.take("order").is_some_and(|piece| {
-                let known = [Order::Kept, Order::Any];
+                let known = [ReadOrder::Kept, ReadOrder::Any];
                 let word = |order| match order {
-                    Order::Kept => "Kept",
-                    Order::Any => "Any",
+                    ReadOrder::Kept => "Kept",
+                    ReadOrder::Any => "Any",
                 };
                 let found = self.bare_word(piece, Expected::Order, &known, word);
-                matches!(found, Some(Order::Any))
+                matches!(found, Some(ReadOrder::Any))
             }),
         })
     }

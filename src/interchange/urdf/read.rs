@@ -21,10 +21,10 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, Coupling, Tree, TreeBody};
 
 /// A tree with remarks.
-pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
+pub(crate) type ReadTree = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
 
 /// Reads the text of a URDF file.
-pub(crate) fn read(text: &str) -> Read {
+pub(crate) fn read(text: &str) -> ReadTree {
     let document = document(text).map_err(|problem| vec![problem])?;
     let robot = document.root_element();
     let mut reader = UrdfReader {
@@ -106,7 +106,7 @@ impl<'a, 'i> UrdfReader<'a, 'i> {
         }
     }
 
-    fn finish(mut self, robot: Node<'a, 'i>) -> Read {
+    fn finish(mut self, robot: Node<'a, 'i>) -> ReadTree {
         let joints: Vec<(Node, String)> = std::mem::take(&mut self.joints);
         self.known = self.links.iter().cloned().collect();
         let hangs: Vec<Option<Hanging>> = joints

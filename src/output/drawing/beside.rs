@@ -2,15 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::{GROUND, Layer, Painted, StagedScene};
+use super::{GROUND, Layer, Painted, Position, StagedScene};
 use crate::algebra::SiUnit;
 use crate::geometry::Vector3;
 use crate::number::real;
 use crate::output::canvas::{Colour, INK, OutlineStyle, Pixel, Shape};
 use crate::output::quantity::three_digits;
 use crate::scene::{ForceArrow, ScrewAxis, Travel, Triple, across};
-
-type Position = Vector3<f64>;
 
 const LIMIT: Colour = Colour(0x8a7a2a);
 const LOAD: Colour = Colour(0xD55E00);

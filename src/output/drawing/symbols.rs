@@ -1,12 +1,10 @@
 //! Symbols of joints: in the plane those of a kinematic diagram, in space small solids.
 
-use super::{Camera, DRIVEN, GROUND, Layer, Painted, StagedScene};
+use super::{Camera, DRIVEN, GROUND, Layer, Painted, Position, StagedScene};
 use crate::geometry::Vector3;
 use crate::number::real;
 use crate::output::canvas::{Colour, INK, OutlineStyle, WHITE};
 use crate::scene::{JointShape, JointSymbol, across};
-
-type Position = Vector3<f64>;
 
 /// The pieces of a joint.
 pub(super) fn joint(stage: &StagedScene, joint: &JointShape) -> Vec<Painted> {

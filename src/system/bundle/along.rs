@@ -2,38 +2,36 @@
 
 use super::copies::{Copies, RowsWork};
 use super::program::coordinates;
-use super::sides::RowGroup;
+use super::sides::SideRows;
 use crate::geometry::Quaternion;
-use crate::number::Complex;
+use crate::number::C;
 use crate::solve::Homotopy;
 
-type C = Complex<f64>;
-
 /// A straight way through the values of the targets.
-pub struct Along<'c, 'b, 'm> {
+pub struct PathForm<'c, 'b, 'm> {
     copies: &'c Copies<'b, 'm>,
     from: Vec<C>,
     /// How the values change along the way, and the values where it was last evaluated.
     rates: Vec<C>,
     values: Vec<C>,
     work: RowsWork,
-    shared: RowGroup,
+    shared: SideRows,
     /// The step that cancels the residual, and that along the way, of the last linearisation.
     steps: [Vec<C>; 2],
     largest: f64,
 }
 
-impl<'c, 'b, 'm> Along<'c, 'b, 'm> {
+impl<'c, 'b, 'm> PathForm<'c, 'b, 'm> {
     /// The way between values of all targets.
     pub fn new(copies: &'c Copies<'b, 'm>, from: Vec<C>, to: Vec<C>) -> Self {
         let count = copies.bundle.numbers.len();
-        Along {
+        PathForm {
             copies,
             rates: from.iter().zip(to).map(|(a, b)| b - a).collect(),
             values: from.clone(),
             from,
             work: RowsWork::default(),
-            shared: RowGroup {
+            shared: SideRows {
                 width: count + 2,
                 entries: Vec::new(),
             },
@@ -43,7 +41,7 @@ impl<'c, 'b, 'm> Along<'c, 'b, 'm> {
     }
 }
 
-impl Along<'_, '_, '_> {
+impl PathForm<'_, '_, '_> {
     /// Both steps at a point; false if they do not exist.
     fn linear(&mut self, s: C, x: &[C]) -> bool {
         let copies = self.copies;
@@ -110,7 +108,7 @@ impl Along<'_, '_, '_> {
     }
 }
 
-impl Homotopy for Along<'_, '_, '_> {
+impl Homotopy for PathForm<'_, '_, '_> {
     fn settle(&self, x: &mut [C]) {
         let (count, width) = (self.copies.bundle.numbers.len(), self.copies.width());
         let joints = self.copies.home.joints.len();

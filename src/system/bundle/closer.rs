@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::elimination::Linear;
+use super::elimination::Blocks;
 use super::{Bundle, Bundled, Lanes, Target};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
@@ -114,7 +114,7 @@ impl Closer<'_, '_> {
         let (mut before, mut slow) = (f64::INFINITY, 0);
         for _ in 0..ROUNDS {
             self.system.linearise(&at, &mut self.work);
-            let mut linear = Linear {
+            let mut linear = Blocks {
                 unknowns,
                 numbers: 0,
                 closures: self.system.residual_of(&self.work).to_vec(),

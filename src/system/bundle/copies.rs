@@ -8,14 +8,12 @@
 use std::f64::consts::TAU;
 
 use super::program::{Program, configuration, coordinates};
-use super::sides::RowGroup;
+use super::sides::SideRows;
 use super::{Bundle, Bundled};
 use crate::mechanism::Configuration;
-use crate::number::{Complex, Number};
+use crate::number::{C, Number};
 use crate::solve::Equations;
 use crate::system::System;
-
-type C = Complex<f64>;
 
 /// One configuration.
 #[derive(Clone, Debug)]
@@ -192,7 +190,7 @@ impl<'b, 'm> Copies<'b, 'm> {
     pub(super) fn rows(&self, x: &[C], values: &[C], rates: &[C], work: &mut RowsWork) {
         let zero = C::new(0.0, 0.0);
         let width = self.unknowns + self.bundle.numbers.len() + 2;
-        let empty = || RowGroup {
+        let empty = || SideRows {
             width,
             entries: Vec::new(),
         };
@@ -228,5 +226,5 @@ impl<'b, 'm> Copies<'b, 'm> {
 pub(super) struct RowsWork {
     inputs: Vec<C>,
     values: Vec<C>,
-    pub rows: Vec<RowGroup>,
+    pub rows: Vec<SideRows>,
 }

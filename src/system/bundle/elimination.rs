@@ -6,7 +6,7 @@ use crate::linear::{Svd, add, complement, dot, rank};
 
 /// Closures and targets of one configuration, linearised; matrices are dense and column-major.
 #[derive(Clone, Debug)]
-pub(super) struct Linear {
+pub(super) struct Blocks {
     pub unknowns: usize,
     pub numbers: usize,
     /// The residual r of the closures.
@@ -40,7 +40,7 @@ impl Eliminated {
     }
 }
 
-impl Linear {
+impl Blocks {
     /// Makes some targets equations.
     pub(super) fn impose(&mut self, exact: &[bool]) {
         if !exact.contains(&true) {

@@ -1,6 +1,6 @@
 //! All configurations of a bundle, linearised.
 
-use super::elimination::Linear;
+use super::elimination::Blocks;
 use super::{Bundle, Bundled, Lanes};
 use crate::mechanism::Configuration;
 use crate::number::{Gradient, Number};
@@ -39,7 +39,7 @@ impl Bundle<'_> {
     }
 
     /// Closures and targets of every configuration, linearised.
-    pub(super) fn linear(&self, at: &Bundled) -> Option<Vec<Linear>> {
+    pub(super) fn linear(&self, at: &Bundled) -> Option<Vec<Blocks>> {
         let system = self.equations::<f64>(&at.numbers)?;
         let mut work = system.work();
         let (unknowns, numbers) = (system.unknowns().len(), self.numbers.len());
@@ -53,7 +53,7 @@ impl Bundle<'_> {
                 row.resize(unknowns + numbers, 0.0);
                 row.push(left);
             }
-            all.push(Linear {
+            all.push(Blocks {
                 unknowns,
                 numbers,
                 closures: system.residual_of(&work).to_vec(),

@@ -1,17 +1,15 @@
 //! Gaussian elimination of rows with two right-hand sides.
 
-use crate::number::Complex;
-
-type C = Complex<f64>;
+use crate::number::C;
 
 /// Rows of a matrix with two right-hand sides at their ends.
 #[derive(Clone, Debug)]
-pub(super) struct RowGroup {
+pub(super) struct SideRows {
     pub width: usize,
     pub entries: Vec<C>,
 }
 
-impl RowGroup {
+impl SideRows {
     pub fn row(&self, i: usize) -> &[C] {
         &self.entries[i * self.width..(i + 1) * self.width]
     }

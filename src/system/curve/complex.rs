@@ -2,12 +2,10 @@
 
 use super::Curve;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::number::{Complex, Number};
+use crate::number::{C, Number};
 use crate::solve::{Equations, Place, SolutionCurve};
 use crate::system::equations::{System, Work};
 use crate::system::{Held, Unknown};
-
-type C = Complex<f64>;
 
 /// The complex assembled configurations of a mechanism with one freedom at which one joint is real.
 ///

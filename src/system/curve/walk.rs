@@ -11,10 +11,10 @@ use crate::number::tolerance::NOT_PRINTED;
 use crate::number::{real, sorting::sort_by};
 use crate::solve::{ALIGNED, BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
 
-type At = Place<Configuration<f64>>;
+type CurvePlace = Place<Configuration<f64>>;
 
 /// A function of places whose zeros are to be located; they are reported by its number.
-pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &At) -> f64 + 'm>;
+pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &CurvePlace) -> f64 + 'm>;
 
 /// A special point of the curve.
 #[derive(Clone, Debug)]
@@ -46,13 +46,13 @@ pub enum Event {
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// Its beginning.
-    pub from: At,
+    pub from: CurvePlace,
     /// Its end; the Jacobian there is singular if branches meet.
-    pub to: At,
+    pub to: CurvePlace,
     /// The length of the curve up to its beginning, in rad and characteristic lengths.
     pub gone: f64,
     /// Events on it, each with its place.
-    pub events: Vec<(At, Event)>,
+    pub events: Vec<(CurvePlace, Event)>,
 }
 
 /// A walk along a curve, in steps that cannot change branch unnoticed ([`Continuation::step`]).
@@ -63,8 +63,8 @@ pub struct Walk<'m> {
     limits: Vec<(usize, [f64; 2], f64)>,
     /// The joints whose turning points are located, with their columns.
     turning: Vec<(usize, usize)>,
-    start: At,
-    place: At,
+    start: CurvePlace,
+    place: CurvePlace,
     length: f64,
     gone: f64,
     /// σ of the place before with the length of the step to here, while it falls.
@@ -76,7 +76,12 @@ pub struct Walk<'m> {
 
 impl<'m> Walk<'m> {
     /// A walk from a regular place along its tangent, with joints [within their limits](Mechanism::turn_to_limits).
-    pub fn new(mechanism: &Mechanism, curve: &Curve, start: At, method: Continuation) -> Self {
+    pub fn new(
+        mechanism: &Mechanism,
+        curve: &Curve,
+        start: CurvePlace,
+        method: Continuation,
+    ) -> Self {
         let limits = mechanism.joints().iter().enumerate();
         let limits = limits.filter(|(joint, _)| curve.column(*joint).is_some());
         let turning = mechanism.joints().iter().enumerate();
@@ -107,7 +112,7 @@ impl<'m> Walk<'m> {
     }
 
     /// The present place of the walk.
-    pub fn place(&self) -> &At {
+    pub fn place(&self) -> &CurvePlace {
         &self.place
     }
 
@@ -211,9 +216,9 @@ impl<'m> Walk<'m> {
     }
 
     /// The special points between two places.
-    fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Segment {
+    fn leg(&mut self, curve: &mut Curve, from: CurvePlace, to: CurvePlace) -> Segment {
         let method = &self.method.clone();
-        let mut events: Vec<(At, Event)> = Vec::new();
+        let mut events: Vec<(CurvePlace, Event)> = Vec::new();
         let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > NOT_PRINTED;
         for &(joint, column) in &self.turning {
             if changes(from.tangent[column], to.tangent[column]) {
@@ -222,13 +227,14 @@ impl<'m> Walk<'m> {
             }
         }
         if !curve.inputs().is_empty() {
-            let rate = |curve: &Curve, p: &At| curve.part_rate(&p.at, &p.tangent);
+            let rate = |curve: &Curve, p: &CurvePlace| curve.part_rate(&p.at, &p.tangent);
             if changes(rate(curve, &from), rate(curve, &to)) {
                 let place = method.root(curve, &from, &to, &mut |c, p| rate(c, p));
                 events.push((place, Event::Fold));
             }
             for (end, outward) in [(0.0, -1.0), (1.0, 1.0)] {
-                let beyond = move |curve: &Curve, p: &At| outward * (curve.part(&p.at) - end);
+                let beyond =
+                    move |curve: &Curve, p: &CurvePlace| outward * (curve.part(&p.at) - end);
                 let (a, b) = (beyond(curve, &from), beyond(curve, &to));
                 // the inputs may turn back just beyond the end
                 let fold = events
@@ -248,7 +254,7 @@ impl<'m> Walk<'m> {
         for &(joint, [low, high], slack) in &self.limits {
             for (value, upper) in [(low, false), (high, true)] {
                 let sign = if upper { 1.0 } else { -1.0 };
-                let beyond = |p: &At| sign * (p.at.joints[joint] - value);
+                let beyond = |p: &CurvePlace| sign * (p.at.joints[joint] - value);
                 let (a, b) = (beyond(&from), beyond(&to));
                 if b > slack && b > a {
                     let place = match a < 0.0 {
@@ -279,7 +285,7 @@ impl<'m> Walk<'m> {
         if let Some(place) = back {
             events.push((place, Event::Closed));
         }
-        let along = |p: &At| dot(&curve.difference(&from.at, &p.at), &from.tangent);
+        let along = |p: &CurvePlace| dot(&curve.difference(&from.at, &p.at), &from.tangent);
         sort_by(&mut events, |(a, _), (b, _)| along(a).total_cmp(&along(b)));
         Segment {
             from,
@@ -292,10 +298,15 @@ impl<'m> Walk<'m> {
 
 /// The start, if it lies between a crossing and a place beside it, on the branch that joins them: there no step leads
 /// from one to the other. Branches are distinguished by their directions, as where they are left.
-fn passed_beside_a_crossing(curve: &Curve, start: &At, from: &At, to: &At) -> Option<At> {
+fn passed_beside_a_crossing(
+    curve: &Curve,
+    start: &CurvePlace,
+    from: &CurvePlace,
+    to: &CurvePlace,
+) -> Option<CurvePlace> {
     let crossing = [from, to].into_iter().find(|place| place.is_singular())?;
     let way = curve.difference_but_turns(&crossing.at, &start.at);
-    let end = |place: &At| {
+    let end = |place: &CurvePlace| {
         dot(
             &curve.difference(&crossing.at, &place.at),
             &crossing.tangent,
@@ -317,7 +328,7 @@ impl Segment {
     ///
     /// A chord c between tangents θ apart spans the arc c·(θ/2)/sin(θ/2) of a circle; that of the curve
     /// differs from it in the fifth order of the step.
-    pub fn gone_at(&self, curve: &Curve, place: &At) -> f64 {
+    pub fn gone_at(&self, curve: &Curve, place: &CurvePlace) -> f64 {
         let chord = norm(&curve.difference(&self.from.at, &place.at));
         let tangents = self.from.tangent.iter().zip(&place.tangent);
         let apart: Vec<f64> = tangents.map(|(a, b)| b - a).collect();

@@ -7,10 +7,10 @@ use crate::linear::Factorable;
 use crate::mechanism::{
     Configuration, Dimensions, Mechanism, PlatformPose, PoseCoordinate, principal, turns_to_repeat,
 };
-use crate::number::{Complex, Number};
+use crate::number::Number;
 use crate::system::{Held, HeldPlatform, System};
 
-pub(crate) type C = Complex<f64>;
+pub(crate) use crate::number::C;
 
 /// A given coordinate, or several that belong together.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@
 mod graph;
 mod seeds;
 
-use graph::{Edge, Node};
+use graph::{GraphEdge, GraphNode};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -32,15 +32,15 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
     )
 }
 
-struct Search<'a> {
+struct MemberSearch<'a> {
     watch: &'a Watch<'a>,
     bound: Option<usize>,
     family: &'a Family,
     settings: &'a AssembliesSettings,
     /// True if the solutions of the first node are asked for, false if those of any will do.
     given: bool,
-    nodes: Vec<Node<'a>>,
-    edges: Vec<Edge>,
+    nodes: Vec<GraphNode<'a>>,
+    edges: Vec<GraphEdge>,
     found: GenericSolutions,
     /// The trace test over the length of a rod, and how often it was begun.
     cut: Option<RodTrace<'a>>,
@@ -71,7 +71,7 @@ pub(super) fn search_one(
         base = generic(stream);
         six = six_rods::solved(family, &base, watch);
     }
-    let mut search = Search {
+    let mut search = MemberSearch {
         watch,
         bound,
         family,
@@ -129,7 +129,7 @@ const DOUBTFUL: usize = 200;
 /// exchange all solutions.
 const RESIZED: usize = 3;
 
-impl<'a> Search<'a> {
+impl<'a> MemberSearch<'a> {
     /// Searches until nothing more is found; true if it ended at its limits, or was stopped, before.
     fn run(&mut self) -> bool {
         while self.nodes[0].shown.is_empty() {
@@ -246,7 +246,7 @@ impl<'a> Search<'a> {
         let resized = member.parameters != self.family.parameters;
         self.found.related |= resized && !self.family.is_square;
         let new = self.nodes.len();
-        self.nodes.push(Node {
+        self.nodes.push(GraphNode {
             member,
             reach,
             still,
@@ -255,7 +255,7 @@ impl<'a> Search<'a> {
         });
         let plain = (0..new).map(|k| (k, false));
         for (k, mirrored) in plain.chain((0..=new).map(|k| (k, true))) {
-            self.edges.push(Edge {
+            self.edges.push(GraphEdge {
                 ends: [k, new],
                 mirrored,
                 matched: [Vec::new(), Vec::new()],
@@ -374,7 +374,7 @@ impl<'a> Search<'a> {
             }
         }
         let edges = whole().filter(|edge| within[edge.ends[0]]);
-        let lost = edges.clone().filter_map(Edge::lost).max().unwrap_or(0);
+        let lost = edges.clone().filter_map(GraphEdge::lost).max().unwrap_or(0);
         let nodes = within.iter().filter(|within| **within).count();
         (edges.count() + 1 - nodes, lost)
     }

@@ -1,6 +1,6 @@
 //! Straight-line homotopy between two members of a family.
 
-use super::member::{MemberEquations, Segment};
+use super::member::{MemberEquations, MemberSegment};
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
 use crate::number::{Number, complex};
@@ -10,7 +10,7 @@ use crate::system::System;
 impl Family {
     /// The homotopy from one member to another. `None` if an expression has no value at the start.
     pub fn homotopy(&self, from: &Member, to: &Member) -> Option<ParameterHomotopy<'_>> {
-        let course = Segment::new(from, to);
+        let course = MemberSegment::new(from, to);
         let here = MemberEquations::start(self, &course)?;
         Some(ParameterHomotopy::new(self, here, course))
     }
@@ -25,7 +25,7 @@ pub(crate) struct ParameterHomotopy<'f> {
     residual: Vec<C>,
     /// Factors by which the equations last factorised were multiplied.
     factors: Vec<f64>,
-    course: Segment,
+    course: MemberSegment,
     /// The least that [`reach`](Self::reach) is.
     reach: f64,
 }
@@ -37,9 +37,9 @@ impl<'f> ParameterHomotopy<'f> {
         (from, to): (&System<C>, &System<C>),
         member: &Member,
     ) -> Option<Self> {
-        let course = Segment {
+        let course = MemberSegment {
             resized: true,
-            ..Segment::new(member, member)
+            ..MemberSegment::new(member, member)
         };
         let here = MemberEquations::between(family, &course, (from, to))?;
         Some(ParameterHomotopy {
@@ -48,7 +48,7 @@ impl<'f> ParameterHomotopy<'f> {
         })
     }
 
-    fn new(family: &'f Family, here: MemberEquations, course: Segment) -> Self {
+    fn new(family: &'f Family, here: MemberEquations, course: MemberSegment) -> Self {
         let rows = vec![C::from_f64(0.0); here.system.rows()];
         ParameterHomotopy {
             family,

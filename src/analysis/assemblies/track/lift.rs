@@ -17,11 +17,11 @@ use crate::system::{System, Work};
 #[derive(Clone, Debug)]
 pub(crate) struct Lift<'f> {
     whole: ParameterHomotopy<'f>,
-    parts: Vec<Part>,
+    parts: Vec<LiftPart>,
 }
 
 #[derive(Clone, Debug)]
-struct Part {
+struct LiftPart {
     system: System<C>,
     work: Work<C>,
     /// Of its unknowns among those of the whole.
@@ -43,7 +43,7 @@ impl<'f> Lift<'f> {
                 ..dimensions.clone()
             };
             let system = System::new(&own, &held);
-            Part {
+            LiftPart {
                 work: system.work(),
                 system,
                 places,

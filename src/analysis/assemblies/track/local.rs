@@ -30,7 +30,7 @@ pub(crate) struct Local<'a, 'f> {
 }
 
 /// J and r at a point as real numbers, with the singular values of J.
-struct Linear {
+struct RealLinear {
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
     left: DMatrix<f64>,
@@ -38,7 +38,7 @@ struct Linear {
     right: DMatrix<f64>,
 }
 
-impl Linear {
+impl RealLinear {
     /// Number of singular values that count; none if the largest is itself rounding.
     fn rank(&self, tolerance: f64) -> usize {
         let largest = self.values.first().copied().unwrap_or(0.0);
@@ -236,7 +236,7 @@ impl<'a, 'f> Local<'a, 'f> {
     }
 
     /// Corank; complex directions count once.
-    fn freedom(&self, linear: &Linear, tolerance: f64) -> usize {
+    fn freedom(&self, linear: &RealLinear, tolerance: f64) -> usize {
         let lost = linear.values.len() - linear.rank(tolerance);
         match self.real {
             true => lost,
@@ -297,7 +297,7 @@ impl<'a, 'f> Local<'a, 'f> {
         (residual, jacobian)
     }
 
-    fn linear(&mut self, x: &[C]) -> Linear {
+    fn linear(&mut self, x: &[C]) -> RealLinear {
         let (residual, jacobian) = self.evaluated(x);
         let (rows, columns) = jacobian.shape();
         let finite = jacobian.iter().all(|x| x.is_finite());
@@ -308,7 +308,7 @@ impl<'a, 'f> Local<'a, 'f> {
         let matrix = |rows: usize, of: &[Vec<f64>]| {
             DMatrix::from_fn(rows, of.len(), |i, j| of[j].get(i).copied().unwrap_or(0.0))
         };
-        Linear {
+        RealLinear {
             left: matrix(rows, &svd.left),
             values: svd.values,
             right: matrix(columns, &svd.right),

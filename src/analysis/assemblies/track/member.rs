@@ -11,21 +11,21 @@ use crate::system::{ConstantsCourse, System, Work};
 
 /// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
-pub(crate) struct Segment {
+pub(crate) struct MemberSegment {
     pub from: Member,
     pub change: Member,
     /// True if dimensions change, false if only inputs do.
     pub resized: bool,
 }
 
-impl Segment {
+impl MemberSegment {
     pub fn new(from: &Member, to: &Member) -> Self {
         let difference = |a: &[C], b: &[C]| a.iter().zip(b).map(|(a, b)| b - a).collect::<Vec<C>>();
         let change = Member {
             parameters: difference(&from.parameters, &to.parameters),
             inputs: difference(&from.inputs, &to.inputs),
         };
-        Segment {
+        MemberSegment {
             resized: change.parameters.iter().any(|x| x.norm_sqr() > 0.0),
             from: from.clone(),
             change,
@@ -59,7 +59,7 @@ pub(crate) struct MemberEquations {
 
 impl MemberEquations {
     /// The equations at s = 0. `None` if an expression has no value there.
-    pub fn start(family: &Family, course: &Segment) -> Option<Self> {
+    pub fn start(family: &Family, course: &MemberSegment) -> Option<Self> {
         let system = family.system(&course.from.parameters)?;
         if course.resized && family.is_square {
             let end = family.system(&course.parameters(C::new(1.0, 0.0)))?;
@@ -74,7 +74,7 @@ impl MemberEquations {
     /// At the first of two systems, on the way of the numbers of one to those of the other.
     pub fn between(
         family: &Family,
-        course: &Segment,
+        course: &MemberSegment,
         (from, to): (&System<C>, &System<C>),
     ) -> Option<Self> {
         let (system, way) = from.towards(to)?;
@@ -88,7 +88,7 @@ impl MemberEquations {
 
     fn new(
         family: &Family,
-        course: &Segment,
+        course: &MemberSegment,
         system: System<C>,
         numbers: Option<Arc<ConstantsCourse<C>>>,
     ) -> Self {
@@ -108,7 +108,7 @@ impl MemberEquations {
     }
 
     /// Changes the equations to those at another s.
-    pub fn go(&mut self, family: &Family, course: &Segment, s: C) {
+    pub fn go(&mut self, family: &Family, course: &MemberSegment, s: C) {
         if self.s == Some(s) {
             return;
         }
@@ -148,7 +148,7 @@ impl MemberEquations {
     }
 
     /// ∂h/∂s where frames were last placed, in place of the residual; true if there is one.
-    pub fn drift(&mut self, family: &Family, course: &Segment) -> bool {
+    pub fn drift(&mut self, family: &Family, course: &MemberSegment) -> bool {
         /// Step of s over which dimensions are compared where their relations are kept.
         const APART: f64 = 1e-7;
         let s = self.s.unwrap_or(C::new(0.0, 0.0));
@@ -207,7 +207,7 @@ impl MemberEquations {
     /// A screw's angle φ enters by cos φ and sin φ, its travel t = hφ linearly. Where both may vary apart from each other a
     /// surface of solutions, algebraic in t and e^{iφ}, passes through this one, and the screw's own are where
     /// it meets t = hφ: no end of them, unless t is the same all over the surface, as where a nut is held.
-    pub fn is_endless(&self, family: &Family, course: &Segment) -> bool {
+    pub fn is_endless(&self, family: &Family, course: &MemberSegment) -> bool {
         const LOST: f64 = 1e-9;
         let Coordinates {
             screws,

@@ -84,7 +84,7 @@ pub(crate) fn ends(
     let mut best: Option<Ends> = None;
     let mut retries = 0;
     for bend in [0.0, 0.4, -0.4, 0.8, -0.8] {
-        let mut batch = Batch {
+        let mut batch = PathBatch {
             homotopy,
             bend,
             care: if bend == 0.0 { 1.0 } else { 0.1 },
@@ -106,7 +106,7 @@ pub(crate) fn ends(
 }
 
 /// Paths tracked together in the same manner.
-struct Batch<'a, 'f> {
+struct PathBatch<'a, 'f> {
     homotopy: &'a ParameterHomotopy<'f>,
     /// Bend of the way to the side, through complex s.
     bend: f64,
@@ -119,7 +119,7 @@ struct Batch<'a, 'f> {
     storage: Option<ParameterHomotopy<'f>>,
 }
 
-impl Batch<'_, '_> {
+impl PathBatch<'_, '_> {
     /// For paths that were tracked `level` times before.
     fn tracker(&self, level: i32) -> Tracker {
         let tracker = Tracker {

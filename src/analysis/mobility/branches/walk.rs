@@ -14,7 +14,7 @@ pub(super) const MOVED_ON_A_BRANCH: f64 = 1e-3;
 const SAME_BRANCH: f64 = 0.15;
 
 /// Directions to try: on the quadratic cone, between the basis vectors, both ways along each.
-pub(super) struct Directions {
+pub(super) struct WalkDirections {
     /// Tries on the cone that are left.
     on_cone: usize,
     /// Tries between the basis vectors if none on the cone succeeds; on the cone alone `None`.
@@ -23,11 +23,11 @@ pub(super) struct Directions {
     made: [usize; 3],
 }
 
-impl Directions {
+impl WalkDirections {
     pub fn new(cone: &Cone, at: &Tangent) -> Self {
-        Directions {
+        WalkDirections {
             between: Some(BRANCH_TRIALS * at.motions.len()),
-            ..Directions::on_cone(cone, at)
+            ..WalkDirections::on_cone(cone, at)
         }
     }
 
@@ -35,7 +35,7 @@ impl Directions {
     pub fn on_cone(cone: &Cone, at: &Tangent) -> Self {
         let n = at.motions.len();
         let curved = n >= 2 && !cone.is_all();
-        Directions {
+        WalkDirections {
             on_cone: if curved { BRANCH_TRIALS * n } else { 0 },
             between: None,
             made: [0; 3],
@@ -174,7 +174,7 @@ impl BranchWalk<'_, '_, '_> {
         let least = points.into_iter().min_by_key(|point| point.motions.len());
         let Some(mut least) = least else { return };
         let cone = Cone::of(self.search.near, &least);
-        let mut directions = Directions::new(&cone, &least);
+        let mut directions = WalkDirections::new(&cone, &least);
         let mut ways: Vec<Vec<f64>> = Vec::new();
         while let Some(direction) = directions.next(&cone, &least, &mut self.search.rng) {
             ways.extend(

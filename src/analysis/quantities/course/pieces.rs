@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_8, TAU};
 
-use super::{Course, Piece, TERMS, polynomial, within};
-use crate::analysis::quantities::meter::{Block, Meter, Name};
+use super::{Course, StretchPiece, TERMS, polynomial, within};
+use crate::analysis::quantities::meter::{Meter, MeterBlock, Name};
 use crate::analysis::sweep::Row;
 use crate::mechanism::Configuration;
 use crate::number::Number;
@@ -81,8 +81,8 @@ impl Course<'_> {
             }
             ahead = halves;
         }
-        let key = |of: &Piece| (of.stretch, of.span[0]);
-        let order = |a: &Piece, b: &Piece| {
+        let key = |of: &StretchPiece| (of.stretch, of.span[0]);
+        let order = |a: &StretchPiece, b: &StretchPiece| {
             let (a, b) = (key(a), key(b));
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         };
@@ -111,7 +111,7 @@ impl Course<'_> {
     ) -> (Vec<Samples>, Vec<Option<Configuration<f64>>>) {
         let count = self.names.len();
         let mut read: Vec<[f64; 2]> = Vec::new();
-        let mut take = |block: &Block| {
+        let mut take = |block: &MeterBlock| {
             for i in 0..block.len() {
                 let columns = block.columns().iter();
                 read.extend(columns.map(|of| [of.values[i], of.noise[i]]));
@@ -155,13 +155,13 @@ impl Course<'_> {
         of: &Ahead,
         samples: &Samples,
         lagrange: &[[f64; TERMS]; TERMS],
-    ) -> (Piece, Vec<f64>) {
+    ) -> (StretchPiece, Vec<f64>) {
         /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
         const OFF: f64 = 1e-11;
         /// Rounding near a singularity, relative to that value: halving the piece does not make it less.
         const ROUNDING: f64 = 1e-6;
         let mut all_off = Vec::new();
-        let mut piece = Piece {
+        let mut piece = StretchPiece {
             stretch: of.stretch,
             span: of.span,
             ends: of.ends.clone(),

@@ -6,15 +6,15 @@ use crate::mechanism::Configuration;
 
 /// Rows one after another with the quantities at them, in storage that is used again.
 #[derive(Default)]
-pub(crate) struct Block {
+pub(crate) struct MeterBlock {
     rows: Vec<Waiting>,
     count: usize,
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Vec<MeterColumn>,
 }
 
 /// A quantity at the rows of a block.
 #[derive(Clone)]
-pub(crate) struct Column {
+pub(crate) struct MeterColumn {
     /// Not a number where there is none.
     pub values: [f64; BATCH],
     /// Uncertainty of the values.
@@ -32,16 +32,16 @@ struct Waiting {
     between: bool,
 }
 
-impl Block {
+impl MeterBlock {
     /// Room for `quantities` quantities.
     pub fn new(quantities: usize) -> Self {
-        let none = Column {
+        let none = MeterColumn {
             values: [f64::NAN; BATCH],
             noise: [0.0; BATCH],
         };
-        Block {
+        MeterBlock {
             columns: vec![none; quantities],
-            ..Block::default()
+            ..MeterBlock::default()
         }
     }
 
@@ -91,7 +91,7 @@ impl Block {
     }
 
     /// The quantities.
-    pub fn columns(&self) -> &[Column] {
+    pub fn columns(&self) -> &[MeterColumn] {
         &self.columns
     }
 

@@ -1,7 +1,7 @@
 //! Values of names in quantities at one configuration.
 
 use super::Meter;
-use super::probe::{Found, Probe};
+use super::probe::{FoundHere, Probe};
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{
@@ -13,9 +13,9 @@ use crate::number::tolerance::SOLVED;
 use crate::system::{Balance, Coordinate};
 
 /// A configuration with the known rates and figures.
-pub(super) struct Here<'a, T: Factorable> {
+pub(super) struct KnownHere<'a, T: Factorable> {
     pub at: &'a Configuration<T>,
-    pub found: &'a Found<T>,
+    pub found: &'a FoundHere<T>,
     pub figures: &'a [(Figure, Option<T>)],
     /// The pace relative to that of `found`, and its change per s.
     pace: [T; 2],
@@ -27,11 +27,11 @@ pub(super) struct Here<'a, T: Factorable> {
     largest: [T; 2],
 }
 
-impl<'a, T: Factorable> Here<'a, T> {
+impl<'a, T: Factorable> KnownHere<'a, T> {
     /// The configuration with its motion by the law, and with the motion of `found`.
     pub fn both(
         at: &'a Configuration<T>,
-        found: &'a Found<T>,
+        found: &'a FoundHere<T>,
         figures: &'a [(Figure, Option<T>)],
         (pace, time): ([T; 2], T),
         probe: &'a Probe<T>,
@@ -44,7 +44,7 @@ impl<'a, T: Factorable> Here<'a, T> {
         [pace, [T::one(), T::zero()]].map(|pace| {
             let [rate, change] = pace;
             let accelerated = largest[1] * rate * rate + largest[0] * change.abs();
-            Here {
+            KnownHere {
                 at,
                 found,
                 figures,
@@ -106,13 +106,18 @@ fn largest<T: Number>(of: &[T]) -> T {
 impl Meter<'_> {
     /// The value of a name, not a number where it is not determined, and how far it may be off; with the number of the
     /// point, if it is of one.
-    pub(super) fn value<T: Factorable>(&self, here: &Here<T>, of: &Measured, i: usize) -> [T; 2] {
+    pub(super) fn value<T: Factorable>(
+        &self,
+        here: &KnownHere<T>,
+        of: &Measured,
+        i: usize,
+    ) -> [T; 2] {
         let value = (self.known(here, of, i)).unwrap_or_else(|| T::from_f64(f64::NAN));
         [value, self.off(here, of, i, value)]
     }
 
     /// Uncertainty of the value of a name: configurations are closed to 1e-12.
-    fn off<T: Factorable>(&self, here: &Here<T>, of: &Measured, i: usize, value: T) -> T {
+    fn off<T: Factorable>(&self, here: &KnownHere<T>, of: &Measured, i: usize, value: T) -> T {
         let [rate, change] = here.largest;
         let most = |order: Order| match order {
             Order::Value => T::one(),
@@ -171,7 +176,7 @@ impl Meter<'_> {
         size.scale(SOLVED)
     }
 
-    fn known<T: Factorable>(&self, here: &Here<T>, of: &Measured, i: usize) -> Option<T> {
+    fn known<T: Factorable>(&self, here: &KnownHere<T>, of: &Measured, i: usize) -> Option<T> {
         let mechanism = self.of.question.mechanism();
         match *of {
             Measured::Time => Some(here.time),
@@ -259,7 +264,7 @@ impl Meter<'_> {
     /// Place, velocity or acceleration of a point, by its number.
     fn vector<T: Factorable>(
         &self,
-        here: &Here<T>,
+        here: &KnownHere<T>,
         point: Point,
         i: usize,
         order: Order,
@@ -271,7 +276,7 @@ impl Meter<'_> {
 
     /// The rates of a body: its turning, and its velocity at the origin of ground, from points on the axes of a frame,
     /// ω = ½ Σ eₖ × (ω × eₖ).
-    fn twist<T: Factorable>(&self, here: &Here<T>, i: usize) -> Option<[Vector3<T>; 2]> {
+    fn twist<T: Factorable>(&self, here: &KnownHere<T>, i: usize) -> Option<[Vector3<T>; 2]> {
         let mechanism = self.of.question.mechanism();
         if !here.tells(Order::Velocity) || self.loose.contains(&self.plan.points[i].frame) {
             return None;
@@ -293,7 +298,7 @@ impl Meter<'_> {
     /// A coordinate of the point of that number, or of the orientation of its frame.
     fn coordinate<T: Factorable>(
         &self,
-        here: &Here<T>,
+        here: &KnownHere<T>,
         i: usize,
         c: PoseCoordinate,
         order: Order,
@@ -318,7 +323,7 @@ impl Meter<'_> {
         })
     }
 
-    fn force<T: Factorable>(&self, here: &Here<T>, of: Coordinate) -> Option<T> {
+    fn force<T: Factorable>(&self, here: &KnownHere<T>, of: Coordinate) -> Option<T> {
         let place = self.coordinates.iter().position(|known| *known == of)?;
         let force = *here.balance?.forces.get(place)?;
         (here.found.moves && force.is_finite()).then_some(force)
@@ -326,7 +331,7 @@ impl Meter<'_> {
 
     /// A part of a reaction that equilibrium determines. The size of a force across the plane of a planar mechanism is that
     /// in the plane.
-    fn reaction<T: Factorable>(&self, here: &Here<T>, of: Carrier, part: Effort) -> Option<T> {
+    fn reaction<T: Factorable>(&self, here: &KnownHere<T>, of: Carrier, part: Effort) -> Option<T> {
         let place = here.balance?.place(of)?;
         let unique = self.determined.get(place)?;
         let carried = here.balance?.reactions.get(place)?;

@@ -38,11 +38,11 @@ pub(super) struct Probe<'q, T: Factorable> {
     outputs: Option<Outputs<'q, T>>,
     responses: Vec<Vec<T>>,
     centre: [f64; 3],
-    pub found: Found<T>,
+    pub found: FoundHere<T>,
 }
 
 /// Ingredients at one configuration.
-pub(super) struct Found<T> {
+pub(super) struct FoundHere<T> {
     /// True if rates are determined.
     pub moves: bool,
     /// Rates and accelerations of all unknowns.
@@ -89,7 +89,7 @@ impl<'q, T: Factorable> Probe<'q, T> {
             outputs: outputs.map(|(motion, of)| Outputs::new(mechanism, motion, of.clone())),
             responses: vec![Vec::new(); coordinates.len()],
             centre: mechanism.dimensions().centre,
-            found: Found::default(),
+            found: FoundHere::default(),
             placement: kinematics.placement(),
             kinematics,
             motion,
@@ -206,9 +206,9 @@ impl<'q, T: Factorable> Probe<'q, T> {
     }
 }
 
-impl<T: Number> Default for Found<T> {
+impl<T: Number> Default for FoundHere<T> {
     fn default() -> Self {
-        Found {
+        FoundHere {
             moves: false,
             rates: Default::default(),
             points: Default::default(),

@@ -1,8 +1,8 @@
 //! Quantities at many rows at once, by the operations that give them at one.
 
 use super::Meter;
-use super::block::{Block, Column};
-use super::found::Here;
+use super::block::{MeterBlock, MeterColumn};
+use super::found::KnownHere;
 use super::probe::Probe;
 use super::programs::{estimated, is_clear, is_name};
 use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
@@ -25,7 +25,7 @@ pub(super) struct Recording {
 }
 
 /// The places of a program's results.
-struct Written {
+struct ResultPlaces {
     /// For each quantity those of its value and of how far that may be off, and whether the value must be large beside
     /// that.
     quantities: Vec<([Place; 2], bool)>,
@@ -35,7 +35,7 @@ struct Written {
 
 impl Recording {
     /// Runs the program for the rows of a block whose numbers are put into the registers; for each, true if it holds.
-    fn run(&mut self, block: &mut Block) -> [bool; BATCH] {
+    fn run(&mut self, block: &mut MeterBlock) -> [bool; BATCH] {
         self.batch.run(1, &mut self.registers);
         let mut holds = [true; BATCH];
         told(self, &mut block.columns, &mut holds);
@@ -44,7 +44,7 @@ impl Recording {
 
     /// Gives the quantities to columns and says for which rows the program holds.
     #[inline(always)]
-    fn tell(&self, columns: &mut [Column], holds: &mut [bool; BATCH]) {
+    fn tell(&self, columns: &mut [MeterColumn], holds: &mut [bool; BATCH]) {
         // how many conditions do not hold: of the width of the numbers, for vector instructions
         let mut broken = [0u64; BATCH];
         for (register, negative) in &self.decided {
@@ -68,7 +68,7 @@ impl Recording {
 }
 
 widest! {
-    fn told(recording: &Recording, columns: &mut [Column], holds: &mut [bool; BATCH]) runs Recording::tell
+    fn told(recording: &Recording, columns: &mut [MeterColumn], holds: &mut [bool; BATCH]) runs Recording::tell
 }
 
 impl Meter<'_> {
@@ -94,7 +94,7 @@ impl Meter<'_> {
     }
 
     /// Writes the quantities down at a row; none if not all of them can be, or if it is singular.
-    pub(super) fn recorded(&mut self, block: &Block) -> Option<Recording> {
+    pub(super) fn recorded(&mut self, block: &MeterBlock) -> Option<Recording> {
         let (row, time) = block.row(0);
         let mut sample = Vec::new();
         self.given(row.configuration, time, |_, x| sample.push(x));
@@ -125,7 +125,7 @@ impl Meter<'_> {
     }
 
     /// Writes everything.
-    fn written(&self, at: &Configuration<f64>) -> Option<Written> {
+    fn written(&self, at: &Configuration<f64>) -> Option<ResultPlaces> {
         let mut all = (0..).map(Recorded::input);
         let mut next = || all.next().expect("there is no last one");
         let at = at.map(|_| next());
@@ -163,7 +163,7 @@ impl Meter<'_> {
             }
         };
         figures.extend(distances);
-        let both = Here::both(&at, found, &figures, (pace, seconds), &probe);
+        let both = KnownHere::both(&at, found, &figures, (pace, seconds), &probe);
         let names = self.names.iter();
         let known: Vec<[Recorded; 2]> = names
             .map(|(name, number)| self.value(&both[usize::from(name.geometric)], &name.of, *number))
@@ -173,7 +173,7 @@ impl Meter<'_> {
             let both: [Place; 2] = both.map(Recorded::place);
             Some((both, !is_name(program)))
         });
-        Some(Written {
+        Some(ResultPlaces {
             quantities: written.collect::<Option<_>>()?,
             decisions: Recorded::decisions(),
             entries,
@@ -181,7 +181,7 @@ impl Meter<'_> {
     }
 
     /// Reads the rows of a block side by side; for each, true if it could be.
-    pub(super) fn read_together(&mut self, block: &mut Block) -> [bool; BATCH] {
+    pub(super) fn read_together(&mut self, block: &mut MeterBlock) -> [bool; BATCH] {
         let Some(mut recording) = self.recording.take() else {
             return [false; BATCH];
         };

@@ -3,7 +3,7 @@
 use super::*;
 
 /// The earliest event within a step.
-pub(super) enum Met {
+pub(super) enum EarliestEvent {
     Limit { joint: usize, limit: f64 },
     Singular,
 }
@@ -78,7 +78,7 @@ impl Run<'_, '_> {
         (before, margin_before): (f64, f64),
         after: f64,
         margin: &mut f64,
-    ) -> Option<(f64, Met)> {
+    ) -> Option<(f64, EarliestEvent)> {
         let limit = self.limit(integrator, before, after);
         let mut singular = self.singular(integrator, (before, margin_before), after, margin);
         if self.settings.through {
@@ -90,9 +90,9 @@ impl Run<'_, '_> {
             }));
         }
         match (limit, singular) {
-            (Some(limit), Some(time)) if time < limit.0 => Some((time, Met::Singular)),
-            (Some((time, joint, limit)), _) => Some((time, Met::Limit { joint, limit })),
-            (None, time) => time.map(|time| (time, Met::Singular)),
+            (Some(limit), Some(time)) if time < limit.0 => Some((time, EarliestEvent::Singular)),
+            (Some((time, joint, limit)), _) => Some((time, EarliestEvent::Limit { joint, limit })),
+            (None, time) => time.map(|time| (time, EarliestEvent::Singular)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! A test that motions keep to their branches.
 
-use super::past::{Lanes, Mask, Past};
+use super::past::{LaneNumbers, Mask, Past};
 use crate::algebra::{BATCH, Registers};
 use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
 
@@ -11,24 +11,24 @@ use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
 #[derive(Clone, Debug)]
 pub(super) struct Certain {
     /// The numbers that the Jacobian depends on, with their weights.
-    known: Vec<(usize, f64, Lanes)>,
+    known: Vec<(usize, f64, LaneNumbers)>,
     /// The Jacobian, row by row.
-    jacobian: Vec<Lanes>,
+    jacobian: Vec<LaneNumbers>,
     /// The square of the distance.
-    reach: Lanes,
+    reach: LaneNumbers,
 }
 
 /// Jacobians and their left inverses, by the registers in which they are.
-pub(super) struct Jacobians<'r> {
+pub(super) struct LaneJacobians<'r> {
     pub jacobian: &'r [Vec<usize>],
     pub inverse: &'r [Vec<usize>],
     pub registers: &'r Registers,
 }
 
-impl Jacobians<'_> {
+impl LaneJacobians<'_> {
     /// For each motion (βK)², infinite where there is no inverse.
-    fn sizes(&self, curvature: f64) -> Lanes {
-        let mut size = Lanes::ZERO;
+    fn sizes(&self, curvature: f64) -> LaneNumbers {
+        let mut size = LaneNumbers::ZERO;
         for &register in self.inverse.iter().flatten() {
             let entries = self.registers.rows(register);
             (0..BATCH).for_each(|i| size.0[i] += entries[i] * entries[i]);
@@ -54,15 +54,17 @@ impl Certain {
     ) -> Self {
         let known = numbers.filter(|(_, weight)| **weight > 0.0);
         Certain {
-            known: known.map(|(i, weight)| (i, *weight, Lanes::ZERO)).collect(),
-            jacobian: vec![Lanes::ZERO; jacobian.iter().map(Vec::len).sum()],
-            reach: Lanes::ZERO,
+            known: known
+                .map(|(i, weight)| (i, *weight, LaneNumbers::ZERO))
+                .collect(),
+            jacobian: vec![LaneNumbers::ZERO; jacobian.iter().map(Vec::len).sum()],
+            reach: LaneNumbers::ZERO,
         }
     }
 
     /// The squares of the distances to the present solutions.
-    fn apart(&self, registers: &Registers) -> Lanes {
-        let mut apart = Lanes::ZERO;
+    fn apart(&self, registers: &Registers) -> LaneNumbers {
+        let mut apart = LaneNumbers::ZERO;
         for (register, weight, from) in &self.known {
             let to = registers.rows(*register);
             (0..BATCH).for_each(|i| {
@@ -85,20 +87,26 @@ impl Certain {
     }
 
     /// Motions among `of` that are on their branches by the change of the Jacobian.
-    pub fn sure(&self, of: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) -> Mask {
+    pub fn sure(
+        &self,
+        of: &Mask,
+        now: &LaneJacobians,
+        curvature: f64,
+        registers: &Registers,
+    ) -> Mask {
         let (size, apart) = (now.sizes(curvature), self.apart(registers));
         let width = now.jacobian.first().map_or(0, Vec::len);
-        let changes: Vec<Lanes> = (now.jacobian.iter().flatten())
+        let changes: Vec<LaneNumbers> = (now.jacobian.iter().flatten())
             .zip(&self.jacobian)
             .map(|(&register, before)| {
                 let now = registers.rows(register);
-                Lanes(std::array::from_fn(|i| before.0[i] - now[i]))
+                LaneNumbers(std::array::from_fn(|i| before.0[i] - now[i]))
             })
             .collect();
-        let mut squares = Lanes::ZERO;
+        let mut squares = LaneNumbers::ZERO;
         for row in now.inverse {
             for c in 0..width {
-                let mut sum = Lanes::ZERO;
+                let mut sum = LaneNumbers::ZERO;
                 for (k, &register) in row.iter().enumerate() {
                     let inverse = registers.rows(register);
                     let change = &changes[k * width + c];
@@ -119,9 +127,15 @@ impl Certain {
     }
 
     /// Takes the present solutions of some motions.
-    pub fn keep(&mut self, which: &Mask, now: &Jacobians, curvature: f64, registers: &Registers) {
+    pub fn keep(
+        &mut self,
+        which: &Mask,
+        now: &LaneJacobians,
+        curvature: f64,
+        registers: &Registers,
+    ) {
         let size = now.sizes(curvature);
-        let mut reach = Lanes::ZERO;
+        let mut reach = LaneNumbers::ZERO;
         (0..BATCH).for_each(|i| reach.0[i] = 0.64 / (size.0[i] + 1e-30));
         self.reach.choose(&reach.0, which);
         for (register, _, from) in &mut self.known {

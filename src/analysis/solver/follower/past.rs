@@ -11,10 +11,10 @@ pub(super) type Mask = [u64; BATCH];
 /// A number for each motion.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(super) struct Lanes(pub [f64; BATCH]);
+pub(super) struct LaneNumbers(pub [f64; BATCH]);
 
-impl Lanes {
-    pub const ZERO: Lanes = Lanes([0.0; BATCH]);
+impl LaneNumbers {
+    pub const ZERO: LaneNumbers = LaneNumbers([0.0; BATCH]);
 
     /// Takes the numbers of some motions.
     pub fn choose(&mut self, from: &[f64; BATCH], motions: &Mask) {
@@ -30,15 +30,15 @@ impl Lanes {
 pub(super) struct Past {
     known: Vec<KnownPast>,
     /// 1 where a difference is added, otherwise 0.
-    added: [Lanes; ORDERS - 1],
+    added: [LaneNumbers; ORDERS - 1],
 }
 
 /// The past of one number.
 #[derive(Clone, Debug)]
 struct KnownPast {
     register: usize,
-    latest: Lanes,
-    differences: [Lanes; ORDERS - 1],
+    latest: LaneNumbers,
+    differences: [LaneNumbers; ORDERS - 1],
 }
 
 impl Past {
@@ -46,12 +46,12 @@ impl Past {
     pub fn none(of: &[usize], registers: &Registers) -> Self {
         let known = of.iter().map(|&register| KnownPast {
             register,
-            latest: Lanes(*registers.rows(register)),
-            differences: [Lanes::ZERO; ORDERS - 1],
+            latest: LaneNumbers(*registers.rows(register)),
+            differences: [LaneNumbers::ZERO; ORDERS - 1],
         });
         Past {
             known: known.collect(),
-            added: [Lanes::ZERO; ORDERS - 1],
+            added: [LaneNumbers::ZERO; ORDERS - 1],
         }
     }
 
@@ -72,8 +72,8 @@ impl Past {
     }
 
     /// The squares of the moves from the latest solutions.
-    pub fn moved(&self, registers: &Registers) -> Lanes {
-        let mut moved = Lanes::ZERO;
+    pub fn moved(&self, registers: &Registers) -> LaneNumbers {
+        let mut moved = LaneNumbers::ZERO;
         for known in &self.known {
             let now = registers.rows(known.register);
             (0..BATCH).for_each(|i| {
@@ -101,18 +101,18 @@ impl Past {
     /// Takes in where motions are now.
     #[inline(always)]
     pub fn learn(&mut self, reached: &Mask, registers: &Registers) {
-        let mut errors = [Lanes::ZERO; ORDERS];
+        let mut errors = [LaneNumbers::ZERO; ORDERS];
         let [first, higher @ ..] = &mut errors;
         for known in &mut self.known {
             let now = registers.rows(known.register);
-            let mut latest = Lanes::ZERO;
+            let mut latest = LaneNumbers::ZERO;
             for (i, now) in now.iter().enumerate() {
                 latest.0[i] = now - known.latest.0[i];
                 first.0[i] += latest.0[i] * latest.0[i];
             }
             choose(&mut known.latest.0, now, reached);
             for (difference, error) in known.differences.iter_mut().zip(&mut *higher) {
-                let mut change = Lanes::ZERO;
+                let mut change = LaneNumbers::ZERO;
                 for i in 0..BATCH {
                     change.0[i] = latest.0[i] - difference.0[i];
                     error.0[i] += change.0[i] * change.0[i];
@@ -129,9 +129,9 @@ impl Past {
                 above[p].0[i] = lower.0[i].min(upper.0[i]);
             }
         }
-        let mut least = Lanes([f64::INFINITY; BATCH]);
+        let mut least = LaneNumbers([f64::INFINITY; BATCH]);
         for (p, row) in self.added.iter_mut().enumerate() {
-            let mut added = Lanes::ZERO;
+            let mut added = LaneNumbers::ZERO;
             for i in 0..BATCH {
                 least.0[i] = least.0[i].min(errors[p].0[i]);
                 added.0[i] = f64::from(u8::from(above[p + 1].0[i] < least.0[i]));

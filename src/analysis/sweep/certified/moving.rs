@@ -13,20 +13,20 @@ pub(super) fn joint(input: &Driven) -> Option<usize> {
 }
 
 /// The conditions of assembly while the inputs go straight from some values to others.
-pub(super) struct Moving<'s> {
+pub(super) struct MovingInputs<'s> {
     enclosure: &'s Enclosure,
     /// Inputs that are joints: one goes through an interval, and the others depend on it.
-    rows: Vec<Row>,
+    rows: Vec<RatioRow>,
 }
 
 /// xᵢ − ratio·xⱼ lies in an interval.
-struct Row {
+struct RatioRow {
     column: usize,
     ratio: Option<(f64, usize)>,
     value: Interval,
 }
 
-impl<'s> Moving<'s> {
+impl<'s> MovingInputs<'s> {
     pub fn new(space: &'s mut JointSpace, driven: &[Driven], from: &[f64], to: &[f64]) -> Self {
         let mut ends: Vec<(usize, [f64; 2])> = Vec::new();
         for ((input, &a), &b) in driven.iter().zip(from).zip(to) {
@@ -49,12 +49,12 @@ impl<'s> Moving<'s> {
             let rows = ends.iter().map(|&(column, [from, to])| {
                 let ratio = if a == b { 0.0 } else { (to - from) / (b - a) };
                 match column == lead {
-                    true => Row {
+                    true => RatioRow {
                         column,
                         ratio: None,
                         value: hull(a, b),
                     },
-                    false => Row {
+                    false => RatioRow {
                         column,
                         ratio: Some((ratio, lead)),
                         // the ends are known to rounding
@@ -67,7 +67,7 @@ impl<'s> Moving<'s> {
             });
             rows.collect()
         });
-        Moving {
+        MovingInputs {
             enclosure: &space.enclosure,
             rows: rows.unwrap_or_default(),
         }
@@ -81,26 +81,26 @@ fn hull(a: f64, b: f64) -> Interval {
     }
 }
 
-/// Storage of [`Moving`].
+/// Storage of [`MovingInputs`].
 #[derive(Clone)]
-pub(super) struct Work {
+pub(super) struct MovingWork {
     closures: <Enclosure as Conditions>::Work,
     values: Vec<Interval>,
     slopes: Vec<Interval>,
 }
 
-impl Conditions for Moving<'_> {
-    type Work = Work;
+impl Conditions for MovingInputs<'_> {
+    type Work = MovingWork;
 
-    fn work(&self) -> Work {
-        Work {
+    fn work(&self) -> MovingWork {
+        MovingWork {
             closures: self.enclosure.work(),
             values: Vec::new(),
             slopes: Vec::new(),
         }
     }
 
-    fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut Work) {
+    fn evaluate(&self, at: &[Interval], slopes: bool, work: &mut MovingWork) {
         self.enclosure.evaluate(at, slopes, &mut work.closures);
         let closures = self.enclosure.values(&work.closures);
         let of_inputs = self.rows.iter().map(|row| {
@@ -126,15 +126,15 @@ impl Conditions for Moving<'_> {
         }
     }
 
-    fn possible(&self, work: &Work) -> bool {
+    fn possible(&self, work: &MovingWork) -> bool {
         self.enclosure.possible(&work.closures)
     }
 
-    fn values<'a>(&self, work: &'a Work) -> &'a [Interval] {
+    fn values<'a>(&self, work: &'a MovingWork) -> &'a [Interval] {
         &work.values
     }
 
-    fn slopes<'a>(&self, work: &'a Work) -> &'a [Interval] {
+    fn slopes<'a>(&self, work: &'a MovingWork) -> &'a [Interval] {
         &work.slopes
     }
 }

@@ -7,16 +7,16 @@ use crate::mechanism::{Configuration, Frame, JointKind, Mechanism};
 use crate::number::tolerance::WRITTEN_ZERO;
 
 /// A joint as chain, row and variable.
-type Placed = (usize, usize, usize);
+type JointPlace = (usize, usize, usize);
 
 /// The joints of a planar loop of three joint variables and a revolute closure.
-struct Loop {
+struct PlanarLoop {
     /// The two on ground.
-    grounded: [Placed; 2],
-    others: Vec<Placed>,
+    grounded: [JointPlace; 2],
+    others: Vec<JointPlace>,
 }
 
-fn planar_loop(mechanism: &Mechanism) -> Option<Loop> {
+fn planar_loop(mechanism: &Mechanism) -> Option<PlanarLoop> {
     let [closure] = mechanism.closures() else {
         return None;
     };
@@ -48,7 +48,7 @@ fn planar_loop(mechanism: &Mechanism) -> Option<Loop> {
         }
     }
     let grounded = <[_; 2]>::try_from(on_ground).ok()?;
-    planar.then_some(Loop { grounded, others })
+    planar.then_some(PlanarLoop { grounded, others })
 }
 
 /// The class of a planar 4-bar whose two joints on ground are joint variables.
@@ -88,7 +88,7 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
 ///
 /// Source: F. Grashof, Theoretische Maschinenlehre, 1883.
 pub(super) fn grashof(mechanism: &Mechanism, home: &Configuration<f64>) -> Option<Grashof> {
-    let Loop { grounded, others } = planar_loop(mechanism)?;
+    let PlanarLoop { grounded, others } = planar_loop(mechanism)?;
     let ([(chain, row, _)], 4) = (&others[..], mechanism.bodies().len()) else {
         return None;
     };

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{At, Branch, Found, JointMotion};
+use super::{At, Branch, FoundCurve, JointMotion};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, turn_near, turns};
 use crate::number::tolerance::ROUNDING;
@@ -10,7 +10,7 @@ use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve};
 
 /// The values of a coordinate along a curve, angles without jumps of a turn.
-pub(super) struct Course<'m> {
+pub(super) struct JointCourse<'m> {
     mechanism: &'m Mechanism,
     pub of: Coordinate,
     closed: bool,
@@ -24,14 +24,14 @@ pub(super) struct Course<'m> {
     again: Option<f64>,
 }
 
-impl<'m> Course<'m> {
-    pub fn of_joint(mechanism: &'m Mechanism, joint: usize, found: &Found) -> Self {
+impl<'m> JointCourse<'m> {
+    pub fn of_joint(mechanism: &'m Mechanism, joint: usize, found: &FoundCurve) -> Self {
         let value = |place: &At| place.at.joints[joint];
         let values: Vec<f64> = found.places.iter().map(value).collect();
         let turnings = found.turnings.iter().filter(|(j, _)| *j == joint);
         let turnings: Vec<f64> = turnings.map(|(_, place)| value(place)).collect();
         let (first, last) = (values[0], values[values.len() - 1]);
-        Course {
+        JointCourse {
             mechanism,
             of: Coordinate::Joint(joint),
             closed: found.closed,
@@ -50,7 +50,7 @@ impl<'m> Course<'m> {
     pub fn of_platform(
         mechanism: &'m Mechanism,
         (curve, method): (&mut Curve, &Continuation),
-        found: &Found,
+        found: &FoundCurve,
         of: Coordinate,
     ) -> Option<Self> {
         /// Angles that change more in one step do not follow from the pose.
@@ -104,7 +104,7 @@ impl<'m> Course<'m> {
             true => turns(end - values[0]) as i64,
             false => 0,
         };
-        Some(Course {
+        Some(JointCourse {
             mechanism,
             of,
             closed: found.closed,

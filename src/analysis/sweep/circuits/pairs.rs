@@ -3,14 +3,12 @@
 use super::tracing::SAME;
 use crate::linear::norm;
 use crate::mechanism::Configuration;
-use crate::number::Complex;
+use crate::number::C;
 use crate::solve::{Continuation, Place, Watch};
 use crate::system::{ComplexCurve, Curve};
 
-type C = Complex<f64>;
-
 /// The end of a path of complex configurations.
-pub(super) enum End {
+pub(super) enum PairEnd {
     /// At a real configuration.
     Real(Configuration<f64>),
     /// At the end of the joint's range, or at a crossing that another path came to.
@@ -25,7 +23,7 @@ pub(super) enum End {
 /// A path this near to real configurations has come to one, if it is a dead point.
 pub(super) const ARRIVED: f64 = 1e-3;
 
-pub(super) struct Paths<'a> {
+pub(super) struct PairPaths<'a> {
     pub complex: ComplexCurve,
     pub method: Continuation,
     pub value: f64,
@@ -36,7 +34,7 @@ pub(super) struct Paths<'a> {
     pub watch: &'a Watch<'a>,
 }
 
-impl Paths<'_> {
+impl PairPaths<'_> {
     /// Steps after which a path is given up, and after which all are.
     const STEPS: usize = 4_000;
     const ALL_STEPS: usize = 20_000;
@@ -60,7 +58,7 @@ impl Paths<'_> {
         real: &mut Curve,
         mut place: Place<Configuration<C>>,
         (up, joint): (bool, usize),
-    ) -> End {
+    ) -> PairEnd {
         /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
         const INFINITE: f64 = 9.0;
         const FAR: f64 = 5.0;
@@ -74,7 +72,7 @@ impl Paths<'_> {
             }
             let gone = self.complex.value(&place.at) - self.value;
             if gone.abs() >= self.reach && (gone > 0.0) == up {
-                return End::Through;
+                return PairEnd::Through;
             }
             match self.method.step(&mut self.complex, &place, length) {
                 Ok((to, changed)) => {
@@ -94,8 +92,8 @@ impl Paths<'_> {
                     if length < self.method.shortest {
                         let far = self.complex.split(&place.at).0 > FAR;
                         return match far {
-                            true => End::Pole(self.complex.value(&place.at)),
-                            false => End::Lost,
+                            true => PairEnd::Pole(self.complex.value(&place.at)),
+                            false => PairEnd::Lost,
                         };
                     }
                     continue;
@@ -109,14 +107,14 @@ impl Paths<'_> {
                 && dead.tangent[column].abs() < 0.1
                 && norm(&real.difference_but_turns(&beside, &dead.at)) < 0.1 * imaginary
             {
-                return End::Real(dead.at);
+                return PairEnd::Real(dead.at);
             }
             if imaginary > INFINITE {
-                return End::Pole(self.complex.value(&place.at));
+                return PairEnd::Pole(self.complex.value(&place.at));
             }
             before = imaginary;
         }
-        End::Lost
+        PairEnd::Lost
     }
 
     /// The paths beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while
@@ -126,7 +124,7 @@ impl Paths<'_> {
         real: &mut Curve,
         place: &Place<Configuration<C>>,
         up: bool,
-    ) -> Option<End> {
+    ) -> Option<PairEnd> {
         let (method, complex) = (&self.method, &mut self.complex);
         let reach = 0.2 * method.longest;
         let point = method.branch_point(complex, &place.at, reach)?;
@@ -134,7 +132,7 @@ impl Paths<'_> {
         if imaginary < SAME
             && let Ok(dead) = method.settle(real, beside)
         {
-            return Some(End::Real(dead.at));
+            return Some(PairEnd::Real(dead.at));
         }
         let conjugate = point.at.map(|z| z.conj());
         let same = |known: &Configuration<C>| {
@@ -144,7 +142,7 @@ impl Paths<'_> {
                 < SAME
         };
         if (self.crossings.iter()).any(|(known, sense)| *sense == up && same(known)) {
-            return Some(End::Through);
+            return Some(PairEnd::Through);
         }
         self.crossings.push((point.at.clone(), up));
         let at = complex.value(&point.at);
@@ -157,6 +155,6 @@ impl Paths<'_> {
                 places.extend(on.map(|(to, _)| complex.going(to, up)));
             }
         }
-        (!places.is_empty()).then_some(End::Crossing(places))
+        (!places.is_empty()).then_some(PairEnd::Crossing(places))
     }
 }

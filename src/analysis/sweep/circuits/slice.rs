@@ -9,17 +9,15 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::pairs::{ARRIVED, End, Paths};
+use super::pairs::{ARRIVED, PairEnd, PairPaths};
 use super::tracing::{SAME, Tracing};
 use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, turn_near};
 use crate::number::sorting::sort_by;
-use crate::number::{Complex, Number};
+use crate::number::{C, Number};
 use crate::solve::{Continuation, Watch};
 use crate::system::{ComplexCurve, Held};
-
-type C = Complex<f64>;
 
 /// All assembled configurations at one value of a joint, real and complex.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,7 +167,7 @@ fn from_one(
         return None;
     }
     let complex = ComplexCurve::new(mechanism, held, slice.joint)?;
-    let mut paths = Paths {
+    let mut paths = PairPaths {
         // far from the real ones cosines and sines are large
         method: Continuation {
             tolerance: 1e-10,
@@ -233,17 +231,19 @@ fn from_one(
             break;
         }
         match paths.follow(&mut tracing.curve, place, (up, slice.joint)) {
-            End::Real(at) => {
+            PairEnd::Real(at) => {
                 tracing.take(&at);
                 reached.push(at);
             }
-            End::Through => {}
-            End::Pole(at) => match up {
+            PairEnd::Through => {}
+            PairEnd::Pole(at) => match up {
                 true => went[1] = went[1].min(at - slice.value),
                 false => went[0] = went[0].max(at - slice.value),
             },
-            End::Crossing(places) => waiting.extend(places.into_iter().map(|place| (place, up))),
-            End::Lost => swept.lost += 1,
+            PairEnd::Crossing(places) => {
+                waiting.extend(places.into_iter().map(|place| (place, up)))
+            }
+            PairEnd::Lost => swept.lost += 1,
         }
     }
     // of the sets of angles of balls one is followed, and paths may end at another

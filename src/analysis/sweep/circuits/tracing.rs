@@ -14,7 +14,7 @@ use crate::system::{Curve, Event, Held, NoStart, Still, Walk, sets_of_angles};
 pub(super) const SAME: f64 = 1e-6;
 
 /// A curve as it was followed.
-pub(super) struct Found {
+pub(super) struct FoundCurve {
     /// Without their Jacobians.
     pub places: Vec<At>,
     pub turnings: Vec<(usize, At)>,
@@ -27,7 +27,7 @@ pub(super) struct Found {
     pub seeds: usize,
 }
 
-impl Found {
+impl FoundCurve {
     /// The places with their Jacobians.
     pub fn restored(&self, curve: &mut Curve, method: &Continuation) -> Vec<At> {
         let places = self.places.iter();
@@ -48,7 +48,7 @@ pub(super) struct Tracing<'a> {
     joint: Option<usize>,
     settings: &'a CircuitsSettings,
     watch: &'a Watch<'a>,
-    pub traced: Vec<Found>,
+    pub traced: Vec<FoundCurve>,
     /// Seeds that are not assembled within limits, or of which no curve leads away.
     pub unusable: usize,
     /// Steps made for all of them.
@@ -206,7 +206,7 @@ impl<'a> Tracing<'a> {
     }
 
     /// The curve through a place: round it, or from one end to the other.
-    fn trace(&mut self, start: At) -> Found {
+    fn trace(&mut self, start: At) -> FoundCurve {
         // first backwards to an end, if there is one
         let back = start.clone().reversed();
         let (mut found, end) = self.half(back);
@@ -223,8 +223,8 @@ impl<'a> Tracing<'a> {
     }
 
     /// The curve from a place on until it closes or ends; with the limit that it ends at.
-    fn half(&mut self, from: At) -> (Found, Option<At>) {
-        let mut found = Found {
+    fn half(&mut self, from: At) -> (FoundCurve, Option<At>) {
+        let mut found = FoundCurve {
             places: vec![from.clone().thinned()],
             turnings: Vec::new(),
             folds: Vec::new(),

@@ -9,13 +9,13 @@ use crate::solve::Continuation;
 use crate::system::Curve;
 
 /// A configuration in which the point is there, and the number of its circuit.
-type Passage = (At, usize);
+type PathPassage = (At, usize);
 
 /// Configurations, and points over the characteristic length, this near are the same.
 const SAME: f64 = 1e-8;
 
 /// A straight piece between two points of a path.
-struct Piece {
+struct PathPiece {
     curve: usize,
     number: usize,
     ends: [Vector3<f64>; 2],
@@ -32,7 +32,7 @@ pub(super) fn double_points(
 ) -> Vec<PathPoint> {
     /// The path lies no farther off its chord, in parts of the chord.
     const BULGE: f64 = 0.3;
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<PathPiece> = Vec::new();
     for (number, (places, _)) in curves.iter().enumerate() {
         let points: Vec<_> = places.iter().map(|p| tracer.position(&p.at)).collect();
         for (i, pair) in points.windows(2).enumerate() {
@@ -43,7 +43,7 @@ pub(super) fn double_points(
             }
             let slack = BULGE * chord;
             let [a, b] = ends.map(|end| end.0);
-            pieces.push(Piece {
+            pieces.push(PathPiece {
                 curve: number,
                 number: i,
                 ends,
@@ -53,7 +53,7 @@ pub(super) fn double_points(
         }
     }
     sort_by(&mut pieces, |a, b| a.low[0].total_cmp(&b.low[0]));
-    let mut found: Vec<(Vector3<f64>, Vec<Passage>)> = Vec::new();
+    let mut found: Vec<(Vector3<f64>, Vec<PathPassage>)> = Vec::new();
     for (i, a) in pieces.iter().enumerate() {
         let near = pieces[i + 1..].iter().take_while(|b| b.low[0] <= a.high[0]);
         for b in near {
@@ -109,7 +109,7 @@ fn crossing(
     curve: &mut Curve,
     method: &Continuation,
     curves: &[(&[At], bool)],
-    pieces: [&Piece; 2],
+    pieces: [&PathPiece; 2],
 ) -> Option<[At; 2]> {
     const STEPS: usize = 20;
     /// Sine of the least angle between the branches.

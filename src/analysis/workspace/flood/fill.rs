@@ -8,8 +8,8 @@ use super::edge::{Edge, EdgeEvent, Until};
 use super::neighbour::{EdgeStep, Flood, in_packs};
 use super::pace::EdgeEnd;
 use super::reached::EdgeLink;
-use super::spread::{GrowingSet, Task};
-use super::step::{Start, Steps};
+use super::spread::{GridTask, GrowingSet};
+use super::step::{StepStart, Steps};
 use crate::mechanism::Configuration;
 use crate::solve::{Pool, Stage, Watch, each};
 
@@ -29,7 +29,7 @@ impl Flood<'_> {
         seeds: &[(usize, Configuration<f64>)],
         watch: &Watch,
     ) -> Result<(), TooManyNodes> {
-        let starts: Vec<Start> = (seeds.iter())
+        let starts: Vec<StepStart> = (seeds.iter())
             .map(|(node, at)| self.here(*node, at))
             .collect();
         let settled = self.settled(steps, &starts);
@@ -94,8 +94,12 @@ impl Flood<'_> {
 
     /// Links steps to known solutions, then chooses one step to each node from each mode; the others
     /// wait for the solution found.
-    fn chosen(&self, spread: &mut GrowingSet, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
-        let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
+    fn chosen(
+        &self,
+        spread: &mut GrowingSet,
+        tasks: Vec<GridTask>,
+    ) -> (Vec<GridTask>, Vec<GridTask>) {
+        let jobs: Vec<&[GridTask]> = tasks.chunks(JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {
             let near = jobs[i].iter().map(|&task| {
                 let node = spread.ahead(self.grid, task)?;
@@ -118,11 +122,11 @@ impl Flood<'_> {
     }
 
     /// Single steps, where they are sure.
-    fn steps(&self, spread: &GrowingSet, steps: &Pool<Steps>, tasks: &[Task]) -> Vec<Arrivals> {
+    fn steps(&self, spread: &GrowingSet, steps: &Pool<Steps>, tasks: &[GridTask]) -> Vec<Arrivals> {
         in_packs(steps, tasks, |steps, pack| {
             let planned = pack.iter().map(|task| spread.step(self.grid, *task));
             let planned: Vec<EdgeStep> = planned.collect();
-            let starts: Vec<Start> = (planned.iter())
+            let starts: Vec<StepStart> = (planned.iter())
                 .map(|step| self.towards(step.from, step.axis, step.change, step.to))
                 .collect();
             let (mut arrivals, mut storage) = (Arrivals::default(), Vec::new());
@@ -143,13 +147,13 @@ impl Flood<'_> {
         &self,
         spread: &GrowingSet,
         steps: &Pool<Steps>,
-        tasks: &[Task],
+        tasks: &[GridTask],
         watch: &Watch,
     ) -> Vec<EdgeEnd> {
         let mut ends = self.paced(steps, spread, tasks);
         let open = tasks.iter().zip(&ends);
         let open = open.filter(|(_, end)| matches!(end, EdgeEnd::Stuck));
-        let unsure: Vec<Task> = open.map(|(task, _)| *task).collect();
+        let unsure: Vec<GridTask> = open.map(|(task, _)| *task).collect();
         let met = each(unsure.len(), &(), |(), i| {
             if watch.stops(Stage::Reached, spread.len(), None) {
                 return EdgeEvent::Nothing;
@@ -162,7 +166,7 @@ impl Flood<'_> {
             };
             self.walk(&edge, &step.from.at.owned(), Until::End)
         });
-        let again: Vec<Start> = (unsure.iter().zip(&met))
+        let again: Vec<StepStart> = (unsure.iter().zip(&met))
             .filter_map(|(&task, met)| match met {
                 EdgeEvent::Neighbour(at) => Some(self.here(spread.ahead(self.grid, task)?, at)),
                 _ => None,
@@ -183,7 +187,7 @@ impl Flood<'_> {
         ends
     }
 
-    fn arrive(&self, spread: &mut GrowingSet, (from, d): Task, arrival: TangentSolutionRef) {
+    fn arrive(&self, spread: &mut GrowingSet, (from, d): GridTask, arrival: TangentSolutionRef) {
         let Some(node) = spread.ahead(self.grid, (from, d)) else {
             return;
         };

@@ -3,7 +3,7 @@
 use super::arrivals::{Arrivals, TangentSolutionRef};
 use super::metric::Metric;
 use super::reached::{NodeSolution, Signs, signs};
-use super::step::{SURE, Start, Steps};
+use super::step::{SURE, StepStart, Steps};
 use crate::algebra::BATCH;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MapProblem};
 use crate::linear::norm;
@@ -38,8 +38,8 @@ impl Flood<'_> {
     }
 
     /// A Newton start near an assembled configuration at a node.
-    pub(crate) fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
-        Start {
+    pub(crate) fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> StepStart<'s> {
+        StepStart {
             from: at.view(),
             along: None,
             reach: 1e-3,
@@ -47,7 +47,7 @@ impl Flood<'_> {
         }
     }
 
-    pub(crate) fn settled(&self, steps: &Pool<Steps>, starts: &[Start]) -> Vec<Arrivals> {
+    pub(crate) fn settled(&self, steps: &Pool<Steps>, starts: &[StepStart]) -> Vec<Arrivals> {
         in_packs(steps, starts, |steps, pack| {
             let mut arrivals = Arrivals::default();
             steps.settle(pack, &mut arrivals);
@@ -76,9 +76,9 @@ impl Flood<'_> {
         axis: usize,
         change: f64,
         values: [f64; MOST_AXES],
-    ) -> Start<'f> {
+    ) -> StepStart<'f> {
         let (motion, factor) = self.metric.motion(from, axis, change);
-        Start {
+        StepStart {
             from: from.at,
             along: Some((motion, factor)),
             reach: SURE * factor.abs() * norm(motion),

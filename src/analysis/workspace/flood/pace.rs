@@ -2,8 +2,8 @@
 
 use super::arrivals::{Arrivals, TangentSolution, TangentSolutionRef};
 use super::neighbour::Flood;
-use super::spread::{GrowingSet, Task};
-use super::step::{Start, Steps};
+use super::spread::{GridTask, GrowingSet};
+use super::step::{StepStart, Steps};
 use crate::analysis::workspace::problem::MOST_AXES;
 use crate::linear::norm;
 use crate::solve::Pool;
@@ -70,7 +70,7 @@ impl Flood<'_> {
         &self,
         steps: &Pool<Steps>,
         spread: &GrowingSet,
-        tasks: &[Task],
+        tasks: &[GridTask],
     ) -> Vec<EdgeEnd> {
         const ROUNDS: usize = 30;
         /// The shortest step as a part of an edge.
@@ -100,7 +100,7 @@ impl Flood<'_> {
             if ways.is_empty() {
                 break;
             }
-            let starts: Vec<Start> = (ways.iter()).map(|(_, way)| self.start_of(way)).collect();
+            let starts: Vec<StepStart> = (ways.iter()).map(|(_, way)| self.start_of(way)).collect();
             let arrivals = self.settled(steps, &starts);
             let arrivals = arrivals.iter().flat_map(Arrivals::iter);
             let mut left = Vec::new();
@@ -133,7 +133,7 @@ impl Flood<'_> {
         ends
     }
 
-    fn start_of<'w>(&self, way: &'w PacedStep) -> Start<'w> {
+    fn start_of<'w>(&self, way: &'w PacedStep) -> StepStart<'w> {
         let mut values = way.end;
         if way.step != way.rest() {
             values[way.axis] = way.x + way.step;

@@ -7,7 +7,7 @@ use super::arrivals::Arrivals;
 use super::metric::Metric;
 use super::neighbour::Flood;
 use super::spread::GrowingSet;
-use super::step::{Start, Steps};
+use super::step::{StepStart, Steps};
 use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
 use crate::mechanism::{Configuration, turn_near};
 use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
@@ -187,11 +187,11 @@ pub(crate) fn probe(
                 put_in(problem, &values, &at)
             })
             .collect();
-        let anywhere = |at| Start {
+        let anywhere = |at| StepStart {
             reach: f64::INFINITY,
             ..fill.here(node, at)
         };
-        let starts: Vec<Start> = drawn.iter().map(anywhere).collect();
+        let starts: Vec<StepStart> = drawn.iter().map(anywhere).collect();
         let mut new: Vec<Configuration<f64>> = Vec::new();
         let mut arrivals = Arrivals::default();
         steps.settle(&starts, &mut arrivals);

@@ -9,7 +9,7 @@ use crate::linear::{join, root};
 use crate::mechanism::ConfigurationRef;
 
 /// A step to be taken: from a solution in a direction.
-pub(crate) type Task = (usize, usize);
+pub(crate) type GridTask = (usize, usize);
 
 /// Solutions reached so far, and the steps that remain.
 pub(crate) struct GrowingSet {
@@ -25,7 +25,7 @@ pub(crate) struct GrowingSet {
     /// Solutions that no steps were made from yet.
     front: Vec<usize>,
     /// Steps that are too long to be sure.
-    pub unsure: Vec<Task>,
+    pub unsure: Vec<GridTask>,
 }
 
 impl GrowingSet {
@@ -99,12 +99,12 @@ impl GrowingSet {
     }
 
     /// The node that a step leads to.
-    pub fn ahead(&self, grid: &Grid, (from, direction): Task) -> Option<usize> {
+    pub fn ahead(&self, grid: &Grid, (from, direction): GridTask) -> Option<usize> {
         grid.neighbour(self.solutions[from].node, direction)
     }
 
     /// The way from a solution to its neighbour, of zero length if there is none.
-    pub fn step(&self, grid: &Grid, (from, direction): Task) -> EdgeStep<'_> {
+    pub fn step(&self, grid: &Grid, (from, direction): GridTask) -> EdgeStep<'_> {
         let (node, axis) = (self.solutions[from].node, direction / 2);
         let next = grid.neighbour(node, direction).unwrap_or(node);
         let to = grid.point(next);
@@ -138,7 +138,7 @@ impl GrowingSet {
     }
 
     /// The steps from all that is new.
-    pub fn onward(&mut self, grid: &Grid) -> Vec<Task> {
+    pub fn onward(&mut self, grid: &Grid) -> Vec<GridTask> {
         let directions = 0..2 * grid.dimensions();
         let front = std::mem::take(&mut self.front).into_iter();
         let steps = front.flat_map(|new| directions.clone().map(move |d| (new, d)));

@@ -15,7 +15,7 @@ use side_by_side::{SideBySide, StepEnd};
 
 /// Start of a step.
 #[derive(Clone, Debug)]
-pub(crate) struct Start<'a> {
+pub(crate) struct StepStart<'a> {
     pub from: ConfigurationRef<'a, f64>,
     /// A tangent and how far along it the solution is expected.
     pub along: Option<(&'a [f64], f64)>,
@@ -100,7 +100,7 @@ impl Steps {
     }
 
     /// The solutions the starts certainly lead to; at most as many starts as are taken side by side.
-    pub fn settle(&mut self, starts: &[Start], arrivals: &mut Arrivals) {
+    pub fn settle(&mut self, starts: &[StepStart], arrivals: &mut Arrivals) {
         /// Number of starts below which they are quicker one by one.
         const FEW: usize = 4;
         arrivals.begin(starts.len());
@@ -141,7 +141,7 @@ impl Steps {
     }
 
     /// Newton's method for one start; true if it certainly arrives.
-    fn solve(&mut self, start: &Start) -> bool {
+    fn solve(&mut self, start: &StepStart) -> bool {
         self.begin(start);
         (self.targets).set(&mut self.system, self.targets.numbers(&start.values));
         let mut reach = LongestCorrection(start.reach);
@@ -184,7 +184,7 @@ impl Steps {
     }
 
     /// Puts the point near where a start is to arrive.
-    fn begin(&mut self, start: &Start) {
+    fn begin(&mut self, start: &StepStart) {
         self.point.joints.copy_from_slice(start.from.joints);
         self.point.platforms.copy_from_slice(start.from.platforms);
         if let Some((motion, factor)) = start.along {

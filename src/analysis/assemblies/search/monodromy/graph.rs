@@ -5,7 +5,7 @@ use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count, le
 use crate::analysis::assemblies::track::ParameterHomotopy;
 
 /// A member with what is known of its solutions.
-pub(super) struct Node<'a> {
+pub(super) struct GraphNode<'a> {
     pub member: Member,
     /// How far out its inputs are.
     pub reach: f64,
@@ -15,7 +15,7 @@ pub(super) struct Node<'a> {
     pub shown: Vec<Vec<C>>,
 }
 
-impl Node<'_> {
+impl GraphNode<'_> {
     /// Adds a solution; its place among those shown, if it is one, and true if it brought something new.
     pub fn learn(&mut self, x: Vec<C>) -> (Option<usize>, bool) {
         let coordinates = &self.still.family.coordinates;
@@ -33,7 +33,7 @@ impl Node<'_> {
 }
 
 /// A way between two nodes, or from one to the conjugate of another or of itself.
-pub(super) struct Edge {
+pub(super) struct GraphEdge {
     pub ends: [usize; 2],
     pub mirrored: bool,
     /// For what is shown at each end, true if it belongs to a path that arrived.
@@ -42,7 +42,7 @@ pub(super) struct Edge {
     pub tried: [usize; 2],
 }
 
-impl Edge {
+impl GraphEdge {
     pub fn sides(&self) -> usize {
         if self.ends[0] == self.ends[1] { 1 } else { 2 }
     }

@@ -1,6 +1,6 @@
 //! Newton iterations from random complex points.
 
-use super::{Search, generator};
+use super::{MemberSearch, generator};
 use crate::analysis::assemblies::family::{C, Coordinates, size};
 use crate::analysis::assemblies::search::newton_starts::{Seed, newton, newton_seeds, solution};
 use crate::analysis::assemblies::track::stands_alone;
@@ -10,7 +10,7 @@ use crate::system::System;
 /// Seeds started at once at a node.
 const BATCH: usize = 32;
 
-impl Search<'_> {
+impl MemberSearch<'_> {
     /// True if the solutions are not finite in number: with joints that never come back, or if seeds end at none that
     /// is known already. Were there N in all and known a part m/N of them, n seeds that end at a solution would miss
     /// all known ones with a probability of (1 − m/N)ⁿ: 1 % at 5000 solutions.

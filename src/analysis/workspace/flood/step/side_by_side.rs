@@ -252,7 +252,7 @@ fn written(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Start, Steps};
+    use super::super::{StepStart, Steps};
     use super::*;
     use crate::analysis::workspace::flood::arrivals::Arrivals;
     use crate::mechanism::Mechanism;
@@ -284,13 +284,13 @@ mod tests {
             let along = |axis: &Driven| axis.from + part * (axis.to - axis.from);
             std::array::from_fn(|i| axes.get(i).map_or(0.0, along))
         };
-        let start = |i: usize| Start {
+        let start = |i: usize| StepStart {
             from: home.view(),
             along: None,
             reach: 1.0,
             values: values(i as f64 / BATCH as f64),
         };
-        let starts: Vec<Start> = (0..BATCH).map(start).collect();
+        let starts: Vec<StepStart> = (0..BATCH).map(start).collect();
         let mut together = Arrivals::default();
         let mut steps = Steps::new(&problem).recorded(&problem, &home, &values(0.5));
         assert!(steps.is_recorded(), "{file}");
