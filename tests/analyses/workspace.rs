@@ -1125,6 +1125,37 @@ fn the_mode_of_what_is_guessed_is_told_instead_of_that_of_home() {
     assert!(up(None, 0.0) && up(None, 2.0 * PI) && !up(Some(-2.0), 0.0));
 }
 
+/// At x = g/2 both legs are stretched at once where y² = 0.7² − 0.1²: the edge to the node beyond ends on that corner of the
+/// boundary in every mode, whatever the seed.
+#[test]
+fn edges_through_a_corner_of_the_boundary_do_not_depend_on_the_seed() {
+    let mechanism = written(&text("five_bar_hand"), &[]);
+    let corner = 0.48f64.sqrt();
+    for seed in 1..=8 {
+        let settings = WorkspaceSettings {
+            nodes: vec![5, 4],
+            seed,
+            ..WorkspaceSettings::default()
+        };
+        let axes = [("hand.x", -0.1, 0.3), ("hand.y", 0.5, 0.8)];
+        let report = asked(&mechanism, &axes, &[], &settings);
+        let at_corner = report.points.iter().filter(|point| {
+            (point.at[0] - 0.1).abs() < 1e-9 && (point.at[1] - corner).abs() < 1e-6
+        });
+        let mut modes: Vec<_> = at_corner.map(|point| point.mode).collect();
+        modes.sort();
+        assert_eq!(modes, [1, 2, 3, 4], "{seed}");
+        let sizes = report.modes.iter().map(|mode| mode.size);
+        assert!(
+            sizes
+                .clone()
+                .all(|size| (size - report.reached_size).abs() < 1e-9),
+            "{seed}: {:?}",
+            sizes.collect::<Vec<_>>()
+        );
+    }
+}
+
 /// Newton's method ends at a fold from some starts and not from others. Nodes that lie to rounding on the rings of the legs,
 /// |p| or |p − g| = |r ± c|, are of no mode, whatever the seed, and all between them are.
 #[test]

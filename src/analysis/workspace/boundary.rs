@@ -100,6 +100,14 @@ impl Boundary<'_> {
                     (KindByNumber::Fold, at, part)
                 }
                 (EdgeEvent::Singular(at, part), Until::Singular(locks)) => (kind(locks), at, part),
+                // the neighbour lies on the boundary, and rounding hides the fold there
+                (EdgeEvent::Neighbour(at), _) if solution.links[d] == EdgeLink::Fold => {
+                    (KindByNumber::Fold, at, 1.0)
+                }
+                // or on its corner
+                (EdgeEvent::Crossing(at, part), _) if solution.links[d] == EdgeLink::Fold => {
+                    (KindByNumber::Fold, at, part)
+                }
                 _ => return None,
             };
             Some(EdgeCrossing {

@@ -17,7 +17,9 @@ pub(crate) enum EdgeEvent {
     Limit(Configuration<f64>, f64, usize, bool),
     /// A matrix loses rank.
     Singular(Configuration<f64>, f64),
-    /// Undecided: branches cross, or no step is short enough.
+    /// Branches cross, as at a corner of the boundary.
+    Crossing(Configuration<f64>, f64),
+    /// Undecided: no step is short enough.
     Nothing,
 }
 
@@ -104,7 +106,8 @@ impl Flood<'_> {
                         return EdgeEvent::Limit(place.at, part, joint, upper);
                     }
                     Event::Root(_) => return EdgeEvent::Singular(place.at, part),
-                    Event::End(false) | Event::Branches(_) => return EdgeEvent::Nothing,
+                    Event::Branches(_) => return EdgeEvent::Crossing(place.at, part),
+                    Event::End(false) => return EdgeEvent::Nothing,
                     _ => {}
                 }
             }
