@@ -230,6 +230,10 @@ fn slice(
         complex: (report.complex_assemblies.iter())
             .map(|at| at.configuration(mechanism))
             .collect(),
+        freedoms: match report.fit {
+            Fit::FreedomLeft(freedoms) => freedoms,
+            _ => 0,
+        },
         whole: report.fit == Fit::Finite && simple && !report.may_lack_some(),
     }
 }

@@ -70,10 +70,14 @@ fn found(report: &CircuitsReport) -> String {
         )),
     };
     let doubtful = swept.doubtful.then(|| {
-        format!(
-            "`assemblies` may lack some of the configurations at {joint} = {}",
-            quantity(swept.value, *unit)
-        )
+        let at = format!("at {joint} = {}", quantity(swept.value, *unit));
+        match swept.freedoms {
+            0 => format!("`assemblies` may lack some of the configurations {at}"),
+            n => format!(
+                "{at} infinitely many configurations have {} more, and are on no circuit",
+                count(n, "freedom")
+            ),
+        }
     });
     let exhausted = report
         .exhausted

@@ -34,6 +34,8 @@ pub struct Slice {
     pub complex: Vec<Configuration<C>>,
     /// True if the search for them ended with no sign that one was missed.
     pub whole: bool,
+    /// Freedoms left to some of them, which are infinitely many and on no circuit.
+    pub freedoms: usize,
 }
 
 /// The search for circuits by following complex configurations.
@@ -64,6 +66,13 @@ pub struct Swept {
     /// True if the search for the configurations may have missed some.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub doubtful: bool,
+    /// Freedoms left to some of the configurations, which are infinitely many and on no circuit.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub freedoms: usize,
+}
+
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Swept {
@@ -95,6 +104,9 @@ pub(super) fn sweep(
         gaps: Vec::new(),
         lost: 0,
         doubtful: !slices.iter().all(|slice| slice.whole),
+        freedoms: (slices.iter())
+            .map(|slice| slice.freedoms)
+            .fold(0, usize::max),
     };
     // what they cover, as distances from the first
     let mut covered = Vec::new();
