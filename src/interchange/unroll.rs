@@ -8,6 +8,7 @@
 
 mod closures;
 mod joints;
+mod loads;
 mod relations;
 
 use std::collections::{HashMap, HashSet};
@@ -15,7 +16,6 @@ use std::collections::{HashMap, HashSet};
 pub(super) use relations::carriers;
 use relations::{FollowingJoint, followers, within_reason};
 
-use super::masses::Heavy;
 use super::names::GivenNames;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
@@ -23,7 +23,7 @@ use super::tree::{Attachment, BodyMotion, Tree, TreeJoint};
 use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
-    LoadsDescription, Named, PlatformDescription, RowDescription, Spanned,
+    Named, PlatformDescription, RowDescription, Spanned,
 };
 use crate::geometry::{Line, Pose, Vector3};
 use crate::mechanism::{DhTable, JointAxis, SerialAxes};
@@ -350,48 +350,6 @@ impl Unroller<'_> {
                 let name = &self.names.platforms[&on];
                 (name.clone(), self.zero[on].inverse() * base)
             }
-        }
-    }
-
-    /// The masses of bodies that move, each under the name of the frame behind its last row or of its platform.
-    fn loads(&mut self) -> LoadsDescription {
-        let mut masses: Vec<(String, Heavy)> = Vec::new();
-        let given = self.tree.bodies.iter().filter_map(|body| body.heavy);
-        let impossible = given.filter(|heavy| !heavy.is_possible()).count();
-        if impossible > 0 {
-            self.remarks.push(Remark::Ignored {
-                element: "inertial that no body has".into(),
-                count: impossible,
-            });
-        }
-        for (body, (carrier, pose)) in self.tree.bodies.iter().zip(&self.carriers) {
-            let Some(heavy) = body.heavy.filter(Heavy::is_possible) else {
-                continue;
-            };
-            let (name, pose) = match self.places.get(carrier) {
-                Some(Placed { chain, row, frame }) => {
-                    let name = format!("{}.{row}", self.chains[*chain].name.value);
-                    (name, frame.inverse() * self.zero[*carrier] * *pose)
-                }
-                None => match self.names.platforms.get(carrier) {
-                    Some(name) => (name.clone(), *pose),
-                    None => continue,
-                },
-            };
-            let seen = heavy.seen_from(&pose);
-            match masses.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, own)) => *own = own.with(&seen),
-                None => masses.push((name, seen)),
-            }
-        }
-        let gravity = self.tree.gravity.filter(|_| !masses.is_empty());
-        LoadsDescription {
-            gravity: gravity.map(|of| of.map(|g| Entry::number(g, 0..0))),
-            masses: masses
-                .iter()
-                .map(|(name, heavy)| heavy.entry(name))
-                .collect(),
-            loads: Vec::new(),
         }
     }
 

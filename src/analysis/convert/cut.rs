@@ -19,11 +19,11 @@ use crate::algebra::Affine;
 use crate::description::steps::{doing_something, link, negated, undone, zero};
 use crate::description::{
     Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
-    Entry, Named, Role, RowDescription, Spanned, first_free, names_of, nearest, place_of,
+    Entry, Named, Role, RowDescription, Spanned, names_of, nearest, place_of,
 };
 use crate::mechanism::{Frame, JointKind, Mechanism};
 use crate::number::sorting::sort_by;
-use closure_rows::ClosureRows;
+use closure_rows::{ClosureRows, free_closure};
 
 pub use error::CutError;
 
@@ -338,11 +338,6 @@ fn rebuild(
     });
     let description = new;
     Conversion { description, notes }
-}
-
-fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
-    let free = |name: &str| place_of(&description.closures, name).is_none_or(|i| i == own);
-    first_free(wanted, "_", free)
 }
 
 /// Rows from the old tip, a frame of that name, back to the axis of row r.

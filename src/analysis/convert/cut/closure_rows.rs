@@ -14,7 +14,7 @@ use crate::algebra::{Expression, Node, Operator};
 use crate::description::steps::{negated, zero};
 use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
-    RowDescription, free_variable, names_of,
+    RowDescription, first_free, free_variable, names_of, place_of,
 };
 use crate::geometry::{Pose, Rotation};
 use crate::mechanism::{Mechanism, joint_values};
@@ -162,4 +162,10 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
         true => (near, false),
         false => ([far[0], far[1] - FRAC_PI_2, far[2]], true),
     }
+}
+
+/// A name for a closure that no other has.
+pub(super) fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
+    let free = |name: &str| place_of(&description.closures, name).is_none_or(|i| i == own);
+    first_free(wanted, "_", free)
 }
