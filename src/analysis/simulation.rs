@@ -156,6 +156,16 @@ pub enum Happened {
         /// Kinetic energy lost, in J.
         loss: f64,
     },
+    /// The joint of that name rests, and friction holds it.
+    Sticks {
+        /// The joint.
+        joint: String,
+    },
+    /// Friction no longer holds the joint of that name.
+    Slips {
+        /// The joint.
+        joint: String,
+    },
     /// Branches of motion meet, and it went straight through.
     Singular,
 }

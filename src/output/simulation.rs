@@ -157,6 +157,8 @@ fn events(events: &[SimulationEvent]) -> Section {
                 number(*loss)
             )
         }
+        Happened::Sticks { joint } => format!("{joint} rests, held by friction"),
+        Happened::Slips { joint } => format!("{joint} slips"),
         Happened::Singular => "branches of motion meet; it goes straight through".into(),
     };
     let table = Table::of(events);

@@ -173,6 +173,10 @@ impl Integrator {
 
     /// Begins, or goes on, at a time and state.
     pub fn start(&mut self, flow: &mut dyn Flow, time: f64, state: &[f64]) -> Result<(), TooShort> {
+        // nothing is left
+        if time >= self.end {
+            return Ok(());
+        }
         let method = if self.stiff { implicit } else { explicit };
         // the methods refuse a first step beyond the end
         let step = self.step.min(self.end - time);

@@ -18,6 +18,8 @@ pub struct Balance<T: Factorable = f64> {
     bearings: Option<Bearings<T>>,
     /// Friction with the number of the link behind its joint, and true for a hinge.
     frictions: Vec<(Friction, Option<usize>, bool)>,
+    /// For each friction the direction in which its joint slides, 0 where it does not, if that is told.
+    pub slides: Vec<f64>,
     /// True if accelerations are known.
     changes: bool,
     /// Everything that acts.
@@ -94,6 +96,7 @@ impl<T: Factorable> Balance<T> {
                     (friction.clone(), link_of(friction.joint), turns)
                 })
                 .collect(),
+            slides: Vec::new(),
             changes: false,
             loaded,
             changing,
@@ -242,13 +245,19 @@ impl<T: Factorable> Balance<T> {
             }
         };
         let frictions = self.frictions.clone();
-        for (friction, ..) in &frictions {
-            let effort = -friction.constant * sign_of(friction);
+        let told = |i: usize, friction: &Friction| match self.slides.get(i) {
+            Some(sign) => *sign,
+            None => sign_of(friction),
+        };
+        let signs = frictions.iter().enumerate();
+        let signs: Vec<f64> = signs.map(|(i, (friction, ..))| told(i, friction)).collect();
+        for ((friction, ..), sign) in frictions.iter().zip(&signs) {
+            let effort = -friction.constant * sign;
             self.acting.efforts[friction.joint] += T::from_f64(effort);
         }
-        let rubbing: Vec<_> = (frictions.iter())
-            .filter(|(friction, ..)| friction.coefficient > 0.0 && sign_of(friction) != 0.0)
-            .filter_map(|(friction, link, turns)| Some((friction, (*link)?, *turns)))
+        let rubbing: Vec<_> = (frictions.iter().zip(&signs))
+            .filter(|((friction, ..), sign)| friction.coefficient > 0.0 && **sign != 0.0)
+            .filter_map(|((friction, link, turns), sign)| Some((friction, (*link)?, *turns, *sign)))
             .collect();
         let count = rubbing.len();
         if count == 0 {
@@ -256,7 +265,7 @@ impl<T: Factorable> Balance<T> {
         }
         let closures = self.bearings.as_ref().map_or(0, Bearings::closures);
         let forces = |of: &Self| -> Vec<[f64; 3]> {
-            let across = rubbing.iter().map(|(_, link, _)| {
+            let across = rubbing.iter().map(|(_, link, ..)| {
                 let Carried { force, axis, .. } = &of.reactions[closures + link];
                 let across = *force - axis.times(axis.dot(force));
                 across.0.map(Number::real)
@@ -276,8 +285,8 @@ impl<T: Factorable> Balance<T> {
             unit.push(with.iter().zip(&alone).map(slope).collect::<Vec<_>>());
         }
         let factor = |k: usize| {
-            let (friction, _, turns) = &rubbing[k];
-            -sign_of(friction) * friction.factor(*turns)
+            let (friction, _, turns, sign) = &rubbing[k];
+            -sign * friction.factor(*turns)
         };
         // Newton on f − c·|F(f)| = 0
         let mut efforts = nalgebra::DVector::<f64>::zeros(count);

@@ -5,7 +5,7 @@ mod chart;
 use super::{Coordinate, Freedoms, Instant, Load, Motion, Still, System};
 use crate::geometry::Vector3;
 use crate::linear::{add, dot, norm};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Friction, Mechanism};
 use chart::{Base, Chart, accelerations};
 
 /// The equations of motion of an assembled mechanism, M(q)·q̈ = Q(q, q̇, t), in independent coordinates q: joints and
@@ -21,6 +21,8 @@ pub struct Dynamics<'a> {
     locked: Vec<Coordinate>,
     /// The number of the former.
     driven: usize,
+    /// For each friction the direction in which its joint slides; empty if rates tell.
+    slides: Vec<f64>,
     still: Vec<Still>,
     chart: Chart,
     /// Rates of all unknowns for unit rates of each coordinate that [moves](Dynamics::moved).
@@ -96,6 +98,7 @@ impl<'a> Dynamics<'a> {
             mechanism,
             load,
             driven,
+            slides: Vec::new(),
             locked,
             still,
         };
@@ -112,6 +115,34 @@ impl<'a> Dynamics<'a> {
     /// The independent coordinates, then those that are driven.
     pub fn moved(&self) -> &[Coordinate] {
         &self.chart.coordinates[..self.chart.free + self.driven]
+    }
+
+    /// The equations at the configuration last closed, with other coordinates beside the first driven ones that are driven.
+    ///
+    /// # Errors
+    /// If it is singular.
+    pub fn driving(&self, first: usize, others: &[Coordinate]) -> Result<Self, NoDynamics> {
+        let (before, kept) = self.locked.split_at(self.driven);
+        let locked = [&before[..first], others, kept].concat();
+        let freedoms = (self.chart.free + self.driven).checked_sub(first + others.len());
+        let held = (first + others.len(), locked, self.still.clone());
+        let freedoms = freedoms.ok_or(NoDynamics::NoCoordinates)?;
+        Dynamics::new(self.mechanism, self.load, held, freedoms, self.configuration())
+    }
+
+    /// Friction in joints.
+    pub fn frictions(&self) -> &'a [Friction] {
+        &self.load.own.frictions
+    }
+
+    /// Tells for each friction the direction in which its joint slides, 0 where it does not.
+    pub fn slide(&mut self, slides: &[f64]) {
+        self.slides = slides.to_vec();
+    }
+
+    /// Accelerations of all unknowns, dimensionless, as last evaluated.
+    pub fn accelerations(&self) -> &[f64] {
+        self.chart.motion.known()[1]
     }
 
     /// The configuration last closed.
@@ -352,6 +383,7 @@ impl<'a> Dynamics<'a> {
             balance,
             ..
         } = &mut self.chart;
+        balance.slides.clone_from(&self.slides);
         let responses = self.responses.iter().map(|of| (&of[..], true));
         let instant = Instant {
             pace: [1.0, 0.0],

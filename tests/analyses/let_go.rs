@@ -412,6 +412,77 @@ fn accelerations_are_those_of_another_program() {
     }
 }
 
+#[test]
+fn friction_holds_a_pendulum_where_it_turns_back() {
+    let rubbed = PENDULUM.replace(
+        "masses:",
+        r#"loads: { "rub": Friction(joint: "pin", moment: 6) }, masses:"#,
+    );
+    let report = let_go(&question(&rubbed).hold("pin", -0.5), 10.0, 4);
+    assert_eq!(report.end, SimulationEnd::Over);
+    // from turn to turn the weight does as much work as friction takes; it stays where 29.43 N·m·cos θ is less than 6 N·m
+    let (weight, friction) = (3.0 * 9.81, 6.0);
+    let (mut angle, mut side) = (-0.5f64, -1.0);
+    while (weight * angle.cos()).abs() > friction {
+        let lost = |to: f64| weight * (angle.sin() - to.sin()) - friction * (to - angle).abs();
+        // beyond the middle it slows down
+        let (mut within, mut far) = (-std::f64::consts::FRAC_PI_2, angle + side * std::f64::consts::PI);
+        for _ in 0..100 {
+            let middle = 0.5 * (within + far);
+            match lost(middle) > 0.0 {
+                true => within = middle,
+                false => far = middle,
+            }
+        }
+        (angle, side) = (within, -side);
+    }
+    near(&at(&report, 10.0, &["pin", "rate:pin"]), &[angle, 0.0], 1e-7);
+    let [event] = &report.events[..] else {
+        panic!("{:?}", report.events);
+    };
+    assert!(matches!(event.event, Happened::Sticks { .. }));
+    assert!(report.energy.error < 1e-8, "{:?}", report.energy);
+}
+
+#[test]
+fn a_block_sticks_until_it_is_pushed_hard_enough() {
+    // 2 kg pushed by 2 N/s·t against 5 N: it slips after 2.5 s, and then x = (t − 2.5)³/6
+    let block = question(
+        r#"Axes(version: 1, name: "block",
+            joints: { "x": Prismatic(direction: (1, 0, 0), between: ("ground", "block"), role: Actuated) },
+            points: { "c": (body: "block", at: (0, 0, 0)) }, masses: { "c": (mass: 2) },
+            loads: { "rub": Friction(joint: "x", force: 5), "push": Force(joint: "x", force: "2 N*time/1 s") })"#,
+    );
+    let report = let_go(&block, 4.0, 4);
+    assert_eq!(at(&report, 2.0, &["x"]), [0.0]);
+    near(&at(&report, 4.0, &["x"]), &[1.5f64.powi(3) / 6.0], 1e-8);
+    let [held, slips] = &report.events[..] else {
+        panic!("{:?}", report.events);
+    };
+    assert!(held.time == 0.0 && matches!(held.event, Happened::Sticks { .. }));
+    assert!((slips.time - 2.5).abs() < 1e-8 && matches!(slips.event, Happened::Slips { .. }));
+    // pushed less it never moves
+    let report = let_go(&block, 2.4, 2);
+    assert!(report.events.len() == 1 && at(&report, 2.4, &["x"]) == [0.0]);
+}
+
+#[test]
+fn a_four_bar_comes_to_rest_by_friction_in_two_pins() {
+    let text = FOUR_BAR.replace("LIMITS", "").replace(
+        "masses:",
+        r#"loads: { "O": Friction(joint: "theta", moment: 0.5), "B": Friction(joint: "B", coefficient: 0.1, radius: 0.02) },
+        masses:"#,
+    );
+    let report = let_go(&question(&text).hold("theta", 0.0), 10.0, 5);
+    assert_eq!(report.end, SimulationEnd::Over);
+    let turned = at(&report, 10.0, &["theta"])[0];
+    assert!(turned < -1.0, "{turned}");
+    let rates = ["rate:theta", "rate:A", "rate:B"];
+    near(&at(&report, 10.0, &rates), &[0.0; 3], 1e-12);
+    assert!(report.energy.error < 1e-7, "{:?}", report.energy);
+    assert!(matches!(report.events.last().unwrap().event, Happened::Sticks { .. }));
+}
+
 /// The potential energy of the four-bar with its crank along ground.
 fn at_zero() -> f64 {
     let still = four_bar("").hold("theta", 0.0);

@@ -2,6 +2,7 @@
 
 mod across;
 mod events;
+mod friction;
 mod linearise;
 mod rows;
 
@@ -25,7 +26,13 @@ pub(super) struct Run<'a, 'd> {
     mechanism: &'a Mechanism,
     dynamics: &'d mut Dynamics<'a>,
     settings: &'d SimulationSettings,
-    laws: Laws<'d>,
+    laws: Laws,
+    /// Freedoms at the start.
+    freedoms: usize,
+    /// Joints that friction holds.
+    stuck: Vec<usize>,
+    /// For each friction the direction in which its joint slides, 0 where it does not.
+    slides: Vec<f64>,
     /// Points and frames of platforms whose positions are given.
     points: Vec<Point>,
     state: Vec<f64>,
@@ -39,14 +46,14 @@ pub(super) struct Run<'a, 'd> {
 }
 
 /// The meaning of a state.
-struct Laws<'d> {
+struct Laws {
     /// Sizes of the dimensionless units of the coordinates that move, in m and rad.
     units: Vec<f64>,
     /// Speeds of the last ones.
-    speeds: &'d [Speed],
+    speeds: Vec<Speed>,
 }
 
-impl Laws<'_> {
+impl Laws {
     /// The number of independent coordinates.
     fn free(&self) -> usize {
         self.units.len() - self.speeds.len()
@@ -71,14 +78,14 @@ impl Laws<'_> {
 }
 
 /// The equations of motion over the state.
-struct StateFlow<'r, 'd, 'a> {
+struct StateFlow<'r, 'a> {
     dynamics: &'r mut Dynamics<'a>,
-    laws: &'r Laws<'d>,
+    laws: &'r Laws,
     /// The margin below which they are taken from both sides.
     sick: f64,
 }
 
-impl Flow for StateFlow<'_, '_, '_> {
+impl Flow for StateFlow<'_, '_> {
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) -> bool {
         let laws = self.laws;
         let [moving, _] = laws.rates(time, state);
@@ -135,7 +142,7 @@ impl<'a, 'd> Run<'a, 'd> {
         let at = dynamics.configuration().clone();
         let laws = Laws {
             units: dynamics.units(),
-            speeds: &settings.speeds,
+            speeds: settings.speeds.clone(),
         };
         let (speeds, driven): (Vec<f64>, Vec<f64>) =
             laws.speeds.iter().map(|of| of.at(0.0).into()).unzip();
@@ -145,7 +152,10 @@ impl<'a, 'd> Run<'a, 'd> {
         let mut run = Run {
             mechanism,
             settings,
+            freedoms: laws.free(),
             laws,
+            stuck: Vec::new(),
+            slides: Vec::new(),
             points: settings.points.clone(),
             state: Vec::new(),
             energy: EnergyBalance {
@@ -162,6 +172,7 @@ impl<'a, 'd> Run<'a, 'd> {
             dynamics,
         };
         run.restate(&at, &rates);
+        run.begin_friction(&rates);
         Some(run)
     }
 
@@ -240,6 +251,9 @@ impl<'a, 'd> Run<'a, 'd> {
             let ends = match met {
                 None => None,
                 Some((_, EarliestEvent::Singular)) => Some(Some(SimulationEnd::Singular)),
+                Some((_, EarliestEvent::Friction { friction })) => {
+                    Some(self.stick_or_slip(&mut integrator, time, friction, &rates))
+                }
                 Some((_, EarliestEvent::Limit { joint, limit })) => {
                     Some(self.bounce(&mut integrator, time, (joint, limit), &rates, &instant))
                 }
@@ -276,7 +290,7 @@ impl<'a, 'd> Run<'a, 'd> {
         };
         SimulationReport {
             mechanism: self.mechanism.name().into(),
-            freedoms: self.free(),
+            freedoms: self.freedoms,
             columns: self.columns(),
             rows: self.rows,
             reached: time,
@@ -291,7 +305,7 @@ impl<'a, 'd> Run<'a, 'd> {
         }
     }
 
-    fn equations(&mut self) -> StateFlow<'_, 'd, 'a> {
+    fn equations(&mut self) -> StateFlow<'_, 'a> {
         StateFlow {
             sick: self.sick(),
             dynamics: self.dynamics,
@@ -313,7 +327,7 @@ impl<'a, 'd> Run<'a, 'd> {
         let rounding = SUMMED * (instant.potential.abs() + energy.kinetic);
         let wanted = missing.abs() > (KEPT * energy.kinetic).max(rounding)
             && instant.kinetic > SMALL * energy.kinetic
-            && self.laws.speeds.is_empty();
+            && self.settings.speeds.is_empty();
         wanted.then(|| {
             energy.corrected += missing.abs();
             (1.0 + missing / instant.kinetic).max(0.0).sqrt()

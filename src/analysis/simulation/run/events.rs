@@ -6,6 +6,18 @@ use super::*;
 pub(super) enum EarliestEvent {
     Limit { joint: usize, limit: f64 },
     Singular,
+    /// The joint of that friction comes to rest, or, without one, a joint that friction held slips.
+    Friction { friction: Option<usize> },
+}
+
+/// The end of a smooth piece of the motion.
+enum Guard {
+    /// A joint at its upper limit, 1, or its lower one, −1.
+    Limit(usize, f64, f64),
+    /// The joint of that friction turns against the direction in which it slides.
+    Rest(usize),
+    /// Friction no longer holds a joint.
+    Slip,
 }
 
 impl Run<'_, '_> {
@@ -83,7 +95,7 @@ impl Run<'_, '_> {
         let mut singular = self.singular(integrator, (before, margin_before), after, margin);
         if self.settings.through {
             let passed = singular.take();
-            let passed = passed.filter(|time| limit.is_none_or(|(limit, ..)| *time < limit));
+            let passed = passed.filter(|time| (limit.as_ref()).is_none_or(|(limit, ..)| time < limit));
             self.events.extend(passed.map(|time| SimulationEvent {
                 time,
                 event: Happened::Singular,
@@ -91,12 +103,13 @@ impl Run<'_, '_> {
         }
         match (limit, singular) {
             (Some(limit), Some(time)) if time < limit.0 => Some((time, EarliestEvent::Singular)),
-            (Some((time, joint, limit)), _) => Some((time, EarliestEvent::Limit { joint, limit })),
+            (Some(limit), _) => Some(limit),
             (None, time) => time.map(|time| (time, EarliestEvent::Singular)),
         }
     }
 
-    /// The first time within a step at which a joint passes a limit outwards. It passes between two of nine times if it is
+    /// The first time within a step at which a joint passes a limit outwards, or friction begins or
+    /// ceases to hold one. It passes between two of nine times if it is
     /// beyond at the second, or turns back between them beyond it: the polynomial of a step, of degree 7, hardly turns
     /// twice in an eighth of it.
     pub(super) fn limit(
@@ -104,21 +117,27 @@ impl Run<'_, '_> {
         integrator: &mut Integrator,
         before: f64,
         after: f64,
-    ) -> Option<(f64, usize, f64)> {
+    ) -> Option<(f64, EarliestEvent)> {
         const PARTS: usize = 8;
         let joints = self.mechanism.joints().iter().enumerate();
-        let limits: Vec<(usize, f64, f64)> = joints
+        let limits = joints
             .filter_map(|(joint, of)| of.limits.map(|limits| (joint, limits)))
-            .flat_map(|(joint, (low, high))| [(joint, low, -1.0), (joint, high, 1.0)])
+            .flat_map(|(joint, (low, high))| [(joint, low, -1.0), (joint, high, 1.0)]);
+        let slides = self.slides.iter().enumerate();
+        let slides = slides.filter(|(_, sign)| **sign != 0.0);
+        let guards: Vec<Guard> = limits
+            .map(|(joint, limit, side)| Guard::Limit(joint, limit, side))
+            .chain(slides.map(|(friction, _)| Guard::Rest(friction)))
+            .chain((!self.stuck.is_empty()).then_some(Guard::Slip))
             .collect();
         let mut last: Vec<[f64; 2]> = Vec::new();
         for part in 0..=PARTS {
             let time = |part: usize| before + (after - before) * (part as f64 / PARTS as f64);
             let (from, time) = (time(part.saturating_sub(1)), time(part));
-            let mut now = Vec::with_capacity(limits.len());
-            let mut first: Option<(f64, usize, f64)> = None;
-            for (i, limit) in limits.iter().enumerate() {
-                let [out, rate] = self.beyond(integrator, limit, time)?;
+            let mut now = Vec::with_capacity(guards.len());
+            let mut first: Option<(f64, EarliestEvent)> = None;
+            for (i, guard) in guards.iter().enumerate() {
+                let [out, rate] = self.beyond(integrator, guard, time)?;
                 now.push([out, rate]);
                 let Some(&[was, went]) = last.get(i) else {
                     continue;
@@ -130,7 +149,7 @@ impl Run<'_, '_> {
                         continue;
                     }
                     let (turn, most) = edge(from, time, |time| {
-                        Some(self.beyond(integrator, limit, time)?[0])
+                        Some(self.beyond(integrator, guard, time)?[0])
                     })?;
                     if most <= 0.0 {
                         continue;
@@ -140,13 +159,21 @@ impl Run<'_, '_> {
                 let mut inside = from;
                 for _ in 0..60 {
                     let middle = 0.5 * (inside + outside);
-                    match self.beyond(integrator, limit, middle)?[0] > 0.0 {
+                    match self.beyond(integrator, guard, middle)?[0] > 0.0 {
                         true => outside = middle,
                         false => inside = middle,
                     }
                 }
-                if first.is_none_or(|(time, ..)| inside < time) {
-                    first = Some((inside, limit.0, limit.1));
+                let (time, met) = match *guard {
+                    Guard::Limit(joint, limit, _) => (inside, EarliestEvent::Limit { joint, limit }),
+                    Guard::Rest(friction) => {
+                        let friction = Some(friction);
+                        (inside, EarliestEvent::Friction { friction })
+                    }
+                    Guard::Slip => (outside, EarliestEvent::Friction { friction: None }),
+                };
+                if first.as_ref().is_none_or(|(known, _)| time < *known) {
+                    first = Some((time, met));
                 }
             }
             if first.is_some() {
@@ -157,18 +184,32 @@ impl Run<'_, '_> {
         None
     }
 
-    /// The distance of a joint beyond a limit, upper for 1 and lower for −1, within the last step, and its rate.
+    /// The distance of a joint beyond a limit within the last step, and its rate; or a number that is positive once friction
+    /// begins or ceases to hold a joint.
     fn beyond(
         &mut self,
         integrator: &mut Integrator,
-        &(joint, limit, side): &(usize, f64, f64),
+        guard: &Guard,
         time: f64,
     ) -> Option<[f64; 2]> {
         let state = integrator.within(time);
-        at(self.dynamics, &self.laws, time, &state)?;
-        let at = self.dynamics.configuration();
-        let rate = self.dynamics.rates()[joint];
-        Some([side * (at.joints[joint] - limit), side * rate])
+        let (rates, _) = at(self.dynamics, &self.laws, time, &state)?;
+        let scales = &self.mechanism.dimensions().joint_scales;
+        let rate = |joint: usize| self.dynamics.rates()[joint] * scales[joint];
+        Some(match *guard {
+            Guard::Limit(joint, limit, side) => {
+                let value = self.dynamics.configuration().joints[joint];
+                [side * (value - limit), side * rate(joint)]
+            }
+            Guard::Rest(friction) => {
+                let joint = self.dynamics.frictions()[friction].joint;
+                [-self.slides[friction] * rate(joint), 0.0]
+            }
+            Guard::Slip => match self.slipping(time, &rates) {
+                Some(slip) => [slip.pace, 0.0],
+                None => [-1.0, 0.0],
+            },
+        })
     }
 
     /// The time within a step at which branches of motion meet, if the margin falls to nothing there.

@@ -59,12 +59,13 @@ impl Run<'_, '_> {
     pub(super) fn values(&mut self, time: f64, state: &[f64]) -> Option<Vec<f64>> {
         let (mechanism, laws, points, sick) =
             (self.mechanism, &self.laws, &self.points, self.sick());
+        let drives = self.settings.speeds.len();
         across(
             self.dynamics,
             laws,
             (time, state),
             sick,
-            |dynamics, state| values(mechanism, dynamics, laws, points, (time, state)),
+            |dynamics, state| values((mechanism, drives), dynamics, laws, points, (time, state)),
         )
     }
 
@@ -92,7 +93,7 @@ impl Run<'_, '_> {
 /// Values of joints with their rates, platforms, points and forces of drives at a state, and its kinetic and potential
 /// energy.
 fn values(
-    mechanism: &Mechanism,
+    (mechanism, drives): (&Mechanism, usize),
     dynamics: &mut Dynamics,
     laws: &Laws,
     points: &[Point],
@@ -117,7 +118,7 @@ fn values(
         let place = twists.origin(i, &placement).0;
         row.extend(place.iter().zip(centre).map(|(x, c)| x + c));
     }
-    row.extend(instant.drives);
+    row.extend(&instant.drives[..drives]);
     row.extend([instant.kinetic, instant.potential]);
     Some(row)
 }

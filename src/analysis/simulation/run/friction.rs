@@ -1,0 +1,210 @@
+//! Friction that holds joints and lets them slip.
+
+use super::*;
+use crate::algebra::Expression;
+use crate::mechanism::Friction;
+
+/// A joint that friction no longer holds.
+pub(super) struct Slip<'a> {
+    joint: usize,
+    /// Its dimensionless acceleration in the direction in which it slips.
+    pub pace: f64,
+    slides: Vec<f64>,
+    dynamics: Dynamics<'a>,
+    rates: Vec<f64>,
+}
+
+impl<'a> Run<'a, '_> {
+    /// Finds the directions in which joints slide at the start; those at rest are held where friction suffices.
+    pub(super) fn begin_friction(&mut self, rates: &[f64]) {
+        /// Slower joints than this part of the fastest are at rest.
+        const AT_REST: f64 = 1e-12;
+        let frictions = self.dynamics.frictions();
+        if frictions.is_empty() {
+            return;
+        }
+        let all = self.dynamics.rates().to_vec();
+        let largest = all.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let sign = |of: &Friction| match all[of.joint].abs() <= AT_REST * largest {
+            true => 0.0,
+            false => all[of.joint].signum(),
+        };
+        self.slides = frictions.iter().map(sign).collect();
+        let mut rates = rates.to_vec();
+        for (i, friction) in frictions.iter().enumerate() {
+            if self.slides[i] == 0.0
+                && let Some(others) = self.stick(friction.joint, &rates)
+            {
+                rates = others;
+            }
+        }
+        self.settle(0.0, rates);
+        let held = self.stuck.iter().map(|joint| SimulationEvent {
+            time: 0.0,
+            event: Happened::Sticks {
+                joint: self.mechanism.joints()[*joint].name.clone(),
+            },
+        });
+        self.events.extend(held);
+    }
+
+    /// At a joint that comes to rest, or without one where one slips. Returns an end if there is one.
+    pub(super) fn stick_or_slip(
+        &mut self,
+        integrator: &mut Integrator,
+        time: f64,
+        friction: Option<usize>,
+        rates: &[f64],
+    ) -> Option<SimulationEnd> {
+        let mut rates = rates.to_vec();
+        let name = |joint: usize| self.mechanism.joints()[joint].name.clone();
+        let rests = friction.map(|friction| self.dynamics.frictions()[friction].joint);
+        let sticks = rests.map(|joint| Happened::Sticks { joint: name(joint) });
+        if let (Some(friction), Some(joint)) = (friction, rests) {
+            self.slides[friction] = 0.0;
+            if let Some(others) = self.stick(joint, &rates) {
+                rates = others;
+            }
+        }
+        let slips = self.settle(time, rates);
+        let event = match (sticks, slips) {
+            (None, Some(joint)) => Some(Happened::Slips {
+                joint: self.mechanism.joints()[joint].name.clone(),
+            }),
+            // a joint that turns back does not rest
+            (Some(_), Some(_)) => None,
+            (sticks, None) => sticks,
+        };
+        let event = event.map(|event| SimulationEvent { time, event });
+        self.events.extend(event);
+        let state = self.state.clone();
+        match integrator.start(&mut self.equations(), time, &state) {
+            Ok(()) => None,
+            Err(_) => Some(SimulationEnd::Stuck),
+        }
+    }
+
+    /// Releases held joints that slip, and goes on from there; returns the first of them.
+    fn settle(&mut self, time: f64, mut rates: Vec<f64>) -> Option<usize> {
+        let mut first = None;
+        while let Some(slip) = self.slipping(time, &rates) {
+            first = first.or(Some(slip.joint));
+            let mut stuck = self.stuck.clone();
+            stuck.retain(|joint| *joint != slip.joint);
+            self.slides = slip.slides;
+            self.take(slip.dynamics, stuck);
+            rates = slip.rates;
+        }
+        self.dynamics.slide(&self.slides);
+        let at = self.dynamics.configuration().clone();
+        self.restate(&at, &rates);
+        first
+    }
+
+    /// Holds a joint where it is, and lets friction rest in all joints that then do. Returns the rates of the coordinates
+    /// left, or nothing if the joint rests already.
+    fn stick(&mut self, joint: usize, rates: &[f64]) -> Option<Vec<f64>> {
+        if !self.moves(joint) {
+            return None;
+        }
+        let stuck = [&self.stuck[..], &[joint]].concat();
+        let dynamics = self.held(&stuck)?;
+        let rates = self.carried(&dynamics, rates);
+        self.take(dynamics, stuck);
+        for (i, friction) in self.dynamics.frictions().iter().enumerate() {
+            if self.settings.speeds.is_empty() && !self.moves(friction.joint) {
+                self.slides[i] = 0.0;
+            }
+        }
+        Some(rates)
+    }
+
+    /// True if a joint moves with the independent coordinates.
+    fn moves(&self, joint: usize) -> bool {
+        const STILL: f64 = 1e-9;
+        let slope = self.dynamics.rates_of(Coordinate::Joint(joint));
+        slope[..self.free()].iter().any(|x| x.abs() > STILL)
+    }
+
+    /// The equations with these joints held, at the configuration last closed.
+    fn held(&self, stuck: &[usize]) -> Option<Dynamics<'a>> {
+        let joints = stuck.iter().map(|joint| Coordinate::Joint(*joint));
+        let joints: Vec<Coordinate> = joints.collect();
+        self.dynamics
+            .driving(self.settings.speeds.len(), &joints)
+            .ok()
+    }
+
+    /// Rates of the coordinates of other equations, driven ones last, for those of these.
+    fn carried(&self, others: &Dynamics, rates: &[f64]) -> Vec<f64> {
+        let moved = others.moved().iter();
+        moved
+            .map(|of| dot(&self.dynamics.rates_of(*of), rates))
+            .collect()
+    }
+
+    fn take(&mut self, dynamics: Dynamics<'a>, stuck: Vec<usize>) {
+        *self.dynamics = dynamics;
+        self.laws.speeds.truncate(self.settings.speeds.len());
+        let held = stuck.iter().map(|joint| Speed {
+            coordinate: Coordinate::Joint(*joint),
+            rate: Expression::number(0.0),
+            parameters: Vec::new(),
+        });
+        self.laws.speeds.extend(held);
+        self.laws.units = self.dynamics.units();
+        self.stuck = stuck;
+    }
+
+    /// A held joint that slips at the configuration last closed, with these rates: with all friction against a motion of it
+    /// in one direction it is accelerated in that direction.
+    pub(super) fn slipping(&mut self, time: f64, rates: &[f64]) -> Option<Slip<'a>> {
+        /// Slower than this, in rad and characteristic lengths per s², nothing begins to move.
+        const BEGINS: f64 = 1e-10;
+        /// Less than this part of what could move does not.
+        const STILL: f64 = 1e-9;
+        for (k, &joint) in self.stuck.iter().enumerate() {
+            let mut others = self.stuck.clone();
+            others.remove(k);
+            let mut dynamics = self.held(&others)?;
+            let rates = self.carried(&dynamics, rates);
+            let free = dynamics.coordinates().len();
+            let mass = Decomposition::of(free, free, &dynamics.mass()?);
+            let along = |dynamics: &Dynamics, joint: usize| {
+                dynamics.rates_of(Coordinate::Joint(joint))[..free].to_vec()
+            };
+            let pushed = mass.solve(&along(&dynamics, joint));
+            let driven = self.settings.speeds.iter().map(|of| of.at(time)[1]);
+            let driven: Vec<f64> = driven.chain(others.iter().map(|_| 0.0)).collect();
+            for side in [1.0, -1.0] {
+                let sign = |(of, slides): (&Friction, &f64)| {
+                    let slope = along(&dynamics, of.joint);
+                    let rate = dot(&slope, &pushed);
+                    let rests = rate.abs() <= STILL * norm(&pushed) * norm(&slope);
+                    match *slides {
+                        0.0 if rests || others.contains(&of.joint) => 0.0,
+                        0.0 => side * rate.signum(),
+                        slides => slides,
+                    }
+                };
+                let slides = dynamics.frictions().iter().zip(&self.slides);
+                let slides: Vec<f64> = slides.map(sign).collect();
+                dynamics.slide(&slides);
+                if dynamics.evaluate(&rates, &driven, time).is_none() {
+                    continue;
+                }
+                let pace = side * dynamics.accelerations()[joint];
+                if pace > BEGINS {
+                    return Some(Slip {
+                        joint,
+                        pace,
+                        slides,
+                        dynamics,
+                        rates,
+                    });
+                }
+            }
+        }
+        None
+    }
+}
