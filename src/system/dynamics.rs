@@ -127,7 +127,13 @@ impl<'a> Dynamics<'a> {
         let freedoms = (self.chart.free + self.driven).checked_sub(first + others.len());
         let held = (first + others.len(), locked, self.still.clone());
         let freedoms = freedoms.ok_or(NoDynamics::NoCoordinates)?;
-        Dynamics::new(self.mechanism, self.load, held, freedoms, self.configuration())
+        Dynamics::new(
+            self.mechanism,
+            self.load,
+            held,
+            freedoms,
+            self.configuration(),
+        )
     }
 
     /// Friction in joints.

@@ -426,7 +426,10 @@ fn friction_holds_a_pendulum_where_it_turns_back() {
     while (weight * angle.cos()).abs() > friction {
         let lost = |to: f64| weight * (angle.sin() - to.sin()) - friction * (to - angle).abs();
         // beyond the middle it slows down
-        let (mut within, mut far) = (-std::f64::consts::FRAC_PI_2, angle + side * std::f64::consts::PI);
+        let (mut within, mut far) = (
+            -std::f64::consts::FRAC_PI_2,
+            angle + side * std::f64::consts::PI,
+        );
         for _ in 0..100 {
             let middle = 0.5 * (within + far);
             match lost(middle) > 0.0 {
@@ -436,7 +439,11 @@ fn friction_holds_a_pendulum_where_it_turns_back() {
         }
         (angle, side) = (within, -side);
     }
-    near(&at(&report, 10.0, &["pin", "rate:pin"]), &[angle, 0.0], 1e-7);
+    near(
+        &at(&report, 10.0, &["pin", "rate:pin"]),
+        &[angle, 0.0],
+        1e-7,
+    );
     let [event] = &report.events[..] else {
         panic!("{:?}", report.events);
     };
@@ -480,7 +487,10 @@ fn a_four_bar_comes_to_rest_by_friction_in_two_pins() {
     let rates = ["rate:theta", "rate:A", "rate:B"];
     near(&at(&report, 10.0, &rates), &[0.0; 3], 1e-12);
     assert!(report.energy.error < 1e-7, "{:?}", report.energy);
-    assert!(matches!(report.events.last().unwrap().event, Happened::Sticks { .. }));
+    assert!(matches!(
+        report.events.last().unwrap().event,
+        Happened::Sticks { .. }
+    ));
 }
 
 /// The potential energy of the four-bar with its crank along ground.

@@ -4,10 +4,15 @@ use super::*;
 
 /// The earliest event within a step.
 pub(super) enum EarliestEvent {
-    Limit { joint: usize, limit: f64 },
+    Limit {
+        joint: usize,
+        limit: f64,
+    },
     Singular,
     /// The joint of that friction comes to rest, or, without one, a joint that friction held slips.
-    Friction { friction: Option<usize> },
+    Friction {
+        friction: Option<usize>,
+    },
 }
 
 /// The end of a smooth piece of the motion.
@@ -95,7 +100,8 @@ impl Run<'_, '_> {
         let mut singular = self.singular(integrator, (before, margin_before), after, margin);
         if self.settings.through {
             let passed = singular.take();
-            let passed = passed.filter(|time| (limit.as_ref()).is_none_or(|(limit, ..)| time < limit));
+            let passed =
+                passed.filter(|time| (limit.as_ref()).is_none_or(|(limit, ..)| time < limit));
             self.events.extend(passed.map(|time| SimulationEvent {
                 time,
                 event: Happened::Singular,
@@ -165,7 +171,9 @@ impl Run<'_, '_> {
                     }
                 }
                 let (time, met) = match *guard {
-                    Guard::Limit(joint, limit, _) => (inside, EarliestEvent::Limit { joint, limit }),
+                    Guard::Limit(joint, limit, _) => {
+                        (inside, EarliestEvent::Limit { joint, limit })
+                    }
                     Guard::Rest(friction) => {
                         let friction = Some(friction);
                         (inside, EarliestEvent::Friction { friction })
