@@ -111,8 +111,14 @@ pub(crate) fn follow(
         let mut x = corner;
         let short = C::from_f64(1.0 - NEAR_END);
         let mut reached = leg(homotopy, &mut x, &mut stages, from_here, short);
+        // beyond this rounding may stop a path that goes on outwards
+        let is_gone = match reached {
+            Arrival::There => false,
+            Arrival::Diverged(_) => true,
+            Arrival::Stuck(_) => size(&x) > if decades > 0 { FAR } else { far },
+        };
         // far out on its way is not far out at its end: past what is in the way, on either side
-        let may_return = matches!(reached, Arrival::Diverged(_)) && straight;
+        let may_return = is_gone && straight;
         for side in [ASIDE, -ASIDE] {
             if may_return && reached != Arrival::There {
                 x = from.to_vec();
@@ -126,9 +132,8 @@ pub(crate) fn follow(
         }
         match reached {
             Arrival::There => go_round(homotopy, tracker, far, &x, &mut stages),
-            Arrival::Diverged(_) => End::Infinite,
-            Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => End::Infinite,
-            Arrival::Stuck(_) => End::Lost,
+            _ if is_gone => End::Infinite,
+            _ => End::Lost,
         }
     });
     Path {
