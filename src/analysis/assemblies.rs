@@ -142,12 +142,23 @@ impl AssemblySolver {
         settings: &AssembliesSettings,
         watch: &Watch,
     ) -> Result<Self, AssembliesError> {
-        let family = Family::new(mechanism, held);
-        let bound = family::known_bound(mechanism, &family);
-        let count = bound.as_ref().map(|bound| bound.count);
-        let question = question(mechanism, &family);
-        let generic = search::search(&family, question, count, settings, watch);
-        let mut generic = generic.ok_or(AssembliesError::NoValue)?;
+        let searched = |family: Family| {
+            let bound = family::known_bound(mechanism, &family);
+            let count = bound.as_ref().map(|bound| bound.count);
+            let question = question(mechanism, &family);
+            let generic = search::search(&family, question, count, settings, watch);
+            Some((family, bound, generic?))
+        };
+        let mut found = searched(Family::new(mechanism, held));
+        if let Some((.., generic)) = &found
+            && generic.multiple > 0
+            && generic.freedom == 0
+            && let Some(wider) = Family::wider(mechanism, held).and_then(searched)
+            && wider.2.multiple == 0
+        {
+            found = Some(wider);
+        }
+        let (family, bound, mut generic) = found.ok_or(AssembliesError::NoValue)?;
         if generic.freedom > 1
             && let Some(least) = freedoms_beside_home(mechanism, held)
         {
@@ -173,7 +184,12 @@ impl AssemblySolver {
         held: &Held<f64>,
         stored: GenericSolutions,
     ) -> Result<Self, AssembliesError> {
-        let family = Family::new(mechanism, held);
+        let mut family = Family::new(mechanism, held);
+        if stored.parameters.len() != family.parameters.len()
+            && let Some(wider) = Family::wider(mechanism, held)
+        {
+            family = wider;
+        }
         let sizes = stored.parameters.len() == family.parameters.len()
             && stored.inputs.len() == family.coordinates.input_count()
             && (stored.legwise.iter())

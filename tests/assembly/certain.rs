@@ -68,7 +68,7 @@ fn solutions_that_rounding_blurs_far_out_are_no_others() {
 }
 
 #[test]
-fn a_platform_that_is_multiple_for_all_inputs_is_still_doubted() {
+fn a_solution_that_is_multiple_for_all_inputs_comes_with_its_multiplicity() {
     // the rod is stretched in every assembly: twice the same point, whatever is held
     let text = r#"Mechanism(
         version: 1, name: "stretched", convention: Modified,
@@ -81,8 +81,17 @@ fn a_platform_that_is_multiple_for_all_inputs_is_still_doubted() {
     )"#;
     let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
     let report = asked(&Question::new(mechanism));
-    assert!(report.multiple > 0 && report.may_lack_some() && !report.is_yes());
-    assert_eq!(report.real, 1);
+    assert_eq!((report.real, report.complex, report.multiple), (1, 2, 0));
+    assert_eq!(report.assemblies[0].multiplicity, 2);
+    assert!(report.bound == Some(2) && !report.may_lack_some());
+    // a rod that is longer than that has two
+    let report = asked(&Question::new(
+        Mechanism::new(
+            &Description::read(&text.replace("\"post\", 1)", "\"post\", 1.1)")).unwrap(),
+        )
+        .unwrap(),
+    ));
+    assert_eq!((report.real, report.complex, report.singular), (2, 2, 0));
 }
 
 #[test]

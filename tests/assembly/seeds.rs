@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use linkwork::analysis::assemblies::{
     AssembliesReport, AssembliesSettings, Assembly, AssemblySolver, Wanted,
 };
+use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
 use linkwork::system::Question;
@@ -215,4 +216,46 @@ fn answers_that_differ_are_told_apart() {
     other = one.clone();
     other.generic += 1;
     assert_eq!(differences(&mechanism, &one, &other).len(), 1);
+}
+
+/// Loops with axes that are parallel but for a few degrees: of their solutions some are a hundred lengths and more away. A
+/// loop of five hinges and a slide has 16 (Raghavan and Roth 1993), one of four hinges and two slides 8.
+#[test]
+fn seeds_find_solutions_far_out() {
+    let cases = [
+        ("solutions_among_nearly_imaginary_angles", 16),
+        ("a_rigid_loop_with_solutions_far_out", 8),
+    ];
+    for (name, count) in cases {
+        let file = format!("{}/tests/found/{name}.ron", env!("CARGO_MANIFEST_DIR"));
+        let mechanism = mechanism(Path::new(&file));
+        let held = Question::new(&mechanism).free("actuated").unwrap().held();
+        for seed in 1..5 {
+            let settings = AssembliesSettings {
+                seed,
+                ..AssembliesSettings::default()
+            };
+            let solver = AssemblySolver::new(&mechanism, &held, &settings, &Watch::none()).unwrap();
+            assert_eq!(solver.generic().count(), count, "{name}, seed {seed}");
+        }
+    }
+}
+
+/// Six hinges whose axes meet one line are shaky where the file has them: two of the 16 solutions of such a loop (Primrose
+/// 1986; Lee and Liang 1988) meet there. A length that differs parts them.
+#[test]
+fn a_shaky_loop_of_six_hinges_has_all_its_solutions() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/shaky_6r.ron");
+    let text = std::fs::read_to_string(file).unwrap();
+    let count = |text: &str, seed: u64| {
+        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let report = answer(&mechanism, seed);
+        (report.generic, report.complex, report.singular)
+    };
+    for seed in 1..4 {
+        assert_eq!(count(&text, seed), (16, 16, 1), "seed {seed}");
+    }
+    let other = text.replacen("a: 0.", "a: 0.1", 1);
+    assert_ne!(text, other);
+    assert_eq!(count(&other, 1), (16, 16, 0));
 }

@@ -6,21 +6,23 @@ mod coordinates;
 mod isolated;
 mod legwise;
 mod rods;
+mod varied;
 
 pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, Input, size};
 pub(super) use legwise::{LegwiseSolutions, count, learn};
 pub(super) use rods::Rod;
 
-use rand::{Rng, SeedableRng};
+use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
 use crate::system::{Held, HeldPlatform, RegularFreedoms, System};
+use varied::Varied;
 
-/// A member of the family: values of the independent parameters, then factors of other lengths, and values of the
+/// A member of the family: values of the independent parameters, then numbers of other dimensions, and values of the
 /// inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Member {
@@ -36,8 +38,8 @@ pub(crate) struct Family {
     pub held: Held<C>,
     /// Values the mechanism itself has.
     pub parameters: Vec<C>,
-    /// Lengths with factors among the parameters.
-    lengths: Vec<Length>,
+    /// Dimensions that no parameter gives, each with a number of its own among the parameters.
+    varied: Vec<Varied>,
     /// True if the dimensions make the family: there are no inputs, or they only spin links, which carries no solution
     /// to another.
     pub by_dimensions: bool,
@@ -47,6 +49,8 @@ pub(crate) struct Family {
     /// True if there are as many of them, with those of held coordinates, as unknowns. Where its solutions are isolated
     /// they are independent, and stay solutions whatever numbers the dimensions become.
     pub is_square: bool,
+    /// True if no other equations depend on what may vary, so that dimensions need not keep their relations.
+    pub is_free: bool,
     /// The equations with these values, if all expressions have one.
     own: Option<System<C>>,
     /// Rows of closures that are evaluated.
@@ -57,40 +61,6 @@ pub(crate) struct Family {
     cut: Option<usize>,
     /// The family with rods in place of parts that are no more, if there are any.
     pub reduced: Option<Box<Family>>,
-}
-
-/// A length that has a factor among the parameters.
-#[derive(Clone, Copy, Debug)]
-enum Length {
-    /// The lengths of the links before and after a joint.
-    Row {
-        chain: usize,
-        row: usize,
-    },
-    Rod {
-        closure: usize,
-    },
-}
-
-impl Length {
-    fn all(of: &Dimensions<C>) -> impl Iterator<Item = Length> + '_ {
-        let rows = of.chains.iter().enumerate().flat_map(|(chain, part)| {
-            let rows = 0..part.rows.len();
-            rows.map(move |row| Length::Row { chain, row })
-        });
-        rows.chain((0..of.closures.len()).map(|closure| Length::Rod { closure }))
-    }
-
-    fn of(self, dimensions: &mut Dimensions<C>) -> Vec<&mut C> {
-        match self {
-            Length::Row { chain, row } => {
-                let row = &mut dimensions.chains[chain].rows[row];
-                let links = [&mut row.before, &mut row.after].into_iter();
-                links.flat_map(|link| &mut link.position.0).collect()
-            }
-            Length::Rod { closure } => vec![&mut dimensions.closures[closure].length],
-        }
-    }
 }
 
 fn uniform(rng: &mut Pcg64) -> f64 {
@@ -108,13 +78,25 @@ fn quaternion(rng: &mut Pcg64) -> Quaternion<C> {
 
 impl Family {
     pub fn new(mechanism: &Mechanism, held: &Held<f64>) -> Self {
+        Family::made(mechanism, held, false)
+    }
+
+    /// The family that dimensions make, each a number of its own, whatever is held: solutions that are multiple for all
+    /// inputs are simple there. `None` if there are not as many equations as unknowns.
+    pub fn wider(mechanism: &Mechanism, held: &Held<f64>) -> Option<Self> {
+        let family = Family::made(mechanism, held, true);
+        (family.is_square && !family.varied.is_empty()).then_some(family)
+    }
+
+    fn made(mechanism: &Mechanism, held: &Held<f64>, wide: bool) -> Self {
         let independent = mechanism.independent_parameters();
         let value = |i: usize| C::from_f64(mechanism.parameters()[i].value);
         let mut family = Family {
             coordinates: Coordinates::new(mechanism, held),
             held: held.map(C::from_f64),
             parameters: independent.into_iter().map(value).collect(),
-            lengths: Vec::new(),
+            varied: Vec::new(),
+            is_free: false,
             by_dimensions: false,
             home: mechanism.home(),
             varying_equations: mechanism.equations_that_vary(),
@@ -129,15 +111,14 @@ impl Family {
         let system = System::new(mechanism.dimensions(), held);
         let equations = family.varying_equations + system.hold_rows().len();
         family.is_square = system.unknowns().len() == equations;
-        let is_rigid = family.is_square
-            && match RegularFreedoms::near(mechanism, &family.home) {
-                Some(near) => near.count() == 0,
-                None => family.is_isolated(),
-            };
+        let counted = family.counted(&system);
+        let is_rigid = || match RegularFreedoms::near(mechanism, &family.home) {
+            Some(near) => near.count() == 0,
+            None => family.is_isolated(),
+        };
+        let is_rigid = wide || counted.contains(&true) && is_rigid();
         family.by_dimensions = is_rigid || family.coordinates.inputs.is_empty();
-        if is_rigid {
-            family.widen();
-        }
+        family.widen(&counted, (is_rigid, wide));
         if !family.is_square {
             family.kept.fill(EVERY_ROW);
         }
@@ -163,26 +144,6 @@ impl Family {
         let system = family.own.as_ref().filter(|_| !family.rods.is_empty())?;
         family.coordinates = self.coordinates.without(&family.held, system);
         Some(family)
-    }
-
-    /// Rods, and other lengths that no parameter changes, get factors. With nothing to vary a family has one member, and no loop goes
-    /// through it. Independent equations as many as unknowns keep their solutions when anything changes a little; of an
-    /// overconstrained mechanism they would be lost.
-    fn widen(&mut self) {
-        let other = self.random_parameters(&mut Pcg64::seed_from_u64(1), 1.0);
-        let both = (self.dimensions(&self.parameters), self.dimensions(&other));
-        let (Some(mut own), Some(mut other)) = both else {
-            return;
-        };
-        let all: Vec<Length> = Length::all(&own).collect();
-        let fixed = all.into_iter().filter(|length| {
-            let (own, other) = (length.of(&mut own), length.of(&mut other));
-            let is_rod = matches!(length, Length::Rod { .. });
-            (is_rod || own == other) && own.iter().any(|x| **x != C::from_f64(0.0))
-        });
-        self.lengths = fixed.collect();
-        let factors = self.lengths.iter().map(|_| C::from_f64(1.0));
-        self.parameters.extend(factors);
     }
 
     /// The family without a closure of one row and with a joint held, which is given last among the inputs.
@@ -214,19 +175,23 @@ impl Family {
     }
 
     /// Random complex parameters about the mechanism's own. Those that are zero move too. `reach` says how far out
-    /// factors of lengths go, as for inputs.
+    /// lengths go, as for inputs.
     pub fn random_parameters(&self, rng: &mut Pcg64, reach: f64) -> Vec<C> {
         let typical = self.coordinates.length;
-        let named = self.parameters.len() - self.lengths.len();
-        let moved = self.parameters.iter().enumerate().map(|(i, p)| {
-            let size = match p.re {
-                0.0 => 0.2 * typical,
-                value => 0.4 * value.abs(),
-            };
-            let reach = if i < named { 1.0 } else { reach };
-            *p + complex(rng) * (size * reach)
+        let (named, own) = self
+            .parameters
+            .split_at(self.parameters.len() - self.varied.len());
+        let named = named.iter().map(|p| match p.re {
+            0.0 => 0.2 * typical,
+            value => 0.4 * value.abs(),
         });
-        moved.collect()
+        let own = own
+            .iter()
+            .zip(&self.varied)
+            .map(|(_, varied)| varied.spread(reach));
+        let sizes: Vec<f64> = named.chain(own).collect();
+        let all = self.parameters.iter().zip(sizes);
+        all.map(|(p, size)| *p + complex(rng) * size).collect()
     }
 
     /// Random complex inputs: angles anywhere, lengths about those at home. `reach` says how far
@@ -372,13 +337,11 @@ impl Family {
     }
 
     pub fn dimensions(&self, parameters: &[C]) -> Option<Dimensions<C>> {
-        let (parameters, factors) = parameters.split_at(parameters.len() - self.lengths.len());
+        let (parameters, own) = parameters.split_at(parameters.len() - self.varied.len());
         let values = self.mechanism.parameters_from(parameters).ok()?;
         let mut dimensions = self.mechanism.dimensions_over(&values).ok()?;
-        for (length, factor) in self.lengths.iter().zip(factors) {
-            for part in length.of(&mut dimensions) {
-                *part *= factor;
-            }
+        for (varied, number) in self.varied.iter().zip(own) {
+            varied.vary(&mut dimensions, *number);
         }
         // rows and unknowns keep their scale on the way from member to member
         dimensions.characteristic_length = self.coordinates.length;

@@ -244,7 +244,7 @@ impl<'a> MemberSearch<'a> {
     fn add(&mut self, member: Member, reach: f64) -> Option<()> {
         let still = self.family.homotopy(&member, &member)?;
         let resized = member.parameters != self.family.parameters;
-        self.found.related |= resized && !self.family.is_square;
+        self.found.related |= resized && !self.family.is_free;
         let new = self.nodes.len();
         self.nodes.push(GraphNode {
             member,

@@ -61,7 +61,7 @@ impl MemberEquations {
     /// The equations at s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &MemberSegment) -> Option<Self> {
         let system = family.system(&course.from.parameters)?;
-        if course.resized && family.is_square {
+        if course.resized && family.is_free {
             let end = family.system(&course.parameters(C::new(1.0, 0.0)))?;
             let way = MemberEquations::between(family, course, (&system, &end));
             if way.is_some() {
