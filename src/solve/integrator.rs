@@ -178,10 +178,10 @@ impl Integrator {
             return Ok(());
         }
         let method = if self.stiff { implicit } else { explicit };
-        // the methods refuse a first step beyond the end
-        let step = self.step.min(self.end - time);
-        self.method = method(self.tolerance, step, state.len());
-        (self.method).begin(&SharedFlow::of(flow), [time, self.end], &state.to_vec())
+        // the methods refuse a first step beyond the end, and an interval without length
+        let end = self.end.max(time.next_up());
+        self.method = method(self.tolerance, self.step.min(end - time), state.len());
+        (self.method).begin(&SharedFlow::of(flow), [time, end], &state.to_vec())
     }
 
     /// Makes one step, not beyond the end; returns the time reached.
