@@ -103,15 +103,21 @@ impl Design {
             .ok()
             .and_then(|(_, plain, _)| made(Some(plain)).ok());
         let (description, mechanism, read) = known.map_or(plain, Ok)?;
+        let bundle = read.bundle(&mechanism, self.asked.positions.len());
+        let free_driver = read.driver.filter(|_| !read.driven);
         let task = Task {
             mechanism: &mechanism,
-            held: read.held.clone(),
-            bundle: read.bundle(&mechanism),
+            plain: free_driver.map(|driver| {
+                let mut held = read.held.clone();
+                held.joints[driver] = true;
+                bundle.alone(held)
+            }),
+            bundle,
             ranges: read.ranges(),
             angles: read.varied.iter().map(|of| of.angle).collect(),
             size: read.size,
             positions: self.asked.positions.len(),
-            free_driver: read.driver.filter(|_| !read.driven),
+            free_driver,
             seed: self.seed,
             // without unknowns one start finds every position
             starts: if read.varied.is_empty() {

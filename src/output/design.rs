@@ -312,6 +312,9 @@ impl Report for DesignReport {
                 count(self.undetermined, "combination")
             ));
         }
+        if self.interrupted {
+            document.notes.push("The search was stopped early.".into());
+        }
         if self.more > 0 {
             document
                 .notes

@@ -18,6 +18,7 @@ mod program;
 mod shared;
 mod sides;
 mod target;
+mod written;
 
 use std::collections::BTreeMap;
 
@@ -54,6 +55,7 @@ pub struct Bundle<'m> {
     cut: f64,
     /// Ranges of the shared numbers, where every configuration is kept closed.
     ranges: Option<Vec<(f64, f64)>>,
+    written: Option<written::Written>,
 }
 
 /// A point of a bundle: its shared numbers, and a configuration for each of its places.
@@ -105,6 +107,7 @@ impl<'m> Bundle<'m> {
             rank: None,
             cut: RANK_TOLERANCE,
             ranges: None,
+            written: None,
         }
     }
 
@@ -222,6 +225,9 @@ impl LeastSquares for Bundle<'_> {
     type Model = Arrow;
 
     fn misfit(&self, at: &Bundled) -> Misfit {
+        if let Some(written) = &self.written {
+            return self.misfit_by(written, at);
+        }
         let (Some(system), Some((parameters, _))) = (
             self.equations::<f64>(&at.numbers),
             self.dimensions(&at.numbers),
@@ -269,7 +275,11 @@ impl LeastSquares for Bundle<'_> {
 
     fn stepped(&self, at: &Bundled, arrow: &Arrow, damping: f64) -> (Bundled, f64) {
         let mut step = self.step_within(at, arrow, damping);
-        let Some(system) = self.equations::<f64>(&at.numbers) else {
+        let system = match &self.written {
+            Some(written) => Some(written.shape.clone()),
+            None => self.equations::<f64>(&at.numbers),
+        };
+        let Some(system) = system else {
             return (at.clone(), 0.0);
         };
         let steps = |step: &[f64]| -> Vec<Vec<f64>> {
@@ -312,20 +322,27 @@ impl Bundle<'_> {
     /// The step of the shared numbers, in which those that would leave their ranges stand still.
     fn step_within(&self, at: &Bundled, arrow: &Arrow, damping: f64) -> Vec<f64> {
         let mut reduced = arrow.reduced.clone();
+        let mut still = vec![false; self.numbers.len()];
         loop {
-            let step = reduced.step(damping);
+            let mut step = reduced.step(damping);
             let ranges = self.ranges.iter().flatten().enumerate();
             let leaving: Vec<usize> = ranges
                 .filter(|(i, (low, high))| {
                     let x = at.numbers[*i];
-                    x <= *low && step[*i] < 0.0 || x >= *high && step[*i] > 0.0
+                    !still[*i] && (x <= *low && step[*i] < 0.0 || x >= *high && step[*i] > 0.0)
                 })
                 .map(|(i, _)| i)
                 .collect();
             if leaving.is_empty() {
+                // of what stands still rounding is left
+                let parts = step.iter_mut().zip(&still).filter(|(_, still)| **still);
+                parts.for_each(|(x, _)| *x = 0.0);
                 return step;
             }
-            leaving.into_iter().for_each(|i| reduced.without(i));
+            for i in leaving {
+                still[i] = true;
+                reduced.without(i);
+            }
         }
     }
 

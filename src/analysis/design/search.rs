@@ -9,17 +9,17 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::number::tolerance::SAME;
 use crate::number::{real, sorting::sort_by};
 use crate::solve::{LeastSquares, LevenbergMarquardt, Stage, Watch, each};
-use crate::system::{Bundle, Bundled, Held};
+use crate::system::{Bundle, Bundled};
 
 /// Positions that a mechanism shall take, with numbers of it unknown.
 #[derive(Clone, Debug)]
 pub struct Task<'m> {
     /// The mechanism.
     pub mechanism: &'m Mechanism,
-    /// What stands still, and nothing that positions give.
-    pub held: Held<f64>,
     /// Closures and targets of all positions.
     pub bundle: Bundle<'m>,
+    /// Closures of one position with the driving joint held, where it drives freely.
+    pub plain: Option<Bundle<'m>>,
     /// The ranges of the numbers, in m or rad or without unit.
     pub ranges: Vec<(f64, f64)>,
     /// For each number true if it is an angle.
@@ -81,7 +81,7 @@ impl Task<'_> {
                 break;
             }
             let count = BATCH.min(self.starts - tried);
-            let ends = each(count, &(), |(), i| self.end(tried + i));
+            let ends = each(count, &(), |(), i| self.end(tried + i, watch));
             tried += count;
             for (failed, end) in ends {
                 all.not_assembled += failed;
@@ -153,7 +153,7 @@ impl Task<'_> {
     }
 
     /// The end to which a start leads, and the number of random dimensions before it that could not be assembled.
-    fn end(&self, number: usize) -> (usize, Option<FoundEnd>) {
+    fn end(&self, number: usize, watch: &Watch) -> (usize, Option<FoundEnd>) {
         const TRIES: usize = 60;
         const CANDIDATES: usize = 4;
         let mut rng = Pcg64::seed_from_u64(
@@ -164,6 +164,9 @@ impl Task<'_> {
         let (mut failed, mut count) = (0, 0);
         let mut best: Option<(f64, Bundled)> = None;
         for _ in 0..TRIES {
+            if watch.is_stopped() {
+                return (failed, None);
+            }
             match self.start(&mut rng) {
                 None => failed += 1,
                 Some(start) => {
@@ -285,15 +288,12 @@ impl Task<'_> {
         rng: &mut Pcg64,
     ) -> Option<(Vec<Configuration<f64>>, bool)> {
         const SAMPLES: usize = 48;
-        let mut held = self.held.clone();
-        held.joints[driver] = true;
-        let plain = self.bundle.alone(held);
         let angle = self.mechanism.joints()[driver].kind.is_angle();
         let stride = match angle {
             true => TAU / SAMPLES as f64,
             false => 2.0 * self.size / SAMPLES as f64,
         };
-        let mut closer = plain.closer(numbers)?;
+        let mut closer = self.plain.as_ref()?.closer(numbers)?;
         let first = closer.closed(0, self.random(rng))?;
         let mut samples = vec![first.clone()];
         let mut round = angle;

@@ -163,7 +163,7 @@ impl Read {
     }
 
     /// Closures and targets of all positions.
-    pub(super) fn bundle<'m>(&self, mechanism: &'m Mechanism) -> Bundle<'m> {
+    pub(super) fn bundle<'m>(&self, mechanism: &'m Mechanism, positions: usize) -> Bundle<'m> {
         // one unit is a metre or a radian, or for lengths the size of the task
         let unit = |of: &VariedNumber| match of.unit {
             unit if unit == SiUnit::METRE => (of.parameter, self.size),
@@ -171,10 +171,11 @@ impl Read {
         };
         let numbers: Vec<(usize, f64)> = self.varied.iter().map(unit).collect();
         let bundle = Bundle::new(mechanism, self.held.clone(), &numbers).within(self.ranges());
-        self.targets.iter().fold(bundle, |bundle, target| {
+        let bundle = self.targets.iter().fold(bundle, |bundle, target| {
             let with = bundle.target(target.clone());
             with.expect("rates and forces were refused")
-        })
+        });
+        bundle.written(positions)
     }
 }
 

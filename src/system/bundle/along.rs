@@ -15,7 +15,7 @@ pub struct PathForm<'c, 'b, 'm> {
     rates: Vec<C>,
     values: Vec<C>,
     work: RowsWork,
-    shared: SideRows,
+    shared: SideRows<C>,
     /// The step that cancels the residual, and that along the way, of the last linearisation.
     steps: [Vec<C>; 2],
     largest: f64,
@@ -74,9 +74,11 @@ impl PathForm<'_, '_, '_> {
         }
         for (side, step) in self.steps.iter_mut().enumerate() {
             let (numbers, rest) = step.split_at_mut(count);
-            self.shared.back(count, &[], side, numbers);
+            self.shared.back(count, &[], count + side, numbers);
             let each = rest.chunks_exact_mut(unknowns.max(1)).zip(&self.work.rows);
-            each.for_each(|(step, rows)| rows.back(unknowns, numbers, side, step));
+            each.for_each(|(step, rows)| {
+                rows.back(unknowns, numbers, unknowns + count + side, step)
+            });
         }
         self.steps.iter().flatten().all(|x| x.is_finite())
     }

@@ -25,10 +25,21 @@ impl<'m> Bundle<'m> {
 
     /// Closes configurations with given shared numbers.
     pub fn closer(&self, numbers: &[f64]) -> Option<Closer<'_, '_>> {
-        let system = self.equations::<f64>(numbers)?;
-        let exact = self.targets.values().flatten().any(|target| target.exact);
+        let built = match &self.written {
+            Some(_) => None,
+            None => Some(self.built(numbers)?),
+        };
         Some(Closer {
             bundle: self,
+            numbers: numbers.to_vec(),
+            built,
+        })
+    }
+
+    fn built(&self, numbers: &[f64]) -> Option<Built> {
+        let system = self.equations::<f64>(numbers)?;
+        let exact = self.targets.values().flatten().any(|target| target.exact);
+        Some(Built {
             work: system.work(),
             system,
             lanes: match exact {
@@ -43,8 +54,10 @@ impl<'m> Bundle<'m> {
         Bundle {
             held,
             targets: BTreeMap::new(),
+            written: None,
             ..self.clone()
         }
+        .written(1)
     }
 
     /// The sum of squares of the targets of one place at each of some configurations.
@@ -55,6 +68,14 @@ impl<'m> Bundle<'m> {
         configurations: &[Configuration<f64>],
     ) -> Vec<f64> {
         let each = configurations.iter();
+        if let Some(written) = &self.written {
+            let squares = |at: &Configuration<f64>| {
+                let linear = self.linear_by(written, numbers, (place, at));
+                let left = linear.targets.iter().filter_map(|row| row.last());
+                left.map(|x| x * x).sum::<f64>()
+            };
+            return each.map(squares).collect();
+        }
         let (Some(system), Some((parameters, _))) =
             (self.equations::<f64>(numbers), self.dimensions(numbers))
         else {
@@ -93,12 +114,57 @@ impl<'m> Bundle<'m> {
 /// Closes configurations of a bundle with given shared numbers.
 pub struct Closer<'b, 'm> {
     bundle: &'b Bundle<'m>,
+    numbers: Vec<f64>,
+    built: Option<Built>,
+}
+
+/// The equations for the numbers, where they are not written down.
+struct Built {
     system: System<f64>,
     work: Work<f64>,
     lanes: Option<Lanes>,
 }
 
 impl Closer<'_, '_> {
+    /// What a configuration must meet, linearised there without the shared numbers.
+    fn linear(&mut self, place: usize, at: &Configuration<f64>) -> Option<Blocks> {
+        let exact = self.bundle.exact(place);
+        let mut linear = match (&self.bundle.written, &mut self.built) {
+            (Some(written), _) => self.bundle.linear_by(written, &self.numbers, (place, at)),
+            (None, None) => return None,
+            (None, Some(built)) => {
+                built.system.linearise(at, &mut built.work);
+                let targets = match built.lanes.as_mut().filter(|_| exact.contains(&true)) {
+                    Some(lanes) => {
+                        let targets = self.bundle.targets_of(place);
+                        self.bundle.rows_by_unknowns(&targets, lanes, at)?
+                    }
+                    None => Vec::new(),
+                };
+                Blocks {
+                    unknowns: built.system.unknowns().len(),
+                    numbers: 0,
+                    closures: built.system.residual_of(&built.work).to_vec(),
+                    by_unknowns: built.system.dense_jacobian(&built.work),
+                    by_numbers: Vec::new(),
+                    targets,
+                }
+            }
+        };
+        linear.stand_still();
+        linear.impose(&exact);
+        linear.targets.clear();
+        Some(linear)
+    }
+
+    fn displace(&self, at: &mut Configuration<f64>, step: &[f64]) {
+        match (&self.bundle.written, &self.built) {
+            (Some(written), _) => written.shape.displace(at, step),
+            (None, Some(built)) => built.system.displace(at, step),
+            (None, None) => {}
+        }
+    }
+
     /// The configuration of one place that closes, and meets what it must, near another one, by Newton's method in steps of
     /// least length.
     pub fn closed(
@@ -108,24 +174,9 @@ impl Closer<'_, '_> {
     ) -> Option<Configuration<f64>> {
         const ROUNDS: usize = 25;
         const LONGEST: f64 = 0.5;
-        let exact = self.bundle.targets_of(place).into_iter();
-        let exact: Vec<&Target> = exact.filter(|target| target.exact).collect();
-        let unknowns = self.system.unknowns().len();
         let (mut before, mut slow) = (f64::INFINITY, 0);
         for _ in 0..ROUNDS {
-            self.system.linearise(&at, &mut self.work);
-            let mut linear = Blocks {
-                unknowns,
-                numbers: 0,
-                closures: self.system.residual_of(&self.work).to_vec(),
-                by_unknowns: self.system.dense_jacobian(&self.work),
-                by_numbers: Vec::new(),
-                targets: Vec::new(),
-            };
-            if let Some(lanes) = self.lanes.as_mut().filter(|_| !exact.is_empty()) {
-                linear.targets = self.bundle.rows_by_unknowns(&exact, lanes, &at)?;
-                linear.impose(&vec![true; exact.len()]);
-            }
+            let linear = self.linear(place, &at)?;
             let open = linear
                 .closures
                 .iter()
@@ -140,7 +191,7 @@ impl Closer<'_, '_> {
             }
             let factor = (LONGEST / size).min(1.0);
             step.iter_mut().for_each(|x| *x *= factor);
-            self.system.displace(&mut at, &step);
+            self.displace(&mut at, &step);
             // steps that do not become smaller lead nowhere
             slow = if size > 0.7 * before { slow + 1 } else { 0 };
             if slow > 8 {

@@ -226,5 +226,5 @@ impl<'b, 'm> Copies<'b, 'm> {
 pub(super) struct RowsWork {
     inputs: Vec<C>,
     values: Vec<C>,
-    pub rows: Vec<SideRows>,
+    pub rows: Vec<SideRows<C>>,
 }

@@ -1,7 +1,6 @@
 //! A configuration of a bundle, linearised and eliminated.
 
-use nalgebra::{DMatrix, DVector};
-
+use super::sides::SideRows;
 use crate::linear::{Svd, add, complement, dot, rank};
 
 /// Closures and targets of one configuration, linearised; matrices are dense and column-major.
@@ -41,6 +40,16 @@ impl Eliminated {
 }
 
 impl Blocks {
+    /// Leaves out the shared numbers.
+    pub(super) fn stand_still(&mut self) {
+        let (unknowns, numbers) = (self.unknowns, self.numbers);
+        for row in &mut self.targets {
+            row.drain(unknowns..unknowns + numbers);
+        }
+        self.by_numbers.clear();
+        self.numbers = 0;
+    }
+
     /// Makes some targets equations.
     pub(super) fn impose(&mut self, exact: &[bool]) {
         if !exact.contains(&true) {
@@ -68,21 +77,66 @@ impl Blocks {
 
     /// The step of the configuration alone, of least length.
     pub(super) fn alone(&self, given: Option<usize>) -> Vec<f64> {
-        let size = self.unknowns;
-        if self.closures.len() != size || given.is_some() {
-            return self.eliminated(given).0.step(&[]);
+        self.eliminated(given).0.step(&[])
+    }
+
+    /// The steps for each of the shared numbers and for none of them, where the equations determine the configuration.
+    fn solved(&self) -> Option<Vec<Vec<f64>>> {
+        /// Of smaller pivots the singular values decide.
+        const LEAST: f64 = 1e-6;
+        let (rows, size) = (self.closures.len(), self.unknowns);
+        if rows != size || rows == 0 {
+            return None;
         }
-        let matrix = DMatrix::from_column_slice(size, size, &self.by_unknowns);
-        let side = DVector::from_iterator(size, self.closures.iter().map(|x| -x));
-        match matrix.lu().solve(&side) {
-            Some(step) if step.iter().all(|x| x.abs() < 1e3) => step.as_slice().to_vec(),
-            _ => self.eliminated(given).0.step(&[]),
+        let width = size + self.numbers + 1;
+        let row = |i: usize| {
+            let of = |all: &[f64]| {
+                all.iter()
+                    .skip(i)
+                    .step_by(rows)
+                    .copied()
+                    .collect::<Vec<f64>>()
+            };
+            let sides = of(&self.by_numbers).into_iter().chain([self.closures[i]]);
+            of(&self.by_unknowns).into_iter().chain(sides.map(|x| -x))
+        };
+        let mut matrix = SideRows {
+            width,
+            entries: (0..rows).flat_map(row).collect(),
+        };
+        let largest = self
+            .by_unknowns
+            .iter()
+            .fold(0.0f64, |most, x| most.max(x.abs()));
+        if !matrix.eliminate(size) {
+            return None;
         }
+        let regular = (0..size).all(|i| matrix.row(i)[i].abs() > LEAST * largest);
+        let step = |side: usize| {
+            let mut step = vec![0.0; size];
+            matrix.back(size, &[], side, &mut step);
+            step
+        };
+        regular.then(|| (size..width).map(step).collect())
     }
 
     /// Eliminates the configuration, whose closures have a given rank or that of their singular values.
     pub(super) fn eliminated(&self, given: Option<usize>) -> (Eliminated, Left) {
         let (rows, unknowns) = (self.closures.len(), self.unknowns);
+        if let (None, Some(steps)) = (given, self.solved()) {
+            let left = |target: &Vec<f64>| {
+                let (slopes, rest) = target.split_at(unknowns);
+                let pairs = rest.iter().zip(&steps);
+                pairs.map(|(x, step)| x + dot(slopes, step)).collect()
+            };
+            let targets = self.targets.iter().map(left).collect();
+            let conditions = Vec::new();
+            let left = Left {
+                conditions,
+                targets,
+            };
+            return (Eliminated(steps), left);
+        }
         let mut svd = Svd::of(rows, unknowns, &self.by_unknowns);
         svd.values.truncate(rows.min(unknowns));
         let rank = given.map_or_else(|| rank(&svd.values), |given| given.min(svd.values.len()));

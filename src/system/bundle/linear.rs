@@ -40,6 +40,14 @@ impl Bundle<'_> {
 
     /// Closures and targets of every configuration, linearised.
     pub(super) fn linear(&self, at: &Bundled) -> Option<Vec<Blocks>> {
+        if let Some(written) = &self.written {
+            let each = at.configurations.iter().enumerate().map(|(k, place)| {
+                let mut linear = self.linear_by(written, &at.numbers, (k, place));
+                linear.impose(&self.exact(k));
+                linear
+            });
+            return Some(each.collect());
+        }
         let system = self.equations::<f64>(&at.numbers)?;
         let mut work = system.work();
         let (unknowns, numbers) = (system.unknowns().len(), self.numbers.len());
@@ -77,9 +85,13 @@ impl Bundle<'_> {
             Some(())
         })?;
         for (k, linear) in all.iter_mut().enumerate() {
-            let exact: Vec<bool> = self.targets_of(k).iter().map(|of| of.exact).collect();
-            linear.impose(&exact);
+            linear.impose(&self.exact(k));
         }
         Some(all)
+    }
+
+    /// For each target of a configuration true if it is an equation.
+    pub(super) fn exact(&self, k: usize) -> Vec<bool> {
+        self.targets_of(k).iter().map(|of| of.exact).collect()
     }
 }

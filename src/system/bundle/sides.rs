@@ -1,16 +1,16 @@
-//! Gaussian elimination of rows with two right-hand sides.
+//! Gaussian elimination of rows with right-hand sides.
 
-use crate::number::C;
+use crate::number::Field;
 
-/// Rows of a matrix with two right-hand sides at their ends.
+/// Rows of a matrix with right-hand sides at their ends.
 #[derive(Clone, Debug)]
-pub(super) struct SideRows {
+pub(super) struct SideRows<T> {
     pub width: usize,
-    pub entries: Vec<C>,
+    pub entries: Vec<T>,
 }
 
-impl SideRows {
-    pub fn row(&self, i: usize) -> &[C] {
+impl<T: Field> SideRows<T> {
+    pub fn row(&self, i: usize) -> &[T] {
         &self.entries[i * self.width..(i + 1) * self.width]
     }
 
@@ -18,7 +18,7 @@ impl SideRows {
     pub fn eliminate(&mut self, columns: usize) -> bool {
         let (width, count) = (self.width, self.entries.len() / self.width);
         for k in 0..columns {
-            let size = |i: usize| self.entries[i * width + k].norm_sqr();
+            let size = |i: usize| self.entries[i * width + k].norm_squared();
             let Some(best) = (k..count).max_by(|&i, &j| size(i).total_cmp(&size(j))) else {
                 return false;
             };
@@ -30,12 +30,12 @@ impl SideRows {
                 let (above, below) = self.entries.split_at_mut(best * width);
                 above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
             }
-            let inverse = C::new(1.0, 0.0) / self.entries[k * width + k];
+            let inverse = T::one() / self.entries[k * width + k];
             let (above, below) = self.entries.split_at_mut((k + 1) * width);
             let pivot = &above[k * width..];
             for row in below.chunks_exact_mut(width) {
                 let factor = row[k] * inverse;
-                if factor.norm_sqr() > 0.0 {
+                if factor.norm_squared() > 0.0 {
                     for (x, y) in row[k..].iter_mut().zip(&pivot[k..]) {
                         *x -= factor * *y;
                     }
@@ -45,12 +45,12 @@ impl SideRows {
         true
     }
 
-    /// Solves the upper triangle of the first columns for one of the two right-hand sides, with the values of the columns
-    /// between them and the sides known.
-    pub fn back(&self, columns: usize, known: &[C], side: usize, x: &mut [C]) {
+    /// Solves the upper triangle of the first columns for the right-hand side at a place, with the values of columns between
+    /// them and the sides known.
+    pub fn back(&self, columns: usize, known: &[T], side: usize, x: &mut [T]) {
         for k in (0..columns).rev() {
             let row = self.row(k);
-            let mut sum = row[self.width - 2 + side];
+            let mut sum = row[side];
             for (entry, value) in row[k + 1..columns].iter().zip(&x[k + 1..columns]) {
                 sum -= *entry * *value;
             }
