@@ -40,6 +40,14 @@ pub fn render(document: &Document) -> String {
     page + &contents(document) + "</main>\n</body>\n</html>\n"
 }
 
+/// The document as a part of another page, as of a notebook: in the colours of that page, and without rules for it.
+pub fn fragment(document: &Document) -> String {
+    let contents = contents(document);
+    format!(
+        "<div class=\"linkwork\">\n<style>\n.linkwork {{ --line: #8888; --soft: inherit;\n{STYLE}}}\n</style>\n{contents}</div>\n"
+    )
+}
+
 fn contents(document: &Document) -> String {
     let mut page = String::new();
     page += &format!("<h1>{}</h1>\n", inline(&document.title));
