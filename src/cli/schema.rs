@@ -12,7 +12,7 @@ macro_rules! shipped {
 }
 
 shipped! {
-    "assemblies" "check" "compare" "convert" "equilibrium" "formulas" "frames" "mobility"
+    "assemblies" "check" "compare" "convert" "design" "equilibrium" "formulas" "frames" "mobility"
     "simulate" "singularities" "snap" "solve" "statics" "sweep" "velocity" "workspace"
 }
 

@@ -68,13 +68,14 @@ impl<F: WrittenField> Serialize for AsWritten<'_, F> {
     }
 }
 
-/// Fields in parentheses. A variant is named in every layout, a structure is not.
+/// Fields in parentheses. A variant is named in every layout; a structure is not, unless its name is asked for, which is that
+/// of the file.
 macro_rules! started {
     ($serializer:ident, $part:ident, $word:expr) => {
         $serializer.serialize_struct_variant(stringify!($part), 0, $word, 1)
     };
     ($serializer:ident, $part:ident) => {
-        $serializer.serialize_struct(stringify!($part), 1)
+        $serializer.serialize_struct(stringify!($part).trim_end_matches("Description"), 1)
     };
 }
 

@@ -138,7 +138,7 @@ fn compare<'v>(
 }
 
 /// Questions whose answers together have most fields that reports can have.
-const ASKED: [&str; 39] = [
+const ASKED: [&str; 40] = [
     "assemblies four_bar.ron --all-complex",
     "assemblies four_bar.ron --prove --hold theta1=1",
     "assemblies two_rhombi.ron",
@@ -150,6 +150,7 @@ const ASKED: [&str; 39] = [
     "convert four_bar.ron --cut phi2",
     "convert four_bar.ron --to axes",
     "convert four_bar.ron --cognate left+0.5,0.2=1",
+    "design designs/function_generator.ron",
     "equilibrium loads/wishbone.ron",
     "equilibrium loads/toggle_press.ron",
     "formulas four_bar.ron",

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use linkwork::analysis::assemblies::{AssembliesReport, Fit, Wanted};
 use linkwork::analysis::assembly::{AssemblySettings, Outcome};
 use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts};
-use linkwork::analysis::mobility::{Character, MobilityReport};
+use linkwork::analysis::mobility::{Character, LocalFreedom, MobilityReport};
 use linkwork::ask::{AskError, Question, Solved};
 use linkwork::description::{Description, Role};
 use linkwork::mechanism::{Configuration, Mechanism};
@@ -119,11 +119,13 @@ pub fn mobility(question: &Question, budget: &Budget) -> Broken {
             report.redundant,
             report.equations
         );
+        let idle = report.idle_freedoms.iter();
+        let idle = idle.filter(|of| !matches!(of, LocalFreedom::Rod(_)));
+        let freedoms = report.infinitesimal + idle.count();
         hold!(
-            report.rank + report.infinitesimal == report.unknowns || report.gimbal_locked > 0,
-            "rank {} and {} infinitesimal freedoms of {} unknowns: {words}",
+            report.rank + freedoms == report.unknowns || report.gimbal_locked > 0,
+            "rank {} and {freedoms} infinitesimal freedoms, idle ones among them, of {} unknowns: {words}",
             report.rank,
-            report.infinitesimal,
             report.unknowns
         );
         let regular = matches!(report.character, Character::Regular | Character::Structure);

@@ -13,6 +13,7 @@ use crate::system::{Bundled, Copies, PathForm};
 
 /// All solutions of an exact synthesis, counted.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Exact {
     /// Solutions for generic targets.
     pub generic: usize,
@@ -41,6 +42,7 @@ impl Exact {
 
 /// A search for all solutions that did not come to its end: least squares are left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NotAll {
     /// Generic targets have more solutions than are kept.

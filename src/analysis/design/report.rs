@@ -7,6 +7,7 @@ use crate::algebra::SiUnit;
 
 /// A number of the mechanism that is sought, with the range in which it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VariedNumber {
     /// Its name.
     pub name: String,
@@ -20,6 +21,7 @@ pub struct VariedNumber {
 
 /// A target in one position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Deviation {
     /// The position, from 1.
     pub position: usize,
@@ -33,6 +35,7 @@ pub struct Deviation {
 
 /// A reason for which a design does not do what it shall although it passes through its positions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "defect", rename_all = "snake_case")]
 pub enum Defect {
     /// Positions that lie on another circuit than the first: it would have to be taken apart.
@@ -89,6 +92,7 @@ pub enum Defect {
 
 /// The driving joint of a design along the whole curve of its mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Moves {
     /// It turns fully.
@@ -101,6 +105,7 @@ pub enum Moves {
 
 /// A design.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Design {
     /// The values of the numbers, in the order of [`DesignReport::varied`].
     pub values: Vec<f64>,
@@ -122,6 +127,7 @@ pub struct Design {
 
 /// Answer of a design question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DesignReport {
     /// The mechanism's name.
     pub mechanism: String,

@@ -10,6 +10,7 @@ use super::SimulationColumn;
 /// y the columns of the motion before its energies. A and C are central differences of fourth order; B is M⁻¹·Sᵀ with the
 /// rates S of those joints for unit rates of the coordinates.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Linear {
     /// x, by name and unit.
     pub states: Vec<SimulationColumn>,

@@ -4,6 +4,7 @@ use linkwork::analysis::assemblies::{AssembliesReport, LostMode};
 use linkwork::analysis::assembly::AssemblyReport;
 use linkwork::analysis::compare::CompareReport;
 use linkwork::analysis::convert::Conversion;
+use linkwork::analysis::design::DesignReport;
 use linkwork::analysis::equilibrium::EquilibriumReport;
 use linkwork::analysis::formulas::FormulasReport;
 use linkwork::analysis::frames::{AxesReport, FramesReport};
@@ -26,10 +27,12 @@ fn parts(command: &str) -> &'static [SchemaOf] {
         "check" => &[report::<Overview>],
         "compare" => &[report::<CompareReport>],
         "convert" => &[report::<Conversion>, report::<AxesReport>],
+        "design" => &[report::<DesignReport>],
         "equilibrium" => &[report::<EquilibriumReport>],
         "formulas" => &[report::<FormulasReport>],
         "frames" => &[report::<FramesReport>, report::<AxesReport>],
         "mobility" => &[report::<Analysed<MobilityReport>>],
+        "simulate" => &[report::<SimulationReport>],
         "singularities" => &[
             report::<Analysed<SingularitiesReport>>,
             report::<AlongReport>,
@@ -37,7 +40,6 @@ fn parts(command: &str) -> &'static [SchemaOf] {
         ],
         "snap" => &[report::<Snapped>],
         "solve" => &[report::<AssemblyReport>, report::<LostMode>],
-        "simulate" => &[report::<SimulationReport>],
         "statics" => &[report::<Analysed<StaticsReport>>],
         "sweep" => &[report::<MotionsReport>, report::<CircuitsReport>],
         "velocity" => &[report::<Analysed<VelocityReport>>],
