@@ -127,11 +127,16 @@ fn all_of(exact: &Exact) -> Vec<String> {
     };
     vec![
         format!(
-            "For generic targets {}{linkages}: found by monodromy, and {} through other targets, on which no path was lost, \
-             brought none beside them. A random way finds more with probability ½ at least if any that are connected with these \
+            "For generic targets {}{linkages}: found by monodromy, and {} through other targets, on which {} lost, brought \
+             none beside them. A random way finds more with probability ½ at least if any that are connected with these \
              are missing; no bound is known.",
             count(exact.classes, "linkage"),
             count(exact.quiet, "random way"),
+            match exact.lost_quietly {
+                0 => "no path was".to_owned(),
+                1 => "1 path was".to_owned(),
+                lost => format!("{lost} paths were"),
+            },
         ),
         format!(
             "For these targets {} arrived, {} went to infinity{lost}: {} different, {} real, {} of these outside the ranges.",

@@ -41,8 +41,10 @@ pub struct Spread {
     pub member: Vec<C>,
     /// Its solutions.
     pub solutions: Vec<Vec<C>>,
-    /// Fresh random ways that carried the known solutions to known ones and lost none.
+    /// Fresh random ways that carried the known solutions to known ones.
     pub quiet: usize,
+    /// Paths lost on these ways, which is allowed among many.
+    pub lost_quietly: usize,
     /// Paths lost on the way.
     pub lost: usize,
 }
@@ -181,7 +183,7 @@ impl Monodromy {
         known[0].place(family, solution);
         // for each way and end what was followed along it
         let mut done: Vec<[Vec<bool>; 2]> = vec![[Vec::new(), Vec::new()]; ways.len()];
-        let (mut lost, mut quiet) = (0, 0);
+        let (mut lost, mut quiet, mut lost_quietly) = (0, 0, 0);
         loop {
             let mut new = false;
             let mut moved = false;
@@ -198,6 +200,7 @@ impl Monodromy {
                             member: member.to_vec(),
                             solutions: std::mem::take(&mut known[0].solutions),
                             quiet: 0,
+                            lost_quietly: 0,
                             lost,
                         };
                     }
@@ -228,7 +231,9 @@ impl Monodromy {
                 }
             }
             if moved {
-                quiet = if new { 0 } else { quiet };
+                if new {
+                    (quiet, lost_quietly) = (0, 0);
+                }
                 continue;
             }
             if quiet >= self.quiet {
@@ -238,25 +243,28 @@ impl Monodromy {
             let fresh = family.member(&mut rng);
             let starts: Vec<&Vec<C>> = known[0].solutions.iter().collect();
             let arrived = self.ends(family, [ends[0], &fresh[..], ends[1]], &starts, watch);
-            let whole = arrived.iter().all(Option::is_some);
+            let missing = arrived.iter().filter(|end| end.is_none()).count();
             let mut brought = false;
             for x in arrived.into_iter().flatten() {
                 brought |= known[1].place(family, x).1;
             }
-            match (brought, whole) {
+            match (brought, missing) {
                 (true, _) => {
-                    quiet = 0;
+                    (quiet, lost_quietly) = (0, 0);
                     ways.push(fresh);
                     done.push([Vec::new(), Vec::new()]);
                 }
-                (false, true) => quiet += 1,
-                (false, false) => {
-                    lost += 1;
+                (false, 0) => quiet += 1,
+                (false, missing) => {
+                    lost += missing;
                     // where paths are lost over and over nothing is gained by more of them
                     if lost > 10 * (self.quiet + known[0].keys.len()) {
                         break;
                     }
-                    quiet += usize::from(known[0].keys.len() > 500);
+                    if known[0].keys.len() > 500 {
+                        quiet += 1;
+                        lost_quietly += missing;
+                    }
                 }
             }
         }
@@ -265,6 +273,7 @@ impl Monodromy {
             member: member.to_vec(),
             solutions: first.solutions,
             quiet,
+            lost_quietly,
             lost,
         }
     }

@@ -21,6 +21,8 @@ pub struct Exact {
     pub classes: usize,
     /// Fresh random ways through the targets that brought no other solution.
     pub quiet: usize,
+    /// Paths lost on these ways.
+    pub lost_quietly: usize,
     /// Paths that arrived at the targets.
     pub arrived: usize,
     /// Different solutions to which they led, each linkage once.
@@ -325,6 +327,7 @@ impl Synthesis<'_, '_, '_> {
             generic: count * self.group.len(),
             classes: count / self.exchanges.len(),
             quiet: spread.quiet,
+            lost_quietly: spread.lost_quietly,
             ..Exact::default()
         };
         // different keys, with all points that have them

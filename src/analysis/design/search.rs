@@ -185,7 +185,7 @@ impl Task<'_> {
             let method = LevenbergMarquardt {
                 damping: 1e-2,
                 tolerance: 1e-12,
-                steps: 200,
+                steps: 1000,
             };
             let end = method.solve(&self.bundle, start);
             FoundEnd {
