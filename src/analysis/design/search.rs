@@ -129,19 +129,29 @@ impl Task<'_> {
     }
 
     pub(super) fn same(&self, a: &Bundled, b: &Bundled) -> bool {
+        self.within(SAME, a, b)
+    }
+
+    fn within(&self, tolerance: f64, a: &Bundled, b: &Bundled) -> bool {
         let pairs = a.numbers.iter().zip(&b.numbers).zip(&self.angles);
         let mut near = pairs.map(|((a, b), angle)| match angle {
             true => {
                 let turns = ((a - b) / TAU).round();
-                (a - b - turns * TAU).abs() < SAME
+                (a - b - turns * TAU).abs() < tolerance
             }
-            false => (a - b).abs() < SAME * (self.size + a.abs()),
+            false => (a - b).abs() < tolerance * (self.size + a.abs()),
         });
         near.all(|near| near)
     }
 
     fn add(&self, known: &mut Vec<FoundEnd>, end: FoundEnd) {
-        match known.iter_mut().find(|of| self.same(&of.at, &end.at)) {
+        // a minimum is located to half the digits of its value
+        let least = |a: f64, b: f64| (a - b).abs() <= SAME * a.min(b);
+        let one = |of: &FoundEnd| {
+            self.same(&of.at, &end.at)
+                || least(of.squares, end.squares) && self.within(SAME.sqrt(), &of.at, &end.at)
+        };
+        match known.iter_mut().find(|of| one(of)) {
             Some(of) => {
                 of.reached += 1;
                 if end.squares < of.squares {
