@@ -173,15 +173,15 @@ impl Integrator {
 
     /// Begins, or goes on, at a time and state.
     pub fn start(&mut self, flow: &mut dyn Flow, time: f64, state: &[f64]) -> Result<(), TooShort> {
-        // nothing is left
+        // the methods refuse an interval without length
         if time >= self.end {
             return Ok(());
         }
         let method = if self.stiff { implicit } else { explicit };
-        // the methods refuse a first step beyond the end, and an interval without length
-        let end = self.end.max(time.next_up());
-        self.method = method(self.tolerance, self.step.min(end - time), state.len());
-        (self.method).begin(&SharedFlow::of(flow), [time, end], &state.to_vec())
+        // and a first step beyond the end
+        let first = self.step.min(self.end - time);
+        self.method = method(self.tolerance, first, state.len());
+        (self.method).begin(&SharedFlow::of(flow), [time, self.end], &state.to_vec())
     }
 
     /// Makes one step, not beyond the end; returns the time reached.

@@ -713,3 +713,31 @@ fn rest_positions_of_a_pendulum_and_what_has_none() {
     let report = let_go(&rod.hold("pin", swing), period, 2);
     near(&at(&report, period, &["pin"]), &[swing], 1e-7);
 }
+
+/// Shipped files close as they are given, and what rests does so within its limits; a softer spring does not hold the wheel.
+#[test]
+fn shipped_mechanisms_close_as_given_and_rest_within_their_limits() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/loads");
+    let outside = |question: &Question| -> Vec<String> {
+        let report = rest(question, false);
+        let positions = report.positions.iter();
+        positions.flat_map(|of| of.outside_limits.clone()).collect()
+    };
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "ron") {
+            continue;
+        }
+        let question = Question::new(Mechanism::load(&path).unwrap());
+        assert_eq!(outside(&question), [""; 0], "{}", path.display());
+        let pose = rest(&question, false).pose;
+        assert!(pose.moved.is_none(), "{}: {pose:?}", path.display());
+        count += 1;
+    }
+    assert!(count >= 11);
+    let wishbone = std::fs::read_to_string(format!("{folder}/wishbone.ron")).unwrap();
+    let soft = wishbone.replace("80 N/mm", "35 N/mm");
+    assert_ne!(soft, wishbone);
+    assert_eq!(outside(&question(&soft)), ["lower"]);
+}

@@ -67,23 +67,12 @@ pub fn course(
         watch,
     };
     let ahead = way.walk(mechanism, &mut curve, start.clone(), 1.0);
-    let mut whole = ahead.is_some();
-    if let Some(length) = ahead {
-        course.length = length;
-    }
-    if !course.closed && whole {
-        let mut way = DesignWay {
-            positions,
-            driver,
-            course: &mut course,
-            method: &method,
-            watch,
-        };
-        let back = way.walk(mechanism, &mut curve, start.reversed(), -1.0);
-        whole = back.is_some();
-        course.length += back.unwrap_or(0.0);
-    }
-    course.whole = whole;
+    let back = match ahead.is_some() && !way.course.closed {
+        true => way.walk(mechanism, &mut curve, start.reversed(), -1.0),
+        false => Some(0.0),
+    };
+    course.length = ahead.unwrap_or(0.0) + back.unwrap_or(0.0);
+    course.whole = ahead.is_some() && back.is_some();
     sort_by(&mut course.dead, f64::total_cmp);
     Ok(course)
 }
