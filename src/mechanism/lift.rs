@@ -1,6 +1,5 @@
 //! Evaluates formulas to dimensions over a number type: the only place where this happens.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::dimensions::{
@@ -221,22 +220,16 @@ impl Mechanism {
     }
 }
 
-/// Distances of the bases of chains on the ground from the origin; where those of one part of the mechanism all lie to
-/// one side of it, from the nearest place of the box round them. The origin of a drawing is no dimension, nor is the
-/// distance between parts that have nothing to do with one another.
+/// Distances between the bases of one part of the mechanism on ground. Where the frame of ground stands and how it is
+/// turned is no dimension, nor is the distance between parts that have nothing to do with one another.
 fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64> {
     let places = places_on_ground(dimensions);
-    let part = |of: usize| {
-        let places = places.iter().filter(move |(part, _)| *part == of);
-        places.map(|(_, place)| *place).collect::<Vec<_>>()
-    };
-    let parts: BTreeMap<usize, [f64; 3]> = (places.iter())
-        .map(|(of, _)| (*of, nearest(&part(*of))))
-        .collect();
-    let distances = places
-        .iter()
-        .map(|(part, place)| (Vector3(*place) - Vector3(parts[part])).norm());
-    distances.collect::<Vec<_>>().into_iter()
+    let mut distances = Vec::new();
+    for (i, (part, place)) in places.iter().enumerate() {
+        let others = places[..i].iter().filter(|(of, _)| of == part);
+        distances.extend(others.map(|(_, other)| (Vector3(*place) - Vector3(*other)).norm()));
+    }
+    distances.into_iter()
 }
 
 /// The place of the box round some places that is nearest to the centre.

@@ -81,7 +81,7 @@ fn differences(name: &str, sizes: &[f64]) -> Vec<String> {
             ));
         }
         let ratio = there.characteristic_length() / length;
-        if !(0.3..=3.0).contains(&ratio) {
+        if (ratio - 1.0).abs() > 1e-6 {
             wrong.push(format!(
                 "{name}, {away:e} sizes away: normalised by {ratio} times the length"
             ));
