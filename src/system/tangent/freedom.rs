@@ -119,8 +119,10 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
         .map(|(name, share)| (name.to_owned(), share));
     let mut shares: Vec<(String, f64)> = shares.collect();
     shares.retain(|(_, share)| *share > 1e-6);
+    // those that move alike but for rounding stand by name
+    let rank = |share: f64| (share * 1e6).round();
     sort_by(&mut shares, |a, b| {
-        b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0))
+        (rank(b.1).total_cmp(&rank(a.1))).then_with(|| a.0.cmp(&b.0))
     });
     shares.into_iter().map(|(name, _)| name).collect()
 }

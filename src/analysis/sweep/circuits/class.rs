@@ -26,13 +26,7 @@ fn planar_loop(mechanism: &Mechanism) -> Option<PlanarLoop> {
     if closure.kind != ClosureKind::Revolute || joints.len() != 3 || !revolute || limits {
         return None;
     }
-    let home = mechanism.home();
-    let axes = mechanism
-        .frames()
-        .into_iter()
-        .map(|frame| mechanism.transform(Frame::Ground, frame, &home).rotation.0[2]);
-    let axes: Vec<_> = axes.collect();
-    let planar = axes.iter().all(|axis| axis.cross(&axes[0]).norm() < 1e-9);
+    mechanism.plane_of_motion()?;
     let chains = &mechanism.dimensions().chains;
     let grounded = |chain: usize| chains[chain].on == Frame::Ground;
     let mut on_ground = Vec::new();
@@ -48,7 +42,7 @@ fn planar_loop(mechanism: &Mechanism) -> Option<PlanarLoop> {
         }
     }
     let grounded = <[_; 2]>::try_from(on_ground).ok()?;
-    planar.then_some(PlanarLoop { grounded, others })
+    Some(PlanarLoop { grounded, others })
 }
 
 /// The class of a planar 4-bar whose two joints on ground are joint variables.
