@@ -32,7 +32,7 @@ pub(crate) use axes::Graph;
 pub use axes::*;
 pub(crate) use closure_kind::FREE;
 pub use closure_kind::*;
-pub use design::{DesignDescription, DesignPart};
+pub use design::{DesignDescription, DesignGoal, DesignPart};
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;

@@ -27,7 +27,7 @@ pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use integrator::{Flow, Integrator, TooShort};
 pub use least_squares::{Fitted, LeastSquares, LevenbergMarquardt, Misfit};
-pub use minimum::walk_down;
+pub use minimum::{simplex, walk_down};
 pub use newton::{Newton, Report, Stop};
 pub use summit::{edge, summit};
 pub use threads::{Pool, each};

@@ -7,10 +7,13 @@
 
 mod course;
 mod exact;
+mod improve;
 mod report;
 mod search;
+mod symmetry;
 
 pub use course::{DesignCourse, course};
 pub use exact::{Exact, NotAll};
-pub use report::{Defect, Design, DesignReport, Deviation, Moves, VariedNumber};
+pub use improve::Cost;
+pub use report::{Defect, Design, DesignReport, Deviation, Goal, Moves, VariedNumber};
 pub use search::{FoundEnd, SearchedEnds, Task};

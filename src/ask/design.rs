@@ -1,5 +1,6 @@
 //! Design questions.
 
+mod figure;
 mod judge;
 mod read;
 
@@ -7,12 +8,17 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use super::Question;
 use crate::analysis::design::{self, DesignReport, FoundEnd, Task, VariedNumber};
 use crate::description::{Description, DesignDescription, DesignPart, DesignProblem, Problem};
 use crate::mechanism::Mechanism;
+use crate::number::sorting::sort_by;
 use crate::solve::{LeastSquares, Watch};
 use judge::Judge;
 use read::Read;
+
+/// Designs that are improved at most.
+const IMPROVED: usize = 6;
 
 /// A design question: a mechanism, what it shall do, and which of its numbers may vary.
 #[derive(Clone, Debug)]
@@ -103,6 +109,7 @@ impl Design {
             .ok()
             .and_then(|(_, plain, _)| made(Some(plain)).ok());
         let (description, mechanism, read) = known.map_or(plain, Ok)?;
+        let judge = Judge::new(&self.asked, &read, (&description, &mechanism), watch)?;
         let bundle = read.bundle(&mechanism, self.asked.positions.len());
         let free_driver = read.driver.filter(|_| !read.driven);
         let task = Task {
@@ -125,15 +132,8 @@ impl Design {
             } else {
                 self.starts.max(1)
             },
+            again: if judge.improves() { IMPROVED } else { 3 },
         };
-        let judge = Judge {
-            asked: &self.asked,
-            read: &read,
-            description: &description,
-            mechanism: &mechanism,
-            watch,
-        };
-        judge.check()?;
         let exact = match self.approximate {
             true => Ok(None),
             false => task.exact(self.solutions, watch),
@@ -142,12 +142,16 @@ impl Design {
             Ok(exact) => (exact, None),
             Err(why) => (None, Some(why)),
         };
-        let (exact, searched) = match exact {
+        let (exact, mut searched) = match exact {
             Some((exact, searched)) => (Some(exact), searched),
             None => {
-                let good = |found: &FoundEnd| judge.defects(found).0.is_empty();
+                let good = |found: &FoundEnd| judge.cost(found).is_some();
                 (None, task.search(&good, watch))
             }
+        };
+        let improved = match exact.is_none() && judge.improves() {
+            true => task.improve(&mut searched, IMPROVED, &|found| judge.cost(found), watch),
+            false => 0,
         };
         if exact.is_none() && searched.found.is_empty() && !searched.interrupted {
             let tried = searched.not_assembled;
@@ -176,11 +180,20 @@ impl Design {
         distinct.sort_unstable();
         distinct.dedup();
         let mut designs: Vec<design::Design> = classes.into_iter().map(|(_, of)| of).collect();
-        designs.sort_by_key(|design| !design.defects.is_empty());
+        let sign = match &self.asked.goal {
+            Some(goal) if goal.greatest => -1.0,
+            _ => 1.0,
+        };
+        let rank = |of: &design::Design| sign * of.goal.unwrap_or(sign * f64::INFINITY);
+        sort_by(&mut designs, |a, b| {
+            let defects = |of: &design::Design| !of.defects.is_empty();
+            let goals = rank(a).total_cmp(&rank(b));
+            defects(a).cmp(&defects(b)).then(goals)
+        });
         designs.truncate(most);
         let undetermined = searched.found.first().and_then(|found| {
             let model = task.bundle.model(&found.at)?;
-            Some(model.undetermined())
+            Some(model.open().len())
         });
         let parameters = mechanism.parameters();
         Ok(DesignReport {
@@ -197,8 +210,18 @@ impl Design {
             targets: read.targets.iter().filter(|of| !of.exact).count(),
             undetermined: undetermined.unwrap_or(0),
             driver: read.driver.map(|i| mechanism.joints()[i].name.clone()),
+            straight_moves: Question::new(mechanism.clone()).one_freedom().is_err(),
             more: distinct.len() - designs.len(),
             designs,
+            goal: judge
+                .unit_of_goal()
+                .zip(self.asked.goal.as_ref())
+                .map(|(unit, goal)| design::Goal {
+                    figure: goal.figure.value.clone(),
+                    unit,
+                    greatest: goal.greatest,
+                    improved,
+                }),
             exact,
             not_all,
             starts: searched.starts,
@@ -209,7 +232,7 @@ impl Design {
     }
 
     fn design(&self, task: &Task, judge: &Judge, found: &FoundEnd) -> Option<design::Design> {
-        let (defects, driver) = judge.defects(found);
+        let verdict = judge.verdict(found);
         let deviations = task.bundle.deviations(&found.at)?.into_iter();
         let deviations = deviations.filter(|(target, _)| !target.exact);
         let model = task.bundle.model(&found.at)?;
@@ -225,8 +248,9 @@ impl Design {
                 })
                 .collect(),
             sensitivities: model.sensitivities(),
-            defects,
-            driver,
+            defects: verdict.defects,
+            driver: verdict.moves,
+            goal: verdict.goal,
             reached: found.reached,
             file: judge.file(found),
         })

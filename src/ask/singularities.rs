@@ -100,7 +100,7 @@ impl Question {
     }
 
     /// The outputs that are asked for.
-    pub(super) fn asked_outputs(&self) -> Result<Vec<Lock>, AskError> {
+    pub(in crate::ask) fn asked_outputs(&self) -> Result<Vec<Lock>, AskError> {
         let question = system::Question::new(self.mechanism());
         let named = self.of(Role::Output).map(|(item, demand)| {
             let name = &demand.name;

@@ -6,8 +6,8 @@ use clap::Args;
 use linkwork::algebra::Measure;
 use linkwork::ask::{self, DesignError};
 use linkwork::description::{
-    Description, DesignDescription, DesignPart, Entry, FileError, LoadError, MAX_BYTES, Named,
-    Problem, ProblemKind, is_design, load_text,
+    Description, DesignDescription, DesignGoal, DesignPart, Entry, FileError, LoadError, MAX_BYTES,
+    Named, Problem, ProblemKind, Spanned, is_design, load_text,
 };
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::Complaint;
@@ -55,6 +55,12 @@ pub struct Design {
     /// Require a quantity to be no greater than a value all the time
     #[arg(long, value_name = "QUANTITY=VALUE")]
     at_most: Vec<Assignment>,
+    /// Make a figure of a quantity over the motion small: max, min, range, mean or rms, e.g. --minimise "max(force:theta1)"
+    #[arg(long, value_name = "FIGURE", conflicts_with = "maximise")]
+    minimise: Option<String>,
+    /// Make a figure of a quantity over the motion great, e.g. --maximise "min(transmission)"
+    #[arg(long, value_name = "FIGURE")]
+    maximise: Option<String>,
     /// Allow the points to be passed in any order
     #[arg(long)]
     any_order: bool,
@@ -118,6 +124,8 @@ impl Design {
             } => {
                 let known = match part {
                     DesignPart::Whole => true,
+                    DesignPart::Output(i) => i < of_file.outputs.len(),
+                    DesignPart::Goal => of_file.goal.is_some(),
                     DesignPart::Vary(i) => i < of_file.vary.len(),
                     DesignPart::Position(k, _) => k < of_file.positions.len(),
                     DesignPart::Motion(i) => i < of_file.motion.len(),
@@ -163,6 +171,12 @@ impl Design {
         for Assignment { name, value } in &self.at_most {
             let bound = entry("--at-most", value)?;
             asked.at_most.push(Named::new(name.as_str(), bound));
+        }
+        if let Some(figure) = self.minimise.as_ref().or(self.maximise.as_ref()) {
+            asked.goal = Some(DesignGoal {
+                figure: Spanned::new(figure.clone(), 0..0),
+                greatest: self.minimise.is_none(),
+            });
         }
         asked.any_order |= self.any_order;
         if let Some(path) = &self.points {

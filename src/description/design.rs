@@ -23,8 +23,21 @@ pub struct DesignDescription {
     pub at_least: Vec<Named<Entry>>,
     /// Quantities with the greatest values that they may have during the motion.
     pub at_most: Vec<Named<Entry>>,
+    /// Outputs by which quantities such as the condition number are taken: joints, coordinates of points, frames.
+    pub outputs: Vec<Spanned<String>>,
+    /// A figure that shall be as small or as great as possible.
+    pub goal: Option<DesignGoal>,
     /// True if positions without given inputs may be passed in any order.
     pub any_order: bool,
+}
+
+/// A figure of a quantity over the motion, such as `max(force:theta1)`, that shall be as small or as great as possible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignGoal {
+    /// The figure.
+    pub figure: Spanned<String>,
+    /// True if it shall be great.
+    pub greatest: bool,
 }
 
 /// Part of a design file.
@@ -42,6 +55,10 @@ pub enum DesignPart {
     AtLeast(usize),
     /// A greatest value.
     AtMost(usize),
+    /// An output.
+    Output(usize),
+    /// What shall be small or great.
+    Goal,
 }
 
 impl DesignDescription {
@@ -54,6 +71,8 @@ impl DesignDescription {
         };
         match part {
             DesignPart::Whole => 0..1,
+            DesignPart::Output(i) => self.outputs[i].span.clone(),
+            DesignPart::Goal => self.goal.as_ref().map_or(0..1, |of| of.figure.span.clone()),
             DesignPart::Vary(i) => of(&self.vary[i].name, &self.vary[i].value),
             DesignPart::Position(k, i) => {
                 let named = &self.positions[k][i];

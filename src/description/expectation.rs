@@ -99,6 +99,7 @@ pub enum Expected {
     TableRow,
     Range,
     Positions,
+    Outputs,
     Coordinates,
     Order,
 }
@@ -173,7 +174,9 @@ impl FieldGroup {
             Self::BodyFrame => "origin frame",
             Self::Mass => "mass centre inertia shape density turned",
             Self::Load(kind) => kind.fields(),
-            Self::Design => "version name mechanism vary positions motion at_least at_most order",
+            Self::Design => {
+                "version name mechanism vary positions motion at_least at_most minimise maximise outputs order"
+            }
             Self::Chain => "on convention base rows tip",
             Self::Row => "alpha a d theta link",
             Self::Platform => "home frames",

@@ -27,6 +27,17 @@ impl DesignReport {
         }
     }
 
+    /// The value of the goal of a design, in words.
+    fn goal_of(&self, design: &Design) -> String {
+        match (&self.goal, design.goal) {
+            (Some(goal), Some(value)) => {
+                format!(", with {} = {}", goal.figure, quantity(value, goal.unit))
+            }
+            (Some(goal), None) => format!("; {} is not determined everywhere", goal.figure),
+            (None, _) => String::new(),
+        }
+    }
+
     fn answer(&self) -> String {
         let good = self
             .designs
@@ -87,8 +98,9 @@ impl DesignReport {
                 defects(&first.defects)
             ),
             _ => format!(
-                "{} without defects for {asked}; the best {met}.",
-                count(good, "design")
+                "{} without defects for {asked}; the best {met}{}.",
+                count(good, "design"),
+                self.goal_of(first)
             ),
         }
     }
@@ -113,7 +125,7 @@ fn all_of(exact: &Exact) -> Vec<String> {
     let linkages = match exact.classes == exact.generic {
         true => String::new(),
         false => format!(
-            " ({} with those that differ by signs of lengths, half turns of angles or an exchange of links only)",
+            " ({} with those that differ by signs of lengths, senses of axes or an exchange of links only)",
             count(exact.generic, "complex solution"),
         ),
     };
@@ -209,6 +221,10 @@ fn defect(defect: &Defect) -> String {
             are(of),
             listed(joints.iter().map(|name| format!("`{name}`")))
         ),
+        Defect::Assembly { positions: of } => format!(
+            "{} in another assembly than the one before: driven joints that move straight there end in a different one",
+            are(of)
+        ),
         Defect::Crossing => {
             "branches cross on the way: it can change into another motion there".into()
         }
@@ -224,13 +240,10 @@ fn defect(defect: &Defect) -> String {
             at_least,
         } => {
             let bound = quantity(*bound, *unit);
-            let (sign, end) = match at_least {
-                true => ("at least", "least"),
-                false => ("at most", "greatest"),
-            };
+            let sign = if *at_least { "at least" } else { "at most" };
             match worst {
                 Some(worst) => format!(
-                    "`{name}` shall be {sign} {bound}, and its {end} value is {}",
+                    "`{name}` shall be {sign} {bound}, and is {} at worst",
                     quantity(*worst, *unit)
                 ),
                 None => format!("`{name}` shall be {sign} {bound}, and is not bounded everywhere"),
@@ -260,6 +273,8 @@ impl Report for DesignReport {
         let mut columns = vec![column("design", SiUnit::ONE)];
         columns.extend(self.varied.iter().map(|of| column(&of.name, SiUnit::ONE)));
         columns.push(column("sum of squares", SiUnit::ONE));
+        let goal = self.goal.as_ref();
+        columns.extend(goal.map(|goal| column(&goal.figure, SiUnit::ONE)));
         columns.push(Column {
             title: "verdict".into(),
             unit: SiUnit::ONE,
@@ -276,6 +291,10 @@ impl Report for DesignReport {
                 Moves::Unknown => "good".to_owned(),
             };
             row.push(squares(design.sum_of_squares).into());
+            row.extend(goal.map(|goal| match design.goal {
+                Some(value) => Cell::quantity(value, goal.unit),
+                None => "unknown".into(),
+            }));
             row.push(match design.defects.is_empty() {
                 true => moves.into(),
                 false => defects(&design.defects).into(),
@@ -292,7 +311,11 @@ impl Report for DesignReport {
                 })],
             });
         }
-        if let Some(first) = self.designs.first() {
+        if let Some(first) = self
+            .designs
+            .first()
+            .filter(|first| !first.deviations.is_empty())
+        {
             let titles = ["position", "quantity", "deviation"];
             let columns = titles.map(|title| column(title, SiUnit::ONE));
             let rows = first.deviations.iter().map(|of| {
@@ -336,10 +359,24 @@ impl Report for DesignReport {
                 count(self.not_assembled, "further start"),
             )),
         }
-        document.method.push(
-            "Circuits, order and dead positions from the whole curve of each mechanism, followed in steps that cannot change branch."
+        let improved = self.goal.as_ref().filter(|goal| goal.improved > 0);
+        document.method.extend(improved.map(|goal| {
+            format!(
+                "{} made as {} as it gets from {} that meet the targets, by the simplex method of Nelder and Mead in what the \
+                 targets leave open, begun anew ever smaller; what it does not reach is not found.",
+                goal.figure,
+                if goal.greatest { "great" } else { "small" },
+                count(goal.improved, "design"),
+            )
+        }));
+        document.method.push(match self.straight_moves {
+            false => "Circuits, order and dead positions from the whole curve of each mechanism, followed in steps that cannot change \
+                      branch."
                 .into(),
-        );
+            true => "With several freedoms limits are those of the positions, and assemblies and bounds those of straight moves of the \
+                     driven joints from each position to the next; between these moves nothing was looked at."
+                .into(),
+        });
         document
     }
 
@@ -347,11 +384,15 @@ impl Report for DesignReport {
         let names = self.varied.iter().map(|of| of.name.clone());
         let columns = ["design".to_owned()].into_iter().chain(names);
         let columns = columns.chain(["sum_of_squares".into(), "defects".into()]);
+        let columns = columns.chain(self.goal.as_ref().map(|goal| goal.figure.clone()));
         let rows = self.designs.iter().enumerate().map(|(i, design)| {
             let mut row = cells![i + 1];
             row.extend(design.values.iter().map(|value| (*value).into()));
             row.push(design.sum_of_squares.into());
             row.push(design.defects.len().into());
+            if self.goal.is_some() {
+                row.push(design.goal.into());
+            }
             row
         });
         Some(Rows::new(columns, rows))

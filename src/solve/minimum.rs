@@ -2,7 +2,11 @@ use std::cell::{Cell, RefCell};
 
 use argmin::core::{CostFunction, Error, Executor, Gradient};
 use argmin::solver::linesearch::MoreThuenteLineSearch;
+use argmin::solver::neldermead::NelderMead;
 use argmin::solver::quasinewton::LBFGS;
+
+use super::Watch;
+use crate::number::tolerance::SOLVED;
 
 /// A smooth function of several variables with its gradient, and the lowest point seen.
 struct Smooth<'a, C, G> {
@@ -72,4 +76,57 @@ pub fn walk_down(
     // a line search that cannot gain any more ends with an error: then it has arrived
     drop(run);
     lowest.into_inner().1
+}
+
+/// A function of several variables, which has no value in some places.
+struct Rough<'a, C> {
+    cost: RefCell<C>,
+    watch: &'a Watch<'a>,
+}
+
+impl<C: FnMut(&[f64]) -> Option<f64>> CostFunction for Rough<'_, C> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
+        /// The square of this is a number, so that spreads of costs are.
+        const NOTHING: f64 = 1e100;
+        if self.watch.is_stopped() {
+            return Err(Error::msg("stopped"));
+        }
+        let cost = (self.cost.borrow_mut())(x);
+        Ok(cost.filter(|cost| cost.is_finite()).unwrap_or(NOTHING))
+    }
+}
+
+/// Walks down from zero by the simplex method of Nelder and Mead (1965; argmin), which needs no derivatives, with a first simplex
+/// of this size. What is evaluated is seen by `cost`.
+pub fn simplex(
+    variables: usize,
+    size: f64,
+    watch: &Watch,
+    cost: impl FnMut(&[f64]) -> Option<f64>,
+) {
+    const STEPS: u64 = 60;
+    let corner = |i: usize| {
+        let mut corner = vec![0.0; variables];
+        if let Some(x) = i.checked_sub(1).map(|i| &mut corner[i]) {
+            *x = size;
+        }
+        corner
+    };
+    let solver = NelderMead::new((0..=variables).map(corner).collect());
+    let Ok(solver) = solver.with_sd_tolerance(SOLVED) else {
+        return;
+    };
+    let problem = Rough {
+        cost: RefCell::new(cost),
+        watch,
+    };
+    // an error is a search that was stopped
+    drop(
+        Executor::new(problem, solver)
+            .configure(|state| state.max_iters(STEPS * variables as u64))
+            .timer(false)
+            .run(),
+    );
 }

@@ -300,11 +300,7 @@ impl LeastSquares for Bundle<'_> {
                 size *= factor;
             }
         }
-        let moved = at.numbers.iter().zip(&self.sizes).zip(&step);
-        let mut numbers: Vec<f64> = moved.map(|((x, size), step)| x + size * step).collect();
-        for (x, (low, high)) in numbers.iter_mut().zip(self.ranges.iter().flatten()) {
-            *x = x.clamp(*low, *high);
-        }
+        let numbers = self.stepped_numbers(&at.numbers, &step);
         let configurations = at.configurations.iter().zip(&moves);
         let configurations = configurations.map(|(at, step)| system.displaced(at, step));
         let moved = Bundled {
@@ -352,6 +348,16 @@ impl Bundle<'_> {
         near.map_or_else(Vec::new, |near| self.departures(numbers, near))
     }
 
+    /// Shared numbers after a step in their units, kept within their ranges.
+    pub fn stepped_numbers(&self, numbers: &[f64], step: &[f64]) -> Vec<f64> {
+        let moved = numbers.iter().zip(&self.sizes).zip(step);
+        let mut numbers: Vec<f64> = moved.map(|((x, size), step)| x + size * step).collect();
+        for (x, (low, high)) in numbers.iter_mut().zip(self.ranges.iter().flatten()) {
+            *x = x.clamp(*low, *high);
+        }
+        numbers
+    }
+
     /// The differences of shared numbers from others, in their units.
     pub fn departures(&self, numbers: &[f64], from: &[f64]) -> Vec<f64> {
         let pairs = numbers.iter().zip(from).zip(&self.sizes);
@@ -365,9 +371,9 @@ impl Arrow {
         self.reduced.conditions()
     }
 
-    /// Number of directions of the shared numbers that neither closures nor targets determine.
-    pub fn undetermined(&self) -> usize {
-        self.reduced.undetermined()
+    /// Directions of the shared numbers, in their units, that neither closures nor targets determine.
+    pub fn open(&self) -> Vec<Vec<f64>> {
+        self.reduced.open()
     }
 
     /// For each shared number the root of the sum of squares of the changes of all weighted targets, for a change of it by its

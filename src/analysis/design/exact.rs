@@ -5,10 +5,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::search::{FoundEnd, SearchedEnds, Task};
+use super::symmetry::Flip;
 use crate::mechanism::turn_near;
 use crate::number::{C, Number};
 use crate::solve::monodromy::{Family, Monodromy, Spread, followed, place, random};
-use crate::solve::{Homotopy, LevenbergMarquardt, Stage, Tracker, Watch, each};
+use crate::solve::{LevenbergMarquardt, Stage, Tracker, Watch, each};
 use crate::system::{Bundled, Copies, PathForm};
 
 /// All solutions of an exact synthesis, counted.
@@ -60,42 +61,13 @@ pub enum NotAll {
 }
 
 /// The targets as parameters of a family.
-struct Synthesis<'t, 'b, 'm> {
-    task: &'t Task<'m>,
+pub(super) struct Synthesis<'t, 'b, 'm> {
+    pub task: &'t Task<'m>,
     copies: Copies<'b, 'm>,
     /// Changes under which a linkage stays the same: all of a group, the first of which changes nothing.
-    group: Vec<Flip>,
+    pub group: Vec<Flip>,
     /// Exchanges of numbers that carry each solution to another one, as of two links alike; the first exchanges nothing.
-    exchanges: Vec<Vec<usize>>,
-}
-
-/// A change of the signs of lengths, and half turns of angles and joints.
-#[derive(Clone, Debug, PartialEq)]
-struct Flip {
-    numbers: Vec<bool>,
-    joints: Vec<bool>,
-}
-
-impl Flip {
-    fn after(&self, other: &Flip) -> Flip {
-        let both = |a: &[bool], b: &[bool]| a.iter().zip(b).map(|(a, b)| a ^ b).collect();
-        Flip {
-            numbers: both(&self.numbers, &other.numbers),
-            joints: both(&self.joints, &other.joints),
-        }
-    }
-
-    /// The numbers of a key after the change.
-    fn of(&self, key: &[C]) -> Vec<C> {
-        let pairs = key.iter().zip(&self.numbers);
-        pairs
-            .map(|(x, flip)| if *flip { -*x } else { *x })
-            .collect()
-    }
-}
-
-fn exchanged(key: &[C], by: &[usize]) -> Vec<C> {
-    by.iter().map(|of| key[*of]).collect()
+    pub exchanges: Vec<Vec<usize>>,
 }
 
 impl Synthesis<'_, '_, '_> {
@@ -175,7 +147,7 @@ impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     /// The numbers, angles as points of the unit circle; of all linkages that are the same the one furthest in a direction without
     /// meaning.
     fn key(&self, x: &[C]) -> Vec<C> {
-        self.furthest(&self.plain(x))
+        self.key_of(x)
     }
 
     fn size(&self, x: &[C]) -> f64 {
@@ -194,69 +166,6 @@ impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     }
 }
 
-impl Synthesis<'_, '_, '_> {
-    /// The numbers, angles as points of the unit circle.
-    fn plain(&self, x: &[C]) -> Vec<C> {
-        let numbers = x.iter().zip(&self.task.angles);
-        let key = numbers.map(|(x, angle)| match angle {
-            true => Number::exp(*x * C::new(0.0, 1.0)),
-            false => *x,
-        });
-        key.collect()
-    }
-
-    /// Of all images of a key under exchanges and changes the furthest.
-    fn furthest(&self, key: &[C]) -> Vec<C> {
-        let exchanges = self.exchanges.iter().map(|by| exchanged(key, by));
-        let images = exchanges.flat_map(|key| {
-            let images = self.group.iter().map(|flip| flip.of(&key));
-            images.collect::<Vec<_>>()
-        });
-        let images = images.map(|image| {
-            let along = image.iter().enumerate().map(|(i, x)| {
-                let weight = 1.0 + (0.618_034 * (i + 1) as f64).fract();
-                (x.re + 0.37 * x.im) * weight
-            });
-            (along.sum::<f64>(), image)
-        });
-        let furthest = images.max_by(|a, b| a.0.total_cmp(&b.0));
-        furthest.map_or_else(|| key.to_vec(), |(_, image)| image)
-    }
-
-    /// The exchanges of numbers that carry every solution of a generic member to another one.
-    fn exchanges(&self, solutions: &[Vec<C>]) -> Vec<Vec<usize>> {
-        let keys: Vec<Vec<C>> = solutions.iter().map(|x| self.key(x)).collect();
-        let count = self.task.angles.len();
-        let mut all = self.exchanges.clone();
-        let Some(first) = keys.first() else {
-            return all;
-        };
-        for other in &keys[1..] {
-            for flip in &self.group {
-                let image = flip.of(other);
-                // generic numbers differ, so that each is found once
-                let near = |a: C, b: C| (a - b).norm_sqr() < 1e-12 * (1.0 + a.norm_sqr());
-                let angles = &self.task.angles;
-                let of = |i: usize| {
-                    let mut places = (0..count).filter(|j| angles[*j] == angles[i]);
-                    places.find(|j| near(first[*j], image[i]))
-                };
-                let Some(by) = (0..count).map(of).collect::<Option<Vec<usize>>>() else {
-                    continue;
-                };
-                let distinct = (0..count).all(|i| by.contains(&i));
-                let carries =
-                    |key: &Vec<C>| place(&keys, &self.furthest(&exchanged(key, &by))).is_some();
-                if distinct && !all.contains(&by) && keys.iter().all(carries) {
-                    all.push(by);
-                    break;
-                }
-            }
-        }
-        all
-    }
-}
-
 impl Task<'_> {
     /// All exact solutions, as far as the search came before it was stopped; `None` if there are not as many targets as unknowns.
     ///
@@ -267,10 +176,8 @@ impl Task<'_> {
         most: usize,
         watch: &Watch,
     ) -> Result<Option<(Exact, SearchedEnds)>, NotAll> {
-        let nothing = Flip {
-            numbers: vec![false; self.angles.len()],
-            joints: vec![false; self.mechanism.joints().len()],
-        };
+        let joints = self.mechanism.joints().len();
+        let nothing = Flip::nothing(self.angles.len(), joints);
         let Some(copies) = Copies::new(&self.bundle, self.positions) else {
             return Ok(None);
         };
@@ -441,67 +348,5 @@ impl Synthesis<'_, '_, '_> {
         if searched.found.len() == first {
             exact.outside += 1;
         }
-    }
-
-    /// A flat point with other signs of lengths and half turns.
-    fn flipped(&self, x: &[C], flip: &Flip) -> Vec<C> {
-        let half = C::from_f64(std::f64::consts::PI);
-        let count = flip.numbers.len();
-        let mut x = x.to_vec();
-        let (numbers, rest) = x.split_at_mut(count);
-        let parts = numbers.iter_mut().zip(&flip.numbers).zip(&self.task.angles);
-        for ((x, _), angle) in parts.filter(|((_, flip), _)| **flip) {
-            *x = if *angle { *x + half } else { -*x };
-        }
-        let width = (rest.len() / self.task.positions).max(1);
-        for x in rest.chunks_exact_mut(width) {
-            for (x, _) in x.iter_mut().zip(&flip.joints).filter(|(_, flip)| **flip) {
-                *x += half;
-            }
-        }
-        x
-    }
-
-    /// The changes that carry a generic solution to another one of the same member. They are the same for all its solutions: each
-    /// is a map of the equations to themselves.
-    fn symmetries(&self, member: &[C], x: &[C]) -> Vec<Flip> {
-        /// Numbers changed together at most, and changes tried at most: each is tried at one point.
-        const WEIGHT: u32 = 4;
-        const MOST: usize = 40_000;
-        const CLOSED: f64 = 1e-9;
-        let joints = self.task.mechanism.joints().iter();
-        let turns: Vec<bool> = joints.map(|joint| joint.kind.is_angle()).collect();
-        let places: Vec<usize> = (0..turns.len()).filter(|i| turns[*i]).collect();
-        let numbers = self.task.angles.len();
-        let mut group = self.group.clone();
-        if numbers + places.len() > 20 || !self.task.mechanism.platforms().is_empty() {
-            return group;
-        }
-        let masks = (1..1usize << numbers).filter(|mask| mask.count_ones() <= WEIGHT);
-        let mut masks: Vec<usize> = masks.collect();
-        masks.sort_by_key(|mask| mask.count_ones());
-        masks.truncate(MOST >> places.len());
-        let mut way = self.way(member, member);
-        for mask in masks {
-            let changed: Vec<bool> = (0..numbers).map(|i| mask >> i & 1 == 1).collect();
-            if group.iter().any(|of| of.numbers == changed) {
-                continue;
-            }
-            for turned in 0..1usize << places.len() {
-                let mut flip = Flip {
-                    numbers: changed.clone(),
-                    joints: vec![false; turns.len()],
-                };
-                for (bit, joint) in places.iter().enumerate() {
-                    flip.joints[*joint] = turned >> bit & 1 == 1;
-                }
-                if way.residual(C::from_f64(0.0), &self.flipped(x, &flip)) < CLOSED {
-                    let more: Vec<Flip> = group.iter().map(|of| of.after(&flip)).collect();
-                    group.extend(more);
-                    break;
-                }
-            }
-        }
-        group
     }
 }

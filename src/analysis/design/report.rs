@@ -62,6 +62,12 @@ pub enum Defect {
         /// The positions, from 1.
         positions: Vec<usize>,
     },
+    /// Positions of a mechanism with several freedoms at which the driven joints, moved straight from the position before, arrive
+    /// in another assembly.
+    Assembly {
+        /// The positions, from 1.
+        positions: Vec<usize>,
+    },
     /// Branches cross on the way.
     Crossing,
     /// It does not move as far as it shall.
@@ -91,7 +97,7 @@ pub enum Defect {
 }
 
 /// The driving joint of a design along the whole curve of its mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Moves {
@@ -100,7 +106,22 @@ pub enum Moves {
     /// It goes to and fro between dead positions or limits.
     Rocks,
     /// Not known, or there is none.
+    #[default]
     Unknown,
+}
+
+/// A figure that is made as small or as great as possible.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Goal {
+    /// The figure, as it was asked for.
+    pub figure: String,
+    /// Its unit.
+    pub unit: SiUnit,
+    /// True if it is made great.
+    pub greatest: bool,
+    /// Designs that meet the targets and were improved.
+    pub improved: usize,
 }
 
 /// A design.
@@ -111,6 +132,9 @@ pub struct Design {
     pub values: Vec<f64>,
     /// Σ (w·deviation)² over all targets.
     pub sum_of_squares: f64,
+    /// The value of the figure that is improved; `None` without one, or if it is not determined everywhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goal: Option<f64>,
     /// All targets.
     pub deviations: Vec<Deviation>,
     /// For each number the root of the sum of squares of the weighted changes of all targets, for a change of it by one unit.
@@ -143,6 +167,12 @@ pub struct DesignReport {
     pub driver: Option<String>,
     /// Different designs: first those without defects, each group by its sum of squares.
     pub designs: Vec<Design>,
+    /// What is improved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goal: Option<Goal>,
+    /// True for a mechanism with several freedoms: designs are judged on straight moves of the driven joints from each position to
+    /// the next.
+    pub straight_moves: bool,
     /// Number of different designs found beyond those listed.
     pub more: usize,
     /// Counts of an exact synthesis, where there are as many targets as unknowns.

@@ -34,6 +34,8 @@ pub struct Task<'m> {
     pub seed: u64,
     /// Random starts at most.
     pub starts: usize,
+    /// Starts that lead to the least sum of squares after which the search ends.
+    pub again: usize,
 }
 
 /// An end of the search.
@@ -63,13 +65,12 @@ pub struct SearchedEnds {
 }
 
 /// A sum of squares below this part of that of the targets' size is rounding: the targets are met.
-const EXACT: f64 = 1e-20;
+pub(super) const EXACT: f64 = 1e-20;
 
 impl Task<'_> {
     /// Searches until the least sum of squares of an end that `judge` accepts has come again often enough.
     pub fn search(&self, judge: &dyn Fn(&FoundEnd) -> bool, watch: &Watch) -> SearchedEnds {
         const BATCH: usize = 8;
-        const AGAIN: usize = 3;
         /// Ends that are judged at most.
         const JUDGED: usize = 60;
         let mut all = SearchedEnds::default();
@@ -121,7 +122,7 @@ impl Task<'_> {
                     .filter(|found| (found.squares - best).abs() <= 1e-6 * best + zero);
                 like.map(|found| found.reached).sum::<usize>()
             });
-            if again.is_some_and(|again| again >= AGAIN) {
+            if again.is_some_and(|again| again >= self.again) {
                 break;
             }
         }
@@ -130,6 +131,11 @@ impl Task<'_> {
 
     pub(super) fn same(&self, a: &Bundled, b: &Bundled) -> bool {
         self.within(SAME, a, b)
+    }
+
+    /// True for ends of searches for a minimum that are one: it is located to half the digits of its value.
+    pub(super) fn near(&self, a: &Bundled, b: &Bundled) -> bool {
+        self.within(SAME.sqrt(), a, b)
     }
 
     fn within(&self, tolerance: f64, a: &Bundled, b: &Bundled) -> bool {
@@ -145,11 +151,10 @@ impl Task<'_> {
     }
 
     fn add(&self, known: &mut Vec<FoundEnd>, end: FoundEnd) {
-        // a minimum is located to half the digits of its value
         let least = |a: f64, b: f64| (a - b).abs() <= SAME * a.min(b);
         let one = |of: &FoundEnd| {
             self.same(&of.at, &end.at)
-                || least(of.squares, end.squares) && self.within(SAME.sqrt(), &of.at, &end.at)
+                || least(of.squares, end.squares) && self.near(&of.at, &end.at)
         };
         match known.iter_mut().find(|of| one(of)) {
             Some(of) => {

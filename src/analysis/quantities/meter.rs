@@ -148,7 +148,10 @@ impl<'q> Meter<'q> {
         });
         let (spins, held, outputs) = match near {
             Some((spins, held, rest)) if wants.jacobian => {
-                let outputs = outputs(mechanism, &coordinates, &held, &rest);
+                let outputs = match &of.outputs[..] {
+                    [] => outputs(mechanism, &coordinates, &held, &rest),
+                    outputs => outputs.to_vec(),
+                };
                 (spins, Some(held), outputs)
             }
             near => (near.map(|near| near.0).unwrap_or_default(), None, vec![]),

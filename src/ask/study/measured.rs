@@ -49,7 +49,7 @@ impl Question {
 
     /// The row of results: 1 if the mechanism assembles, else 0, the number of assemblies if it is asked for, and the
     /// quantities.
-    pub(super) fn measured_here(
+    pub(in crate::ask) fn measured_here(
         &self,
         counted: bool,
         spins: bool,

@@ -36,6 +36,10 @@ pub enum DesignProblem {
     NotAPoint { name: String, count: usize },
     #[error("`{name}` is a rate, a force or a figure, which a position alone does not have")]
     NotOfPosition { name: String },
+    #[error("`{text}` is no figure of a quantity over the motion")]
+    NoFigure { text: String },
+    #[error("a design has one goal, `minimise` or `maximise`")]
+    TwoGoals,
     #[error("no mechanism in these ranges can be assembled in all positions ({tried} were tried)")]
     NothingAssembles { tried: usize },
     #[error("{why}")]
@@ -74,6 +78,11 @@ impl DesignProblem {
             Self::NotOfPosition { .. } => {
                 "bound it over the motion instead, by `at_least` or `at_most`".into()
             }
+            Self::NoFigure { .. } => {
+                "write `max`, `min`, `range`, `mean` or `rms` of a quantity, as `max(force:theta1)`"
+                    .into()
+            }
+            Self::TwoGoals => "leave one out, or bound it by `at_least` or `at_most`".into(),
             Self::NothingAssembles { .. } => {
                 "widen the ranges, or give inputs that the mechanism can reach".into()
             }

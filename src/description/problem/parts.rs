@@ -120,6 +120,7 @@ impl Display for Expected {
             Self::Bodies => "two bodies `(\"ground\", \"crank\")`",
             Self::Cuts => "a list of joints",
             Self::Range => "a range `(least, greatest)`",
+            Self::Outputs => "a list of outputs, such as `[\"arm.x\", \"arm.y\"]`",
             Self::Positions => "a list of positions `{…}`",
             Self::Coordinates => "coordinates `(x, y)` or `(x, y, z)`",
             Self::Order => "`Kept` or `Any`",

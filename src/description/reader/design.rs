@@ -1,7 +1,7 @@
 //! Design files.
 
 use super::*;
-use crate::description::DesignDescription;
+use crate::description::{DesignDescription, DesignGoal, DesignProblem};
 
 impl DesignDescription {
     /// Reads the text of a design file, or returns all its problems of form, in the order of the text.
@@ -44,6 +44,12 @@ impl FileReader {
             motion: self.named(f, "motion", Noun::Varied, range),
             at_least: self.named(f, "at_least", Noun::Output, Self::entry),
             at_most: self.named(f, "at_most", Noun::Output, Self::entry),
+            outputs: f.take("outputs").map_or_else(Vec::new, |piece| {
+                self.list(piece, Expected::Outputs, |reader, piece| {
+                    reader.text(piece, Expected::Text)
+                })
+            }),
+            goal: self.design_goal(f),
             any_order: f.take("order").is_some_and(|piece| {
                 let known = [ReadOrder::Kept, ReadOrder::Any];
                 let word = |order| match order {
@@ -54,6 +60,19 @@ impl FileReader {
                 matches!(found, Some(ReadOrder::Any))
             }),
         })
+    }
+
+    fn design_goal(&mut self, fields: &mut Fields) -> Option<DesignGoal> {
+        let small = self.optional_text(fields, "minimise", Expected::Text);
+        let great = self.optional_text(fields, "maximise", Expected::Text);
+        if let (Some(_), Some(second)) = (&small, &great) {
+            let problem = ProblemKind::Design(Box::new(DesignProblem::TwoGoals));
+            self.problems.push(problem.at(second.span.clone()));
+        }
+        let greatest = small.is_none();
+        small
+            .or(great)
+            .map(|figure| DesignGoal { figure, greatest })
     }
 
     fn position(&mut self, piece: Piece) -> Option<Vec<Named<Vec<Entry>>>> {

@@ -130,11 +130,22 @@ impl Reduced {
         (count, along, left)
     }
 
-    pub(super) fn undetermined(&self) -> usize {
+    /// Steps of the numbers, orthonormal, that change neither conditions nor squares.
+    pub(super) fn open(&self) -> Vec<Vec<f64>> {
         let (svd, conditions, _) = self.decomposed();
         let free = &svd.right[conditions..];
         let (count, along, _) = self.within(free, &vec![0.0; self.numbers]);
-        free.len() - crate::linear::rank_of(count, free.len(), &along)
+        let mut svd = Svd::of(count, free.len(), &along);
+        svd.values.truncate(count.min(free.len()));
+        let open = svd.right.iter().skip(rank(&svd.values));
+        let step = |parts: &Vec<f64>| {
+            let mut step = vec![0.0; self.numbers];
+            for (part, v) in parts.iter().zip(free) {
+                add(&mut step, *part, v);
+            }
+            step
+        };
+        open.map(step).collect()
     }
 
     /// The step of the shared numbers: it meets the conditions, and of those that do is the one of least squares, damped by λ.
