@@ -4,6 +4,7 @@
 //! documentation.
 
 mod asked;
+mod designed;
 mod report;
 mod watched;
 mod words;
@@ -183,12 +184,7 @@ impl Mechanism {
     /// The mechanism as a file of tables, or of joint coordinates.
     fn ron(&self, axes: bool) -> PyResult<String> {
         let refused = |error: &dyn std::fmt::Display| Error::new_err(error.to_string());
-        let mut description = Description::clone(&self.description);
-        for (name, value) in &self.set {
-            let given = Given::new("with_parameters", name, None);
-            description = (description.with_parameter(name, &format!("{value:?}")))
-                .map_err(|e| Error::new_err(diagnostics::replacement(&e, &given, Style::Plain)))?;
-        }
+        let description = self.described()?;
         match axes {
             false => description.to_ron().map_err(|e| refused(&e)),
             true => {
@@ -355,6 +351,19 @@ impl Mechanism {
     }
 }
 
+impl Mechanism {
+    /// The description with the parameters that were given.
+    fn described(&self) -> PyResult<Description> {
+        let mut description = Description::clone(&self.description);
+        for (name, value) in &self.set {
+            let given = Given::new("with_parameters", name, None);
+            description = (description.with_parameter(name, &format!("{value:?}")))
+                .map_err(|e| Error::new_err(diagnostics::replacement(&e, &given, Style::Plain)))?;
+        }
+        Ok(description)
+    }
+}
+
 /// Columns as comma-separated values, as the command line writes them.
 #[pyfunction]
 fn csv(titles: Vec<String>, columns: Vec<PyReadonlyArray1<'_, f64>>) -> String {
@@ -399,5 +408,6 @@ fn _linkwork(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Report>()?;
     module.add_function(wrap_pyfunction!(self::csv, module)?)?;
     module.add_function(wrap_pyfunction!(regions, module)?)?;
+    module.add_function(wrap_pyfunction!(designed::design, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)
 }

@@ -95,11 +95,21 @@ impl Design {
     /// # Errors
     /// If the question is wrong, or no mechanism in the ranges can be assembled.
     pub fn report(&self, watch: &Watch) -> Result<DesignReport, DesignError> {
+        let (asked, boxed) = (self.asked.clone().with_box(), self.asked.positions.len());
+        let with_box = Design {
+            asked,
+            ..self.clone()
+        };
+        with_box.answer(boxed, watch)
+    }
+
+    /// The answer where the positions from one on, those of a box, are equations.
+    fn answer(&self, boxed: usize, watch: &Watch) -> Result<DesignReport, DesignError> {
         let made = |known: Option<&Mechanism>| {
             let description = self.extended(known);
             let mechanism = Mechanism::new(&description).map_err(DesignError::Mechanism)?;
             let mechanism = Arc::new(mechanism);
-            let read = Read::new(&self.asked, &mechanism)?;
+            let read = Read::new(&self.asked, boxed, &mechanism)?;
             Ok((description, mechanism, read))
         };
         // units that do not fit are left out

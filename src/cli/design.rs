@@ -46,6 +46,10 @@ pub struct Design {
     /// and rad
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
+    /// Require a box of quantities to be reached: its corners, the middles of its sides and its middle, e.g. --contains
+    /// pen.x=-0.1..0.1
+    #[arg(long, value_name = "QUANTITY=FROM..TO")]
+    contains: Vec<Assignment>,
     /// Require an input to go through a range, e.g. --motion theta1=0deg..360deg
     #[arg(long, value_name = "NAME=FROM..TO")]
     motion: Vec<Assignment>,
@@ -127,7 +131,9 @@ impl Design {
                     DesignPart::Output(i) => i < of_file.outputs.len(),
                     DesignPart::Goal => of_file.goal.is_some(),
                     DesignPart::Vary(i) => i < of_file.vary.len(),
-                    DesignPart::Position(k, _) => k < of_file.positions.len(),
+                    DesignPart::Position(k, _) => {
+                        k < of_file.positions.len() || !of_file.contains.is_empty()
+                    }
                     DesignPart::Motion(i) => i < of_file.motion.len(),
                     DesignPart::AtLeast(i) => i < of_file.at_least.len(),
                     DesignPart::AtMost(i) => i < of_file.at_most.len(),
@@ -159,6 +165,10 @@ impl Design {
                 None => (given.trim(), about(mechanism, given.trim())?),
             };
             asked.vary.push(Named::new(name, range));
+        }
+        for Assignment { name, value } in &self.contains {
+            let range = range("--contains", name, value)?;
+            asked.contains.push(Named::new(name.as_str(), range));
         }
         for Assignment { name, value } in &self.motion {
             let range = range("--motion", name, value)?;

@@ -17,6 +17,8 @@ pub struct DesignDescription {
     pub vary: Vec<Named<[Entry; 2]>>,
     /// The positions: values of quantities, or two or three coordinates of a point in ground.
     pub positions: Vec<Vec<Named<Vec<Entry>>>>,
+    /// Quantities with ranges that span a box: its corners, the middles of its sides and its middle are positions after the others.
+    pub contains: Vec<Named<[Entry; 2]>>,
     /// Inputs with the ranges through which they shall move.
     pub motion: Vec<Named<[Entry; 2]>>,
     /// Quantities with the least values that they may have during the motion.
@@ -74,10 +76,11 @@ impl DesignDescription {
             DesignPart::Output(i) => self.outputs[i].span.clone(),
             DesignPart::Goal => self.goal.as_ref().map_or(0..1, |of| of.figure.span.clone()),
             DesignPart::Vary(i) => of(&self.vary[i].name, &self.vary[i].value),
-            DesignPart::Position(k, i) => {
-                let named = &self.positions[k][i];
-                of(&named.name, &named.value)
-            }
+            DesignPart::Position(k, i) => match self.positions.get(k) {
+                Some(position) => of(&position[i].name, &position[i].value),
+                // of the box
+                None => of(&self.contains[i].name, &self.contains[i].value),
+            },
             DesignPart::Motion(i) => of(&self.motion[i].name, &self.motion[i].value),
             DesignPart::AtLeast(i) => of(
                 &self.at_least[i].name,
@@ -88,6 +91,47 @@ impl DesignDescription {
                 std::slice::from_ref(&self.at_most[i].value),
             ),
         }
+    }
+}
+
+impl DesignDescription {
+    /// With the positions of the box among the positions: line by line, each line in the sense against that of the last.
+    #[must_use]
+    pub fn with_box(mut self) -> Self {
+        const PER_SIDE: usize = 3;
+        let sides = std::mem::take(&mut self.contains);
+        if sides.is_empty() {
+            return self;
+        }
+        for node in 0..PER_SIDE.pow(sides.len() as u32) {
+            let (mut rest, mut back) = (node, false);
+            let mut position = Vec::new();
+            // the last side is the slowest
+            let mut places: Vec<usize> = Vec::new();
+            for _ in &sides {
+                places.push(rest % PER_SIDE);
+                rest /= PER_SIDE;
+            }
+            for (side, place) in sides.iter().zip(&places).rev() {
+                let place = if back { PER_SIDE - 1 - place } else { *place };
+                back ^= place % 2 == 1;
+                let part = place as f64 / (PER_SIDE - 1) as f64;
+                let [from, to] = &side.value;
+                let text = format!(
+                    "({})*{} + ({})*{part}",
+                    from.expression,
+                    1.0 - part,
+                    to.expression
+                );
+                let value = Entry::read(&text).unwrap_or_else(|_| from.clone());
+                position.push(Named {
+                    name: side.name.clone(),
+                    value: vec![value],
+                });
+            }
+            self.positions.push(position);
+        }
+        self
     }
 }
 

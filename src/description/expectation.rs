@@ -175,7 +175,7 @@ impl FieldGroup {
             Self::Mass => "mass centre inertia shape density turned",
             Self::Load(kind) => kind.fields(),
             Self::Design => {
-                "version name mechanism vary positions motion at_least at_most minimise maximise outputs order"
+                "version name mechanism vary positions contains motion at_least at_most minimise maximise outputs order"
             }
             Self::Chain => "on convention base rows tip",
             Self::Row => "alpha a d theta link",

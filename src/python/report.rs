@@ -131,7 +131,7 @@ impl Column {
     }
 }
 
-fn prefaced<R: JsonReport + Send + Sync + 'static>(
+pub fn prefaced<R: JsonReport + Send + Sync + 'static>(
     mechanism: &Mechanism,
     report: R,
 ) -> (Report, Vec<Column>) {

@@ -37,6 +37,7 @@ mod stretched;
 mod studies;
 mod suspension;
 mod sweep;
+mod synthesis;
 mod turns;
 mod velocity;
 mod watched;

@@ -126,6 +126,7 @@ impl Task<'_> {
                 break;
             }
         }
+        all.interrupted |= watch.is_stopped();
         all
     }
 
@@ -250,18 +251,22 @@ impl Task<'_> {
     }
 
     fn start(&self, rng: &mut Pcg64) -> Option<Bundled> {
+        /// Random configurations from which the first position is closed at most.
+        const FIRST: usize = 5;
         let numbers = self.numbers(rng);
         let configurations = match (self.ranges.is_empty(), self.free_driver) {
             (true, _) => self.each_alone(&numbers, rng),
             (false, Some(driver)) => self.along(driver, &numbers, rng),
             (false, None) => {
-                let mut at = self.random(rng);
                 let mut closer = self.bundle.closer(&numbers)?;
-                let all = (0..self.positions).map(|position| {
+                let first = (0..FIRST).find_map(|_| closer.closed(0, self.random(rng)));
+                let first = first?;
+                let mut at = first.clone();
+                let others = (1..self.positions).map(|position| {
                     at = closer.closed(position, at.clone())?;
                     Some(at.clone())
                 });
-                all.collect()
+                [Some(first)].into_iter().chain(others).collect()
             }
         };
         Some(Bundled {

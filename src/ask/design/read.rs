@@ -93,6 +93,7 @@ impl Design {
 impl Read {
     pub(super) fn new(
         asked: &DesignDescription,
+        boxed: usize,
         mechanism: &std::sync::Arc<Mechanism>,
     ) -> Result<Self, DesignError> {
         let varied = varied(asked, mechanism)?;
@@ -107,7 +108,7 @@ impl Read {
             }
             for (i, named) in position.iter().enumerate() {
                 let part = DesignPart::Position(k, i);
-                targets.extend(targets_of(mechanism, k, named, part)?);
+                targets.extend(targets_of(mechanism, (k, k >= boxed), named, part)?);
             }
             let same = |other: &Vec<Named<Vec<Entry>>>| {
                 let pairs = other.iter().zip(position);
@@ -252,7 +253,7 @@ fn coordinate(of: &str, axis: &str) -> String {
 
 fn targets_of(
     mechanism: &Mechanism,
-    configuration: usize,
+    (configuration, boxed): (usize, bool),
     named: &Named<Vec<Entry>>,
     part: DesignPart,
 ) -> Result<Vec<Target>, DesignError> {
@@ -297,8 +298,8 @@ fn targets_of(
         if !quantity.measured().all(of_position) {
             return Err(DesignProblem::NotOfPosition { name: label }.at(part));
         }
-        let exact = (mechanism.joint(name))
-            .is_some_and(|joint| mechanism.joints()[joint].role == Role::Actuated);
+        let given = |joint: usize| mechanism.joints()[joint].role == Role::Actuated;
+        let exact = boxed || mechanism.joint(name).is_some_and(given);
         let length = mechanism.characteristic_length();
         let weight = match exact && quantity.unit == SiUnit::METRE {
             true => 1.0 / length,

@@ -41,6 +41,7 @@ impl FileReader {
             positions: f.take("positions").map_or_else(Vec::new, |piece| {
                 self.list(piece, Expected::Positions, Self::position)
             }),
+            contains: self.named(f, "contains", Noun::Target, range),
             motion: self.named(f, "motion", Noun::Varied, range),
             at_least: self.named(f, "at_least", Noun::Output, Self::entry),
             at_most: self.named(f, "at_most", Noun::Output, Self::entry),

@@ -418,6 +418,65 @@ class Mechanism:
             without=without,
         )
 
+    def design(
+        self,
+        vary: Mapping[str, tuple[Value, Value]],
+        positions: Sequence[Mapping[str, Value | Sequence[Value]]] = (),
+        *,
+        contains: Mapping[str, tuple[Value, Value]] | None = None,
+        motion: Mapping[str, tuple[Value, Value]] | None = None,
+        at_least: Values | None = None,
+        at_most: Values | None = None,
+        minimise: str | None = None,
+        maximise: str | None = None,
+        outputs: Names | None = None,
+        any_order: bool = False,
+        seed: int = 1,
+        starts: int = 400,
+        approximate: bool = False,
+        solutions: int = 100,
+        most: int = 10,
+        progress: Progress | bool | None = None,
+    ) -> Report:
+        """Dimensions with which it does what it shall: ``.designs``, best first, each with the text of its ``file``.
+
+        ``vary`` gives ranges to parameters and to further unknowns, and ``positions`` values of quantities or
+        coordinates of points, ``{"theta1": 0.5, "coupler": (0.3, 0.2)}``; ``contains`` spans a box of positions.
+        ``motion``, ``at_least``, ``at_most`` bound the motion, ``minimise`` and ``maximise`` improve a figure of it such
+        as ``"max(force:theta1)"``. Where there are as many targets as unknowns all designs are sought, otherwise
+        (or if ``approximate``) from random ``starts``.
+        """
+        def named(of: Mapping[str, Any]) -> str:
+            return parts.written({name: tuple(x) if isinstance(x, list) else x for name, x in of.items()})
+
+        fields = {"vary": named(_given.mapping("vary", vary))}
+        fields["positions"] = "[" + ", ".join(named(_given.mapping("positions", of)) for of in positions) + "]"
+        ranges = {"contains": contains, "motion": motion, "at_least": at_least, "at_most": at_most}
+        fields.update({name: named(_given.mapping(name, of)) for name, of in ranges.items() if of is not None})
+        goals = {"minimise": minimise, "maximise": maximise}
+        fields.update({name: parts.written(_given.text(name, of)) for name, of in goals.items() if of is not None})
+        if outputs is not None:
+            fields["outputs"] = parts.written(list(_given.names("outputs", outputs)))
+        if _given.flag("any_order", any_order):
+            fields["order"] = "Any"
+        text = ", ".join(f"{name}: {of}" for name, of in fields.items())
+        shown = bar(progress)
+        try:
+            core, columns = _linkwork.design(
+                self._core,
+                f'Design(version: 1, mechanism: "", {text})',
+                _given.count("seed", seed),
+                _given.count("starts", starts),
+                _given.flag("approximate", approximate),
+                _given.count("solutions", solutions),
+                _given.count("most", most),
+                shown,
+            )
+        finally:
+            if isinstance(shown, Bar):
+                shown.close()
+        return Rows(core, columns) if columns else Report(core)
+
     def singularities(
         self,
         *,

@@ -23,6 +23,17 @@ class Report:
     def markdown(self) -> str: ...
     def html(self) -> str: ...
 
+def design(
+    mechanism: Mechanism,
+    text: str,
+    seed: int,
+    starts: int,
+    approximate: bool,
+    solutions: int,
+    most: int,
+    progress: _Progress,
+) -> tuple[Report, list[tuple[str, npt.NDArray[np.float64] | list[str]]]]: ...
+
 class Mechanism:
     def __init__(self, text: str, name: str, parameters: _Set) -> None: ...
     @property
