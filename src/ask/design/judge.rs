@@ -508,8 +508,9 @@ impl<'a> Judge<'a> {
         if !texts.is_empty() {
             question = question.report(texts);
         }
+        // extremes are those of the curve, whatever the rows
         let settings = SweepSettings {
-            steps: 60,
+            steps: 1,
             ..SweepSettings::default()
         };
         let report = (question.motions(&settings, self.watch))
