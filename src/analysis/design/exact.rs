@@ -5,11 +5,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::search::{FoundEnd, SearchedEnds, Task};
-use super::symmetry::Flip;
+use super::symmetry::{Flip, Symmetries};
 use crate::mechanism::turn_near;
 use crate::number::{C, Number};
 use crate::solve::monodromy::{Family, Monodromy, Spread, followed, place, random};
-use crate::solve::{LevenbergMarquardt, Stage, Tracker, Watch, each};
+use crate::solve::{Homotopy, LevenbergMarquardt, Stage, Tracker, Watch, each};
 use crate::system::{Bundled, Copies, PathForm};
 
 /// All solutions of an exact synthesis, counted.
@@ -61,13 +61,10 @@ pub enum NotAll {
 }
 
 /// The targets as parameters of a family.
-pub(super) struct Synthesis<'t, 'b, 'm> {
-    pub task: &'t Task<'m>,
+struct Synthesis<'t, 'b, 'm> {
+    task: &'t Task<'m>,
     copies: Copies<'b, 'm>,
-    /// Changes under which a linkage stays the same: all of a group, the first of which changes nothing.
-    pub group: Vec<Flip>,
-    /// Exchanges of numbers that carry each solution to another one, as of two links alike; the first exchanges nothing.
-    pub exchanges: Vec<Vec<usize>>,
+    same: Symmetries,
 }
 
 impl Synthesis<'_, '_, '_> {
@@ -147,7 +144,7 @@ impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
     /// The numbers, angles as points of the unit circle; of all linkages that are the same the one furthest in a direction without
     /// meaning.
     fn key(&self, x: &[C]) -> Vec<C> {
-        self.key_of(x)
+        self.same.key_of(x)
     }
 
     fn size(&self, x: &[C]) -> f64 {
@@ -176,16 +173,13 @@ impl Task<'_> {
         most: usize,
         watch: &Watch,
     ) -> Result<Option<(Exact, SearchedEnds)>, NotAll> {
-        let joints = self.mechanism.joints().len();
-        let nothing = Flip::nothing(self.angles.len(), joints);
         let Some(copies) = Copies::new(&self.bundle, self.positions) else {
             return Ok(None);
         };
         let mut synthesis = Synthesis {
             task: self,
             copies,
-            group: vec![nothing],
-            exchanges: vec![(0..self.angles.len()).collect()],
+            same: Symmetries::none(&self.angles, self.mechanism.joints().len(), self.positions),
         };
         let settings = Monodromy {
             seed: self.seed,
@@ -196,7 +190,11 @@ impl Task<'_> {
         let Some((member, x)) = synthesis.generic(&mut rng) else {
             return Ok(None);
         };
-        synthesis.group = synthesis.symmetries(&member, &x);
+        let mut way = synthesis.way(&member, &member);
+        let mut same = synthesis.same.clone();
+        same.find(self.mechanism, &x, |x| way.residual(C::from_f64(0.0), x));
+        drop(way);
+        synthesis.same = same;
         let spread = settings.spread(&synthesis, &member, x, watch);
         let found = spread.solutions.len();
         if watch.is_stopped() {
@@ -216,7 +214,7 @@ impl Task<'_> {
         if spread.quiet == 0 {
             return Err(NotAll::Lost { found });
         }
-        synthesis.exchanges = synthesis.exchanges(&spread.solutions);
+        synthesis.same.exchange(&spread.solutions);
         Ok(Some(synthesis.at_targets(&spread, &mut rng, watch)))
     }
 }
@@ -231,8 +229,8 @@ impl Synthesis<'_, '_, '_> {
             ..Tracker::default()
         };
         let mut exact = Exact {
-            generic: count * self.group.len(),
-            classes: count / self.exchanges.len(),
+            generic: count * self.same.group.len(),
+            classes: count / self.same.exchanges.len(),
             quiet: spread.quiet,
             lost_quietly: spread.lost_quietly,
             ..Exact::default()
@@ -312,7 +310,7 @@ impl Synthesis<'_, '_, '_> {
             pairs.all(|(x, (low, high))| (*low..=*high).contains(x))
         };
         let image = |x: &Vec<C>, flip: &Flip| {
-            let mut at = self.copies.real(&self.flipped(x, flip));
+            let mut at = self.copies.real(&self.same.flipped(x, flip));
             // an angle is in its range after whole turns
             let angles = self.task.angles.iter().zip(&self.task.ranges);
             for (x, (angle, (low, high))) in at.numbers.iter_mut().zip(angles) {
@@ -330,7 +328,7 @@ impl Synthesis<'_, '_, '_> {
         let class = exact.real;
         let first = searched.found.len();
         for x in alike.iter().filter(|x| is_real(x)) {
-            let mut images = self.group.iter().map(|flip| image(x, flip));
+            let mut images = self.same.group.iter().map(|flip| image(x, flip));
             let Some(at) = images.find(within) else {
                 continue;
             };

@@ -1,9 +1,8 @@
 //! Changes under which a linkage stays the same: of the signs of lengths, of the senses of axes, and exchanges of links.
 
-use super::exact::Synthesis;
+use crate::mechanism::Mechanism;
 use crate::number::{C, Number};
-use crate::solve::Homotopy;
-use crate::solve::monodromy::{Family, place};
+use crate::solve::monodromy::place;
 
 /// A change of numbers and joints.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,14 +52,6 @@ impl Sense {
 }
 
 impl Flip {
-    /// The one that changes nothing.
-    pub(super) fn nothing(numbers: usize, joints: usize) -> Self {
-        Flip {
-            numbers: vec![Sense::default(); numbers],
-            joints: vec![Sense::default(); joints],
-        }
-    }
-
     fn after(&self, other: &Flip) -> Flip {
         let both = |a: &[Sense], b: &[Sense]| a.iter().zip(b).map(|(a, b)| a.after(*b)).collect();
         Flip {
@@ -82,11 +73,38 @@ fn exchanged(key: &[C], by: &[usize]) -> Vec<C> {
     by.iter().map(|of| key[*of]).collect()
 }
 
-impl Synthesis<'_, '_, '_> {
+/// All changes of a mechanism's numbers under which a linkage stays the same.
+#[derive(Clone, Debug)]
+pub(super) struct Symmetries {
+    /// For each number true if it is an angle.
+    angles: Vec<bool>,
+    /// Configurations in a flat point, after the numbers.
+    positions: usize,
+    /// All of a group, the first of which changes nothing.
+    pub group: Vec<Flip>,
+    /// Exchanges of numbers that carry each solution to another one, as of two links alike; the first exchanges nothing.
+    pub exchanges: Vec<Vec<usize>>,
+}
+
+impl Symmetries {
+    /// None but the change that changes nothing.
+    pub(super) fn none(angles: &[bool], joints: usize, positions: usize) -> Self {
+        let nothing = Flip {
+            numbers: vec![Sense::default(); angles.len()],
+            joints: vec![Sense::default(); joints],
+        };
+        Symmetries {
+            angles: angles.to_vec(),
+            positions,
+            group: vec![nothing],
+            exchanges: vec![(0..angles.len()).collect()],
+        }
+    }
+
     /// The numbers, angles as points of the unit circle; of all linkages that are the same the one furthest in a direction
     /// without meaning.
     pub(super) fn key_of(&self, x: &[C]) -> Vec<C> {
-        let numbers = x.iter().zip(&self.task.angles);
+        let numbers = x.iter().zip(&self.angles);
         let key = numbers.map(|(x, angle)| match angle {
             true => Number::exp(*x * C::new(0.0, 1.0)),
             false => *x,
@@ -98,7 +116,7 @@ impl Synthesis<'_, '_, '_> {
     fn furthest(&self, key: &[C]) -> Vec<C> {
         let exchanges = self.exchanges.iter().map(|by| exchanged(key, by));
         let images = exchanges.flat_map(|key| {
-            let images = (self.group.iter()).map(|flip| flip.of(&key, &self.task.angles));
+            let images = (self.group.iter()).map(|flip| flip.of(&key, &self.angles));
             images.collect::<Vec<_>>()
         });
         let images = images.map(|image| {
@@ -112,13 +130,13 @@ impl Synthesis<'_, '_, '_> {
         furthest.map_or_else(|| key.to_vec(), |(_, image)| image)
     }
 
-    /// The exchanges of numbers that carry every solution of a generic member to another one.
-    pub(super) fn exchanges(&self, solutions: &[Vec<C>]) -> Vec<Vec<usize>> {
-        let keys: Vec<Vec<C>> = solutions.iter().map(|x| self.key(x)).collect();
-        let angles = &self.task.angles;
+    /// Finds the exchanges of numbers that carry every solution of a generic member to another one.
+    pub(super) fn exchange(&mut self, solutions: &[Vec<C>]) {
+        let keys: Vec<Vec<C>> = solutions.iter().map(|x| self.key_of(x)).collect();
+        let angles = &self.angles;
         let mut all = self.exchanges.clone();
         let Some(first) = keys.first() else {
-            return all;
+            return;
         };
         for other in &keys[1..] {
             for flip in &self.group {
@@ -141,7 +159,7 @@ impl Synthesis<'_, '_, '_> {
                 }
             }
         }
-        all
+        self.exchanges = all;
     }
 
     /// A flat point after a change.
@@ -151,7 +169,7 @@ impl Synthesis<'_, '_, '_> {
         for (x, sense) in numbers.iter_mut().zip(&flip.numbers) {
             *x = sense.changed(*x);
         }
-        let width = (rest.len() / self.task.positions).max(1);
+        let width = (rest.len() / self.positions).max(1);
         for x in rest.chunks_exact_mut(width) {
             for (x, sense) in x.iter_mut().zip(&flip.joints) {
                 *x = sense.changed(*x);
@@ -160,20 +178,25 @@ impl Synthesis<'_, '_, '_> {
         x
     }
 
-    /// The changes that carry a generic solution to another one of the same member. They are the same for all its solutions:
-    /// each is a map of the equations to themselves.
-    pub(super) fn symmetries(&self, member: &[C], x: &[C]) -> Vec<Flip> {
+    /// Finds the changes that carry a generic solution to another one of the same member, by the residuals of its equations. They
+    /// are the same for all its solutions: each is a map of the equations to themselves.
+    pub(super) fn find(
+        &mut self,
+        mechanism: &Mechanism,
+        x: &[C],
+        mut residual: impl FnMut(&[C]) -> f64,
+    ) {
         /// Numbers changed together at most, and changes tried at most: each is tried at one point.
         const WEIGHT: usize = 4;
         const MOST: usize = 40_000;
         const CLOSED: f64 = 1e-9;
-        let joints = self.task.mechanism.joints().iter();
+        let joints = mechanism.joints().iter();
         let turns: Vec<bool> = joints.map(|joint| joint.kind.is_angle()).collect();
         let places: Vec<usize> = (0..turns.len()).filter(|i| turns[*i]).collect();
-        let angles = &self.task.angles;
+        let angles = &self.angles;
         let mut group = self.group.clone();
-        if angles.len() + places.len() > 20 || !self.task.mechanism.platforms().is_empty() {
-            return group;
+        if angles.len() + places.len() > 20 || !mechanism.platforms().is_empty() {
+            return;
         }
         // the changes of few numbers first
         let nothing = vec![Sense::default(); angles.len()];
@@ -192,7 +215,6 @@ impl Synthesis<'_, '_, '_> {
             level = more.take(MOST).collect();
             changes.extend(level.iter().cloned());
         }
-        let mut way = self.way(member, member);
         let mut tried = 0;
         for numbers in &changes {
             if group.iter().any(|of| of.numbers == *numbers) {
@@ -205,7 +227,8 @@ impl Synthesis<'_, '_, '_> {
             for code in 0..ways.pow(places.len() as u32) {
                 tried += 1;
                 if tried > MOST {
-                    return group;
+                    self.group = group;
+                    return;
                 }
                 let mut flip = Flip {
                     numbers: numbers.clone(),
@@ -218,13 +241,13 @@ impl Synthesis<'_, '_, '_> {
                     // half turns come first
                     flip.joints[*joint] = Sense::of(digit >> 1 | (digit & 1) << 1);
                 }
-                if way.residual(C::from_f64(0.0), &self.flipped(x, &flip)) < CLOSED {
+                if residual(&self.flipped(x, &flip)) < CLOSED {
                     let more: Vec<Flip> = group.iter().map(|of| of.after(&flip)).collect();
                     group.extend(more);
                     break;
                 }
             }
         }
-        group
+        self.group = group;
     }
 }
