@@ -47,6 +47,7 @@ pub use relation::JointRelation;
 pub use quantity::{
     Carrier, Effort, Energy, Figure, Measured, Order, Quantity, QuantityError, ScrewPart,
 };
+pub use rings::LockedBall;
 pub use rounded::{NumberChange, Rounded, Rounding};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;

@@ -30,7 +30,7 @@ pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityRepor
 /// Settings of a mobility analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilitySettings {
-    /// Seed of all random directions and starts.
+    /// Seed of all random directions.
     pub seed: u64,
     /// Coordinates locked where the mechanism is closed, such as those of actuators.
     pub locked: Vec<Coordinate>,
@@ -57,7 +57,8 @@ pub fn mobility(
     watch: &Watch,
 ) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    let closed = match Closing::seeded(settings.seed).start(question, watch) {
+    // the same starts for all seeds: freedoms may depend on the assembly
+    let closed = match Closing::default().start(question, watch) {
         Ok(closed) => closed,
         Err(answer) => return answer,
     };
@@ -69,15 +70,17 @@ pub fn mobility(
         tangent,
         locked,
         idle_beside,
+        unlocked,
     } = tangent.lasting(&mut near);
     let mut search = FiniteSearch {
         near: &mut near,
         watch,
         rng: Pcg64Mcg::seed_from_u64(settings.seed),
     };
-    let beside = match locked.is_empty() || search.is_regular(&tangent, STEP, 3) {
-        true => None,
-        false => search.regular_beside(&tangent),
+    let beside = match unlocked {
+        None if locked.is_empty() || search.is_regular(&tangent, STEP, 3) => None,
+        None => search.regular_beside(&tangent),
+        unlocked => unlocked,
     };
     let found = search.find(beside.as_ref().unwrap_or(&tangent));
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());

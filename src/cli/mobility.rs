@@ -28,7 +28,7 @@ pub struct Mobility {
     /// Lock a joint, a platform coordinate or a platform where it is; `actuated` locks all actuated joints
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
-    /// Seed of all random starts and directions
+    /// Seed of all random directions, and of the search for a mode
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,

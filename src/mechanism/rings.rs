@@ -13,6 +13,24 @@ use crate::number::real;
 /// A chain, and the first of three rows in it, from 0.
 type Ball = (usize, usize);
 
+/// The joints of a ball in gimbal lock.
+#[derive(Clone, Copy, Debug)]
+pub struct LockedBall {
+    /// The joint of the second row.
+    pub middle: usize,
+    /// Joints of the outer rows with what each changes by, in rad, while z₂ turns by 1 rad and no body moves.
+    turned: [(usize, f64); 2],
+}
+
+impl LockedBall {
+    /// Turns z₂ by an angle; all bodies but rings keep their poses.
+    pub fn turn(&self, at: &mut Configuration<f64>, angle: f64) {
+        for (joint, rate) in self.turned {
+            at.joints[joint] += rate * angle;
+        }
+    }
+}
+
 impl Mechanism {
     /// The configuration, then those with every other combination of the two sets of angles of balls: all bodies but
     /// rings keep their poses.
@@ -39,6 +57,26 @@ impl Mechanism {
         };
         let balls = self.balls().into_iter();
         balls.map(|ball| side(ball) == Some(true)).collect()
+    }
+
+    /// The balls in gimbal lock: z₁ and z₃ are one line, and both turn about it against each other moves no body.
+    pub fn locked_balls(&self, at: &Configuration<f64>) -> Vec<LockedBall> {
+        /// Sine of the angle between z₁ and z₃, which are known to half the digits where solutions meet.
+        const ONE_LINE: f64 = 1e-6;
+        let balls = self.balls().into_iter().filter_map(|(chain, first)| {
+            let axis = |row| Some(self.hinge((chain, first + row), at)?.direction);
+            let [z1, z3] = [axis(0)?, axis(2)?];
+            let [(outer, one), (middle, _), (inner, other)] = [
+                self.turned((chain, first))?,
+                self.turned((chain, first + 1))?,
+                self.turned((chain, first + 2))?,
+            ];
+            (z1.cross(&z3).norm() <= ONE_LINE).then_some(LockedBall {
+                middle,
+                turned: [(outer, 1.0 / one), (inner, -z1.dot(&z3).signum() / other)],
+            })
+        });
+        balls.collect()
     }
 
     /// The axis of a row.

@@ -57,9 +57,13 @@ fn text(joints: &String, chains: &String, frames: &String, closures: &String) ->
             convention: Modified,
             joints: {{ {joints} }},
             chains: {{ {chains} }},
-            platforms: {{ "body": Platform(home: [], frames: {{ {frames} }}) }},
+            platforms: {{ {} }},
             closures: {{ {closures} }},
-        )"#
+        )"#,
+        match frames.is_empty() {
+            true => String::new(),
+            false => format!(r#""body": Platform(home: [], frames: {{ {frames} }})"#),
+        }
     )
 }
 
@@ -229,5 +233,56 @@ fn a_leg_that_always_spins_stays_idle() {
             "{middle}°"
         );
         assert_eq!(report.gimbal_locked, usize::from(middle == 0.0));
+    }
+}
+
+/// A planar four-bar whose pin between coupler and rocker is a ball: three rows whose first axis lies along the coupler's normal
+/// in the plane, so that they are in gimbal lock where coupler and rocker are at right angles as at home. `turned` is where the
+/// second axis stands about the line of the others, which moves no body.
+fn four_bar_with_a_ball(turned: f64, crank: bool) -> Mechanism {
+    let (name, base, row) = match crank {
+        true => (
+            r#""crank": Actuated(home: "90 deg"),"#,
+            "",
+            r#"(theta: "crank"),"#,
+        ),
+        false => ("", r#"base: [Rz("90 deg")],"#, ""),
+    };
+    let joints = format!(
+        r#"{name} "coupler": Passive(home: "-90 deg"), "u": Passive(home: {turned}), "v": Passive(home: 0),
+        "w": Passive(home: {}), "rocker": Passive(home: "90 deg"),"#,
+        -turned
+    );
+    let chains = format!(
+        r#""left": Chain({base} rows: [{row} (a: 1, theta: "coupler"), (alpha: "90 deg", a: 1.3, theta: "u"),
+            (alpha: "90 deg", theta: "v"), (alpha: "-90 deg", theta: "w")], tip: [Rx("-90 deg")]),
+        "right": Chain(base: [Tx(1.3)], rows: [(theta: "rocker")], tip: [Tx(1), Rz("-90 deg")]),"#
+    );
+    let closures = r#""C": Rigid("left", "right"),"#.to_owned();
+    let frames = String::new();
+    read(&joints, &chains, &frames, &closures)
+}
+
+/// The bodies of a four-bar have one freedom, whatever angles their ball has; without the crank it is a structure.
+#[test]
+fn a_ball_in_gimbal_lock_holds_no_body() {
+    for turned in [0.0, 0.3, 1.2, 1.5, -2.0] {
+        let mechanism = four_bar_with_a_ball(turned, true);
+        for seed in 1..4 {
+            let report = report(&mechanism, seed);
+            let found = (
+                report.mobility,
+                report.idle_freedoms.len(),
+                report.gimbal_locked,
+            );
+            assert_eq!(found, (1, 0, 1), "z2 at {turned}, seed {seed}");
+            assert_eq!(report.moving_joints, ["crank", "coupler", "v", "rocker"]);
+            assert_eq!(report.gimbal_locked_joints, ["u", "w"]);
+            assert!(report.counted_beside && report.elsewhere.is_empty());
+        }
+        let count = RegularFreedoms::near(&mechanism, &mechanism.home()).expect("closes");
+        assert_eq!((count.count(), count.idle()), (1, 0), "z2 at {turned}");
+        let fixed = report(&four_bar_with_a_ball(turned, false), 1);
+        assert_eq!((fixed.mobility, fixed.counted_beside), (0, false));
     }
 }

@@ -158,11 +158,13 @@ impl RegularFreedoms {
         let fewest = columns.saturating_sub(mechanism.equations_that_vary());
         let mut work = near.system().work();
         let mut found: Vec<(Freedoms, Configuration<f64>)> = Vec::new();
-        // the start itself, and three points nearby in directions without symmetry
-        for k in shakes {
-            let Some(at) = near.solve(&Newton::default(), shaken(mechanism, start, k)) else {
-                continue;
+        // the start itself, three points nearby in directions without symmetry, and one where no ball is in gimbal lock
+        for k in shakes.map(Some).chain([None]) {
+            let at = match k {
+                Some(k) => near.solve(&Newton::default(), shaken(mechanism, start, k)),
+                None => near.unlocked(start).map(|tangent| tangent.at),
             };
+            let Some(at) = at else { continue };
             let freedoms = Freedoms::of(near.system(), &at, &mut work);
             // no other configuration has fewer
             if freedoms.motions.len() == fewest && near.tangent(at.clone()).idle.is_empty() {

@@ -2,6 +2,7 @@
 
 mod follow;
 mod lasting;
+mod unlocked;
 
 use std::collections::HashSet;
 

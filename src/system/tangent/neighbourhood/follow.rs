@@ -136,17 +136,7 @@ impl Neighbourhood<'_> {
     /// True if all motions are finite, tried along one motion that mixes them; false for a shaky structure.
     pub fn is_mobile(&mut self, at: &Tangent) -> bool {
         const STEP: f64 = 0.05;
-        let mut mixed = vec![0.0; self.system.unknowns().len()];
-        for (motion, weight) in at.motions.iter().zip(1u8..) {
-            let weight = real::sin(1.7 * f64::from(weight));
-            add(&mut mixed, weight, motion);
-        }
-        let size = norm(&mixed);
-        if size == 0.0 {
-            return true;
-        }
-        mixed.iter_mut().for_each(|x| *x /= size);
-        self.free_step(at, &mixed, STEP).is_ok()
+        mixture(&at.motions).is_none_or(|mixed| self.free_step(at, &mixed, STEP).is_ok())
     }
 
     /// About how far the nearest singular configuration is along the motions, in rad and
@@ -255,4 +245,15 @@ impl Neighbourhood<'_> {
     pub fn settle(&mut self, at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
         settle(&self.system, &mut self.work, at, reach, self.watch)
     }
+}
+
+/// A unit motion that mixes all; `None` if there are none.
+pub(super) fn mixture(motions: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let mut mixed = vec![0.0; motions.first()?.len()];
+    for (motion, weight) in motions.iter().zip(1u8..) {
+        add(&mut mixed, real::sin(1.7 * f64::from(weight)), motion);
+    }
+    let size = norm(&mixed);
+    mixed.iter_mut().for_each(|x| *x /= size);
+    (size > 0.0).then_some(mixed)
 }

@@ -15,6 +15,8 @@ pub struct Lasting {
     pub locked: Vec<Vec<f64>>,
     /// Orthonormal basis of the local freedoms at a configuration beside it.
     pub idle_beside: Vec<Vec<f64>>,
+    /// The motions out of gimbal lock, where only there fewer are local.
+    pub unlocked: Option<Tangent>,
 }
 
 impl Neighbourhood<'_> {
@@ -34,24 +36,25 @@ impl Tangent {
         let unlocked = |tangent: Tangent| Lasting {
             idle_beside: tangent.idle.clone(),
             locked: Vec::new(),
+            unlocked: None,
             tangent,
         };
         if self.idle.is_empty() {
             return unlocked(self);
         }
-        let mut lasting: Option<Vec<Vec<f64>>> = None;
-        for k in 1..4 {
-            let Some(beside) = near.beside(&self.at, k) else {
-                continue;
-            };
-            let least = lasting.as_ref().map_or(self.idle.len(), Vec::len);
-            if beside.idle.len() < least {
-                lasting = Some(beside.idle);
-            }
-        }
-        let Some(idle_beside) = lasting else {
-            return unlocked(self);
+        let beside = (1..4).filter_map(|k| Some(near.beside(&self.at, k)?.idle));
+        let mut idle_beside = beside.min_by_key(Vec::len).unwrap_or(self.idle.clone());
+        let out = match idle_beside.is_empty() {
+            true => None,
+            false => near.unlocked(&self.at),
         };
+        let out = out.filter(|out| out.idle.len() < idle_beside.len());
+        if let Some(out) = &out {
+            idle_beside.clone_from(&out.idle);
+        }
+        if idle_beside.len() >= self.idle.len() {
+            return unlocked(self);
+        }
         // the directions among the idle ones that are nearest to those that last
         let count = self.idle.len();
         let weights = idle_beside.iter().map(|direction| {
@@ -74,6 +77,7 @@ impl Tangent {
             },
             locked,
             idle_beside,
+            unlocked: out,
         }
     }
 }
