@@ -11,6 +11,7 @@ mod large;
 mod printed_assemblies;
 mod proofs;
 mod questions;
+mod random_counts;
 mod random_mechanisms;
 mod scales;
 mod seeds;

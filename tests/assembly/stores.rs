@@ -104,7 +104,7 @@ fn numbers_that_do_not_assemble_the_mechanism_are_refused() {
     let at = first + body[first..].find(|c: char| c.is_ascii_digit()).unwrap();
     let wrong = format!("{}9{}", &body[..at], &body[at..]);
     let title = format!(
-        "linkwork generic solutions, version 4: 2 solutions, checksum {:08x}",
+        "linkwork generic solutions, version 5: 2 solutions, checksum {:08x}",
         crc32fast::hash(wrong.as_bytes())
     );
     let wrong = GenericSolutions::from_text(&format!("{title}\n{wrong}")).unwrap();

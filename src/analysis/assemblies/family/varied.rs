@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 use super::Family;
 use super::bound::SMALL;
 use super::coordinates::C;
-use crate::geometry::{Axis, Quaternion, Rotation, Vector3};
+use crate::geometry::{Axis, Pose, Quaternion, Rotation, Vector3};
 use crate::mechanism::Dimensions;
 use crate::number::{Number, complex::norm};
 use crate::solve::Equations;
@@ -15,21 +15,22 @@ use crate::system::{HeldPlatform, System, Unknown, independent_parts};
 /// A dimension with a number among the parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Varied {
-    /// The lengths of the links before and after a joint, by a factor; `small` is what they are of the characteristic length
-    /// where they are short.
-    Lengths {
-        chain: usize,
-        row: usize,
-        small: f64,
-    },
+    /// The lengths of a displacement, by a factor; `small` is what they are of the characteristic length where they are short.
+    Lengths { link: usize, small: f64 },
+    /// The angle between z before and after a displacement, to which it is added.
+    Twist { link: usize },
     /// The length of a rod, by a factor.
     Rod { closure: usize },
-    /// The twist of the link before a joint, or after it, by an angle that is added.
-    Twist {
-        chain: usize,
-        row: usize,
-        after: bool,
-    },
+}
+
+/// The displacements between joint axes, and from them to frames of closures.
+fn links(of: &mut Dimensions<C>) -> impl Iterator<Item = &mut Pose<C>> {
+    let chains = of.chains.iter_mut().flat_map(|chain| {
+        let rows = chain.rows.iter_mut();
+        let rows = rows.flat_map(|row| [&mut row.before, &mut row.after]);
+        rows.chain([&mut chain.base, &mut chain.tip])
+    });
+    chains.chain(of.platforms.iter_mut().flatten())
 }
 
 /// The common normal of z before and after a rotation. `None` where they are parallel or perpendicular, and stay so.
@@ -42,19 +43,16 @@ fn normal(rotation: &Rotation<C>) -> Option<Vector3<C>> {
 
 impl Varied {
     /// All that may vary: lengths that are zero stay so, and axes that are parallel or perpendicular.
-    fn all(of: &Dimensions<C>) -> Vec<Varied> {
+    fn all(of: &mut Dimensions<C>) -> Vec<Varied> {
         let mut all = Vec::new();
-        for (chain, part) in of.chains.iter().enumerate() {
-            for (row, links) in part.rows.iter().enumerate() {
-                let links = [&links.before, &links.after];
-                let parts = links.iter().flat_map(|link| link.position.0.map(norm));
-                let small = parts.fold(0.0, f64::max) / of.characteristic_length;
-                if small > SMALL {
-                    all.push(Varied::Lengths { chain, row, small });
-                }
-                let sides = [false, true].into_iter().zip(links);
-                let sides = sides.filter(|(_, link)| normal(&link.rotation).is_some());
-                all.extend(sides.map(|(after, _)| Varied::Twist { chain, row, after }));
+        let length = of.characteristic_length;
+        for (link, pose) in links(of).enumerate() {
+            let small = pose.position.0.into_iter().map(norm).fold(0.0, f64::max) / length;
+            if small > SMALL {
+                all.push(Varied::Lengths { link, small });
+            }
+            if normal(&pose.rotation).is_some() {
+                all.push(Varied::Twist { link });
             }
         }
         let rods = of.closures.iter().enumerate();
@@ -63,36 +61,18 @@ impl Varied {
         all
     }
 
-    fn lengths(self, of: &mut Dimensions<C>) -> Vec<&mut C> {
-        match self {
-            Varied::Lengths { chain, row, .. } => {
-                let row = &mut of.chains[chain].rows[row];
-                let links = [&mut row.before, &mut row.after].into_iter();
-                links.flat_map(|link| &mut link.position.0).collect()
-            }
-            Varied::Rod { closure } => vec![&mut of.closures[closure].length],
-            Varied::Twist { .. } => Vec::new(),
-        }
-    }
-
-    fn rotation(self, of: &mut Dimensions<C>) -> Option<&mut Rotation<C>> {
-        let Varied::Twist { chain, row, after } = self else {
-            return None;
-        };
-        let row = &mut of.chains[chain].rows[row];
-        let link = if after {
-            &mut row.after
-        } else {
-            &mut row.before
-        };
-        Some(&mut link.rotation)
-    }
-
     /// The numbers of the file that it consists of.
     fn value(self, of: &mut Dimensions<C>) -> Vec<C> {
-        match self.rotation(of) {
-            Some(rotation) => rotation.0.iter().flat_map(|axis| axis.0).collect(),
-            None => self.lengths(of).into_iter().map(|x| *x).collect(),
+        match self {
+            Varied::Rod { closure } => vec![of.closures[closure].length],
+            Varied::Lengths { link, .. } => {
+                let pose = links(of).nth(link);
+                pose.map_or(Vec::new(), |pose| pose.position.0.to_vec())
+            }
+            Varied::Twist { link } => {
+                let axes = links(of).nth(link).map(|pose| pose.rotation.0);
+                axes.into_iter().flatten().flat_map(|axis| axis.0).collect()
+            }
         }
     }
 
@@ -107,16 +87,22 @@ impl Varied {
 
     /// Writes it with its number.
     pub fn vary(self, of: &mut Dimensions<C>, number: C) {
-        self.lengths(of)
-            .into_iter()
-            .for_each(|part| *part *= number);
-        if let Some(rotation) = self.rotation(of)
-            && let Some(about) = normal(rotation)
-        {
-            let half = number * 0.5;
-            let (sin, cos) = half.sin_cos();
-            let [x, y, z] = about.times(sin).0;
-            *rotation = Quaternion([cos, x, y, z]).rotation() * *rotation;
+        match self {
+            Varied::Rod { closure } => of.closures[closure].length *= number,
+            Varied::Lengths { link, .. } => {
+                let pose = links(of).nth(link);
+                pose.into_iter()
+                    .for_each(|pose| pose.position = pose.position.times(number));
+            }
+            Varied::Twist { link } => {
+                if let Some(pose) = links(of).nth(link)
+                    && let Some(about) = normal(&pose.rotation)
+                {
+                    let (sin, cos) = (number * 0.5).sin_cos();
+                    let [x, y, z] = about.times(sin).0;
+                    pose.rotation = Quaternion([cos, x, y, z]).rotation() * pose.rotation;
+                }
+            }
         }
     }
 
@@ -204,7 +190,7 @@ impl Family {
         if !is_rigid {
             return;
         }
-        let mut varied = Varied::all(&own);
+        let mut varied = Varied::all(&mut own);
         varied.retain(|varied| {
             let is_own = wide || matches!(varied, Varied::Rod { .. });
             let mut changed = own.clone();

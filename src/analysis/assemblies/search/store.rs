@@ -11,7 +11,7 @@ use crate::number::{Number, mark};
 
 const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Errors of stored solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
