@@ -45,7 +45,7 @@ use rustc_hash::FxHashMap;
 
 pub use crate::analysis::quantities::Motions;
 pub use crate::system::{Demand, Role, Value};
-pub use design::{Design, DesignError};
+pub use design::{Design, DesignError, DrawnDesign};
 pub use error::{AskError, Item, Unmeasured};
 pub use live::{Gained, LiveReading};
 pub use many::{Jacobians, Many, ManyMeasured, Unreached};

@@ -1,5 +1,6 @@
 //! Design questions.
 
+mod drawn;
 mod figure;
 mod judge;
 mod read;
@@ -14,6 +15,7 @@ use crate::description::{Description, DesignDescription, DesignPart, DesignProbl
 use crate::mechanism::Mechanism;
 use crate::number::sorting::sort_by;
 use crate::solve::{LeastSquares, Watch};
+pub use drawn::DrawnDesign;
 use judge::Judge;
 use read::Read;
 

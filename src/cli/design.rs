@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use linkwork::algebra::Measure;
-use linkwork::ask::{self, DesignError};
+use linkwork::ask::{self, DesignError, DrawnDesign};
 use linkwork::description::{
     Description, DesignDescription, DesignGoal, DesignPart, Entry, FileError, LoadError, MAX_BYTES,
     Named, Problem, ProblemKind, Spanned, is_design, load_text,
@@ -12,11 +12,13 @@ use linkwork::description::{
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::Complaint;
 use linkwork::output::diagnostics;
+use linkwork::output::drawing::{DrawingSettings, Panel, sheet};
+use linkwork::scene::{Mark, Scene, Trace};
 
 use super::format::Format;
 use super::source::Assignment;
 use super::watched::watched;
-use super::written::{file, written};
+use super::written::{file, save, written};
 use super::{Answer, Refusal, style};
 
 /// Find dimensions with which a mechanism passes through points or poses, or gives a function.
@@ -86,6 +88,9 @@ pub struct Design {
     /// Write the mechanism file of the first design here
     #[arg(short, long, value_name = "FILE", value_parser = file(&["ron"]))]
     output: Option<PathBuf>,
+    /// Draw the first design with its targets and the curves of its points
+    #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
+    svg: Option<PathBuf>,
     /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     format: Format,
@@ -153,6 +158,16 @@ impl Design {
         })?;
         if let (Some(path), Some(first)) = (&self.output, report.designs.first()) {
             written(first.file.clone(), Some(path))?;
+        }
+        if let (Some(path), Some(first)) = (&self.svg, report.designs.first()) {
+            match watched(|watch| design.drawn(first, watch)) {
+                Some(drawn) => save(path, picture(drawn).as_bytes())?,
+                None => {
+                    return Err(Refusal::error(
+                        "the first design cannot be drawn: it does not assemble",
+                    ));
+                }
+            }
         }
         self.format.answer(&report)
     }
@@ -240,6 +255,26 @@ impl Design {
         }
         Ok(positions)
     }
+}
+
+fn picture(drawn: DrawnDesign) -> String {
+    let mut scene = Scene::of(&drawn.mechanism, &drawn.at);
+    let curves = drawn.curves.into_iter();
+    scene.paths = curves
+        .map(|(name, points)| Trace { name, points })
+        .collect();
+    let targets = drawn.targets.into_iter();
+    let mark = |(k, at): (usize, _)| Mark {
+        name: k.to_string(),
+        at,
+    };
+    scene.centres = targets.map(mark).collect();
+    let panel = Panel {
+        title: drawn.mechanism.name().to_owned(),
+        scene,
+        ghosts: Vec::new(),
+    };
+    sheet(&[panel], &DrawingSettings::default()).svg()
 }
 
 fn entry(option: &str, text: &str) -> Result<Entry, Refusal> {

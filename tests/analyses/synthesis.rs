@@ -360,3 +360,26 @@ fn the_crank_rocker_with_the_best_transmission_angle_is_found() {
         "{defects:?}"
     );
 }
+
+/// The shipped walking leg, whose search is long, from fewer starts; the guide runs the other shipped designs.
+#[test]
+fn the_shipped_walking_leg_is_found_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("leg.svg");
+    let svg = path.to_str().unwrap();
+    let asked = [
+        "design",
+        "mechanisms/designs/walking_leg.ron",
+        "--starts",
+        "24",
+        "--svg",
+        svg,
+    ];
+    let (status, said, _) = crate::linkwork(&asked);
+    assert_eq!(status, 0, "{said}");
+    assert!(said.contains("without defects"));
+    // seven targets are marked, one after another
+    let drawn = std::fs::read_to_string(path).unwrap();
+    assert!((1..=7).all(|k| drawn.contains(&format!(">{k}</text>"))));
+    assert!(!drawn.contains(">8</text>"));
+}

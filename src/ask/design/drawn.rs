@@ -1,0 +1,88 @@
+//! Designs as they are drawn.
+
+use super::Design;
+use crate::algebra::Measure;
+use crate::analysis::design;
+use crate::analysis::sweep::{Row, SweepSettings};
+use crate::ask::Question;
+use crate::description::{Description, Entry};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::Watch;
+use crate::system::Value;
+
+/// A design in its first position, with what it shall reach. Positions are in ground, in m.
+#[derive(Clone, Debug)]
+pub struct DrawnDesign {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its configuration in the first position.
+    pub at: Configuration<f64>,
+    /// The points that have targets, with their curves where the mechanism has one freedom.
+    pub curves: Vec<(String, Vec<[f64; 3]>)>,
+    /// The positions with targets of a point, by their numbers from 1.
+    pub targets: Vec<(usize, [f64; 3])>,
+}
+
+impl Design {
+    /// What a picture of a design shows; `None` for one that does not assemble.
+    pub fn drawn(&self, design: &design::Design, watch: &Watch) -> Option<DrawnDesign> {
+        let description = Description::read(&design.file).ok()?;
+        let mechanism = Mechanism::new(&description).ok()?;
+        let question = Question::new(mechanism.clone());
+        let (_, at) = question.configurations(watch).ok()?.into_iter().next()?;
+        let length = |entry: &Entry| {
+            let text = Value::Text(entry.expression.to_string());
+            text.number(&mechanism, Measure::Length).ok()
+        };
+        let mut curves: Vec<(String, Vec<[f64; 3]>)> = Vec::new();
+        let mut targets = Vec::new();
+        let asked = self.asked.clone().with_box();
+        for (k, position) in asked.positions.iter().enumerate() {
+            for named in position.iter().filter(|named| named.value.len() > 1) {
+                let mut target = [0.0; 3];
+                for (x, entry) in target.iter_mut().zip(&named.value) {
+                    *x = length(entry)?;
+                }
+                targets.push((k + 1, target));
+                let name = &named.name.value;
+                if curves.iter().all(|(known, _)| known != name) {
+                    curves.push((name.clone(), curve(&question, name, &length, watch)));
+                }
+            }
+        }
+        Some(DrawnDesign {
+            mechanism,
+            at,
+            curves,
+            targets,
+        })
+    }
+}
+
+/// The curve of a point, whose offsets may be expressions; empty where it cannot be followed.
+fn curve(
+    question: &Question,
+    name: &str,
+    length: &dyn Fn(&Entry) -> Option<f64>,
+    watch: &Watch,
+) -> Vec<[f64; 3]> {
+    let (frame, offsets) = name.split_once('+').unwrap_or((name, ""));
+    let offsets = offsets.split(',').filter(|text| !text.trim().is_empty());
+    let offset = |text: &str| Some(length(&Entry::read(text).ok()?)?.to_string());
+    let offsets: Option<Vec<String>> = offsets.map(offset).collect();
+    let point = match offsets {
+        Some(offsets) if !offsets.is_empty() => format!("{}+{}", frame.trim(), offsets.join(",")),
+        _ => frame.trim().to_owned(),
+    };
+    let settings = SweepSettings {
+        follow: true,
+        between: true,
+        ..SweepSettings::default()
+    };
+    let mut points = Vec::new();
+    let mut sink = |_: Option<usize>, row: &Row| points.extend(row.points.first());
+    if let Ok(motions) = question.clone().point(point).motions(&settings, watch) {
+        motions.report(2, &mut sink, watch);
+    }
+    points
+}
