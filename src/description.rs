@@ -23,6 +23,7 @@ mod piece;
 mod problem;
 mod reader;
 mod replacement;
+mod schema;
 pub(crate) mod steps;
 mod suggestion;
 mod words;
@@ -40,7 +41,7 @@ pub use literals::{Literal, rounding_of_text, roundings};
 pub use load::{FileError, LoadError, load, load_text, load_text_within, text_from};
 #[cfg(feature = "interchange")]
 pub(crate) use naming::variable_name;
-pub(crate) use naming::{first_free, free_variable};
+pub(crate) use naming::{GivenNames, first_free, free_variable};
 pub use naming::{names_of, place_of};
 pub use parts::*;
 pub use problem::*;
@@ -152,9 +153,9 @@ fn may_hide(kind: &ProblemKind) -> Vec<Noun> {
             expected: Expected::MapOf(noun),
             ..
         } => vec![*noun],
-        ProblemKind::UnknownField { structure, .. } => match structure {
-            FieldGroup::Mechanism => MAPS.to_vec(),
-            FieldGroup::ClosedForm => vec![Noun::LocalName],
+        ProblemKind::UnknownField { structure, .. } => match *structure {
+            Description::GROUP => MAPS.to_vec(),
+            ClosedFormDescription::GROUP => vec![Noun::LocalName],
             _ => Vec::new(),
         },
         ProblemKind::DuplicateField { .. } | ProblemKind::Syntax { .. } => {

@@ -9,15 +9,18 @@ mod given;
 mod loops;
 mod values;
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use crate::description::{
     AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, Convention, Description,
-    Displacement, Named, Problem, ProblemKind, axes_text, mechanism_text, place_of,
+    Displacement, Graph, Named, Problem, ProblemKind, axes_text, mechanism_text, place_of,
 };
 use crate::geometry::{Line, Pose, Relation, Vector3};
 use crate::mechanism::{FrameAssignment, Mechanism, Normal, SerialAxes, TableRow};
 
+use build::Build;
 pub use given::{AxesError, joint_axes};
 
 /// The most joints of one file of axes.
@@ -290,11 +293,17 @@ pub fn frames(
     if !unplaced.is_empty() {
         return Err(unplaced);
     }
-    let values = values::Values::of(axes)?;
     let closed = !axes.is_serial();
+    if !closed {
+        chains::check_serial(axes)?;
+    }
+    let values = values::Values::of(axes)?;
     let mut report = match closed {
         true => loops::closed(axes, &values, convention)?,
-        false => chains::serial(axes, &values, convention)?,
+        false => {
+            let (graph, cuts) = (Graph::of(axes)?, BTreeSet::new());
+            Build::new(axes, &values, &graph, &cuts, convention).build()
+        }
     };
     let mut warnings = values.warnings.clone();
     // entries keep their places in the file, and what is new cannot be wrong

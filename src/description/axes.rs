@@ -12,44 +12,14 @@ use std::ops::Range;
 pub(crate) use graph::Graph;
 pub use tables::JointCoordinates;
 
+use super::schema::{axes_structures, declared};
 use super::{
     ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, LoadsDescription, Named,
     Role, Spanned, place_of,
 };
 use crate::algebra::words;
 
-/// A whole file of joint axes. Everything is in the order of the file.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct AxesDescription {
-    /// The name of the mechanism.
-    pub name: Spanned<String>,
-    /// Its source in the literature.
-    pub source: Option<Spanned<String>>,
-    /// The convention of the tables to be made.
-    pub convention: Option<Spanned<Convention>>,
-    /// The most by which any number of the file is off (m), if not half a unit of its last digit.
-    pub tolerance: Option<Entry>,
-    /// Dimensions and other constants.
-    pub parameters: Vec<Named<Entry>>,
-    /// The joints; in a serial chain from the base to the tool.
-    pub joints: Vec<Named<AxisDescription>>,
-    /// Frames of bodies in the drawing; a body without one has its frame at the joint that carries it.
-    pub bodies: Vec<Named<AxisPlace>>,
-    /// Points on bodies, and frames.
-    pub points: Vec<Named<PointDescription>>,
-    /// The frame from which the tables should start.
-    pub base: Option<Vec<Displacement>>,
-    /// The frame at which a serial chain ends.
-    pub tool: Option<Vec<Displacement>>,
-    /// The joints at which closed loops are to be cut.
-    pub cut: Vec<Spanned<String>>,
-    /// Formulas to be checked.
-    pub closed_forms: Vec<Named<ClosedFormDescription>>,
-    /// Quantities of interest, over joints, coordinates of points, rates and forces.
-    pub outputs: Vec<Named<Entry>>,
-    /// Masses, springs and forces.
-    pub loads: LoadsDescription,
-}
+axes_structures!(declared);
 
 /// A point on a body, or a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,13 +120,17 @@ impl AxesDescription {
         named || place_of(&self.points, frame).is_some()
     }
 
-    /// Places of joints, points and bodies.
-    pub fn places(&self) -> impl Iterator<Item = &AxisPlace> {
-        let joints = self.joints.iter().map(|joint| &joint.value);
-        let joints = joints.flat_map(|joint| [Some(&joint.place), joint.second.as_ref()]);
+    /// All that places something in the drawing or says where a joint is.
+    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+        let joints = || self.joints.iter().map(|joint| &joint.value);
+        let places = joints().flat_map(|joint| [Some(&joint.place), joint.second.as_ref()]);
         let points = self.points.iter().map(|point| &point.value.place);
         let bodies = self.bodies.iter().map(|body| &body.value);
-        joints.flatten().chain(points).chain(bodies)
+        let places = places.flatten().chain(points).chain(bodies);
+        let ends = self.base.iter().chain(&self.tool).flatten();
+        (places.flat_map(AxisPlace::entries))
+            .chain(joints().flat_map(AxisDescription::values))
+            .chain(ends.flat_map(Displacement::entries))
     }
 }
 
@@ -186,6 +160,14 @@ impl AxisKind {
         matches!(self, Self::Prismatic | Self::Distance)
     }
 
+    /// The field by which such a joint follows others.
+    pub fn follows_by(self) -> &'static str {
+        match self {
+            Self::Distance => "length",
+            _ => "value",
+        }
+    }
+
     /// True if the joint is always cut, as a closure.
     pub fn always_cut(self) -> bool {
         matches!(self, Self::Spherical | Self::Planar | Self::Distance)
@@ -208,6 +190,12 @@ impl AxisDescription {
             between: None,
             span: 0..0,
         }
+    }
+
+    /// Its values in the home configuration and in the drawing, and its limits.
+    pub fn values(&self) -> impl Iterator<Item = &Entry> {
+        let limits = self.limits.iter().flat_map(|(low, high)| [low, high]);
+        self.home.iter().chain(&self.drawn).chain(limits)
     }
 
     /// The value of its variable in the drawing.

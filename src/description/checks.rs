@@ -141,7 +141,7 @@ fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
     // A convention that could not be read is not missing.
     let unreadable = |problem: &Problem| match problem.kind {
         ProblemKind::UnknownWord { expected, .. } | ProblemKind::WrongType { expected, .. } => {
-            expected == Expected::Convention
+            expected == Expected::CONVENTION
         }
         _ => false,
     };

@@ -326,7 +326,7 @@ impl Description {
             .iter()
             .map(|place| {
                 let wanted = format!("number{place}");
-                first_free(&wanted, "_", |name| taken.iter().all(|of| of != name))
+                first_free(&wanted, |name| taken.iter().all(|of| of != name))
             })
             .collect();
         let name = |i: usize| {

@@ -1,5 +1,7 @@
 //! Names of things: their places in lists, and new ones.
 
+use std::collections::HashSet;
+
 use super::{Description, GROUND, Named};
 use crate::algebra::{is_name, is_reserved};
 
@@ -13,11 +15,38 @@ pub fn names_of<T>(named: &[Named<T>]) -> impl Iterator<Item = &str> {
     named.iter().map(|named| named.name.value.as_str())
 }
 
-/// `wanted`, or the first of it with 2, 3, … behind a separator that is free.
-pub(crate) fn first_free(wanted: &str, separator: &str, free: impl Fn(&str) -> bool) -> String {
-    let numbered = (2..).map(|i| format!("{wanted}{separator}{i}"));
+/// `wanted`, or the first of it with _2, _3, … that is free.
+pub(crate) fn first_free(wanted: &str, free: impl Fn(&str) -> bool) -> String {
+    let numbered = (2..).map(|i| format!("{wanted}_{i}"));
     let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
     names.find(|name| free(name)).unwrap_or_default()
+}
+
+/// Names that are given.
+#[derive(Default)]
+pub(crate) struct GivenNames(HashSet<String>);
+
+impl GivenNames {
+    /// Gives the first name like `wanted` that is free.
+    pub fn give(&mut self, wanted: &str) -> String {
+        let name = first_free(wanted, |name| !self.0.contains(name));
+        self.0.insert(name.clone());
+        name
+    }
+
+    /// Gives a name, with as many underscores behind it as make it free.
+    pub fn give_longer(&mut self, mut name: String) -> String {
+        while !self.0.insert(name.clone()) {
+            name += "_";
+        }
+        name
+    }
+}
+
+impl FromIterator<String> for GivenNames {
+    fn from_iter<I: IntoIterator<Item = String>>(names: I) -> Self {
+        GivenNames(names.into_iter().collect())
+    }
 }
 
 /// Other characters than those of names of variables replaced.
@@ -42,7 +71,7 @@ pub(crate) fn free_variable(wanted: &str, free: impl Fn(&str) -> bool) -> String
     let name = variable_name(wanted);
     match free(&name) {
         true => name,
-        false => first_free(&format!("q_{}", clean(wanted)), "_", free),
+        false => first_free(&format!("q_{}", clean(wanted)), free),
     }
 }
 

@@ -10,6 +10,7 @@ use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 use super::ClosureKind;
+use super::schema::{declared, part_structures};
 use crate::algebra::{Expression, words};
 pub use crate::geometry::Axis;
 use crate::geometry::{Pose, Vector3};
@@ -42,36 +43,7 @@ pub struct Entry {
     pub span: Range<usize>,
 }
 
-/// A whole mechanism file. Everything is in the order of the file.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Description {
-    /// The name of the mechanism.
-    pub name: Spanned<String>,
-    /// Its source in the literature.
-    pub source: Option<Spanned<String>>,
-    /// The convention of the chains that give none.
-    pub convention: Option<Spanned<Convention>>,
-    /// The most by which any number of the file is off (m), if not half a unit of its last digit.
-    pub tolerance: Option<Entry>,
-    /// Dimensions and other constants.
-    pub parameters: Vec<Named<Entry>>,
-    /// The joint variables.
-    pub joints: Vec<Named<JointDescription>>,
-    /// The serial chains left when the mechanism is broken at some joints.
-    pub chains: Vec<Named<ChainDescription>>,
-    /// Rigid bodies whose pose is unknown.
-    pub platforms: Vec<Named<PlatformDescription>>,
-    /// The closures that restore the broken joints.
-    pub closures: Vec<Named<ClosureDescription>>,
-    /// Formulas to be checked against the chains.
-    pub closed_forms: Vec<Named<ClosedFormDescription>>,
-    /// Quantities of interest, over joints, coordinates of points, rates and forces.
-    pub outputs: Vec<Named<Entry>>,
-    /// Masses, springs and forces.
-    pub loads: LoadsDescription,
-    /// The joint coordinates from which all this was made, if it was.
-    pub coordinates: Option<Box<super::JointCoordinates>>,
-}
+part_structures!(declared);
 
 words! {
     /// The convention by which frames are attached in a Denavit–Hartenberg table: a row is T = Rx(alpha) Tx(a) Rz(theta)
@@ -87,57 +59,14 @@ words! {
     }
 
     /// Role of a joint variable: driven or not.
+    #[derive(Default)]
     Role {
         /// Driven: its value is an input.
         Actuated = "Actuated",
         /// Not driven: its value follows.
+        #[default]
         Passive = "Passive",
     }
-}
-
-/// A joint variable.
-#[derive(Debug, Clone)]
-pub struct JointDescription {
-    /// Actuated or passive.
-    pub role: Role,
-    /// Its value in the home configuration; 0 if not given.
-    pub home: Entry,
-    /// Lowest and highest value.
-    pub limits: Option<(Entry, Entry)>,
-    /// Place of its declaration.
-    pub span: Range<usize>,
-}
-
-/// A serial chain.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct ChainDescription {
-    /// The frame to which it is attached; ground if not given.
-    pub on: Option<Spanned<String>>,
-    /// The convention of its rows, if it is not that of the file.
-    pub convention: Option<Spanned<Convention>>,
-    /// Displacement from that frame to the frame before the first row.
-    pub base: Vec<Displacement>,
-    /// The Denavit–Hartenberg table.
-    pub rows: Vec<RowDescription>,
-    /// Displacement from the frame after the last row to the tip.
-    pub tip: Vec<Displacement>,
-}
-
-/// A row of a Denavit–Hartenberg table. Absent entries are 0.
-#[derive(Debug, Clone)]
-pub struct RowDescription {
-    /// Twist of the link (rad).
-    pub alpha: Entry,
-    /// Length of the link (m).
-    pub a: Entry,
-    /// Offset along the joint axis (m).
-    pub d: Entry,
-    /// Angle about the joint axis (rad).
-    pub theta: Entry,
-    /// A name for the link behind the row, which is its body.
-    pub link: Option<Spanned<String>>,
-    /// The place of the row.
-    pub span: Range<usize>,
 }
 
 /// A step of a transform; a list of them is read left to right. Its entries are as in a file, resolved formulas or
@@ -152,15 +81,6 @@ pub enum Displacement<E = Entry> {
     TranslateBy([E; 3]),
 }
 
-/// A rigid body whose pose is unknown.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct PlatformDescription {
-    /// Its pose in the home configuration.
-    pub home: Vec<Displacement>,
-    /// Frames fixed in it.
-    pub frames: Vec<Named<Vec<Displacement>>>,
-}
-
 /// A closure: a broken joint, restored between two frames.
 #[derive(Debug, Clone)]
 pub struct ClosureDescription {
@@ -172,31 +92,6 @@ pub struct ClosureDescription {
     pub length: Option<Entry>,
     /// The place of the closure.
     pub span: Range<usize>,
-}
-
-/// A printed formula, either for the pose of a frame or an identity.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ClosedFormDescription {
-    /// The frame whose pose is given; absent only if the form consists of identities.
-    pub of: Option<Spanned<String>>,
-    /// `in`: the frame in which it is expressed; ground if not given.
-    pub relative_to: Option<Spanned<String>>,
-    /// `where`: local names.
-    pub locals: Vec<Named<Entry>>,
-    /// Publication in which it is printed.
-    pub source: Option<Spanned<String>>,
-    /// The position (m).
-    pub position: Option<[Entry; 3]>,
-    /// The rotation matrix, row by row.
-    pub rotation: Option<[[Entry; 3]; 3]>,
-    /// Rotation and position `[R | p]`, row by row.
-    pub transform: Option<[[Entry; 4]; 3]>,
-    /// Single entries of `[R | p]`.
-    pub entries: Vec<(Spanned<MatrixEntry>, Entry)>,
-    /// An expression that vanishes at every assembled configuration.
-    pub identity: Option<Entry>,
-    /// Several of them.
-    pub identities: Vec<Named<Entry>>,
 }
 
 /// Entry of `[R | p]`; indices count from 0.
@@ -247,6 +142,30 @@ impl From<Expression> for Entry {
     fn from(expression: Expression) -> Self {
         let span = 0..0;
         Self { expression, span }
+    }
+}
+
+impl JointDescription {
+    /// A joint without limits that was not read from a file.
+    pub fn new(role: Role, home: Entry) -> Self {
+        Self {
+            role,
+            home,
+            limits: None,
+            span: 0..0,
+        }
+    }
+}
+
+impl ClosureDescription {
+    /// A closure without a length that was not read from a file.
+    pub fn new(kind: ClosureKind, frames: [String; 2]) -> Self {
+        Self {
+            kind,
+            frames: frames.map(Spanned::nowhere),
+            length: None,
+            span: 0..0,
+        }
     }
 }
 
@@ -370,9 +289,7 @@ macro_rules! equal_up_to_place {
 
 equal_up_to_place! {
     Entry: expression;
-    JointDescription: role, home, limits;
     super::AxisDescription: kind, place, second, role, home, drawn, value, pitch, limits, between;
-    RowDescription: alpha, a, d, theta, link;
     ClosureDescription: kind, frames, length;
 }
 

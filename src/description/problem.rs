@@ -4,8 +4,8 @@ mod advice;
 mod coordinates;
 mod design;
 mod loads;
-mod parts;
 
+use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 pub use coordinates::AxesProblem;
@@ -64,6 +64,17 @@ pub enum Scope {
     ClosedForm,
     /// Parameters, joint variables, coordinates of points, rates, forces and figures.
     Outputs,
+}
+
+impl Display for Scope {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Parameters => "not a parameter",
+            Self::ParametersAndJoints => "neither a parameter nor a joint",
+            Self::ClosedForm => "neither a parameter nor a joint nor a local name",
+            Self::Outputs => "neither a parameter, a joint, a coordinate of a point nor a quantity",
+        })
+    }
 }
 
 /// Kind of problem. Its title is one sentence without a full stop. Lengths are in m, angles in rad.

@@ -9,25 +9,30 @@ mod leaves;
 mod loads;
 mod shapes;
 mod syntax;
+mod values;
 
 use std::collections::HashSet;
 use std::ops::Range;
 
+use super::expectation::GroupForm;
 use super::piece::{Piece, PieceShape};
 use super::*;
 use crate::number::sorting::sort_by_key;
 use shapes::Fields;
+use values::{FileField, FileItem};
 
 /// The description as far as it could be read, the problems, and the names affected by them. Joint coordinates become
 /// tables.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
-    if first_word(text) == Some(FieldGroup::Axes.word()) {
+    if first_word(text) == Some(AxesDescription::GROUP.word) {
         return match AxesDescription::read(text).and_then(|axes| axes.tables()) {
             Ok(description) => (Some(description), Vec::new(), HashSet::new()),
             Err(problems) => (None, problems, HashSet::new()),
         };
     }
-    let (description, reader) = read_with(text, FileReader::mechanism);
+    let (description, reader) = read_with(text, |reader, piece| {
+        reader.file(piece, Description::GROUP, Description::of_fields)
+    });
     (description, reader.problems, reader.broken)
 }
 
@@ -43,18 +48,20 @@ fn first_word(text: &str) -> Option<&str> {
 
 /// True if a text seems to be a mechanism file, false for a file of joint axes.
 pub fn is_mechanism(text: &str) -> bool {
-    first_word(text).is_some_and(|word| word == "Mechanism")
+    first_word(text).is_some_and(|word| word == Description::GROUP.word)
 }
 
 /// True if a text seems to be a design file.
 pub fn is_design(text: &str) -> bool {
-    first_word(text).is_some_and(|word| word == FieldGroup::Design.word())
+    first_word(text).is_some_and(|word| word == DesignDescription::GROUP.word)
 }
 
 impl AxesDescription {
     /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, FileReader { mut problems, .. }) = read_with(text, FileReader::axes);
+        let (description, FileReader { mut problems, .. }) = read_with(text, |reader, piece| {
+            reader.file(piece, AxesDescription::GROUP, AxesDescription::of_fields)
+        });
         if let Some(description) = &description {
             super::checks::check_axes(description, &mut problems);
         }
@@ -97,27 +104,16 @@ impl FileReader {
         self.problems.push(kind.at(span));
     }
 
-    fn mechanism(&mut self, piece: Piece) -> Option<Description> {
-        let mut fields = self.fields(piece, FieldGroup::Mechanism)?;
-        if !self.known_version(&mut fields) {
-            return None;
-        }
-        let f = &mut fields;
-        Some(Description {
-            name: self.required_text(f, "name"),
-            source: self.optional_text(f, "source", Expected::Text),
-            convention: self.convention_field(f),
-            tolerance: self.optional_entry(f, "tolerance"),
-            parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
-            joints: self.named(f, "joints", Noun::Joint, Self::joint),
-            chains: self.named(f, "chains", Noun::Chain, Self::chain),
-            platforms: self.named(f, "platforms", Noun::Platform, Self::platform),
-            closures: self.named(f, "closures", Noun::Closure, Self::closure),
-            closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
-            outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
-            loads: self.loads(f),
-            coordinates: None,
-        })
+    /// A file of a group of fields, unless it has a later version.
+    fn file<T>(
+        &mut self,
+        piece: Piece,
+        group: FieldGroup,
+        read: impl Fn(&mut Self, &mut Fields) -> T,
+    ) -> Option<T> {
+        let mut fields = self.fields(piece, group)?;
+        let known = self.known_version(&mut fields);
+        known.then(|| read(self, &mut fields))
     }
 
     /// Reads the version; false if the file is for a later one.
@@ -136,20 +132,13 @@ impl FileReader {
         !later
     }
 
-    fn limits(&mut self, fields: &mut Fields) -> Option<(Entry, Entry)> {
-        fields.take("limits").and_then(|piece| {
-            let limits = self.tuple(piece, Expected::Limits)?;
-            self.entries(limits).map(|[low, high]| (low, high))
-        })
-    }
-
     fn version(&mut self, piece: Piece) {
         let number = match piece.shape() {
             PieceShape::Number => piece.number().ok(),
             _ => None,
         };
         match number {
-            None => self.wrong_type(piece, Expected::Version),
+            None => self.wrong_type(piece, Expected::Said("the number of the file format")),
             Some(number) if number == f64::from(VERSION) => {}
             Some(number) if number > f64::from(VERSION) && number.fract() == 0.0 => {
                 self.note(ProblemKind::LaterVersion(number), piece.span());
@@ -158,67 +147,14 @@ impl FileReader {
         }
     }
 
-    fn joint(&mut self, piece: Piece) -> Option<JointDescription> {
-        let known = [Role::Passive, Role::Actuated];
-        let (role, _) = self.word(piece, Expected::Joint, &known, Role::word)?;
-        let mut fields = self.fields(piece, FieldGroup::Variable(role))?;
-        Some(JointDescription {
-            role,
-            home: self.entry_or_zero(&mut fields, "home"),
-            limits: self.limits(&mut fields),
-            span: fields.span,
-        })
-    }
-
-    fn chain(&mut self, piece: Piece) -> Option<ChainDescription> {
-        let mut fields = self.fields(piece, FieldGroup::Chain)?;
-        Some(ChainDescription {
-            on: self.optional_text(&mut fields, "on", Expected::Frame),
-            convention: self.convention_field(&mut fields),
-            base: self.transform_field(&mut fields, "base"),
-            rows: match fields.take("rows") {
-                Some(rows) => self.list(rows, Expected::Rows, Self::row),
-                None => Vec::new(),
-            },
-            tip: self.transform_field(&mut fields, "tip"),
-        })
-    }
-
-    fn row(&mut self, piece: Piece) -> Option<RowDescription> {
-        let Some(mut fields) = self.fields(piece, FieldGroup::Row) else {
-            // it still counts, so that the links after it keep their numbers
-            let [alpha, a, d, theta] = std::array::from_fn(|_| Entry::absent());
-            return Some(RowDescription {
-                span: piece.span(),
-                ..RowDescription::new(alpha, a, d, theta)
-            });
-        };
-        Some(RowDescription {
-            alpha: self.entry_or_zero(&mut fields, "alpha"),
-            a: self.entry_or_zero(&mut fields, "a"),
-            d: self.entry_or_zero(&mut fields, "d"),
-            theta: self.entry_or_zero(&mut fields, "theta"),
-            link: self.optional_text(&mut fields, "link", Expected::NameOf(Noun::Body)),
-            span: fields.span,
-        })
-    }
-
-    fn platform(&mut self, piece: Piece) -> Option<PlatformDescription> {
-        let mut fields = self.fields(piece, FieldGroup::Platform)?;
-        Some(PlatformDescription {
-            home: self.transform_field(&mut fields, "home"),
-            frames: self.named(
-                &mut fields,
-                "frames",
-                Noun::PlatformFrame,
-                |reader, piece| Some(reader.transform(piece)),
-            ),
-        })
-    }
-
     fn closure(&mut self, piece: Piece) -> Option<ClosureDescription> {
         let (known, word) = (&ClosureKind::ALL, ClosureKind::word);
-        let (kind, content) = self.word(piece, Expected::Closure, known, word)?;
+        let (kind, content) = self.word(
+            piece,
+            Expected::Said("a closure such as `Revolute(frame, frame)`"),
+            known,
+            word,
+        )?;
         let expected = Expected::ClosureFrames(kind);
         if kind == ClosureKind::Coupling {
             let [expression] = self.content(piece, content, expected)?;
@@ -236,7 +172,7 @@ impl FileReader {
         } else {
             (self.content(piece, content, expected)?, None)
         };
-        let [from, to] = frames.map(|frame| self.text(frame, Expected::Frame));
+        let [from, to] = frames.map(|frame| self.text(frame, Expected::FRAME));
         let length = length.map(|length| self.entry(length));
         Some(ClosureDescription {
             kind,

@@ -5,6 +5,7 @@ use serde::ser::{
     Serialize, SerializeStruct, SerializeStructVariant, SerializeTupleVariant, Serializer,
 };
 
+use super::schema::{axes_structures, load_structures, part_structures};
 use super::*;
 
 impl Description {
@@ -24,104 +25,122 @@ impl AxesDescription {
     }
 }
 
-/// The value of a field, which is left out unless it is given.
-trait WrittenField {
-    fn is_given(&self) -> bool;
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
+/// Fields in parentheses that are being written. The word before them is left out unless it is asked for, or they are those of a
+/// variant.
+enum WrittenFields<S: Serializer> {
+    Bare(S::SerializeStruct),
+    Named(S::SerializeStructVariant),
 }
 
-macro_rules! field {
-    ($($type:ty $(where $parameter:ident)?: |$value:ident| $given:expr, $written:expr;)+) => {$(
-        impl$(<$parameter: Serialize>)? WrittenField for $type {
-            #[allow(unused_variables)]
-            fn is_given(&self) -> bool {
-                let $value = self;
-                $given
-            }
+impl<S: Serializer> WrittenFields<S> {
+    fn bare(serializer: S, word: &'static str) -> Result<Self, S::Error> {
+        serializer.serialize_struct(word, 1).map(Self::Bare)
+    }
 
-            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let $value = self;
-                $written.serialize(serializer)
-            }
+    fn named(serializer: S, word: &'static str) -> Result<Self, S::Error> {
+        let fields = serializer.serialize_struct_variant("Part", 0, word, 1);
+        fields.map(Self::Named)
+    }
+
+    fn put<T: Serialize + ?Sized>(
+        &mut self,
+        name: &'static str,
+        value: &T,
+    ) -> Result<(), S::Error> {
+        match self {
+            Self::Bare(fields) => fields.serialize_field(name, value),
+            Self::Named(fields) => fields.serialize_field(name, value),
         }
-    )+};
-}
+    }
 
-field! {
-    u32: |number| true, number;
-    Spanned<String>: |text| true, text;
-    Entry: |entry| !entry.expression.is_zero(), entry;
-    Vec<Displacement>: |steps| !steps.is_empty(), steps;
-    Vec<RowDescription>: |rows| !rows.is_empty(), rows;
-    Vec<Spanned<String>>: |names| !names.is_empty(), names;
-    Vec<(Spanned<MatrixEntry>, Entry)>: |entries| !entries.is_empty(), PoseEntries(entries);
-    Vec<Named<T>> where T: |named| !named.is_empty(), NamedMap(named);
-    Option<T> where T: |value| value.is_some(), Bare(value);
-}
+    /// Writes a field, unless it is not given.
+    fn given<T: WrittenField>(&mut self, name: &'static str, value: &T) -> Result<(), S::Error> {
+        match value.written() {
+            Some(written) => self.put(name, &written),
+            None => Ok(()),
+        }
+    }
 
-struct AsWritten<'a, F>(&'a F);
-
-impl<F: WrittenField> Serialize for AsWritten<'_, F> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.0.write(serializer)
+    fn end(self) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Bare(fields) => fields.end(),
+            Self::Named(fields) => fields.end(),
+        }
     }
 }
 
-/// Fields in parentheses. A variant is named in every layout; a structure is not, unless its name is asked for, which is that
-/// of the file.
-macro_rules! started {
-    ($serializer:ident, $part:ident, $word:expr) => {
-        $serializer.serialize_struct_variant(stringify!($part), 0, $word, 1)
+/// How structures are written.
+macro_rules! writable {
+    ($($(#[$about:meta])* $name:ident = $form:ident $($by:ident)? $word:literal, $said:literal {
+        $($(#[$doc:meta])* $field:ident: $type:ty = $key:tt $(as $expected:expr)?,)+
+    })+) => {$(
+        impl $name {
+            fn write_fields<S: Serializer>(&self, fields: &mut WrittenFields<S>) -> Result<(), S::Error> {
+                writable!(version fields, $form);
+                $(writable!(write fields, self.$field, $key);)+
+                Ok(())
+            }
+        }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let mut fields = writable!(start serializer, self, $form $($by)?, $word);
+                self.write_fields(&mut fields)?;
+                fields.end()
+            }
+        }
+    )+};
+    (version $fields:ident, file) => {
+        $fields.put("version", &VERSION)?
     };
-    ($serializer:ident, $part:ident) => {
-        $serializer.serialize_struct(stringify!($part).trim_end_matches("Description"), 1)
+    (version $fields:ident, $form:ident) => {};
+    (write $fields:ident, $of:ident.$field:ident, within) => {
+        $of.$field.write_fields($fields)?
+    };
+    (write $fields:ident, $of:ident.$field:ident, $key:ident) => {};
+    (write $fields:ident, $of:ident.$field:ident, $key:literal) => {
+        $fields.given($key, &$of.$field)?
+    };
+    (start $serializer:ident, $of:ident, part, $word:literal) => {
+        WrittenFields::bare($serializer, $word)?
+    };
+    (start $serializer:ident, $of:ident, by $kind:ident, $word:literal) => {
+        WrittenFields::named($serializer, $of.$kind.word())?
+    };
+    (start $serializer:ident, $of:ident, $form:ident, $word:literal) => {
+        WrittenFields::named($serializer, $word)?
     };
 }
 
-/// Writes the given fields of each part, behind a word if it has one.
+part_structures!(writable);
+load_structures!(writable);
+axes_structures!(writable);
+
+/// The value of a field as it is written, unless it is left out.
+trait WrittenField {
+    fn written(&self) -> Option<impl Serialize>;
+}
+
 macro_rules! written {
-    ($($part:ident |$of:ident| $(as $word:expr,)? { $($name:literal: $value:expr),+ $(,)? })+) => {$(
-        impl Serialize for $part {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let $of = self;
-                let mut fields = started!(serializer, $part $(, $word)?)?;
-                $(if $value.is_given() { fields.serialize_field($name, &AsWritten(&$value))?; })+
-                fields.end()
+    ($([$($of:ident)?] $type:ty => |$value:ident| $written:expr;)+) => {$(
+        impl$(<$of: Serialize>)? WrittenField for $type {
+            fn written(&self) -> Option<impl Serialize> {
+                let $value = self;
+                $written
             }
         }
     )+};
 }
 
 written! {
-    Description |file| as "Mechanism", {
-        "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
-        "tolerance": file.tolerance, "parameters": file.parameters, "joints": file.joints, "chains": file.chains, "platforms": file.platforms,
-        "closures": file.closures, "closed_forms": file.closed_forms, "outputs": file.outputs,
-        "gravity": file.loads.gravity, "masses": file.loads.masses, "loads": file.loads.loads,
-    }
-    JointDescription |joint| as joint.role.word(), { "home": joint.home, "limits": joint.limits }
-    ChainDescription |chain| as "Chain", {
-        "on": chain.on, "convention": chain.convention, "base": chain.base, "rows": chain.rows, "tip": chain.tip,
-    }
-    RowDescription |row| { "alpha": row.alpha, "a": row.a, "d": row.d, "theta": row.theta, "link": row.link }
-    PlatformDescription |platform| as "Platform", { "home": platform.home, "frames": platform.frames }
-    ClosedFormDescription |form| as "ClosedForm", {
-        "of": form.of, "in": form.relative_to, "where": form.locals, "source": form.source,
-        "position": form.position, "rotation": form.rotation, "transform": form.transform,
-        "entries": form.entries, "identity": form.identity, "identities": form.identities,
-    }
-    AxesDescription |file| as "Axes", {
-        "version": VERSION, "name": file.name, "source": file.source, "convention": file.convention,
-        "tolerance": file.tolerance, "parameters": file.parameters, "joints": Some(NamedMap(&file.joints)), "bodies": bodies(&file.bodies),
-        "points": file.points, "base": file.base, "tool": file.tool, "cut": file.cut,
-        "closed_forms": file.closed_forms, "outputs": file.outputs,
-        "gravity": file.loads.gravity, "masses": file.loads.masses, "loads": file.loads.loads,
-    }
-    MassDescription |of| {
-        "mass": of.mass, "centre": of.centre, "inertia": of.inertia, "shape": of.shape, "density": of.density,
-        "turned": of.turned,
-    }
+    [] Entry => |entry| Some(entry).filter(|entry| !entry.expression.is_zero());
+    [] Spanned<String> => |text| Some(text);
+    [T] Option<T> => |value| value.as_ref();
+    [] Vec<Displacement> => |steps| Some(steps).filter(|steps| !steps.is_empty());
+    [] Vec<RowDescription> => |rows| Some(rows).filter(|rows| !rows.is_empty());
+    [] Vec<Spanned<String>> => |names| Some(names).filter(|names| !names.is_empty());
+    [T] Vec<Named<T>> => |items| (!items.is_empty()).then_some(NamedMap(items));
+    [] Vec<(Spanned<MatrixEntry>, Entry)> => |entries| (!entries.is_empty()).then_some(PoseEntries(entries));
 }
 
 impl Serialize for InertiaDescription {
@@ -147,37 +166,19 @@ impl Serialize for ShapeDescription {
 
 impl Serialize for LoadDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields =
-            serializer.serialize_struct_variant("Load", 0, self.kind.word(), self.fields.len())?;
+        let mut fields = WrittenFields::named(serializer, self.kind.word())?;
         for (name, value) in &self.fields {
             match value {
-                LoadField::Name(name_of) | LoadField::File(name_of) => {
-                    fields.serialize_field(name, name_of)?
-                }
-                LoadField::Points([a, b]) => fields.serialize_field(name, &(a, b))?,
-                LoadField::Entry(entry) => fields.serialize_field(name, entry)?,
-                LoadField::Vector([x, y, z]) => fields.serialize_field(name, &(x, y, z))?,
-                LoadField::Yes(yes) => fields.serialize_field(name, yes)?,
-                LoadField::Table(rows) => {
-                    let rows: Vec<(&Entry, &Entry)> = rows.iter().map(|[x, y]| (x, y)).collect();
-                    fields.serialize_field(name, &rows)?;
-                }
+                LoadField::Name(name_of) | LoadField::File(name_of) => fields.put(name, name_of)?,
+                LoadField::Points(points) => fields.put(name, points)?,
+                LoadField::Entry(entry) => fields.put(name, entry)?,
+                LoadField::Vector(vector) => fields.put(name, vector)?,
+                LoadField::Yes(yes) => fields.put(name, yes)?,
+                LoadField::Table(rows) => fields.put(name, rows)?,
             }
         }
         fields.end()
     }
-}
-
-fn bodies(bodies: &[Named<AxisPlace>]) -> Vec<Named<WrittenPlace<'_>>> {
-    let bodies = bodies.iter();
-    bodies
-        .map(|body| {
-            Named::new(
-                &body.name.value,
-                WrittenPlace("Body", "origin", &body.value),
-            )
-        })
-        .collect()
 }
 
 /// A place with the words of its fields: the name of the whole and that of its point.
@@ -185,79 +186,68 @@ struct WrittenPlace<'a>(&'static str, &'static str, &'a AxisPlace);
 
 impl Serialize for WrittenPlace<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_struct(self.0, 1)?;
-        for (name, value) in self.2.fields(self.1) {
-            fields.serialize_field(name, &value)?;
-        }
+        let mut fields = WrittenFields::bare(serializer, self.0)?;
+        self.2.write_fields(self.1, &mut fields)?;
         fields.end()
+    }
+}
+
+/// As that of a body.
+impl Serialize for AxisPlace {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        WrittenPlace("Body", "origin", self).serialize(serializer)
     }
 }
 
 impl Serialize for PointDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_struct("Point", 2)?;
-        fields.serialize_field("body", &self.body)?;
-        for (name, value) in self.place.fields("at") {
-            fields.serialize_field(name, &value)?;
-        }
+        let mut fields = WrittenFields::bare(serializer, "Point")?;
+        fields.put("body", &self.body)?;
+        self.place.write_fields("at", &mut fields)?;
         fields.end()
     }
 }
 
-/// The value of a field that places something.
-#[derive(serde::Serialize)]
-#[serde(untagged)]
-enum PlacedField<'a> {
-    Vector(&'a [Entry; 3]),
-    Pair(&'a [Entry; 3], &'a [Entry; 3]),
-    Frame(&'a [Displacement]),
-}
-
 impl AxisPlace {
-    /// The fields that say it, in their order; that of a point has different names.
-    fn fields(&self, point_name: &'static str) -> Vec<(&'static str, PlacedField<'_>)> {
-        let at = |point| (point_name, PlacedField::Vector(point));
+    /// Writes the fields that say it, in their order; that of a point has different names.
+    fn write_fields<S: Serializer>(
+        &self,
+        point: &'static str,
+        fields: &mut WrittenFields<S>,
+    ) -> Result<(), S::Error> {
         match self {
-            AxisPlace::Along(point, direction) => {
-                let direction = ("direction", PlacedField::Vector(direction));
-                point.iter().map(at).chain([direction]).collect()
+            AxisPlace::Along(at, direction) => {
+                fields.given(point, at)?;
+                fields.put("direction", direction)
             }
-            AxisPlace::Through(first, second) => {
-                vec![("through", PlacedField::Pair(first, second))]
+            AxisPlace::Through(first, second) => fields.put("through", &(first, second)),
+            AxisPlace::Cross(at, directions) => {
+                fields.put(point, at)?;
+                fields.put("directions", directions)
             }
-            AxisPlace::Cross(point, [first, second]) => {
-                vec![at(point), ("directions", PlacedField::Pair(first, second))]
-            }
-            AxisPlace::Centre(point) => vec![at(point)],
-            AxisPlace::Frame(steps) => vec![("frame", PlacedField::Frame(steps))],
+            AxisPlace::Centre(at) => fields.put(point, at),
+            AxisPlace::Frame(steps) => fields.put("frame", steps),
         }
     }
 }
 
 impl Serialize for AxisDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let by = match self.kind {
-            AxisKind::Distance => "length",
-            _ => "value",
-        };
-        let mut fields = serializer.serialize_struct_variant("Axis", 0, self.kind.word(), 1)?;
+        let mut fields = WrittenFields::named(serializer, self.kind.word())?;
         // a fixed joint may be anywhere
         if self.kind != AxisKind::Fixed || self.place != AxisPlace::Frame(Vec::new()) {
-            for (name, value) in self.place.fields("point") {
-                fields.serialize_field(name, &value)?;
-            }
+            self.place.write_fields("point", &mut fields)?;
         }
-        macro_rules! given {
-            ($($name:expr => $value:expr),+) => {
-                $(if $value.is_some() { fields.serialize_field($name, &Bare(&$value))?; })+
-            };
+        if let Some(second) = &self.second {
+            fields.put("second", &WrittenPlace("Place", "point", second))?;
         }
-        let second = self
-            .second
-            .as_ref()
-            .map(|place| WrittenPlace("WrittenPlace", "point", place));
-        given!("second" => second, "pitch" => self.pitch, by => self.value, "home" => self.home);
-        given!("drawn" => self.drawn, "limits" => self.limits, "role" => self.role, "between" => self.between);
+        fields.given("pitch", &self.pitch)?;
+        fields.given(self.kind.follows_by(), &self.value)?;
+        fields.given("home", &self.home)?;
+        fields.given("drawn", &self.drawn)?;
+        fields.given("limits", &self.limits)?;
+        fields.given("role", &self.role)?;
+        fields.given("between", &self.between)?;
         fields.end()
     }
 }
@@ -278,18 +268,6 @@ impl Serialize for PoseEntries<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let entries = self.0.iter();
         serializer.collect_map(entries.map(|(place, entry)| (place.value.to_string(), entry)))
-    }
-}
-
-/// An optional value, without `Some(…)` around it.
-struct Bare<'a, T>(&'a Option<T>);
-
-impl<T: Serialize> Serialize for Bare<'_, T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            Some(value) => value.serialize(serializer),
-            None => serializer.serialize_unit(),
-        }
     }
 }
 

@@ -1,16 +1,16 @@
 //! Names that a mechanism file may use.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use super::remark::Remark;
-use crate::description::{GROUND, first_free, variable_name};
+use crate::description::{GROUND, GivenNames, variable_name};
 use crate::geometry::Pose;
 
 /// Names given so far.
 #[derive(Default)]
-pub(super) struct GivenNames {
-    variables: HashSet<String>,
-    bodies: HashSet<String>,
+pub(super) struct ImportedNames {
+    variables: GivenNames,
+    bodies: GivenNames,
     /// The name given to the platform that a body is.
     pub platforms: HashMap<usize, String>,
     /// The frames on each body: the name requested, the place, the name given. Frames of bodies, sites and closures that are
@@ -20,12 +20,10 @@ pub(super) struct GivenNames {
     pub renamed: Vec<Remark>,
 }
 
-impl GivenNames {
+impl ImportedNames {
     /// A name for a joint variable: letters, digits, underscores and single blanks.
     pub fn variable(&mut self, wanted: &str) -> String {
-        let free = |name: &str| !self.variables.contains(name);
-        let name = first_free(&variable_name(wanted), "_", free);
-        self.variables.insert(name.clone());
+        let name = self.variables.give(&variable_name(wanted));
         self.note("joint", wanted, &name);
         name
     }
@@ -53,8 +51,7 @@ impl GivenNames {
     }
 
     fn body(&mut self, wanted: &str) -> String {
-        let name = first_free(&fit(wanted), "_", |name| !self.bodies.contains(name));
-        self.bodies.insert(name.clone());
+        let name = self.bodies.give(&fit(wanted));
         self.note("link", wanted, &name);
         name
     }

@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) use relations::carriers;
 use relations::{FollowingJoint, followers, within_reason};
 
-use super::names::GivenNames;
+use super::names::ImportedNames;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
 use super::tree::{Attachment, BodyMotion, Tree, TreeJoint};
@@ -53,7 +53,7 @@ pub(super) fn describe(
         zero: tree.poses(|joint| joint.reference),
         followers: followers(tree)?,
         variables: HashMap::new(),
-        names: GivenNames::default(),
+        names: ImportedNames::default(),
         needs: Vec::new(),
         tips: HashMap::new(),
         places: HashMap::new(),
@@ -117,7 +117,7 @@ struct Unroller<'a> {
     followers: HashMap<String, FollowingJoint>,
     /// The variable of each joint that leads.
     variables: HashMap<String, String>,
-    names: GivenNames,
+    names: ImportedNames,
     /// Frames that must have a name: the name, the carrier, the pose in it.
     needs: Vec<(String, usize, Pose<f64>)>,
     /// The frame at the end of the chain that ends with a body: its name and its pose in the body.

@@ -58,8 +58,8 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     let in_rows_and_lengths: HashSet<usize> = entries.flat_map(joints_of).chain(related).collect();
     let outputs = description.outputs.iter().map(|output| &output.value);
     let coordinates = description.coordinates.iter();
-    let places = coordinates.flat_map(|c| c.axes.places().flat_map(|place| place.entries()));
-    let evaluated: HashSet<&str> = (outputs.chain(places))
+    let drawn = coordinates.flat_map(|made| made.axes.entries());
+    let evaluated: HashSet<&str> = (outputs.chain(drawn))
         .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
         .collect();
     let in_loads = description.loads.names();

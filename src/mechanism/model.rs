@@ -173,6 +173,18 @@ pub struct Closure {
 }
 
 impl Closure {
+    /// A closure without a length.
+    pub(super) fn new(name: String, kind: ClosureKind, frames: [super::Frame; 2]) -> Self {
+        Closure {
+            name,
+            kind,
+            frames,
+            length: None,
+            relation: None,
+            opened: None,
+        }
+    }
+
     /// Its kind and its frames as the file has them, also where its joint has variables.
     pub fn written(&self) -> (ClosureKind, [super::Frame; 2]) {
         let (kind, first) = self.opened.unwrap_or((self.kind, self.frames[0]));

@@ -81,14 +81,9 @@ impl Mechanism {
             home: self.transform(Frame::Ground, frame, &self.home()),
             frames: Arc::default(),
         });
-        let closure = Closure {
-            name: self.free_name(&format!("frame {name}")),
-            kind: ClosureKind::Rigid,
-            frames: [frame, Frame::Platform { platform }],
-            length: None,
-            relation: None,
-            opened: None,
-        };
+        let called = self.free_name(&format!("frame {name}"));
+        let frames = [frame, Frame::Platform { platform }];
+        let closure = Closure::new(called, ClosureKind::Rigid, frames);
         Arc::make_mut(&mut more.closures).push(closure);
         more.added_unknowns += 6;
         Some(more.remeasured(self.characteristic_length()))
@@ -150,14 +145,8 @@ impl Mechanism {
             }
         });
         let name = cut.free_name(&format!("coordinates of {called}"));
-        Arc::make_mut(&mut cut.closures).push(Closure {
-            name,
-            kind: ClosureKind::Spherical,
-            frames: tips,
-            length: None,
-            relation: None,
-            opened: None,
-        });
+        let closure = Closure::new(name, ClosureKind::Spherical, tips);
+        Arc::make_mut(&mut cut.closures).push(closure);
         cut.remeasured(self.characteristic_length())
     }
 
@@ -167,6 +156,6 @@ impl Mechanism {
         let others = self.platforms.iter().map(|platform| &platform.name);
         let closures = self.closures.iter().map(|closure| &closure.name);
         let all: Vec<&String> = joints.chain(chains).chain(others).chain(closures).collect();
-        first_free(name, "_", |name| all.iter().all(|known| *known != name))
+        first_free(name, |name| all.iter().all(|known| *known != name))
     }
 }

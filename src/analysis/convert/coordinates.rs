@@ -195,7 +195,7 @@ impl Drawing<'_> {
                         !self.description.is_free_body(name)
                             || self.bodies.values().any(|other| other == name)
                     };
-                    first_free(&wanted, "_", |name| !taken(name))
+                    first_free(&wanted, |name| !taken(name))
                 }
             };
             self.bodies.insert(body, name);
@@ -239,7 +239,7 @@ impl Drawing<'_> {
             let mut ends = joint.value.between.iter().flatten();
             ends.any(|end| end.value == name)
         };
-        first_free(wanted, "_", |name| {
+        first_free(wanted, |name| {
             self.description.is_free_body(name)
                 && !self.axes.joints.iter().any(|j| connects(j, name))
         })

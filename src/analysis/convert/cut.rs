@@ -278,7 +278,7 @@ fn rebuild(
     let joint = opened.name.value.clone();
     let name = free_closure(&new, closure, &joint);
     // the closure measures its joint from its first frame to its second
-    let mut ends = [front_name, back_name].map(Spanned::nowhere);
+    let mut ends = [front_name, back_name];
     if place.factor < 0.0 {
         ends.swap(0, 1);
     }
@@ -293,18 +293,11 @@ fn rebuild(
         .flat_map(|output| output.value.expression.names()))
     .any(|(name, _)| *name == joint);
     let kept = name == joint && place.factor.abs() == 1.0 && (used || told || reported);
-    new.closures[closure] = Named::new(
-        name,
-        ClosureDescription {
-            kind: match place.slides {
-                true => ClosureKind::Prismatic,
-                false => ClosureKind::Revolute,
-            },
-            frames: ends,
-            length: None,
-            span: 0..0,
-        },
-    );
+    let kind = match place.slides {
+        true => ClosureKind::Prismatic,
+        false => ClosureKind::Revolute,
+    };
+    new.closures[closure] = Named::new(name, ClosureDescription::new(kind, ends));
     // declared under the name of the closure, the joint keeps its variable
     let end = place.joint + usize::from(!kept);
     new.joints.splice(place.joint..end, motion.joints.clone());

@@ -17,7 +17,7 @@ pub(super) struct Substitute {
 
 /// A name that no chain and no platform of the file has.
 pub(super) fn free_name(description: &Description, wanted: &str) -> String {
-    first_free(wanted, "_", |name| {
+    first_free(wanted, |name| {
         description.is_free_body(name) && !name.contains('.')
     })
 }

@@ -168,7 +168,12 @@ impl<'a> Build<'a> {
             None => return,
         };
         let end = way.last().map_or(from, |&(_, body)| body);
-        let name = self.free_name(&self.graph.bodies[end].value, "chain");
+        let serial = self.axes.is_serial();
+        let wanted = match serial {
+            true => "chain",
+            false => &self.graph.bodies[end].value,
+        };
+        let name = self.free_name(wanted, "chain");
         let mut before = from;
         let mut joints = Vec::new();
         for &(joint, body) in way {
@@ -180,11 +185,8 @@ impl<'a> Build<'a> {
             0 => self.values.base,
             _ => Some(parent),
         };
-        let serial = SerialAxes {
-            base,
-            joints,
-            tool: None,
-        };
+        let tool = self.values.tool.filter(|_| serial);
+        let serial = SerialAxes { base, joints, tool };
         let open = |joint: &usize| {
             let side = self.graph.ends[*joint].iter().position(|&body| body == end);
             let side = side.unwrap_or(0);
@@ -196,7 +198,11 @@ impl<'a> Build<'a> {
             .collect();
         let (made, tip) = match cut {
             Some(cut) => self.ended(serial.clone(), cut),
-            None => (serial.assign(self.convention), Pose::identity()),
+            None => {
+                let made = serial.assign(self.convention);
+                let tip = made.table.tip;
+                (made, tip)
+            }
         };
         let frames = made.table.frames();
         for (k, &(_, body)) in way.iter().enumerate() {
@@ -349,16 +355,12 @@ impl<'a> Build<'a> {
 
     fn closure(&self, joint: usize) -> Named<ClosureDescription> {
         let described = &self.axes.joints[joint];
-        let frame = |side: usize| {
-            Spanned::nowhere(self.cut_frames[joint][side].clone().unwrap_or_default())
-        };
-        let closure = ClosureDescription {
-            kind: (described.value.kind.closure())
-                .expect("tables are made of joints that can be cut"),
-            frames: [frame(0), frame(1)],
-            length: None,
-            span: 0..0,
-        };
+        let kind = described.value.kind.closure();
+        let kind = kind.expect("tables are made of joints that can be cut");
+        let frames = self.cut_frames[joint]
+            .clone()
+            .map(Option::unwrap_or_default);
+        let closure = ClosureDescription::new(kind, frames);
         Named::new(described.name.value.clone(), closure)
     }
 }

@@ -1,14 +1,13 @@
 //! Chains of a mechanism file from assigned frames.
 
 use super::values::Values;
-use super::{FramesReport, PlacedChain};
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
-    AxesDescription, AxesProblem, AxisKind, ChainDescription, Convention, Description,
-    Displacement, Entry, JointDescription, Named, Problem, Role, RowDescription, Spanned, names_of,
+    AxesDescription, AxesProblem, AxisKind, Displacement, Entry, JointDescription, Named, Problem,
+    Role, RowDescription, unless,
 };
 use crate::geometry::{Axis, Pose, Rotation, Vector3};
-use crate::mechanism::{DhTable, JointAxis, SerialAxes, TableRow};
+use crate::mechanism::{DhTable, JointAxis, TableRow};
 
 /// The axis of the joint of that index, traversed from the first of its bodies or from the second.
 pub(super) fn joint_axis(
@@ -111,12 +110,8 @@ pub(super) fn declarations(
     declared.collect()
 }
 
-/// The one chain of a serial mechanism.
-pub(super) fn serial(
-    axes: &AxesDescription,
-    values: &Values,
-    convention: Convention,
-) -> Result<FramesReport, Vec<Problem>> {
+/// Refuses what a serial chain cannot have.
+pub(super) fn check_serial(axes: &AxesDescription) -> Result<(), Vec<Problem>> {
     let balls = (axes.joints.iter()).filter(|joint| joint.value.kind == AxisKind::Spherical);
     let problems = balls.map(|ball| {
         let joint = ball.name.value.clone();
@@ -126,49 +121,7 @@ pub(super) fn serial(
         let joint = cut.value.clone();
         AxesProblem::CutsOff { joint }.at(&cut.span)
     });
-    let problems: Vec<Problem> = problems.chain(cut).collect();
-    if !problems.is_empty() {
-        return Err(problems);
-    }
-    let joints = (0..axes.joints.len()).map(|k| joint_axis(axes, values, k, true));
-    let serial = SerialAxes {
-        base: values.base,
-        joints: joints.collect(),
-        tool: values.tool,
-    };
-    let made = serial.assign(convention);
-    let names: Vec<String> = names_of(&axes.joints).map(str::to_owned).collect();
-    let chain = ChainDescription {
-        base: Displacement::of_pose(&made.table.base),
-        rows: rows(&made.table, &names),
-        tip: Displacement::of_pose(&made.table.tip),
-        ..ChainDescription::default()
-    };
-    let driven = axes.joints.iter().any(|joint| joint.value.role.is_some());
-    let role = |k: usize| match (axes.joints[k].value.role, driven) {
-        (Some(role), _) => role,
-        (None, true) => Role::Passive,
-        (None, false) => Role::Actuated,
-    };
-    let joints = declarations(axes, values, |_| true, role);
-    let name = "chain";
-    Ok(FramesReport {
-        mechanism: axes.name.value.clone(),
-        convention,
-        description: Description {
-            name: axes.name.clone(),
-            source: axes.source.clone(),
-            convention: Some(Spanned::nowhere(convention)),
-            joints,
-            chains: vec![Named::new(name, chain)],
-            ..Description::default()
-        },
-        chains: vec![PlacedChain::of(name.into(), "ground".into(), names, &made)],
-        cuts: None,
-        turned: made.turned,
-        moved: made.moved,
-        warnings: Vec::new(),
-    })
+    unless(problems.chain(cut).collect(), ())
 }
 
 /// A displacement from one pose to another, both in ground.

@@ -98,11 +98,11 @@ impl Tables<'_> {
         let wanted = &self.axes.joints[joint].name.value;
         if let (Some(platform), None) = (placed.platform, &row) {
             let frames = &mut self.made.platforms[platform].value.frames;
-            let name = first_free(wanted, "_", |name| place_of(frames, name).is_none());
+            let name = first_free(wanted, |name| place_of(frames, name).is_none());
             frames.push(Named::new(name.clone(), relative));
             return format!("{}.{name}", placed.name);
         }
-        let name = self.free_name(&format!("{wanted}_{}", side + 1));
+        let name = self.taken.give(&format!("{wanted}_{}", side + 1));
         let chain = ChainDescription {
             rows: row.into_iter().collect(),
             ..ChainDescription::frame(&placed.name, relative)

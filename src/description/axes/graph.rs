@@ -28,7 +28,7 @@ impl Graph {
             let known: Vec<&str> = names_of(&axes.points).collect();
             for (k, joint) in axes.joints.iter().enumerate() {
                 let free = |name: &str| !known.contains(&name);
-                let name = first_free(&format!("link{}", k + 1), "_", free);
+                let name = first_free(&format!("link{}", k + 1), free);
                 let span = joint.name.span.clone();
                 graph.bodies.push(Spanned::new(name, span));
                 graph.ends.push([k, k + 1]);

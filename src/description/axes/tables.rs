@@ -23,8 +23,9 @@ use super::{AxesDescription, AxisKind, AxisPlace};
 use crate::algebra::Expression;
 use crate::description::steps::{joined, zero};
 use crate::description::{
-    AxesProblem, Convention, Description, Displacement, Entry, GROUND, JointDescription, Named,
-    PlatformDescription, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
+    AxesProblem, Convention, Description, Displacement, Entry, GROUND, GivenNames,
+    JointDescription, Named, PlatformDescription, Problem, Role, Spanned, first_free, names_of,
+    nearest, place_of,
 };
 
 /// Joint coordinates, with the choices made in writing tables of them.
@@ -54,7 +55,7 @@ pub(super) struct Tables<'a> {
     pub moved: Vec<Entry>,
     cuts: &'a BTreeSet<usize>,
     pub bodies: Vec<Option<PlacedBody>>,
-    pub taken: Vec<String>,
+    pub taken: GivenNames,
     pub made: Description,
 }
 
@@ -88,7 +89,7 @@ impl AxesDescription {
             moved,
             cuts: &cuts,
             bodies: vec![None; graph.bodies.len()],
-            taken: Vec::new(),
+            taken: GivenNames::default(),
             made: Description {
                 name: axes.name.clone(),
                 source: axes.source.clone(),
@@ -134,10 +135,7 @@ impl AxesDescription {
                 ("home", value.home.is_some()),
                 ("limits", value.limits.is_some()),
             ];
-            let by = match value.kind {
-                AxisKind::Distance => "length",
-                _ => "value",
-            };
+            let by = value.kind.follows_by();
             for (field, _) in fields
                 .iter()
                 .filter(|(_, given)| *given && value.value.is_some())
@@ -197,7 +195,7 @@ impl Tables<'_> {
             self.stand(body, point.name.clone(), &steps);
         }
         if let (Some(tool), true) = (&axes.tool, axes.is_serial()) {
-            let name = self.free_name("tool");
+            let name = self.taken.give("tool");
             let last = self.graph.bodies.len() - 1;
             self.stand(last, Spanned::nowhere(name), tool);
         }
@@ -223,22 +221,15 @@ impl Tables<'_> {
                 }
                 (None, _) => zero(),
             };
+            let role = [Role::Passive, Role::Actuated][usize::from(driven[j])];
             let joint = JointDescription {
-                role: [Role::Passive, Role::Actuated][usize::from(driven[j])],
-                home,
                 limits: value.limits.clone(),
                 span: value.span.clone(),
+                ..JointDescription::new(role, home)
             };
             let name = name.clone();
             self.made.joints.push(Named { name, value: joint });
         }
-    }
-
-    /// A name for a frame, which it then has.
-    pub(super) fn free_name(&mut self, wanted: &str) -> String {
-        let name = first_free(wanted, "_", |name| self.taken.iter().all(|t| t != name));
-        self.taken.push(name.clone());
-        name
     }
 
     /// A passive variable of a joint that has several.
@@ -248,13 +239,8 @@ impl Tables<'_> {
                 || place_of(&self.axes.joints, name).is_some()
                 || place_of(&self.axes.parameters, name).is_some()
         };
-        let name = first_free(wanted, "_", |name| !taken(name));
-        let joint = JointDescription {
-            role: Role::Passive,
-            home: zero(),
-            limits: None,
-            span: 0..0,
-        };
+        let name = first_free(wanted, |name| !taken(name));
+        let joint = JointDescription::new(Role::Passive, zero());
         self.made.joints.push(Named::new(name.clone(), joint));
         Expression::name(name).into()
     }

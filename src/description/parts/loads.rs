@@ -5,37 +5,9 @@ use std::ops::Range;
 
 use super::{Displacement, Entry, Named, Spanned};
 use crate::algebra::{Expression, words};
+use crate::description::schema::{declared, load_structures};
 
-/// What acts in a mechanism: weight and inertia of bodies, springs, forces, friction.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct LoadsDescription {
-    /// The acceleration of free fall (m/s²), in ground.
-    pub gravity: Option<[Entry; 3]>,
-    /// Masses under the names of bodies, or of frames and points on them.
-    pub masses: Vec<Named<MassDescription>>,
-    /// Springs, forces and friction.
-    pub loads: Vec<Named<LoadDescription>>,
-}
-
-/// The mass of a body, or of a part of one.
-#[derive(Debug, Clone)]
-pub struct MassDescription {
-    /// The mass (kg), unless it follows from shape and density.
-    pub mass: Option<Entry>,
-    /// The centre of mass in the frame (m).
-    pub centre: Option<[Entry; 3]>,
-    /// Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the centre of mass along the axes of the frame (kg·m²), or Izz of a flat body
-    /// alone.
-    pub inertia: Option<InertiaDescription>,
-    /// A homogeneous shape about the centre of mass.
-    pub shape: Option<ShapeDescription>,
-    /// Its density: kg/m for a rod, kg/m² for a plate, else kg/m³.
-    pub density: Option<Entry>,
-    /// The turn of the axes of inertia or shape against those of the frame.
-    pub turned: Vec<Displacement>,
-    /// Its place.
-    pub span: Range<usize>,
-}
+load_structures!(declared);
 
 /// Moments of inertia: six, or one of a flat body.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,7 +64,7 @@ impl Shape {
 pub struct LoadDescription {
     /// Its kind.
     pub kind: LoadKind,
-    /// The fields that are given, in the order of [`LoadKind::fields`].
+    /// The fields that are given, in the order of their kind.
     pub fields: Vec<(&'static str, LoadField)>,
     /// Its place.
     pub span: Range<usize>,
@@ -115,19 +87,6 @@ pub enum LoadField {
     Table(Vec<[Entry; 2]>),
     /// The CSV file of a table, in the folder of the mechanism file.
     File(Spanned<String>),
-}
-
-impl LoadKind {
-    /// The fields it may have.
-    pub fn fields(self) -> &'static str {
-        match self {
-            Self::Spring => {
-                "between joint stiffness length rest preload damping tension_only compression_only"
-            }
-            Self::Force => "between joint at force moment along table over",
-            Self::Friction => "joint force moment coefficient radius",
-        }
-    }
 }
 
 impl LoadDescription {
@@ -176,17 +135,5 @@ impl LoadsDescription {
 impl PartialEq for LoadDescription {
     fn eq(&self, other: &Self) -> bool {
         (self.kind, &self.fields) == (other.kind, &other.fields)
-    }
-}
-
-impl PartialEq for MassDescription {
-    fn eq(&self, other: &Self) -> bool {
-        let parts = |of: &Self| {
-            (
-                (of.mass.clone(), of.centre.clone(), of.inertia.clone()),
-                (of.shape.clone(), of.density.clone(), of.turned.clone()),
-            )
-        };
-        parts(self) == parts(other)
     }
 }

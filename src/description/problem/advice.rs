@@ -157,23 +157,23 @@ fn positive(row: usize, turned: &Turned) -> String {
 
 fn wrong_type_help(expected: Expected, found: &FoundValue) -> Option<&'static str> {
     match (expected, found) {
-        (Expected::Convention | Expected::Role, FoundValue::Text) => {
+        (Expected::CONVENTION | Expected::ROLE, FoundValue::Text) => {
             Some("write it without quotes")
         }
         (
-            Expected::Text | Expected::NameOf(_) | Expected::Frame,
+            Expected::TEXT | Expected::NameOf(_) | Expected::FRAME,
             FoundValue::Word(_) | FoundValue::Character,
         ) => Some("write it in double quotes"),
-        (Expected::Entry, FoundValue::Word(_) | FoundValue::Call(_) | FoundValue::Character) => {
+        (Expected::ENTRY, FoundValue::Word(_) | FoundValue::Call(_) | FoundValue::Character) => {
             Some("write an expression in double quotes")
         }
-        (Expected::Fields(_) | Expected::Joint, FoundValue::Map) => {
+        (Expected::Fields(_) | Expected::JOINT, FoundValue::Map) => {
             Some("write fields in `(…)`; `{…}` is for named items")
         }
         (Expected::MapOf(_), FoundValue::List | FoundValue::Tuple | FoundValue::Fields) => {
             Some("write `{ \"name\": …, … }`, with the names in double quotes")
         }
-        (Expected::Rows | Expected::Transform, _) => Some("write a list in `[…]`"),
+        (Expected::ROWS | Expected::TRANSFORM, _) => Some("write a list in `[…]`"),
         (_, FoundValue::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
         (_, FoundValue::Word(word)) if word == "None" => Some("leave the field out"),
         _ => None,

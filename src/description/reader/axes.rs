@@ -1,99 +1,94 @@
 //! Files of joint coordinates.
 
 use super::*;
-use crate::description::axes::{
-    AxesDescription, AxisDescription, AxisKind, AxisPlace, PointDescription,
+use crate::description::axes::{AxisDescription, AxisKind, AxisPlace, PointDescription};
+use crate::description::expectation::form;
+
+impl AxisKind {
+    /// The fields of a joint of that kind.
+    pub(super) fn group(self) -> FieldGroup {
+        const AXIS: &[&str] = &["point", "direction", "through", "frame"];
+        const VARIABLE: &[&str] = &["home", "drawn", "value", "limits", "role", "between"];
+        const CUT: &[&str] = &["second", "between"];
+        const ROD: &[&str] = &["home", "limits", "role", "between"];
+        let form = match self {
+            Self::Revolute => form!("a revolute joint", AXIS, &["second"], VARIABLE),
+            Self::Prismatic => form!("a prismatic joint", AXIS, &["second"], VARIABLE),
+            Self::Helical => form!("a helical joint", AXIS, &["pitch"], VARIABLE),
+            Self::Cylindrical => form!("a cylindrical joint", AXIS, CUT),
+            Self::Universal => form!("a universal joint", &["point", "directions"], CUT),
+            Self::Spherical => form!("a spherical joint", &["point"], CUT),
+            Self::Planar => form!("a planar joint", AXIS, CUT),
+            Self::Fixed => form!("a fixed joint", &["frame"], CUT),
+            Self::Distance => form!("a rod", &["through", "length"], ROD),
+        };
+        let word = self.word();
+        FieldGroup { word, form }
+    }
+}
+
+const BODY: FieldGroup = FieldGroup {
+    word: "Body",
+    form: form!("a body", &["origin", "frame"]),
+};
+
+const POINT: FieldGroup = FieldGroup {
+    word: "Point",
+    form: form!("a point", &["body", "at", "frame"]),
+};
+
+const SECOND: FieldGroup = FieldGroup {
+    word: "Place",
+    form: form!(
+        "the place on the second body",
+        &["point", "direction", "directions", "through", "frame"]
+    ),
 };
 
 impl FileReader {
-    pub(super) fn axes(&mut self, piece: Piece) -> Option<AxesDescription> {
-        let mut fields = self.fields(piece, FieldGroup::Axes)?;
-        if !self.known_version(&mut fields) {
-            return None;
-        }
-        if !fields.gives(&["joints"]) {
-            self.require(&mut fields, "joints");
-        }
-        let f = &mut fields;
-        Some(AxesDescription {
-            name: self.required_text(f, "name"),
-            source: self.optional_text(f, "source", Expected::Text),
-            convention: self.convention_field(f),
-            tolerance: self.optional_entry(f, "tolerance"),
-            parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
-            joints: self.named(f, "joints", Noun::Axis, Self::axis),
-            bodies: self.named(f, "bodies", Noun::Body, |reader, piece| {
-                let mut fields = reader.fields(piece, FieldGroup::BodyFrame)?;
-                reader.point_or_frame(&mut fields, "origin")
-            }),
-            points: self.named(f, "points", Noun::Point, |reader, piece| {
-                let mut fields = reader.fields(piece, FieldGroup::Point)?;
-                let body = reader.require(&mut fields, "body");
-                let body = body.and_then(|body| reader.text(body, Expected::Body));
-                let place = reader.point_or_frame(&mut fields, "at")?;
-                body.map(|body| PointDescription { body, place })
-            }),
-            base: f.take("base").map(|piece| self.transform(piece)),
-            tool: f.take("tool").map(|piece| self.transform(piece)),
-            cut: f.take("cut").map_or_else(Vec::new, |piece| {
-                self.list(piece, Expected::Cuts, |reader, name| {
-                    reader.text(name, Expected::NameOf(Noun::Axis))
-                })
-            }),
-            closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
-            outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
-            loads: self.loads(f),
-        })
+    /// The frame of a body.
+    pub(super) fn body(&mut self, piece: Piece) -> Option<AxisPlace> {
+        let mut fields = self.fields(piece, BODY)?;
+        self.point_or_frame(&mut fields, "origin")
     }
 
-    fn axis(&mut self, piece: Piece) -> Option<AxisDescription> {
+    pub(super) fn point(&mut self, piece: Piece) -> Option<PointDescription> {
+        let mut fields = self.fields(piece, POINT)?;
+        let body = self.require(&mut fields, "body");
+        let body = body.and_then(|body| self.text(body, Expected::BODY));
+        let place = self.point_or_frame(&mut fields, "at")?;
+        body.map(|body| PointDescription { body, place })
+    }
+
+    pub(super) fn axis(&mut self, piece: Piece) -> Option<AxisDescription> {
         let (known, word) = (&AxisKind::ALL, AxisKind::word);
-        let (kind, _) = self.word(piece, Expected::Axis, known, word)?;
-        let mut fields = self.fields(piece, FieldGroup::Joint(kind))?;
+        let expected =
+            Expected::Said("a joint such as `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`");
+        let (kind, _) = self.word(piece, expected, known, word)?;
+        let mut fields = self.fields(piece, kind.group())?;
         let f = &mut fields;
         let place = self.axis_place(kind, f);
         let second = f.take("second").and_then(|piece| {
-            let mut fields = self.fields(piece, FieldGroup::SecondPlace)?;
+            let mut fields = self.fields(piece, SECOND)?;
             self.axis_place(kind, &mut fields)
         });
-        let role = f.take("role").and_then(|piece| {
-            let known = [Role::Passive, Role::Actuated];
-            self.bare_word(piece, Expected::Role, &known, Role::word)
-        });
-        let home = self.optional_entry(f, "home");
-        let drawn = self.optional_entry(f, "drawn");
-        let by = match kind {
-            AxisKind::Distance => "length",
-            _ => "value",
-        };
-        let value = self.optional_entry(f, by);
         let pitch = match kind {
             AxisKind::Helical => self.require(f, "pitch").and_then(|piece| self.entry(piece)),
             _ => None,
         };
-        let limits = self.limits(f);
-        let between = f.take("between").and_then(|piece| {
-            let bodies = self.tuple(piece, Expected::Bodies)?;
-            let [first, second] = bodies.map(|body| self.text(body, Expected::Body));
-            Some([first?, second?])
-        });
-        Some(AxisDescription {
+        let axis = AxisDescription {
             second,
-            role,
-            home,
-            drawn,
-            value,
+            role: self.field(f, "role", Expected::ROLE),
+            home: self.field(f, "home", Expected::ENTRY),
+            drawn: self.field(f, "drawn", Expected::ENTRY),
+            value: self.field(f, kind.follows_by(), Expected::ENTRY),
             pitch,
-            limits,
-            between,
-            span: fields.span,
+            limits: self.field(f, "limits", Expected::LIMITS),
+            between: self.field(f, "between", Expected::BODIES),
             ..AxisDescription::new(kind, place?)
-        })
-    }
-
-    pub(super) fn optional_entry(&mut self, fields: &mut Fields, field: &str) -> Option<Entry> {
-        let piece = fields.take(field)?;
-        self.entry(piece)
+        };
+        let span = fields.span;
+        Some(AxisDescription { span, ..axis })
     }
 
     /// A point under a name, or a whole frame.
@@ -102,7 +97,7 @@ impl FileReader {
             return Some(AxisPlace::Frame(self.transform(frame)));
         }
         let point = self.require(fields, name)?;
-        self.vector(point, Expected::Vector).map(AxisPlace::Centre)
+        self.vector(point, Expected::VECTOR).map(AxisPlace::Centre)
     }
 
     fn axis_place(&mut self, kind: AxisKind, fields: &mut Fields) -> Option<AxisPlace> {
@@ -123,9 +118,9 @@ impl FileReader {
         }
         if kind == AxisKind::Distance || fields.gives(&["through"]) {
             let through = self.require(fields, "through")?;
-            let points = self.tuple(through, Expected::TwoPoints)?;
-            let [first, second] = points.map(|point| self.vector(point, Expected::Vector));
-            return Some(AxisPlace::Through(first?, second?));
+            let expected = Expected::Parts(&["two points `((x, y, z), (x, y, z))`", "point"]);
+            let [first, second] = FileItem::read(self, through, expected)?;
+            return Some(AxisPlace::Through(first, second));
         }
         let point = match kind {
             AxisKind::Prismatic => fields.take("point").map(Some),
@@ -133,7 +128,7 @@ impl FileReader {
         };
         if kind == AxisKind::Spherical {
             return self
-                .vector(point??, Expected::Vector)
+                .vector(point??, Expected::VECTOR)
                 .map(AxisPlace::Centre);
         }
         let directions = match kind {
@@ -142,15 +137,16 @@ impl FileReader {
         };
         let directions = self.require(fields, directions);
         let point = match point {
-            Some(piece) => Some(self.vector(piece?, Expected::Vector)?),
+            Some(piece) => Some(self.vector(piece?, Expected::VECTOR)?),
             None => None,
         };
         if kind == AxisKind::Universal {
-            let both = self.tuple(directions?, Expected::TwoDirections)?;
-            let [first, second] = both.map(|one| self.vector(one, Expected::Vector));
-            return Some(AxisPlace::Cross(point?, [first?, second?]));
+            let expected =
+                Expected::Parts(&["two directions `((x, y, z), (x, y, z))`", "direction"]);
+            let both = FileItem::read(self, directions?, expected)?;
+            return Some(AxisPlace::Cross(point?, both));
         }
-        let direction = self.vector(directions?, Expected::Vector)?;
+        let direction = self.vector(directions?, Expected::VECTOR)?;
         Some(AxisPlace::Along(point, direction))
     }
 }

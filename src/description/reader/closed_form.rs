@@ -4,7 +4,7 @@ use super::*;
 
 impl FileReader {
     pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
-        let mut fields = self.fields(piece, FieldGroup::ClosedForm)?;
+        let mut fields = self.fields(piece, ClosedFormDescription::GROUP)?;
         // reading takes the fields out, so the kind of formula is decided first
         let pose = fields.gives(&["position", "rotation", "transform", "entries"]);
         let identity = fields.gives(&["identity", "identities"]);
@@ -16,28 +16,10 @@ impl FileReader {
             (false, false) => self.note(ProblemKind::EmptyClosedForm, fields.head()),
             _ => {}
         }
-        let f = &mut fields;
-        let position = f.take("position");
-        Some(ClosedFormDescription {
-            of: self.optional_text(f, "of", Expected::Frame),
-            relative_to: self.optional_text(f, "in", Expected::Frame),
-            locals: self.named(f, "where", Noun::LocalName, Self::entry),
-            source: self.optional_text(f, "source", Expected::Text),
-            position: position.and_then(|piece| self.vector(piece, Expected::Vector)),
-            rotation: f.take("rotation").and_then(|piece| {
-                let rows = self.tuple(piece, Expected::RotationRows)?;
-                self.matrix(rows, Expected::RotationRow)
-            }),
-            transform: f
-                .take("transform")
-                .and_then(|piece| self.homogeneous(piece)),
-            entries: self.matrix_entries(f),
-            identity: f.take("identity").and_then(|piece| self.entry(piece)),
-            identities: self.named(f, "identities", Noun::Identity, Self::entry),
-        })
+        Some(ClosedFormDescription::of_fields(self, &mut fields))
     }
 
-    fn matrix<const N: usize>(
+    pub(super) fn matrix<const N: usize>(
         &mut self,
         rows: [Piece; 3],
         expected: Expected,
@@ -48,16 +30,21 @@ impl FileReader {
     }
 
     /// Three rows of `[R | p]`, and perhaps the fourth that every homogeneous transform has.
-    fn homogeneous(&mut self, piece: Piece) -> Option<[[Entry; 4]; 3]> {
+    pub(super) fn homogeneous(
+        &mut self,
+        piece: Piece,
+        expected: Expected,
+    ) -> Option<[[Entry; 4]; 3]> {
+        const ROW: Expected = Expected::Said("a row of a transform");
         let PieceShape::Tuple = piece.shape() else {
-            self.wrong_type(piece, Expected::TransformRows);
+            self.wrong_type(piece, expected);
             return None;
         };
         let mut rows = piece.elements();
         if rows.len() == 4
             && let Some(last) = rows.pop()
         {
-            let row = self.vector::<4>(last, Expected::TransformRow)?;
+            let row = self.vector::<4>(last, ROW)?;
             let is_usual = row
                 .iter()
                 .zip([0.0, 0.0, 0.0, 1.0])
@@ -68,14 +55,17 @@ impl FileReader {
         }
         let found = rows.len();
         match rows.try_into() {
-            Ok(rows) => self.matrix(rows, Expected::TransformRow),
-            Err(_) => self.wrong_length(piece, Expected::TransformRows, 3, found),
+            Ok(rows) => self.matrix(rows, ROW),
+            Err(_) => self.wrong_length(piece, expected, 3, found),
         }
     }
 
-    fn matrix_entries(&mut self, fields: &mut Fields) -> Vec<(Spanned<MatrixEntry>, Entry)> {
+    pub(super) fn matrix_entries(
+        &mut self,
+        named: Vec<Named<Entry>>,
+    ) -> Vec<(Spanned<MatrixEntry>, Entry)> {
         let mut entries = Vec::new();
-        for Named { name, value } in self.named(fields, "entries", Noun::MatrixEntry, Self::entry) {
+        for Named { name, value } in named {
             match MatrixEntry::all().find(|entry| entry.to_string() == name.value) {
                 Some(entry) => entries.push((Spanned::new(entry, name.span), value)),
                 None => self.note(

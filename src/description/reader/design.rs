@@ -1,12 +1,34 @@
 //! Design files.
 
 use super::*;
+use crate::description::expectation::form;
 use crate::description::{DesignDescription, DesignGoal, DesignProblem};
 
 impl DesignDescription {
+    pub(super) const GROUP: FieldGroup = FieldGroup {
+        word: "Design",
+        form: form!(
+            "a design",
+            &[
+                "version",
+                "name",
+                "mechanism",
+                "vary",
+                "positions",
+                "contains",
+                "motion"
+            ],
+            &[
+                "at_least", "at_most", "minimise", "maximise", "outputs", "order"
+            ]
+        ),
+    };
+
     /// Reads the text of a design file, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, FileReader { mut problems, .. }) = read_with(text, FileReader::design);
+        let (description, FileReader { mut problems, .. }) = read_with(text, |reader, piece| {
+            reader.file(piece, Self::GROUP, FileReader::design)
+        });
         sort_by_key(&mut problems, |problem| {
             (problem.span.start, problem.span.end)
         });
@@ -17,55 +39,52 @@ impl DesignDescription {
     }
 }
 
-/// The order in which positions are passed.
-#[derive(Clone, Copy)]
-enum ReadOrder {
-    Kept,
-    Any,
-}
-
 impl FileReader {
-    fn design(&mut self, piece: Piece) -> Option<DesignDescription> {
-        let mut fields = self.fields(piece, FieldGroup::Design)?;
-        if !self.known_version(&mut fields) {
-            return None;
-        }
-        let f = &mut fields;
-        let range = |reader: &mut Self, piece: Piece| reader.vector(piece, Expected::Range);
-        Some(DesignDescription {
-            name: self
-                .optional_text(f, "name", Expected::Text)
-                .unwrap_or_default(),
-            mechanism: self.required_text(f, "mechanism"),
-            vary: self.named(f, "vary", Noun::Varied, range),
+    fn design(&mut self, f: &mut Fields) -> DesignDescription {
+        let name: Option<Spanned<String>> = self.field(f, "name", Expected::TEXT);
+        DesignDescription {
+            name: name.unwrap_or_default(),
+            mechanism: self.field(f, "mechanism", Expected::TEXT),
+            vary: self.field(f, "vary", Expected::MapOf(Noun::Varied)),
             positions: f.take("positions").map_or_else(Vec::new, |piece| {
-                self.list(piece, Expected::Positions, Self::position)
+                let expected = Expected::Said("a list of positions `{…}`");
+                self.list(piece, expected, Self::position)
             }),
-            contains: self.named(f, "contains", Noun::Target, range),
-            motion: self.named(f, "motion", Noun::Varied, range),
+            contains: self.named(f, "contains", Noun::Target, |reader, piece| {
+                reader.vector(piece, Expected::RANGE)
+            }),
+            motion: self.field(f, "motion", Expected::MapOf(Noun::Varied)),
             at_least: self.named(f, "at_least", Noun::Output, Self::entry),
             at_most: self.named(f, "at_most", Noun::Output, Self::entry),
             outputs: f.take("outputs").map_or_else(Vec::new, |piece| {
-                self.list(piece, Expected::Outputs, |reader, piece| {
-                    reader.text(piece, Expected::Text)
+                let expected =
+                    Expected::Said("a list of outputs, such as `[\"arm.x\", \"arm.y\"]`");
+                self.list(piece, expected, |reader, piece| {
+                    reader.text(piece, Expected::TEXT)
                 })
             }),
             goal: self.design_goal(f),
             any_order: f.take("order").is_some_and(|piece| {
-                let known = [ReadOrder::Kept, ReadOrder::Any];
-                let word = |order| match order {
-                    ReadOrder::Kept => "Kept",
-                    ReadOrder::Any => "Any",
-                };
-                let found = self.bare_word(piece, Expected::Order, &known, word);
-                matches!(found, Some(ReadOrder::Any))
+                let expected = Expected::Said("`Kept` or `Any`");
+                self.bare_word(piece, expected, &["Kept", "Any"], |word| word) == Some("Any")
             }),
-        })
+        }
+    }
+
+    fn named<'a, T>(
+        &mut self,
+        fields: &mut Fields<'a>,
+        field: &str,
+        noun: Noun,
+        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+    ) -> Vec<Named<T>> {
+        let piece = fields.take(field);
+        piece.map_or_else(Vec::new, |piece| self.map(piece, noun, read))
     }
 
     fn design_goal(&mut self, fields: &mut Fields) -> Option<DesignGoal> {
-        let small = self.optional_text(fields, "minimise", Expected::Text);
-        let great = self.optional_text(fields, "maximise", Expected::Text);
+        let small: Option<Spanned<String>> = self.field(fields, "minimise", Expected::TEXT);
+        let great: Option<Spanned<String>> = self.field(fields, "maximise", Expected::TEXT);
         if let (Some(_), Some(second)) = (&small, &great) {
             let problem = ProblemKind::Design(Box::new(DesignProblem::TwoGoals));
             self.problems.push(problem.at(second.span.clone()));
@@ -84,7 +103,10 @@ impl FileReader {
             let elements = piece.elements();
             match elements.len() {
                 2 | 3 => elements.into_iter().map(|of| reader.entry(of)).collect(),
-                found => reader.wrong_length(piece, Expected::Coordinates, 2, found),
+                found => {
+                    let expected = Expected::Said("coordinates `(x, y)` or `(x, y, z)`");
+                    reader.wrong_length(piece, expected, 2, found)
+                }
             }
         }))
     }

@@ -13,26 +13,6 @@ impl FileReader {
         Some(Spanned::new(literal.text.into_owned(), piece.span()))
     }
 
-    pub(super) fn optional_text(
-        &mut self,
-        fields: &mut Fields,
-        field: &str,
-        expected: Expected,
-    ) -> Option<Spanned<String>> {
-        let piece = fields.take(field)?;
-        self.text(piece, expected)
-    }
-
-    pub(super) fn required_text(
-        &mut self,
-        fields: &mut Fields,
-        field: &'static str,
-    ) -> Spanned<String> {
-        let piece = self.require(fields, field);
-        let text = piece.and_then(|piece| self.text(piece, Expected::Text));
-        text.unwrap_or_default()
-    }
-
     pub(super) fn entry(&mut self, piece: Piece) -> Option<Entry> {
         self.entry_of(piece, Expression::parse)
     }
@@ -51,7 +31,7 @@ impl FileReader {
             PieceShape::Number => match piece.number() {
                 Ok(value) if value.is_finite() => return Some(Entry::number(value, piece.span())),
                 Ok(_) => self.note(ProblemKind::NotFinite, piece.span()),
-                Err(_) => self.wrong_type(piece, Expected::Entry),
+                Err(_) => self.wrong_type(piece, Expected::ENTRY),
             },
             PieceShape::Text => {
                 let literal = self.split(piece, piece.text())?;
@@ -75,14 +55,9 @@ impl FileReader {
                 word: "inf" | "inff32" | "inff64" | "NaN" | "NaNf32" | "NaNf64",
                 content: None,
             } => self.note(ProblemKind::NotFinite, piece.span()),
-            _ => self.wrong_type(piece, Expected::Entry),
+            _ => self.wrong_type(piece, Expected::ENTRY),
         }
         None
-    }
-
-    pub(super) fn entry_or_zero(&mut self, fields: &mut Fields, field: &str) -> Entry {
-        let entry = fields.take(field).and_then(|piece| self.entry(piece));
-        entry.unwrap_or_else(Entry::absent)
     }
 
     pub(super) fn entries<const N: usize>(&mut self, pieces: [Piece; N]) -> Option<[Entry; N]> {
@@ -138,29 +113,16 @@ impl FileReader {
         Some(self.word(piece, expected, known, written)?.0)
     }
 
-    pub(super) fn convention_field(&mut self, fields: &mut Fields) -> Option<Spanned<Convention>> {
-        let piece = fields.take("convention")?;
-        let known = &Convention::ALL;
-        let found = self.bare_word(piece, Expected::Convention, known, Convention::word)?;
-        Some(Spanned::new(found, piece.span()))
-    }
-
-    pub(super) fn transform_field(
-        &mut self,
-        fields: &mut Fields,
-        field: &str,
-    ) -> Vec<Displacement> {
-        let piece = fields.take(field);
-        piece.map_or_else(Vec::new, |piece| self.transform(piece))
-    }
-
     pub(super) fn transform(&mut self, piece: Piece) -> Vec<Displacement> {
-        self.list(piece, Expected::Transform, Self::displacement)
+        self.list(piece, Expected::TRANSFORM, |reader, step| {
+            reader.displacement(step)
+        })
     }
 
-    fn displacement(&mut self, piece: Piece) -> Option<Displacement> {
+    pub(super) fn displacement(&mut self, piece: Piece) -> Option<Displacement> {
         let words = &Displacement::<Entry>::WORDS;
-        let (word, content) = self.word(piece, Expected::Displacement, words, |word| word)?;
+        let expected = Expected::Said("a displacement such as `Tx(…)` or `Rz(…)`");
+        let (word, content) = self.word(piece, expected, words, |word| word)?;
         let expected = Expected::DisplacementEntries(word);
         let entries = match word {
             "T" => Vec::from(self.content::<3>(piece, content, expected)?),

@@ -1,44 +1,36 @@
 //! Masses, springs and forces of a file.
 
-use super::shapes::Fields;
 use super::*;
+use crate::description::Shape;
+use crate::description::expectation::form;
+
+impl LoadKind {
+    /// The fields of a load of that kind.
+    pub(super) fn group(self) -> FieldGroup {
+        const ALONG: &[&str] = &["between", "joint"];
+        const ELASTIC: &[&str] = &["stiffness", "length", "rest", "preload"];
+        const ONE_WAY: &[&str] = &["tension_only", "compression_only"];
+        const FORCE: &[&str] = &["at", "force", "moment"];
+        const FRICTION: &[&str] = &["joint", "force", "moment", "coefficient", "radius"];
+        let form = match self {
+            Self::Spring => form!("a spring", ALONG, ELASTIC, &["damping"], ONE_WAY),
+            Self::Force => form!("a force", ALONG, FORCE, &["along", "table", "over"]),
+            Self::Friction => form!("friction", FRICTION),
+        };
+        let word = self.word();
+        FieldGroup { word, form }
+    }
+}
+
+const LOAD: Expected = Expected::Said("`Spring(…)`, `Force(…)` or `Friction(…)`");
+
+const TABLE: Expected =
+    Expected::Said("a list of rows `[(0, 10), (0.1, 12)]`, or the name of a CSV file");
 
 impl FileReader {
-    /// The fields of a file for what acts in the mechanism.
-    pub(super) fn loads(&mut self, fields: &mut Fields) -> LoadsDescription {
-        let gravity = fields.take("gravity");
-        LoadsDescription {
-            gravity: gravity.and_then(|piece| self.vector(piece, Expected::Vector)),
-            masses: self.named(fields, "masses", Noun::Mass, Self::mass),
-            loads: self.named(fields, "loads", Noun::Load, Self::load),
-        }
-    }
-
-    fn mass(&mut self, piece: Piece) -> Option<MassDescription> {
-        let mut fields = self.fields(piece, FieldGroup::Mass)?;
-        let f = &mut fields;
-        let (centre, inertia) = (f.take("centre"), f.take("inertia"));
-        Some(MassDescription {
-            mass: self.optional_entry(f, "mass"),
-            centre: centre.and_then(|piece| self.vector(piece, Expected::Vector)),
-            inertia: inertia.and_then(|piece| match piece.shape() {
-                PieceShape::Tuple => {
-                    let six: [Entry; 6] = self.vector(piece, Expected::Inertia)?;
-                    Some(InertiaDescription(six.into()))
-                }
-                _ => Some(InertiaDescription(vec![self.entry(piece)?])),
-            }),
-            shape: f.take("shape").and_then(|piece| self.shape(piece)),
-            density: self.optional_entry(f, "density"),
-            turned: self.transform_field(f, "turned"),
-            span: fields.span,
-        })
-    }
-
-    fn shape(&mut self, piece: Piece) -> Option<ShapeDescription> {
-        use crate::description::Shape;
-        let (kind, content) = self.word(piece, Expected::Shape, &Shape::ALL, Shape::word)?;
-        let expected = Expected::Sizes(kind);
+    pub(super) fn shape(&mut self, piece: Piece, expected: Expected) -> Option<ShapeDescription> {
+        let (kind, content) = self.word(piece, expected, &Shape::ALL, Shape::word)?;
+        let expected = sizes(kind);
         let found = content.map_or(0, |content| content.elements().len());
         if found != kind.sizes() {
             return self.wrong_length(piece, expected, kind.sizes(), found);
@@ -49,29 +41,25 @@ impl FileReader {
         Some(ShapeDescription { kind, sizes })
     }
 
-    fn load(&mut self, piece: Piece) -> Option<LoadDescription> {
-        let (kind, _) = self.word(piece, Expected::Load, &LoadKind::ALL, LoadKind::word)?;
-        let mut fields = self.fields(piece, FieldGroup::Load(kind))?;
+    pub(super) fn load(&mut self, piece: Piece) -> Option<LoadDescription> {
+        let (kind, _) = self.word(piece, LOAD, &LoadKind::ALL, LoadKind::word)?;
+        let mut fields = self.fields(piece, kind.group())?;
         let mut read = Vec::new();
-        for name in kind.fields().split(' ') {
+        for name in kind.group().fields() {
             let Some(piece) = fields.take(name) else {
                 continue;
             };
             let field = match name {
-                "between" => {
-                    let pair = self.tuple(piece, Expected::Points)?;
-                    let [a, b] = pair.map(|point| self.text(point, Expected::Frame));
-                    LoadField::Points([a?, b?])
-                }
-                "joint" | "at" | "along" => LoadField::Name(self.text(piece, Expected::Frame)?),
+                "between" => LoadField::Points(FileItem::read(self, piece, Expected::POINTS)?),
+                "joint" | "at" | "along" => LoadField::Name(self.text(piece, Expected::FRAME)?),
                 "tension_only" | "compression_only" => LoadField::Yes(self.yes(piece)?),
                 "table" if matches!(piece.shape(), PieceShape::Text) => {
-                    LoadField::File(self.text(piece, Expected::Table)?)
+                    LoadField::File(self.text(piece, TABLE)?)
                 }
                 "table" => LoadField::Table(self.table(piece)?),
                 _ => match piece.shape() {
                     PieceShape::Tuple if kind == LoadKind::Force => {
-                        let vector = self.tuple(piece, Expected::Vector)?;
+                        let vector = self.tuple(piece, Expected::VECTOR)?;
                         let [x, y, z] = vector.map(|part| self.quantity(part));
                         LoadField::Vector([x?, y?, z?])
                     }
@@ -94,16 +82,27 @@ impl FileReader {
                 content: None,
             } => Some(word == "true"),
             _ => {
-                self.wrong_type(piece, Expected::YesOrNo);
+                self.wrong_type(piece, Expected::Said("`true` or `false`"));
                 None
             }
         }
     }
 
     fn table(&mut self, piece: Piece) -> Option<Vec<[Entry; 2]>> {
-        let rows = self.list(piece, Expected::Table, |reader, row| {
-            reader.vector(row, Expected::TableRow)
+        let rows = self.list(piece, TABLE, |reader, row| {
+            reader.vector(row, Expected::Said("a row `(value, force)`"))
         });
         (!rows.is_empty()).then_some(rows)
     }
+}
+
+/// The dimensions of a shape.
+fn sizes(shape: Shape) -> Expected {
+    Expected::Parts(match shape {
+        Shape::Rod => &["`Rod(length)`", "dimension"],
+        Shape::Plate => &["`Plate(a, b)`", "dimension"],
+        Shape::Cylinder => &["`Cylinder(radius, length)`", "dimension"],
+        Shape::Box => &["`Box(a, b, c)`", "dimension"],
+        Shape::Sphere => &["`Sphere(radius)`", "dimension"],
+    })
 }

@@ -73,9 +73,9 @@ impl FileReader {
     ) -> Option<Fields<'a>> {
         let expected = Expected::Fields(structure);
         let content = match piece.shape() {
-            PieceShape::Word { word, content } if word == structure.word() => content,
+            PieceShape::Word { word, content } if word == structure.word => content,
             PieceShape::Word { word, .. } => {
-                self.unknown_word(piece, expected, word, vec![structure.word()]);
+                self.unknown_word(piece, expected, word, vec![structure.word]);
                 return None;
             }
             _ => Some(piece),
@@ -107,7 +107,7 @@ impl FileReader {
                 continue;
             }
             first.insert(name.value, name.span.clone());
-            if structure.fields().contains(&name.value) {
+            if structure.fields().any(|known| known == name.value) {
                 fields.pieces.push((name.value, value));
             } else {
                 let meant = nearest(name.value, structure.fields());
@@ -139,18 +139,19 @@ impl FileReader {
         piece
     }
 
-    /// A map from names to things, in the order of the file.
-    pub(super) fn named<'a, T>(
+    /// The value of a field.
+    pub(super) fn field<T: FileField>(
         &mut self,
-        fields: &mut Fields<'a>,
-        field: &str,
-        noun: Noun,
-        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
-    ) -> Vec<Named<T>> {
-        match fields.take(field) {
-            Some(piece) => self.map(piece, noun, read),
-            None => Vec::new(),
-        }
+        fields: &mut Fields,
+        name: &'static str,
+        expected: Expected,
+    ) -> T {
+        let piece = match T::REQUIRED {
+            true => self.require(fields, name),
+            false => fields.take(name),
+        };
+        let value = piece.and_then(|piece| T::read(self, piece, expected));
+        value.unwrap_or_else(T::absent)
     }
 
     /// A map from names to things.

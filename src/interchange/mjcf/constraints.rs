@@ -1,13 +1,13 @@
 //! Equality constraints of MJCF → loops and couplings.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use mjcf_rs::Model;
 use roxmltree::Node;
 
 use super::hinges::hinges;
 use super::part::{BodyParts, pose};
-use crate::description::ClosureKind;
+use crate::description::{ClosureKind, GivenNames};
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
@@ -66,11 +66,9 @@ pub(super) fn read(
             }
         }
     }
-    let mut names = HashSet::new();
+    let mut names = GivenNames::default();
     for part in &mut loops {
-        while !names.insert(part.name.clone()) {
-            part.name += "_";
-        }
+        part.name = names.give_longer(std::mem::take(&mut part.name));
     }
     tree.loops = hinges(loops);
     tree.couplings = couplings;

@@ -14,7 +14,7 @@ use roxmltree::Node;
 use super::check::{AXIS, is_irrelevant, look};
 use super::constraints;
 use super::part::{BodyParts, pose};
-use crate::description::{first_free, unless};
+use crate::description::{GivenNames, unless};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::interchange::masses::Heavy;
 use crate::interchange::page::{Problems, child, children, direction, document, parse};
@@ -89,7 +89,7 @@ fn bodies(
     }
     // no joint that the file names has the name of one that it does not
     let joints = model.bodies.iter().flat_map(|entry| &entry.body.joints);
-    let mut taken: HashSet<String> = joints.filter_map(|joint| joint.name.clone()).collect();
+    let mut names: GivenNames = joints.filter_map(|joint| joint.name.clone()).collect();
     let mut bodies: Vec<TreeBody> = Vec::new();
     let mut parts: Vec<BodyParts> = Vec::new();
     for (index, entry) in model.bodies.iter().enumerate() {
@@ -119,15 +119,10 @@ fn bodies(
                 let next = TreeBody::new(name.clone(), Some(bodies.len()), Pose::identity());
                 bodies.push(std::mem::replace(&mut part, next));
             }
-            let mut made = |wanted: String| {
-                let made = first_free(&wanted, "_", |name| !taken.contains(name));
-                taken.insert(made.clone());
-                made
-            };
             let joint_name = match (&joint.name, entry.body.joints.len()) {
                 (Some(name), _) => name.clone(),
-                (None, 1) => made(format!("{name}_joint")),
-                (None, _) => made(format!("{name}_joint{}", i + 1)),
+                (None, 1) => names.give(&format!("{name}_joint")),
+                (None, _) => names.give(&format!("{name}_joint{}", i + 1)),
             };
             let (automatic, range) = (model.compiler.autolimits, joint.range);
             let limited = joint.limited.resolve(automatic, range.is_some());

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::parts::{SdfAxis, SdfJoint, SdfType, direction_in, frame_of};
 use super::read::Builder;
-use crate::description::{ClosureKind, first_free};
+use crate::description::{ClosureKind, GivenNames};
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::along_z;
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
@@ -38,7 +38,7 @@ impl Builder<'_> {
         link: usize,
         outwards: bool,
         actuated: bool,
-        taken: &mut HashSet<String>,
+        taken: &mut GivenNames,
         couplings: &mut Vec<Coupling>,
     ) -> Option<Vec<tree::TreeJoint>> {
         let (place, along) = self.at(index)?;
@@ -52,13 +52,7 @@ impl Builder<'_> {
         let given = &self.names[name];
         let at = self.poses[link].inverse() * place;
         let sign = if outwards { 1.0 } else { -1.0 };
-        let mut made = |word: &str| {
-            let name = first_free(&format!("{given}_{word}"), "_", |name| {
-                !taken.contains(name)
-            });
-            taken.insert(name.clone());
-            name
-        };
+        let mut made = |word: &str| taken.give(&format!("{given}_{word}"));
         let joint = |name: String, motion: BodyMotion, i: usize| tree::TreeJoint {
             point: at.position,
             limits: axes.get(i).and_then(|axis| axis.limits),

@@ -11,7 +11,7 @@ use roxmltree::Document;
 use super::frames::{Lost, WORLD};
 use super::model::SdfReader;
 use super::parts::SdfType;
-use crate::description::{nearest, unless};
+use crate::description::{GivenNames, nearest, unless};
 use crate::geometry::Pose;
 use crate::interchange::mjcf::Files;
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
@@ -126,7 +126,7 @@ impl Builder<'_> {
         let driven = self.driven(&ways);
         let mut couplings = Vec::new();
         let mut bodies: Vec<TreeBody> = Vec::new();
-        let mut taken: HashSet<String> = self.names.values().cloned().collect();
+        let mut taken: GivenNames = self.names.values().cloned().collect();
         for &link in &order {
             let own = match link {
                 0 => WORLD.to_owned(),

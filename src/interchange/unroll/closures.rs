@@ -1,12 +1,10 @@
 //! Frames with names, and the closures between them.
 
-use std::collections::HashSet;
-
 use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
 use crate::algebra::Expression;
 use crate::description::{
-    ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
-    first_free,
+    ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, GivenNames,
+    Named, first_free,
 };
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
@@ -38,7 +36,7 @@ impl Unroller<'_> {
             let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted);
             let own = if own.trim().is_empty() { "frame" } else { own };
             let same = |name: &str| frames.iter().find(|frame| frame.name.value == name);
-            let own = first_free(own, "_", |name| {
+            let own = first_free(own, |name| {
                 same(name).is_none_or(|frame| frame.value == steps)
             });
             if same(&own).is_none() {
@@ -72,7 +70,7 @@ impl Unroller<'_> {
             let reference = self.frame_on(&name, carrier, &pose, &mut platforms);
             self.references.push((name, reference));
         }
-        let (mut closures, mut labels): (Closures, _) = (Vec::new(), HashSet::new());
+        let (mut closures, mut labels) = (Vec::new(), GivenNames::default());
         for closing in self.balls().iter().chain(&self.tree.loops) {
             let TreeLoop {
                 name, kind, sides, ..
@@ -85,28 +83,19 @@ impl Unroller<'_> {
             }
             let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
             let closure = ClosureDescription {
-                kind: *kind,
-                frames: frames.map(Spanned::nowhere),
                 length: closing.length.as_ref().map(|length| self.length(length)),
-                span: 0..0,
+                ..ClosureDescription::new(*kind, frames)
             };
-            let mut label = match name.trim() {
-                "" => "closure".to_owned(),
-                name => name.to_owned(),
+            let label = match name.trim() {
+                "" => "closure",
+                name => name,
             };
-            while !labels.insert(label.clone()) {
-                label += "_";
-            }
-            closures.push(Named::new(label, closure));
+            closures.push(Named::new(labels.give_longer(label.to_owned()), closure));
         }
         for coupling in &self.tree.couplings {
-            let Some((mut label, closure)) = self.coupling(coupling) else {
-                continue;
-            };
-            while !labels.insert(label.clone()) {
-                label += "_";
+            if let Some((label, closure)) = self.coupling(coupling) {
+                closures.push(Named::new(labels.give_longer(label), closure));
             }
-            closures.push(Named::new(label, closure));
         }
         let platforms = platforms.into_iter().map(|(_, platform)| platform);
         (platforms.collect(), closures)
@@ -131,12 +120,10 @@ impl Unroller<'_> {
         }
         let expression = Expression::parse(&text).ok()?;
         let [follower, leader] = [&coupling.terms, &bend.terms].map(|terms| &terms[0].0);
-        let ground = || Spanned::nowhere(GROUND.to_owned());
+        let ground = [GROUND; 2].map(str::to_owned);
         let closure = ClosureDescription {
-            kind: ClosureKind::Coupling,
-            frames: [ground(), ground()],
             length: Some(expression.into()),
-            span: 0..0,
+            ..ClosureDescription::new(ClosureKind::Coupling, ground)
         };
         Some((format!("{follower} follows {leader}"), closure))
     }

@@ -136,11 +136,10 @@ impl Unroller<'_> {
                 moved.push(joint.name.clone());
                 self.outside.push((variable.clone(), joint.home));
             }
+            let role = [Role::Passive, Role::Actuated][usize::from(actuated)];
             let description = JointDescription {
-                role: [Role::Passive, Role::Actuated][usize::from(actuated)],
-                home: entry(home),
                 limits: limits.map(|(low, high)| (entry(low), entry(high))),
-                span: 0..0,
+                ..JointDescription::new(role, entry(home))
             };
             joints.push(Named::new(variable.clone(), description));
         }

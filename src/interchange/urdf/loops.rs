@@ -8,12 +8,12 @@
 //! | `drake:ball_constraint` | Drake |
 //! | `joint` in `gazebo`, as in SDFormat | Gazebo's tutorial of kinematic loops |
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use roxmltree::Node;
 
 use super::motion::AXIS;
-use crate::description::ClosureKind;
+use crate::description::{ClosureKind, GivenNames};
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, along_z, child, children, pose_of, tag};
 use crate::interchange::remark::Remark;
@@ -55,7 +55,7 @@ pub(super) fn read(
         tree,
         bodies: links.map(|(i, body)| (body.name.as_str(), i)).collect(),
         problems,
-        names: HashSet::new(),
+        names: GivenNames::default(),
         loops: Vec::new(),
     };
     let elements = robot.children().filter(|node| node.is_element());
@@ -101,7 +101,7 @@ struct LoopReader<'a> {
     /// The body of each link.
     bodies: HashMap<&'a str, usize>,
     problems: &'a mut Problems,
-    names: HashSet<String>,
+    names: GivenNames,
     loops: Vec<TreeLoop>,
 }
 
@@ -132,10 +132,8 @@ impl LoopReader<'_> {
 
     fn close(&mut self, node: Node, kind: ClosureKind, ends: [(usize, Pose<f64>); 2]) {
         let own = node.attribute("name").map(str::to_owned);
-        let mut name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
-        while !self.names.insert(name.clone()) {
-            name += "_";
-        }
+        let name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
+        let name = self.names.give_longer(name);
         let sides = TreeLoop::sides(&name, ends);
         self.loops.push(TreeLoop::new(name, kind, sides));
     }

@@ -73,7 +73,7 @@ pub(super) fn moving(
             let across = axis.cross(&Vector3::unit(least_along(&axis)));
             let x = across.times(1.0 / across.norm());
             // no other joint has the name of a part
-            let part = |word: &str| first_free(&format!("{name}_{word}"), "_", free);
+            let part = |word: &str| first_free(&format!("{name}_{word}"), free);
             vec![
                 joint(part("x"), BodyMotion::Slide, x, false),
                 joint(part("y"), BodyMotion::Slide, axis.cross(&x), false),

@@ -29,12 +29,8 @@ impl ModelBuilder<'_> {
             if let [Some(a), Some(b)] = frames {
                 self.check_bodies(&name.value, value, [a, b], chains);
                 closures.push(Closure {
-                    name: name.value.clone(),
-                    kind: value.kind,
-                    frames: [a, b],
                     length: length.as_ref().and_then(|(_, affine)| affine.clone()),
-                    relation: None,
-                    opened: None,
+                    ..Closure::new(name.value.clone(), value.kind, [a, b])
                 });
             }
             if let (ClosureKind::Distance, Some((entry, Some(affine)))) = (value.kind, length)
@@ -61,12 +57,8 @@ impl ModelBuilder<'_> {
             return None;
         }
         Some(Closure {
-            name: name.value.clone(),
-            kind: value.kind,
-            frames: [Frame::Ground; 2],
-            length: None,
             relation: Some(formula),
-            opened: None,
+            ..Closure::new(name.value.clone(), value.kind, [Frame::Ground; 2])
         })
     }
 

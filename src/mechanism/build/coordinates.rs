@@ -31,15 +31,11 @@ impl ModelBuilder<'_> {
                 AxisKind::Prismatic | AxisKind::Distance => Measure::Length,
                 _ => continue,
             };
-            let limits = joint
-                .value
-                .limits
-                .iter()
-                .flat_map(|(low, high)| [low, high]);
-            for limit in limits {
-                self.measured(limit, wanted);
+            for value in joint.value.values() {
+                self.measured(value, wanted);
             }
         }
+        self.fixed(coordinates.axes.base.as_deref().unwrap_or_default());
     }
 
     fn vector(&mut self, entries: &[Entry; 3], measure: Measure) -> Option<Vector3<f64>> {
@@ -103,16 +99,19 @@ fn fault(
 }
 
 impl Mechanism {
-    /// The first axis of joint coordinates that is wrong for the values of the parameters.
-    pub(in super::super) fn fault_of_axes(&self) -> Option<Problem> {
+    /// The value of an entry of its file over the parameters, in m or rad or without unit.
+    pub(crate) fn given(&self, entry: &Entry) -> Option<f64> {
         let value = |name: &String| {
             let known = self.parameters.iter().find(|of| *of.name == **name);
             known.map_or(f64::NAN, |of| of.value)
         };
+        entry.expression.evaluate(&value).ok()
+    }
+
+    /// The first axis of joint coordinates that is wrong for the values of the parameters.
+    pub(in super::super) fn fault_of_axes(&self) -> Option<Problem> {
         let mut vector = |entries: &[Entry; 3], _| {
-            let values = entries
-                .each_ref()
-                .map(|entry| entry.expression.evaluate(&value).ok());
+            let values = entries.each_ref().map(|entry| self.given(entry));
             let [Some(x), Some(y), Some(z)] = values else {
                 return None;
             };

@@ -52,7 +52,7 @@ pub(in crate::mechanism) fn problem(error: QuantityError) -> ProblemKind {
                 error.problem().unwrap_or_else(|| unknown(name, None))
             }
             PointError::TooMany(found) => ProblemKind::WrongLength {
-                of: Expected::Vector,
+                of: Expected::VECTOR,
                 expected: 3,
                 found,
             },

@@ -88,7 +88,7 @@ impl Drawing<'_> {
                         !self.bodies.values().any(|other| other == name)
                             && place_of(&points, name).is_none()
                     };
-                    let name = first_free(&wanted, "_", free);
+                    let name = first_free(&wanted, free);
                     let body = Spanned::nowhere(body);
                     let place = place_at(steps);
                     points.push(Named::new(name.clone(), PointDescription { body, place }));

@@ -69,12 +69,7 @@ impl ClosureRows {
                 .chain(names_of(&motion.joints))
                 .collect();
             let name = free_variable(&wanted, |name| !taken.contains(&name));
-            let joint = JointDescription {
-                role: Role::Passive,
-                home,
-                limits: None,
-                span: 0..0,
-            };
+            let joint = JointDescription::new(Role::Passive, home);
             motion.joints.push(Named::new(name.clone(), joint));
             Entry::from(Expression::name(name))
         };
@@ -167,5 +162,5 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
 /// A name for a closure that no other has.
 pub(super) fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
     let free = |name: &str| place_of(&description.closures, name).is_none_or(|i| i == own);
-    first_free(wanted, "_", free)
+    first_free(wanted, free)
 }

@@ -69,7 +69,7 @@ impl Tables<'_> {
                     true => (first, second),
                     false => (second, first),
                 };
-                let name = self.free_name(&format!("{wanted}_cross"));
+                let name = self.taken.give(&format!("{wanted}_cross"));
                 let middle = at(&origin(&moving));
                 let label = Spanned::nowhere(name.clone());
                 let both = [&moving[..], &moving[..]];
