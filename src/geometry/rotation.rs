@@ -47,6 +47,14 @@ impl<T: Number> Rotation<T> {
         Vector3([self.0[0].dot(v), self.0[1].dot(v), self.0[2].dot(v)])
     }
 
+    /// R·I·Rᵀ of a symmetric tensor.
+    pub fn turned_tensor(&self, tensor: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+        let columns = tensor.map(|column| *self * Vector3(column));
+        // the rows of R·I are the columns of I·Rᵀ
+        let rows = [0, 1, 2].map(|i| Vector3(columns.map(|column| column.0[i])));
+        rows.map(|row| (*self * row).0)
+    }
+
     /// Row-major entries r₁₁ … r₃₃.
     #[inline]
     pub fn rows(&self) -> [[T; 3]; 3] {

@@ -1,7 +1,7 @@
 //! Masses of bodies, seen from their frames.
 
 use crate::description::{Entry, InertiaDescription, MassDescription, Named};
-use crate::geometry::{Pose, Rotation, Vector3};
+use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Body, Frame, Mechanism};
 
 /// The names of moments of inertia in URDF and SDF.
@@ -16,13 +16,6 @@ pub struct Heavy {
     pub centre: Vector3<f64>,
     /// Along the axes of the frame, in kg·m².
     pub inertia: [[f64; 3]; 3],
-}
-
-/// R·I·Rᵀ.
-fn turned(inertia: &[[f64; 3]; 3], turn: &Rotation<f64>) -> [[f64; 3]; 3] {
-    let columns = inertia.map(|column| *turn * Vector3(column));
-    let rows = [0, 1, 2].map(|i| Vector3(columns.map(|column| column.0[i])));
-    rows.map(|row| (*turn * row).0)
 }
 
 impl Heavy {
@@ -83,7 +76,7 @@ impl Heavy {
         Heavy {
             mass: self.mass,
             centre: *pose * self.centre,
-            inertia: turned(&self.inertia, &pose.rotation),
+            inertia: pose.rotation.turned_tensor(&self.inertia),
         }
     }
 

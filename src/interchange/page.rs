@@ -151,6 +151,12 @@ impl Problems {
         self.say(ImportProblemKind::Missing { element, needs }, node);
     }
 
+    /// A name that is given again.
+    pub fn duplicate(&mut self, noun: &'static str, name: &str, node: Node) {
+        let name = name.to_owned();
+        self.say(ImportProblemKind::Duplicate { noun, name }, node);
+    }
+
     /// An attribute that must be there.
     pub fn needed<'a>(&mut self, node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         let found = node.attribute(name);
@@ -262,6 +268,12 @@ impl Problems {
         }
         found
     }
+}
+
+/// The version of the format that a file says it has, unless it says none that can be read.
+pub(super) fn version(root: Node) -> Option<(u32, u32)> {
+    let (major, minor) = root.attribute("version")?.trim().split_once('.')?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
 }
 
 /// Finite numbers.

@@ -181,9 +181,14 @@ impl TreeLoop {
 impl Coupling {
     /// A joint that follows another: its value is offset + factor · value.
     pub(super) fn of(joint: String, leader: String, factor: f64, offset: f64) -> Self {
+        Coupling::linear(vec![(joint, 1.0), (leader, -factor)], offset)
+    }
+
+    /// Σ factor · value = constant.
+    pub(super) fn linear(terms: Vec<(String, f64)>, constant: f64) -> Self {
         Coupling {
-            terms: vec![(joint, 1.0), (leader, -factor)],
-            constant: offset,
+            terms,
+            constant,
             bend: None,
         }
     }

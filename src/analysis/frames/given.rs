@@ -214,16 +214,25 @@ fn closures(
         let middle = || format!("{} between", closure.name);
         let [from, to] = names.clone();
         match closure.kind {
-            ClosureKind::Revolute => joints.push(joint("", Revolute, &poses[0], names)),
-            ClosureKind::Prismatic => joints.push(joint("", Prismatic, &poses[0], names)),
             ClosureKind::Spherical => joints.push(joint("", Spherical, &poses[0], names)),
-            ClosureKind::Universal => {
-                joints.push(joint("_1", Revolute, &poses[0], [from, middle()]));
-                joints.push(joint("_2", Revolute, &poses[1], [middle(), to]));
-            }
-            ClosureKind::Cylindrical => {
-                joints.push(joint("_turn", Revolute, &poses[0], [from, middle()]));
-                joints.push(joint("_slide", Prismatic, &poses[0], [middle(), to]));
+            ClosureKind::Revolute
+            | ClosureKind::Prismatic
+            | ClosureKind::Universal
+            | ClosureKind::Cylindrical => {
+                let variables = closure.kind.variables();
+                let mut ends = vec![from, to];
+                if variables.len() == 2 {
+                    ends.insert(1, middle());
+                }
+                for (k, &(suffix, slides)) in variables.iter().enumerate() {
+                    let bodies = [ends[k].clone(), ends[k + 1].clone()];
+                    let at = match closure.kind {
+                        ClosureKind::Universal => &poses[k],
+                        _ => &poses[0],
+                    };
+                    let kind = if slides { Prismatic } else { Revolute };
+                    joints.push(joint(suffix, kind, at, bodies));
+                }
             }
             ClosureKind::Rigid => {
                 rigid.push(match bodies[1] {

@@ -122,7 +122,6 @@ pub(super) fn look<'a>(
     if let Some(name) = node.attribute("name")
         && !seen.insert((noun, name.to_owned()))
     {
-        let name = name.to_owned();
-        problems.say(ImportProblemKind::Duplicate { noun, name }, node);
+        problems.duplicate(noun, name, node);
     }
 }

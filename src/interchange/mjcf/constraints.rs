@@ -218,11 +218,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         let ([c0, c1, powers @ ..], y0) = (found?, y0?);
         let Some(leader) = node.attribute("joint2") else {
             // alone it stands still
-            return Some(Coupling {
-                terms: vec![(follower, 1.0)],
-                constant: y0 + c0,
-                bend: None,
-            });
+            return Some(Coupling::linear(vec![(follower, 1.0)], y0 + c0));
         };
         let x0 = self.reference(node, "joint2", leader)?;
         let terms = vec![(leader.to_owned(), 1.0)];

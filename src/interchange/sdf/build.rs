@@ -150,11 +150,8 @@ impl Builder<'_> {
             self.problems.push(ImportProblem { kind, span });
             return None;
         };
-        Some(Coupling {
-            terms: vec![(second.clone(), *t), (first.clone(), ratio * s)],
-            constant: 0.0,
-            bend: None,
-        })
+        let terms = vec![(second.clone(), *t), (first.clone(), ratio * s)];
+        Some(Coupling::linear(terms, 0.0))
     }
 
     /// A joint that closes a loop: its frame where all joints are at 0 is on both links.

@@ -6,7 +6,6 @@ use super::model::{ModelScope, SdfReader};
 use super::parts::{KINDS, SdfAxis, SdfJoint, SdfType, frame_of};
 use crate::geometry::Pose;
 use crate::interchange::page::{child, tag};
-use crate::interchange::problem::ImportProblemKind;
 
 impl SdfReader<'_> {
     pub(super) fn joint(&mut self, node: Node, scope: &ModelScope) -> Option<SdfJoint> {
@@ -22,9 +21,7 @@ impl SdfReader<'_> {
         let place = self.pose(node, scope, &carrier);
         let own = frame_of(&name);
         if !self.frames.add(&own, place, Some(carrier.clone())) {
-            let (noun, name) = ("joint", name.clone());
-            self.problems
-                .say(ImportProblemKind::Duplicate { noun, name }, node);
+            self.problems.duplicate("joint", &name, node);
         }
         // before version 1.7 a joint may be called as a link, which then has the name
         if !self.frames.has(&name) {

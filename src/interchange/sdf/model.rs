@@ -9,11 +9,16 @@ use super::parts::SdfJoint;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::{Files, NotRead};
-use crate::interchange::page::{Problems, child, children, document, pose_of, tag, turned};
+use crate::interchange::page::{
+    Problems, child, children, document, pose_of, tag, turned, version,
+};
 use crate::interchange::problem::ImportProblemKind;
 
 /// Models of light and floor.
 const SCENERY: [&str; 2] = ["://sun", "://ground_plane"];
+
+/// The version of a file that says none.
+const LATEST: (u32, u32) = (1, 7);
 
 /// The contents of the elements of a file.
 pub(super) struct SdfReader<'f> {
@@ -60,7 +65,7 @@ impl<'f> SdfReader<'f> {
         SdfReader {
             problems: Problems(Vec::new()),
             files,
-            version: (1, 7),
+            version: LATEST,
             frames: SdfFrames::default(),
             links: Vec::new(),
             masses: HashMap::new(),
@@ -73,7 +78,7 @@ impl<'f> SdfReader<'f> {
 
     /// A file: its models, or those of its world. Names of a model alone have nothing before them.
     pub fn file(&mut self, root: Node) -> String {
-        self.version = version(root);
+        self.version = version(root).unwrap_or(LATEST);
         let inside = child(root, "world").unwrap_or(root);
         let outer = ModelScope {
             prefix: String::new(),
@@ -98,9 +103,7 @@ impl<'f> SdfReader<'f> {
                     .iter()
                     .any(|other| other.attribute("name") == Some(name))
             {
-                let (noun, name) = ("model", name.to_owned());
-                self.problems
-                    .say(ImportProblemKind::Duplicate { noun, name }, *model);
+                self.problems.duplicate("model", name, *model);
             }
             let place = self.pose(*model, &outer, WORLD);
             self.model(*model, &outer, prefix, place);
@@ -259,9 +262,7 @@ impl<'f> SdfReader<'f> {
         carrier: Option<String>,
     ) {
         if !self.frames.add(name, place, carrier) {
-            let name = name.to_owned();
-            self.problems
-                .say(ImportProblemKind::Duplicate { noun, name }, node);
+            self.problems.duplicate(noun, name, node);
         }
     }
 
@@ -337,7 +338,7 @@ impl<'f> SdfReader<'f> {
                 .problems
                 .say(ImportProblemKind::NotThisFormat { found, expected }, root);
         }
-        self.version = version(root);
+        self.version = version(root).unwrap_or(LATEST);
         let Some(model) = child(root, "model") else {
             return self.problems.missing(root, "element `model`".into());
         };
@@ -363,13 +364,4 @@ impl<'f> SdfReader<'f> {
             Some(inner),
         );
     }
-}
-
-/// The version of the format that a file says it has.
-fn version(root: Node) -> (u32, u32) {
-    let parse = |text: &str| {
-        let (major, minor) = text.trim().split_once('.')?;
-        Some((major.parse().ok()?, minor.parse().ok()?))
-    };
-    root.attribute("version").and_then(parse).unwrap_or((1, 7))
 }

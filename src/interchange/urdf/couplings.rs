@@ -34,12 +34,7 @@ pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems) -> Vec<Cou
             let joints = joints.filter(|joint| !joint.motion.floats());
             terms.extend(joints.map(|joint| (joint.name.clone(), factor)));
         }
-        let constant = 0.0;
-        Some(Coupling {
-            terms,
-            constant,
-            bend: None,
-        })
+        Some(Coupling::linear(terms, 0.0))
     });
     couplings.flatten().collect()
 }

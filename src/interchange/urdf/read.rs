@@ -15,7 +15,7 @@ use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::description::unless;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::masses::{Heavy, MOMENTS};
-use crate::interchange::page::{Problems, child, children, direction, document, turned};
+use crate::interchange::page::{Problems, child, children, direction, document, turned, version};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, Coupling, Tree, TreeBody};
@@ -30,7 +30,7 @@ pub(crate) fn read(text: &str) -> ReadTree {
     let mut reader = UrdfReader {
         problems: Problems(Vec::new()),
         remarks: Vec::new(),
-        version: version(robot),
+        version: version(robot).unwrap_or((1, 0)),
         links: Vec::new(),
         known: HashSet::new(),
         masses: HashMap::new(),
@@ -38,15 +38,6 @@ pub(crate) fn read(text: &str) -> ReadTree {
     };
     reader.elements(robot);
     reader.finish(robot)
-}
-
-/// The version of the format that a file says it has; 1.0 if it says none that can be read.
-fn version(robot: Node) -> (u32, u32) {
-    let parse = |text: &str| {
-        let (major, minor) = text.trim().split_once('.')?;
-        Some((major.parse().ok()?, minor.parse().ok()?))
-    };
-    robot.attribute("version").and_then(parse).unwrap_or((1, 0))
 }
 
 struct UrdfReader<'a, 'i> {
@@ -88,8 +79,7 @@ impl<'a, 'i> UrdfReader<'a, 'i> {
                         _ => self.joints.push((node, name.clone())),
                     }
                     if !new {
-                        let problem = ImportProblemKind::Duplicate { noun, name };
-                        self.problems.say(problem, node);
+                        self.problems.duplicate(noun, &name, node);
                     }
                     let shapes = node.descendants().filter(|part| part.has_tag_name("mesh"));
                     *ignored.entry("mesh".into()).or_default() += shapes.count();

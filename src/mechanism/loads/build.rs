@@ -10,7 +10,7 @@ use crate::description::{
     LoadProblem, LoadsDescription, MassDescription, Named, Problem, ProblemKind, Shape,
     ShapeDescription, Spanned, nearest, unless,
 };
-use crate::geometry::{Pose, Rotation, Vector3};
+use crate::geometry::{Pose, Rotation};
 use crate::mechanism::build::problem_of;
 use crate::mechanism::{Body, Measured, Mechanism, Order, Point};
 use crate::number::tolerance::ROUNDING;
@@ -249,7 +249,7 @@ impl Reading<'_> {
                 offset,
             },
             mass,
-            inertia: turned(&tensor, &turn),
+            inertia: turn.turned_tensor(&tensor),
         })
     }
 
@@ -541,14 +541,6 @@ impl Reading<'_> {
         self.note(LoadProblem::Needs { name, fields }, &file.span);
         None
     }
-}
-
-/// R·I·Rᵀ.
-fn turned(tensor: &[[f64; 3]; 3], turn: &Rotation<f64>) -> [[f64; 3]; 3] {
-    let columns = tensor.map(|column| *turn * Vector3(column));
-    // symmetric: the rows of R·I are the columns of I·Rᵀ
-    let rows = [0, 1, 2].map(|i| Vector3(columns.map(|column| column.0[i])));
-    rows.map(|row| (*turn * row).0)
 }
 
 impl Measured {
