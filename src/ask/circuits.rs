@@ -209,16 +209,13 @@ fn slice(
         ..Wanted::default()
     };
     let report = solver.at_targets(&question.start(), &question.held(), wanted, watch);
-    let simple = report.assemblies.iter().all(|a| a.multiplicity == 1)
-        && report
-            .complex_assemblies
-            .iter()
-            .all(|a| a.multiplicity == 1);
-    let mut real: Vec<_> = report
-        .assemblies
-        .iter()
-        .map(Assembly::configuration)
-        .collect();
+    // samples of sets of infinitely many have multiplicity 0
+    let complex = report.complex_assemblies.iter();
+    let complex: Vec<_> = complex.filter(|a| a.multiplicity > 0).collect();
+    let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
+    let simple = isolated.clone().all(|a| a.multiplicity == 1)
+        && complex.iter().all(|a| a.multiplicity == 1);
+    let mut real: Vec<_> = isolated.map(Assembly::configuration).collect();
     for at in &mut real {
         at.joints[joint] = value;
     }
@@ -227,14 +224,12 @@ fn slice(
         value,
         reach: REACH * unit(mechanism, joint),
         real,
-        complex: (report.complex_assemblies.iter())
-            .map(|at| at.configuration(mechanism))
-            .collect(),
+        complex: (complex.iter().map(|at| at.configuration(mechanism))).collect(),
         freedoms: match report.fit {
             Fit::FreedomLeft(freedoms) => freedoms,
             _ => 0,
         },
-        whole: report.fit == Fit::Finite && simple && !report.may_lack_some(),
+        whole: simple && !report.may_lack_some(),
     }
 }
 

@@ -423,3 +423,28 @@ fn curves_that_were_not_followed_to_their_end_are_not_counted_as_circuits() {
     let one = "At least 1 circuit for t: 2 curves were not followed to their end, and may be parts of one circuit.";
     assert_eq!(said, one);
 }
+
+#[test]
+fn configurations_with_more_freedoms_are_on_no_circuit_and_leave_the_others_whole() {
+    let circuits = |name: &str| {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let (_, description) = Mechanism::read(format!("{folder}/{name}.ron")).unwrap();
+        let mechanism = Mechanism::new(&description).unwrap();
+        Question::new(mechanism).circuits(&Watch::none()).unwrap()
+    };
+    let report = circuits("axes/scissor_lift");
+    assert!(report.is_whole(), "{:?}", report.swept);
+    let swept = report.swept.as_ref().unwrap();
+    assert_eq!((swept.freedoms, swept.configurations), (1, 4));
+    // each turns once, and so passes every value once
+    let turns = report.circuits.iter().map(|circuit| circuit.joints[0].turns);
+    assert_eq!(turns.map(i64::abs).collect::<Vec<_>>(), [1; 4]);
+    // the rhombus of the inversor folds where O and C are L − S = 3 m apart: 2 g cos(θ/2) = 3 m
+    let report = circuits("peaucellier");
+    assert!(!report.is_whole());
+    let folded = 2.0 * f64::acos(3.0 / 5.0);
+    let swept = report.swept.unwrap();
+    for at in [folded, -folded] {
+        assert!((swept.lost_at.iter()).any(|x| (x - at).abs() < 1e-3), "{swept:?}");
+    }
+}

@@ -62,23 +62,32 @@ fn found(report: &CircuitsReport) -> String {
     let gaps = gaps.map(|[from, to]| quantity::range(joint, *from, *to, *unit));
     let gaps: Vec<String> = gaps.collect();
     let uncovered = (!gaps.is_empty()).then(|| format!("not looked at: {}", listed(&gaps)));
-    let lost = match swept.lost {
-        0 => None,
-        n => Some(format!(
-            "{} of complex configurations lost",
-            count(n, "path")
-        )),
-    };
-    let doubtful = swept.doubtful.then(|| {
-        let at = format!("at {joint} = {}", quantity(swept.value, *unit));
-        match swept.freedoms {
-            0 => format!("`assemblies` may lack some of the configurations {at}"),
-            n => format!(
-                "{at} infinitely many configurations have {} more, and are on no circuit",
-                count(n, "freedom")
-            ),
-        }
+    let lost = (swept.lost > 0).then(|| {
+        let places: Vec<String> = (swept.lost_at.iter())
+            .map(|x| quantity(*x, *unit))
+            .collect();
+        format!(
+            "{} of complex configurations lost near {joint} = {}",
+            count(swept.lost, "path"),
+            listed(&places)
+        )
     });
+    let given_up = (swept.given_up > 0).then(|| {
+        format!(
+            "{} of complex configurations not followed to the end, for they take more steps than are made",
+            count(swept.given_up, "path")
+        )
+    });
+    let at = format!("at {joint} = {}", quantity(swept.value, *unit));
+    let doubtful = (swept.doubtful)
+        .then(|| format!("`assemblies` may lack some of the configurations {at}"));
+    let freer = match swept.freedoms {
+        0 => String::new(),
+        n => format!(
+            "; {at} infinitely many others have {} more, and are on no circuit",
+            count(n, "freedom")
+        ),
+    };
     let exhausted = report
         .exhausted
         .then(|| "more curves than steps to follow them".to_owned());
@@ -86,16 +95,16 @@ fn found(report: &CircuitsReport) -> String {
         .filter(|circuit| !circuit.whole)
         .count();
     let ends = (ends > 0).then(|| format!("{} not followed to the end", count(ends, "circuit")));
-    let doubts: Vec<String> = [uncovered, lost, doubtful, ends, exhausted]
+    let doubts: Vec<String> = [uncovered, lost, given_up, doubtful, ends, exhausted]
         .into_iter()
         .flatten()
         .collect();
     match doubts.is_empty() {
         true => format!(
-            "{known}: these are all circuits on which {joint} moves, if `assemblies` finds all configurations there"
+            "{known}: these are all circuits on which {joint} moves, if `assemblies` finds all configurations there{freer}"
         ),
         false => format!(
-            "{known}, and {} at several values of {}; circuits may be missing: {}",
+            "{known}, and {} at several values of {}; circuits may be missing: {}{freer}",
             count(report.seeds, "start"),
             report.input,
             doubts.join("; ")

@@ -17,7 +17,10 @@ pub(super) enum PairEnd {
     Pole(f64),
     /// At a crossing of paths, with the places from which all others go on.
     Crossing(Vec<Place<Configuration<C>>>),
-    Lost,
+    /// Where no step leads on and the joint has this value.
+    Lost(f64),
+    /// After so many steps that it was not followed further.
+    GivenUp,
 }
 
 /// A path this near to real configurations has come to one, if it is a dead point.
@@ -36,8 +39,8 @@ pub(super) struct PairPaths<'a> {
 
 impl PairPaths<'_> {
     /// Steps after which a path is given up, and after which all are.
-    const STEPS: usize = 4_000;
-    const ALL_STEPS: usize = 20_000;
+    const STEPS: usize = 10_000;
+    const ALL_STEPS: usize = 40_000;
 
     /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
     pub fn leaving(
@@ -91,9 +94,10 @@ impl PairPaths<'_> {
                     length *= 0.5;
                     if length < self.method.shortest {
                         let far = self.complex.split(&place.at).0 > FAR;
+                        let value = self.complex.value(&place.at);
                         return match far {
-                            true => PairEnd::Pole(self.complex.value(&place.at)),
-                            false => PairEnd::Lost,
+                            true => PairEnd::Pole(value),
+                            false => PairEnd::Lost(value),
                         };
                     }
                     continue;
@@ -114,7 +118,7 @@ impl PairPaths<'_> {
             }
             before = imaginary;
         }
-        PairEnd::Lost
+        PairEnd::GivenUp
     }
 
     /// The paths beyond a crossing just ahead, or the dead point that it is. Pairs cross where a loop becomes real while

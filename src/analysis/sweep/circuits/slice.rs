@@ -63,6 +63,12 @@ pub struct Swept {
     pub gaps: Vec<[f64; 2]>,
     /// Paths that were lost, and dead points that none of them led to.
     pub lost: usize,
+    /// Values of the joint near which they were lost, each once, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lost_at: Vec<f64>,
+    /// Paths that took more steps than are made for them.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub given_up: usize,
     /// True if the search for the configurations may have missed some.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub doubtful: bool,
@@ -76,9 +82,14 @@ fn is_none(count: &usize) -> bool {
 }
 
 impl Swept {
+    fn lose(&mut self, value: f64) {
+        self.lost += 1;
+        self.lost_at.push(value);
+    }
+
     /// True if every circuit on which the joint moves was met, provided that all configurations at the values were known.
     pub fn is_whole(&self) -> bool {
-        self.lost == 0 && self.gaps.is_empty() && !self.doubtful
+        self.lost + self.given_up == 0 && self.gaps.is_empty() && !self.doubtful
     }
 }
 
@@ -103,6 +114,8 @@ pub(super) fn sweep(
         poles: Vec::new(),
         gaps: Vec::new(),
         lost: 0,
+        lost_at: Vec::new(),
+        given_up: 0,
         doubtful: !slices.iter().all(|slice| slice.whole),
         freedoms: (slices.iter())
             .map(|slice| slice.freedoms)
@@ -118,9 +131,7 @@ pub(super) fn sweep(
         for side in [below, above] {
             if side.abs() < paths_reach(of, cycle) {
                 let pole = of.value + side;
-                swept
-                    .poles
-                    .push(cycle.map_or(pole, |turns| turns * turn_near(pole / turns, 0.0)));
+                swept.poles.push(within_cycle(cycle, pole));
             }
         }
         let from = of.value - slice.value;
@@ -132,7 +143,16 @@ pub(super) fn sweep(
         .collect();
     sort_by(&mut swept.poles, f64::total_cmp);
     swept.poles.dedup_by(|a, b| (*a - *b).abs() < BESIDE_A_POLE);
+    let lost_at = swept.lost_at.iter();
+    swept.lost_at = lost_at.map(|at| within_cycle(cycle, *at)).collect();
+    sort_by(&mut swept.lost_at, f64::total_cmp);
+    swept.lost_at.dedup_by(|a, b| (*a - *b).abs() < ARRIVED);
     Some(swept)
+}
+
+/// A value of a joint, that nearest to 0 if it comes back.
+fn within_cycle(cycle: Option<f64>, value: f64) -> f64 {
+    cycle.map_or(value, |turns| turns * turn_near(value / turns, 0.0))
 }
 
 /// The distance to which a pair is followed on either side.
@@ -184,6 +204,7 @@ fn from_one(
         method: Continuation {
             tolerance: 1e-10,
             shortest: 1e-7,
+            change: 0.5,
             ..tracing.method().clone()
         },
         value: slice.value,
@@ -207,7 +228,7 @@ fn from_one(
                     waiting.push((paths.complex.going(place.clone(), up), up));
                 }
             }
-            Err(_) => swept.lost += 1,
+            Err(_) => swept.lose(slice.value),
         }
     }
     let mut went = [-paths.reach, paths.reach];
@@ -218,7 +239,7 @@ fn from_one(
         for found in &tracing.traced[seen..] {
             for (fold, greatest) in &found.folds {
                 let from = fold.at.joints[slice.joint] - slice.value;
-                let from = cycle.map_or(from, |turns| turns * turn_near(from / turns, 0.0));
+                let from = within_cycle(cycle, from);
                 if from.abs() >= paths.reach {
                     continue;
                 }
@@ -229,7 +250,7 @@ fn from_one(
                     at.joints[slice.joint] = C::from_f64(slice.value + from);
                     match paths.leaving(&at, &fold.tangent, *greatest) {
                         Some(place) => waiting.push((place, *greatest)),
-                        None => swept.lost += 1,
+                        None => swept.lose(slice.value + from),
                     }
                 }
             }
@@ -239,7 +260,7 @@ fn from_one(
             break;
         };
         if watch.is_stopped() || tracing.is_exhausted() {
-            swept.lost += 1;
+            swept.given_up += 1;
             break;
         }
         match paths.follow(&mut tracing.curve, place, (up, slice.joint)) {
@@ -255,7 +276,8 @@ fn from_one(
             PairEnd::Crossing(places) => {
                 waiting.extend(places.into_iter().map(|place| (place, up)))
             }
-            PairEnd::Lost => swept.lost += 1,
+            PairEnd::Lost(value) => swept.lose(value),
+            PairEnd::GivenUp => swept.given_up += 1,
         }
     }
     // of the sets of angles of balls one is followed, and paths may end at another
@@ -265,8 +287,8 @@ fn from_one(
     };
     let within = |from: f64| from > went[0] && from < went[1];
     let missed = (wanted.iter()).filter(|(from, fold)| within(*from) && one_set(fold));
-    swept.lost += missed
+    missed
         .filter(|(_, fold)| !reached.iter().any(|at| near(fold, at)))
-        .count();
+        .for_each(|(from, _)| swept.lose(slice.value + from));
     Some(went)
 }
