@@ -32,7 +32,7 @@ pub use straight_line::{
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, ByUnknowns, Key, Monomial, Powers, Trigonometric, Wave};
 pub(crate) use vocabulary::words;
-pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
+pub use vocabulary::{Constant, Function, Unit, ends_with_one_unit, is_name, is_reserved};
 
 use std::ops::Range;
 

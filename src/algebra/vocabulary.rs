@@ -144,6 +144,27 @@ impl Constant {
     }
 }
 
+/// The ends of a range as they are written: the unit of one counts for the other where that is a mere number, as in
+/// `10..80 deg`.
+pub fn ends_with_one_unit(ends: [&str; 2]) -> [String; 2] {
+    let parts = ends.map(|end| {
+        let is_number = |text: &str| text.ends_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok();
+        let text = end.trim();
+        let mut cuts = text.char_indices().map(|(at, _)| at).chain([text.len()]);
+        let cut = cuts.rfind(|at| is_number(&text[..*at]))?;
+        let unit = text[cut..].trim();
+        (unit.is_empty() || unit == "°" || Unit::from_word(unit).is_some()).then_some(unit)
+    });
+    let [Some(from), Some(to)] = parts else {
+        return ends.map(str::to_owned);
+    };
+    let written = |end: &str, own: &str, other: &str| match own {
+        "" => format!("{end} {other}").trim_end().to_owned(),
+        _ => end.to_owned(),
+    };
+    [written(ends[0], from, to), written(ends[1], to, from)]
+}
+
 impl Unit {
     /// `value` of this unit in rad, m, kg, N, s and their products, over any number.
     pub fn over<T: Number>(self, value: f64) -> T {

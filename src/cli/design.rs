@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use linkwork::algebra::Measure;
+use linkwork::algebra::{Measure, ends_with_one_unit};
 use linkwork::ask::{self, DesignError, DrawnDesign};
 use linkwork::description::{
     Description, DesignDescription, DesignGoal, DesignPart, Entry, FileError, LoadError, MAX_BYTES,
@@ -286,7 +286,10 @@ fn entry(option: &str, text: &str) -> Result<Entry, Refusal> {
 
 fn range(option: &str, name: &str, text: &str) -> Result<[Entry; 2], Refusal> {
     match text.split_once("..") {
-        Some((from, to)) => Ok([entry(option, from)?, entry(option, to)?]),
+        Some((from, to)) => {
+            let [from, to] = ends_with_one_unit([from, to]);
+            Ok([entry(option, &from)?, entry(option, &to)?])
+        }
         None => {
             let title = format!("`{option} {name}={text}` is no range");
             let help = format!("write {option} {name}=FROM..TO");

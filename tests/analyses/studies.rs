@@ -255,3 +255,25 @@ fn what_is_missing_or_foreign_is_named() {
     let said = MergeError::MissingShards { shards, of }.to_string();
     assert!(said.contains("2, 5 to 7, 9"), "{said}");
 }
+
+#[test]
+fn a_unit_at_one_end_of_a_range_counts_for_both() {
+    use linkwork::ask::{Demand, Role};
+    use linkwork::mechanism::Value;
+    let ends = |from: &str, to: &str| {
+        let demand = Demand::new(Role::Vary, "x", [from, to]);
+        [0, 1].map(|end| demand.value(end))
+    };
+    let texts = |from: &str, to: &str| [from, to].map(|end| Value::Text(end.into()));
+    assert_eq!(ends("10", "80deg"), texts("10 deg", "80deg"));
+    assert_eq!(ends("-1.5e1", "80 °"), texts("-1.5e1 °", "80 °"));
+    assert_eq!(ends("10 mm", "80"), texts("10 mm", "80 mm"));
+    // each says its own, or neither does
+    for (from, to) in [("1", "2"), ("1 rad", "80 deg"), ("home", "80 deg"), ("pi/2", "180 deg"), ("l1", "3 m")] {
+        assert_eq!(ends(from, to), texts(from, to));
+    }
+    // moved from 10°, not from 10 rad
+    let (code, said, _) = super::linkwork(&["sweep", "mechanisms/four_bar.ron", "--input", "theta1=10..80deg"]);
+    assert_eq!(code, 0);
+    assert!(said.contains("theta1 from 10° to 80°"), "{said}");
+}

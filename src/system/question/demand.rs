@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::algebra::words;
+use crate::algebra::{ends_with_one_unit, words};
 use crate::mechanism::Value;
 use crate::system::Coordinate;
 
@@ -74,8 +74,11 @@ impl Demand {
         Demand::new(role, name, [0.0; 0])
     }
 
-    /// The value of that index; without one the value in the file.
+    /// The value of that index; without one the value in the file. A unit at one end of a range counts for both.
     pub fn value(&self, index: usize) -> Value {
+        if let [Value::Text(from), Value::Text(to)] = &self.values[..] {
+            return Value::Text(ends_with_one_unit([from, to])[index].clone());
+        }
         let given = self.values.get(index);
         given.cloned().unwrap_or_else(|| "home".into())
     }
