@@ -148,7 +148,9 @@ impl Constant {
 /// `10..80 deg`.
 pub fn ends_with_one_unit(ends: [&str; 2]) -> [String; 2] {
     let parts = ends.map(|end| {
-        let is_number = |text: &str| text.ends_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok();
+        let is_number = |text: &str| {
+            text.ends_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok()
+        };
         let text = end.trim();
         let mut cuts = text.char_indices().map(|(at, _)| at).chain([text.len()]);
         let cut = cuts.rfind(|at| is_number(&text[..*at]))?;

@@ -437,7 +437,10 @@ fn configurations_with_more_freedoms_are_on_no_circuit_and_leave_the_others_whol
     let swept = report.swept.as_ref().unwrap();
     assert_eq!((swept.freedoms, swept.configurations), (1, 4));
     // each turns once, and so passes every value once
-    let turns = report.circuits.iter().map(|circuit| circuit.joints[0].turns);
+    let turns = report
+        .circuits
+        .iter()
+        .map(|circuit| circuit.joints[0].turns);
     assert_eq!(turns.map(i64::abs).collect::<Vec<_>>(), [1; 4]);
     // the rhombus of the inversor folds where O and C are L − S = 3 m apart: 2 g cos(θ/2) = 3 m
     let report = circuits("peaucellier");
@@ -445,6 +448,9 @@ fn configurations_with_more_freedoms_are_on_no_circuit_and_leave_the_others_whol
     let folded = 2.0 * f64::acos(3.0 / 5.0);
     let swept = report.swept.unwrap();
     for at in [folded, -folded] {
-        assert!((swept.lost_at.iter()).any(|x| (x - at).abs() < 1e-3), "{swept:?}");
+        assert!(
+            (swept.lost_at.iter()).any(|x| (x - at).abs() < 1e-3),
+            "{swept:?}"
+        );
     }
 }

@@ -269,11 +269,22 @@ fn a_unit_at_one_end_of_a_range_counts_for_both() {
     assert_eq!(ends("-1.5e1", "80 °"), texts("-1.5e1 °", "80 °"));
     assert_eq!(ends("10 mm", "80"), texts("10 mm", "80 mm"));
     // each says its own, or neither does
-    for (from, to) in [("1", "2"), ("1 rad", "80 deg"), ("home", "80 deg"), ("pi/2", "180 deg"), ("l1", "3 m")] {
+    for (from, to) in [
+        ("1", "2"),
+        ("1 rad", "80 deg"),
+        ("home", "80 deg"),
+        ("pi/2", "180 deg"),
+        ("l1", "3 m"),
+    ] {
         assert_eq!(ends(from, to), texts(from, to));
     }
     // moved from 10°, not from 10 rad
-    let (code, said, _) = super::linkwork(&["sweep", "mechanisms/four_bar.ron", "--input", "theta1=10..80deg"]);
+    let (code, said, _) = super::linkwork(&[
+        "sweep",
+        "mechanisms/four_bar.ron",
+        "--input",
+        "theta1=10..80deg",
+    ]);
     assert_eq!(code, 0);
     assert!(said.contains("theta1 from 10° to 80°"), "{said}");
 }

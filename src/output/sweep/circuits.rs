@@ -79,8 +79,8 @@ fn found(report: &CircuitsReport) -> String {
         )
     });
     let at = format!("at {joint} = {}", quantity(swept.value, *unit));
-    let doubtful = (swept.doubtful)
-        .then(|| format!("`assemblies` may lack some of the configurations {at}"));
+    let doubtful =
+        (swept.doubtful).then(|| format!("`assemblies` may lack some of the configurations {at}"));
     let freer = match swept.freedoms {
         0 => String::new(),
         n => format!(
