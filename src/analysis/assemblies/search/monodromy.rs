@@ -185,16 +185,16 @@ impl<'a> MemberSearch<'a> {
     /// Runs the trace test over the length of a rod.
     fn trace(&mut self, count: usize) {
         const MOST: usize = 5000;
-        const CUTS: usize = 3;
+        const CUTS: usize = 4;
         let watch = (self.watch, self.in_loops());
-        if self.cut.is_none() && self.cuts < CUTS {
+        while self.cut.is_none() && self.cuts < CUTS {
             self.cuts += 1;
             let mut rng = generator(self.settings.seed, (1 << 45) + self.cuts as u64);
             self.cut = RodTrace::new(
                 self.family,
                 &self.nodes[0].member,
                 (&smaller(self.settings, self.watch), &mut rng),
-                64 + 2 * count,
+                (64 + 2 * count, self.cuts - 1),
             );
         }
         if let Some(cut) = self.cut.as_mut().filter(|_| count <= MOST) {
@@ -421,7 +421,7 @@ mod tests {
                 &smaller(&settings, &watch) as &Smaller<'_>,
                 &mut generator(7, 0),
             );
-            let mut test = RodTrace::new(&family, &found.member(), how, 64).unwrap();
+            let mut test = RodTrace::new(&family, &found.member(), how, (64, 0)).unwrap();
             let now = Progress::of(Stage::Paths);
             assert_eq!(test.holds(&rest, (&watch, now)), Some(false));
         }

@@ -51,12 +51,12 @@ pub(super) struct RodTrace<'f> {
 
 impl<'f> RodTrace<'f> {
     /// `None` where no choice of a rod and a joint leaves a problem that has no more solutions than `most` and is known to have
-    /// no others.
+    /// no others. Further attempts begin with other rods and joints.
     pub fn new(
         family: &'f Family,
         base: &Member,
         (smaller, rng): (&Smaller<'_>, &mut Pcg64),
-        most: usize,
+        (most, attempt): (usize, usize),
     ) -> Option<Self> {
         let coordinates = &family.coordinates;
         let system = family
@@ -71,6 +71,7 @@ impl<'f> RodTrace<'f> {
         }
         let rods = system.fixed_rods();
         let pairs = rods.flat_map(|rod| (0..coordinates.free_joints.len()).map(move |j| (rod, j)));
+        let pairs = pairs.skip(attempt * (1 + coordinates.free_joints.len()));
         let mut choices = pairs.take(CHOICES).filter_map(|(rod, place)| {
             let joint = coordinates.free_joints[place];
             let turning = C::new(0.0, coordinates.joint_scales[joint] / family.turns(joint)??);

@@ -4,11 +4,9 @@
 //! neighbour of the point (at the point itself branches may meet). A null vector is not taken for a
 //! motion: a multiple solution attracts what starts beside it.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
-use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, independent};
+use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, add, dot, independent, norm, singular_values};
 use crate::number::{Number, real};
 use crate::solve::deflating_step;
 
@@ -29,38 +27,48 @@ pub(crate) struct Local<'a, 'f> {
     real: bool,
 }
 
-/// J and r at a point as real numbers, with the singular values of J.
+/// J and r at a point as real numbers.
 struct RealLinear {
-    residual: DVector<f64>,
-    jacobian: DMatrix<f64>,
-    left: DMatrix<f64>,
-    values: Vec<f64>,
-    right: DMatrix<f64>,
+    residual: Vec<f64>,
+    svd: Svd,
 }
 
 impl RealLinear {
-    /// Number of singular values that count; none if the largest is itself rounding.
-    fn rank(&self, tolerance: f64) -> usize {
-        let largest = self.values.first().copied().unwrap_or(0.0);
-        let threshold = (tolerance * largest).max(CANCELLED);
-        self.values.iter().filter(|v| **v > threshold).count()
+    fn largest(&self) -> f64 {
+        largest(&self.residual)
     }
 
-    /// J⁺ b with `rank` singular values.
-    fn solve(&self, b: &DVector<f64>, rank: usize) -> DVector<f64> {
-        let mut x = DVector::zeros(self.jacobian.ncols());
+    /// Number of singular values that count; none if the largest is itself rounding.
+    fn rank(&self, tolerance: f64) -> usize {
+        let values = &self.svd.values;
+        let threshold = (tolerance * values.first().unwrap_or(&0.0)).max(CANCELLED);
+        values.iter().filter(|v| **v > threshold).count()
+    }
+
+    /// −J⁺ b with `rank` singular values.
+    fn step(&self, b: &[f64], rank: usize) -> Vec<f64> {
+        let Svd {
+            left,
+            values,
+            right,
+        } = &self.svd;
+        let mut x = vec![0.0; right.len()];
         for i in 0..rank {
-            x += self.right.column(i) * (self.left.column(i).dot(b) / self.values[i]);
+            add(&mut x, -dot(&left[i], b) / values[i], &right[i]);
         }
         x
     }
+}
 
-    /// Orthonormal basis of the null space at that rank.
-    fn null_space(&self, rank: usize) -> DMatrix<f64> {
-        self.right
-            .columns(rank, self.right.ncols() - rank)
-            .into_owned()
-    }
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(
+        0.0,
+        |most, x| if x.is_nan() { *x } else { most.max(x.abs()) },
+    )
+}
+
+fn scaled(x: &[f64], factor: f64) -> Vec<f64> {
+    x.iter().map(|x| x * factor).collect()
 }
 
 /// Numbers in (−1, 1) without symmetry, the same in every run.
@@ -81,7 +89,7 @@ impl<'a, 'f> Local<'a, 'f> {
     pub fn regular(&mut self, x: &[C]) -> Option<usize> {
         let linear = self.linear(x);
         let rows = self.homotopy.varying_rows() * self.parts();
-        let regular = independent(rows, &linear.values, linear.residual.amax());
+        let regular = independent(rows, &linear.svd.values, linear.largest());
         regular.then(|| (self.columns() - rows) / self.parts())
     }
 
@@ -109,7 +117,7 @@ impl<'a, 'f> Local<'a, 'f> {
     /// The dimension spanned by the solutions beside a solution.
     fn spread(&mut self, x: &[C], stream: u64) -> usize {
         let linear = self.linear(x);
-        let free = linear.values.len() - linear.rank(SUSPECT);
+        let free = linear.svd.values.len() - linear.rank(SUSPECT);
         if free == 0 {
             return 0;
         }
@@ -119,19 +127,17 @@ impl<'a, 'f> Local<'a, 'f> {
                 continue;
             };
             if self.gap(x, &beside) < 10.0 * BESIDE[1] {
-                steps.push(self.step_between(x, &beside) / BESIDE[1]);
+                steps.extend(scaled(&self.step_between(x, &beside), 1.0 / BESIDE[1]));
             }
         }
         if steps.is_empty() {
             return 0;
         }
-        let values = DMatrix::from_columns(&steps).singular_values();
+        let columns = self.columns();
+        let values = singular_values(columns, steps.len() / columns, &steps);
         // of a curved set they span more than its tangents, which are no more than the null vectors
         let rank = values.iter().filter(|v| **v > BACK).count().min(free);
-        match self.real {
-            true => rank,
-            false => rank.div_ceil(2),
-        }
+        rank.div_ceil(self.parts())
     }
 
     /// A multiple solution to full precision; one of a set of them is moved across the set only. `x` where
@@ -144,16 +150,14 @@ impl<'a, 'f> Local<'a, 'f> {
         let mut at = x.to_vec();
         for _ in 0..STEPS {
             let step = deflating_step(self.columns(), LOST, |shift| {
-                let beside = self.moved(&at, &DVector::from_column_slice(shift));
-                let (residual, jacobian) = self.evaluated(&beside);
-                (residual.as_slice().to_vec(), jacobian.as_slice().to_vec())
+                let beside = self.moved(&at, shift);
+                self.evaluated(&beside)
             });
-            let step = step.map(DVector::from_vec);
-            let Some(step) = step.filter(|step| step.amax() <= REACH) else {
+            let Some(step) = step.filter(|step| largest(step) <= REACH) else {
                 return x.to_vec();
             };
             at = self.moved(&at, &step);
-            if step.amax() < 1e-15 {
+            if largest(&step) < 1e-15 {
                 break;
             }
         }
@@ -166,20 +170,16 @@ impl<'a, 'f> Local<'a, 'f> {
         const STEP: f64 = 0.02;
         let linear = self.linear(x);
         let rank = linear.rank(SUSPECT);
-        let free = linear.null_space(rank);
-        let lost = self.freedom(&linear, SUSPECT);
-        match lost {
+        match self.freedom(&linear, SUSPECT) {
             0 => 1,
             1 => {
-                let direction = free.column(0).into_owned();
                 let mut gap = |length: f64| {
-                    let mut at = self.moved(x, &(&direction * length));
+                    let mut at = self.moved(x, &scaled(&linear.svd.right[rank], length));
                     for _ in 0..30 {
                         let (residual, _) = self.evaluated(&at);
-                        let step = -linear.solve(&residual, rank);
-                        at = self.moved(&at, &step);
+                        at = self.moved(&at, &linear.step(&residual, rank));
                     }
-                    self.evaluated(&at).0.norm()
+                    norm(&self.evaluated(&at).0)
                 };
                 let order = real::log2(gap(STEP) / gap(0.5 * STEP)).round();
                 match order.is_finite() && (2.0..=16.0).contains(&order) {
@@ -193,8 +193,8 @@ impl<'a, 'f> Local<'a, 'f> {
 
     /// The solution that Gauss–Newton steps reach from beside a point.
     fn beside(&mut self, x: &[C], stream: u64, distance: f64) -> Option<Vec<C>> {
-        let step = DVector::from_fn(self.columns(), |i, _| distance * shake(stream, i));
-        let start = self.moved(x, &step);
+        let step = (0..self.columns()).map(|i| distance * shake(stream, i));
+        let start = self.moved(x, &step.collect::<Vec<f64>>());
         self.settled(start)
     }
 
@@ -209,8 +209,8 @@ impl<'a, 'f> Local<'a, 'f> {
         for _ in 0..STEPS {
             let linear = self.linear(&at);
             // rounding beside the slopes and the size of the point
-            let steepest = linear.values.first().copied().unwrap_or(0.0).max(1.0);
-            let error = linear.residual.amax() / (steepest * (1.0 + size(&at)));
+            let steepest = linear.svd.values.first().copied().unwrap_or(0.0).max(1.0);
+            let error = linear.largest() / (steepest * (1.0 + size(&at)));
             if !error.is_finite() {
                 return None;
             }
@@ -224,12 +224,9 @@ impl<'a, 'f> Local<'a, 'f> {
                 break;
             }
             let rank = linear.rank(RANK_TOLERANCE);
-            let mut step = -linear.solve(&linear.residual, rank);
-            let longest = step.amax();
-            if longest > LONGEST {
-                step *= LONGEST / longest;
-            }
-            at = self.moved(&at, &step);
+            let step = linear.step(&linear.residual, rank);
+            let shorter = (LONGEST / largest(&step)).min(1.0);
+            at = self.moved(&at, &scaled(&step, shorter));
         }
         let (error, at) = best?;
         (error <= TOLERANCE).then_some(at)
@@ -237,11 +234,7 @@ impl<'a, 'f> Local<'a, 'f> {
 
     /// Corank; complex directions count once.
     fn freedom(&self, linear: &RealLinear, tolerance: f64) -> usize {
-        let lost = linear.values.len() - linear.rank(tolerance);
-        match self.real {
-            true => lost,
-            false => lost.div_ceil(2),
-        }
+        (linear.svd.values.len() - linear.rank(tolerance)).div_ceil(self.parts())
     }
 
     /// Number of real unknowns.
@@ -258,65 +251,48 @@ impl<'a, 'f> Local<'a, 'f> {
         self.homotopy.family.coordinates.difference(x, y)
     }
 
-    fn moved(&mut self, x: &[C], step: &DVector<f64>) -> Vec<C> {
+    fn moved(&mut self, x: &[C], step: &[f64]) -> Vec<C> {
         let n = self.homotopy.unknowns();
-        let part = |i: usize| match self.real {
-            true => C::from_f64(step[i]),
-            false => C::new(step[i], step[n + i]),
-        };
+        let part = |i: usize| C::new(step[i], if self.real { 0.0 } else { step[n + i] });
         let step: Vec<C> = (0..n).map(part).collect();
         self.homotopy.moved(C::from_f64(END), x, &step)
     }
 
-    fn step_between(&mut self, x: &[C], y: &[C]) -> DVector<f64> {
+    fn step_between(&mut self, x: &[C], y: &[C]) -> Vec<f64> {
         let step = self.homotopy.step_between(C::from_f64(END), x, y);
-        let n = step.len();
-        DVector::from_fn(self.columns(), |i, _| match i < n {
-            true => step[i].re,
-            false => step[i - n].im,
-        })
+        self.as_real(&step)
     }
 
-    /// Residual and Jacobian as real numbers.
-    fn evaluated(&mut self, x: &[C]) -> (DVector<f64>, DMatrix<f64>) {
+    /// Real parts, and imaginary ones after them.
+    fn as_real(&self, x: &[C]) -> Vec<f64> {
+        let imaginary = x.iter().take(if self.real { 0 } else { x.len() });
+        let real = x.iter().map(|z| z.re);
+        real.chain(imaginary.map(|z| z.im)).collect()
+    }
+
+    /// Residual and Jacobian as real numbers, column-major.
+    fn evaluated(&mut self, x: &[C]) -> (Vec<f64>, Vec<f64>) {
         let (r, j) = self.homotopy.evaluated(C::from_f64(END), x);
-        let (m, n) = (r.len(), self.homotopy.unknowns());
-        if self.real {
-            let residual = DVector::from_fn(m, |i, _| r[i].re);
-            return (residual, DMatrix::from_fn(m, n, |i, k| j[k * m + i].re));
-        }
-        let residual = DVector::from_fn(2 * m, |i, _| if i < m { r[i].re } else { r[i - m].im });
-        let jacobian = DMatrix::from_fn(2 * m, 2 * n, |i, k| {
-            let z = j[(k % n) * m + i % m];
-            match (i < m, k < n) {
-                (true, true) | (false, false) => z.re,
-                (true, false) => -z.im,
-                (false, true) => z.im,
-            }
+        let columns = |turned: C| j.chunks_exact(r.len().max(1)).map(move |of| (of, turned));
+        // columns of imaginary unknowns are those of real ones times i
+        let sides = [C::new(1.0, 0.0), C::new(0.0, 1.0)].into_iter();
+        let all = sides.take(self.parts()).flat_map(columns);
+        let all = all.flat_map(|(column, turned)| {
+            self.as_real(&column.iter().map(|z| z * turned).collect::<Vec<C>>())
         });
-        (residual, jacobian)
+        let jacobian = all.collect();
+        (self.as_real(&r), jacobian)
     }
 
     fn linear(&mut self, x: &[C]) -> RealLinear {
-        let (residual, jacobian) = self.evaluated(x);
-        let (rows, columns) = jacobian.shape();
-        let finite = jacobian.iter().all(|x| x.is_finite());
-        let svd = match finite {
-            true => Svd::of(rows, columns, jacobian.as_slice()),
-            false => Svd::of(0, columns, &[]),
-        };
-        let matrix = |rows: usize, of: &[Vec<f64>]| {
-            DMatrix::from_fn(rows, of.len(), |i, j| of[j].get(i).copied().unwrap_or(0.0))
-        };
-        RealLinear {
-            left: matrix(rows, &svd.left),
-            values: svd.values,
-            right: matrix(columns, &svd.right),
-            residual: match finite {
-                true => residual,
-                false => DVector::from_element(rows, f64::NAN),
-            },
-            jacobian,
+        let (mut residual, jacobian) = self.evaluated(x);
+        let mut rows = residual.len();
+        if jacobian.iter().any(|x| !x.is_finite()) {
+            residual.fill(f64::NAN);
+            rows = 0;
         }
+        let entries = if rows == 0 { &[] } else { &jacobian[..] };
+        let svd = Svd::of(rows, self.columns(), entries);
+        RealLinear { residual, svd }
     }
 }
