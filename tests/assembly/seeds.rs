@@ -241,6 +241,27 @@ fn seeds_find_solutions_far_out() {
     }
 }
 
+/// Of the eight solutions two have angles that grow without bound towards the mechanism's own dimensions: they are at infinity for
+/// every seed, and no path is lost, wherever rounding stops it.
+#[test]
+fn angles_that_grow_without_bound_are_at_infinity() {
+    let file = "tests/found/a_rigid_loop_with_solutions_far_out.ron";
+    let mechanism = mechanism(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file));
+    let question = Question::new(&mechanism).free("actuated").unwrap();
+    for seed in [1, 3, 7, 16, 17] {
+        let settings = AssembliesSettings {
+            seed,
+            ..AssembliesSettings::default()
+        };
+        let (held, watch) = (question.held(), Watch::none());
+        let solver = AssemblySolver::new(&mechanism, &held, &settings, &watch).unwrap();
+        let report = solver.at_targets(&question.start(), &held, Wanted::default(), &watch);
+        let counts = (report.complex, report.at_infinity, report.lost);
+        assert_eq!(counts, (6, 2, 0), "seed {seed}");
+        assert!(!report.may_lack_some());
+    }
+}
+
 /// Six hinges whose axes meet one line are shaky where the file has them: two of the 16 solutions of such a loop (Primrose
 /// 1986; Lee and Liang 1988) meet there. A length that differs parts them.
 #[test]

@@ -128,6 +128,15 @@ impl ParameterHomotopy<'_> {
         )
     }
 
+    /// How far out a point is: its largest coordinate, or what an angle makes of lengths, for a rotation by φ grows as e^|Im φ|.
+    pub fn extent(&self, x: &[C]) -> f64 {
+        let c = &self.family.coordinates;
+        let angles = c.free_joints.iter().zip(x);
+        let angles = angles.filter(|(j, _)| c.turns[**j].is_some());
+        let turned = angles.map(|(_, z)| z.im.abs()).fold(0.0, f64::max);
+        size(x).max(Number::exp(C::from_f64(turned)).re)
+    }
+
     /// Absolute values of inputs, in rad or characteristic lengths.
     fn measured(&self, inputs: &[C]) -> impl Iterator<Item = f64> {
         let lengths = self.family.lengths_among_inputs().into_iter();

@@ -103,7 +103,7 @@ pub(crate) fn follow(
         }
         // a corner is a generic point: only what is far out does not get there
         Arrival::Diverged(_) => Some(End::Infinite),
-        Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => Some(End::Infinite),
+        Arrival::Stuck(_) if decades > 0 && homotopy.extent(&x) > FAR => Some(End::Infinite),
         Arrival::Stuck(_) => Some(End::Lost),
     };
     let end = found.unwrap_or_else(|| {
@@ -115,7 +115,7 @@ pub(crate) fn follow(
         let is_gone = match reached {
             Arrival::There => false,
             Arrival::Diverged(_) => true,
-            Arrival::Stuck(_) => size(&x) > if decades > 0 { FAR } else { far },
+            Arrival::Stuck(_) => homotopy.extent(&x) > if decades > 0 { FAR } else { far },
         };
         // far out on its way is not far out at its end: past what is in the way, on either side
         let may_return = is_gone && straight;
@@ -233,7 +233,7 @@ fn go_round(
             }
         }
         PathEnd::Infinite => End::Infinite,
-        PathEnd::Undecided { x } if size(&x) > far => End::Infinite,
+        PathEnd::Undecided { x } if homotopy.extent(&x) > far => End::Infinite,
         PathEnd::Undecided { .. } => End::Lost,
     }
 }
