@@ -771,6 +771,28 @@ mod files {
     }
 
     #[test]
+    fn frames_finds_the_problems_that_check_finds() {
+        // rods, outputs and loads use these parameters
+        for file in ["axes/wiper", "loads/engine", "loads/toggle_press"] {
+            let text = std::fs::read_to_string(folder().join(format!("{file}.ron"))).unwrap();
+            assert_eq!(warned(&text), [""; 0], "{file}");
+        }
+        let wrong = r#"Axes(version: 1, name: "w", joints: {
+            "a": Revolute(point: (0, 0, 0), direction: (0, 0, 1)),
+            "s": Prismatic(direction: (1, 0, 0), limits: (0, "20 deg")),
+        }, base: [Tx("b*2")])"#;
+        let axes = AxesDescription::read(wrong).unwrap();
+        let found = frames(&axes, &FramesSettings::default()).unwrap_err();
+        assert_eq!(found, Mechanism::problems(wrong));
+        let titles: Vec<String> = found.iter().map(|of| of.kind.title()).collect();
+        let expected = [
+            "expected a length, found an angle",
+            "`b` is not a parameter",
+        ];
+        assert_eq!(titles, expected);
+    }
+
+    #[test]
     fn what_cuts_and_bases_do_not_keep_is_warned_of() {
         let four_bar = std::fs::read_to_string(folder().join("axes/four_bar.ron")).unwrap();
         assert!(warned(&four_bar).is_empty());
