@@ -1,16 +1,43 @@
 //! Designs in words.
 
-use super::document::{Align, Block, Cell, Column, Document, Section, Table, cells};
-use super::quantity::quantity;
+use super::document::{Cell, Document, Table, TableOf};
+use super::quantity::{clause, form, quantity};
 use super::report::{Report, Rows};
 use crate::algebra::SiUnit;
 use crate::analysis::design::{Defect, Design, DesignReport, Exact, Moves, NotAll};
-use crate::description::{count, listed};
+use crate::description::{count, quoted};
 
 /// A sum of squares below this part of what was asked is met exactly.
 const MET: f64 = 1e-18;
 
 impl DesignReport {
+    /// The designs by number with the values that vary.
+    fn columns<C: Into<Cell>>(
+        &self,
+        value: impl Fn(&Design, usize) -> C,
+    ) -> TableOf<(usize, &Design)> {
+        Table::of((1..).zip(&self.designs))
+            .numbers("design", |(i, _)| i)
+            .each(self.varied.iter().map(|of| &of.name), |(_, of), k| {
+                value(of, k)
+            })
+    }
+
+    /// The name of the goal, if there is one.
+    fn figure(&self) -> Option<&String> {
+        self.goal.as_ref().map(|goal| &goal.figure)
+    }
+
+    fn verdict(&self, design: &Design) -> String {
+        let driver = self.driver.as_deref().unwrap_or_default();
+        match design.driver {
+            _ if !design.defects.is_empty() => defects(&design.defects),
+            Moves::Turns => format!("good; `{driver}` turns fully"),
+            Moves::Rocks => format!("good; `{driver}` rocks"),
+            Moves::Unknown => "good".to_owned(),
+        }
+    }
+
     fn largest(&self, design: &Design) -> String {
         let mut largest: Vec<(SiUnit, f64)> = Vec::new();
         for of in &design.deviations {
@@ -39,11 +66,8 @@ impl DesignReport {
     }
 
     fn answer(&self) -> String {
-        let good = self
-            .designs
-            .iter()
-            .filter(|of| of.defects.is_empty())
-            .count();
+        let good = (self.designs.iter()).filter(|of| of.defects.is_empty());
+        let good = good.count();
         let asked = match self.targets {
             0 => count(self.positions, "position"),
             targets => format!(
@@ -181,30 +205,15 @@ fn defects(all: &[Defect]) -> String {
     words.join("; ")
 }
 
-fn positions(of: &[usize]) -> String {
-    let numbers = listed(of.iter().map(usize::to_string));
-    match of.len() {
-        1 => format!("position {numbers}"),
-        _ => format!("positions {numbers}"),
-    }
-}
-
 fn defect(defect: &Defect) -> String {
     match defect {
-        Defect::Circuit { positions: of } => {
-            format!(
-                "circuit defect: {} on another circuit than the first",
-                are(of)
-            )
+        Defect::Circuit { positions } => {
+            let are = are(positions);
+            format!("circuit defect: {are} on another circuit than the first")
         }
-        Defect::Branch {
-            driver,
-            positions: of,
-        } => {
-            format!(
-                "branch defect: {} beyond a dead position of `{driver}`",
-                are(of)
-            )
+        Defect::Branch { driver, positions } => {
+            let are = are(positions);
+            format!("branch defect: {are} beyond a dead position of `{driver}`")
         }
         Defect::Order { order } => {
             let order: Vec<String> = order.iter().map(usize::to_string).collect();
@@ -213,18 +222,16 @@ fn defect(defect: &Defect) -> String {
                 order.join(" ")
             )
         }
-        Defect::Limit {
-            joints,
-            positions: of,
-        } => format!(
-            "{} not reached within the limits of {}",
-            are(of),
-            listed(joints.iter().map(|name| format!("`{name}`")))
-        ),
-        Defect::Assembly { positions: of } => format!(
-            "{} in another assembly than the one before: driven joints that move straight there end in a different one",
-            are(of)
-        ),
+        Defect::Limit { joints, positions } => {
+            let (are, joints) = (are(positions), quoted(joints));
+            format!("{are} not reached within the limits of {joints}")
+        }
+        Defect::Assembly { positions } => {
+            let are = are(positions);
+            format!(
+                "{are} in another assembly than the one before: driven joints that move straight there end in a different one"
+            )
+        }
         Defect::Crossing => {
             "branches cross on the way: it can change into another motion there".into()
         }
@@ -253,100 +260,49 @@ fn defect(defect: &Defect) -> String {
     }
 }
 
+/// `position 2 is` or `positions 2 and 3 are`
 fn are(of: &[usize]) -> String {
-    format!(
-        "{} {}",
-        positions(of),
-        if of.len() == 1 { "is" } else { "are" }
-    )
+    let positions = form(of.len(), "position", "positions");
+    let numbers: Vec<String> = of.iter().map(usize::to_string).collect();
+    format!("{positions} {}", clause(&numbers, "is", "are"))
 }
 
 impl Report for DesignReport {
     fn document(&self) -> Document {
-        let mut document = Document::new(&self.mechanism, self.answer());
-        document.no = !self.designs.iter().any(|of| of.defects.is_empty());
-        let column = |title: &str, unit| Column {
-            title: title.into(),
-            unit,
-            align: Align::Right,
-        };
-        let mut columns = vec![column("design", SiUnit::ONE)];
-        columns.extend(self.varied.iter().map(|of| column(&of.name, SiUnit::ONE)));
-        columns.push(column("sum of squares", SiUnit::ONE));
-        let goal = self.goal.as_ref();
-        columns.extend(goal.map(|goal| column(&goal.figure, SiUnit::ONE)));
-        columns.push(Column {
-            title: "verdict".into(),
-            unit: SiUnit::ONE,
-            align: Align::Left,
-        });
-        let rows = self.designs.iter().enumerate().map(|(i, design)| {
-            let mut row = cells![i + 1];
-            let values = design.values.iter().zip(&self.varied);
-            row.extend(values.map(|(value, of)| Cell::quantity(*value, of.unit)));
-            let driver = self.driver.as_deref().unwrap_or_default();
-            let moves = match design.driver {
-                Moves::Turns => format!("good; `{driver}` turns fully"),
-                Moves::Rocks => format!("good; `{driver}` rocks"),
-                Moves::Unknown => "good".to_owned(),
-            };
-            row.push(squares(design.sum_of_squares).into());
-            row.extend(goal.map(|goal| match design.goal {
-                Some(value) => Cell::quantity(value, goal.unit),
-                None => "unknown".into(),
-            }));
-            row.push(match design.defects.is_empty() {
-                true => moves.into(),
-                false => defects(&design.defects).into(),
-            });
-            row
-        });
+        let mut document = Document::new(&self.mechanism, self.answer())
+            .yes_if(self.designs.iter().any(|of| of.defects.is_empty()));
         if !self.varied.is_empty() {
-            document.sections.push(Section {
-                title: "Designs".into(),
-                blocks: vec![Block::Table(Table {
-                    columns,
-                    rows: rows.collect(),
-                    ruled: false,
-                })],
-            });
+            let value =
+                |design: &Design, k: usize| Cell::quantity(design.values[k], self.varied[k].unit);
+            let goal = |of: &Design| match (&self.goal, of.goal) {
+                (Some(goal), Some(value)) => Cell::quantity(value, goal.unit),
+                _ => "unknown".into(),
+            };
+            let table = self
+                .columns(value)
+                .numbers("sum of squares", |(_, of)| squares(of.sum_of_squares))
+                .each(self.figure(), |(_, of), _| goal(of))
+                .words("verdict", |(_, of)| self.verdict(of));
+            document = document.table("Designs", table);
         }
-        if let Some(first) = self
-            .designs
-            .first()
-            .filter(|first| !first.deviations.is_empty())
-        {
-            let titles = ["position", "quantity", "deviation"];
-            let columns = titles.map(|title| column(title, SiUnit::ONE));
-            let rows = first.deviations.iter().map(|of| {
-                cells![
-                    of.position,
-                    format!("`{}`", of.quantity),
-                    quantity(of.deviation, of.unit)
-                ]
-            });
-            document.sections.push(Section {
-                title: "Deviations of the first".into(),
-                blocks: vec![Block::Table(Table {
-                    columns: columns.into(),
-                    rows: rows.collect(),
-                    ruled: false,
-                })],
-            });
+        if let Some(first) = self.designs.first() {
+            let table = Table::of(&first.deviations)
+                .numbers("position", |of| of.position)
+                .numbers("quantity", |of| format!("`{}`", of.quantity))
+                .numbers("deviation", |of| quantity(of.deviation, of.unit));
+            document = document.table("Deviations of the first", table);
         }
         if self.undetermined > 0 && !self.varied.is_empty() {
-            document.notes.push(format!(
+            document = document.note(format!(
                 "The targets leave {} of the numbers open: more positions would fit, and these designs are some of infinitely many.",
                 count(self.undetermined, "combination")
             ));
         }
         if self.interrupted {
-            document.notes.push("The search was stopped early.".into());
+            document = document.note("The search was stopped early.");
         }
         if self.more > 0 {
-            document
-                .notes
-                .push(format!("{} not listed.", count(self.more, "further end")));
+            document = document.note(format!("{} not listed.", count(self.more, "further end")));
         }
         document.method.extend(self.not_all.map(not_all));
         match &self.exact {
@@ -381,21 +337,12 @@ impl Report for DesignReport {
     }
 
     fn rows(&self) -> Option<Rows<'_>> {
-        let names = self.varied.iter().map(|of| of.name.clone());
-        let columns = ["design".to_owned()].into_iter().chain(names);
-        let columns = columns.chain(["sum_of_squares".into(), "defects".into()]);
-        let columns = columns.chain(self.goal.as_ref().map(|goal| goal.figure.clone()));
-        let rows = self.designs.iter().enumerate().map(|(i, design)| {
-            let mut row = cells![i + 1];
-            row.extend(design.values.iter().map(|value| (*value).into()));
-            row.push(design.sum_of_squares.into());
-            row.push(design.defects.len().into());
-            if self.goal.is_some() {
-                row.push(design.goal.into());
-            }
-            row
-        });
-        Some(Rows::new(columns, rows))
+        let table = self
+            .columns(|design, k| design.values[k])
+            .numbers("sum_of_squares", |(_, of)| of.sum_of_squares)
+            .numbers("defects", |(_, of)| of.defects.len())
+            .each(self.figure(), |(_, of), _| of.goal);
+        Some(table.into())
     }
 
     fn file(&self) -> Option<Result<String, ron::Error>> {

@@ -16,12 +16,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 
-/// Cells of a row, each from what it shows: `cells!["x", 0.5, 2]`.
-macro_rules! cells {
-    ($($cell:expr),* $(,)?) => { vec![$($crate::output::document::Cell::from($cell)),*] };
-}
-pub(crate) use cells;
-
 /// Something to read, whatever the format. In all its texts names and commands stand between back
 /// quotes; anything else is to be shown as it stands.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -344,6 +338,18 @@ impl<T: Copy> TableOf<T> {
             row.push(cell(item).into());
         }
         self
+    }
+
+    /// With a column of numbers for each title; `cell` has the index of the title too.
+    pub fn each<N: Into<String>, C: Into<Cell>>(
+        self,
+        titles: impl IntoIterator<Item = N>,
+        cell: impl Fn(T, usize) -> C,
+    ) -> Self {
+        let titles = titles.into_iter().enumerate();
+        titles.fold(self, |table, (i, title)| {
+            table.numbers(title, |item| cell(item, i))
+        })
     }
 
     /// With a unit for all numbers of the last column.

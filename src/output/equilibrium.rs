@@ -2,8 +2,9 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
-use super::quantity::{bound, number, quantity};
+use super::quantity::{bound, if_any, number, quantity};
 use super::report::Report;
+use super::statics::EFFORTS;
 use crate::algebra::SiUnit;
 use crate::analysis::equilibrium::{
     EquilibriumReport, Mode, NoRest, RestPosition, Stability, Stiffness,
@@ -46,10 +47,8 @@ fn sentence(report: &EquilibriumReport) -> String {
             )
         }
         (all, starts) => {
-            let stable = all
-                .iter()
-                .filter(|of| of.stability == Stability::Stable)
-                .count();
+            let stable = all.iter().filter(|of| of.stability == Stability::Stable);
+            let stable = stable.count();
             format!(
                 "{} found from {starts} random starts (seed {}), {stable} stable; there may be others.",
                 count(all.len(), "rest position"),
@@ -98,39 +97,25 @@ fn position(report: &EquilibriumReport, of: &RestPosition, section: Section) -> 
     };
     let joints = Table::of(&of.joints.0).words("joint", |(name, _)| name.as_str());
     let joints = joints.numbers("value", |(name, value)| Cell::quantity(*value, unit(name)));
-    let platforms = Table::of(&of.platforms.0).words("platform", |(name, _)| name.as_str());
-    let platforms = ["x", "y", "z"]
-        .into_iter()
-        .enumerate()
-        .fold(platforms, |table, (i, name)| {
-            table.numbers(name, move |(_, pose)| {
-                Cell::quantity(pose.frame.position[i], SiUnit::METRE)
-            })
-        });
-    let names = ["roll", "pitch", "yaw"].into_iter().enumerate();
-    let platforms = names.fold(platforms, |table, (i, name)| {
-        table.numbers(name, move |(_, pose)| {
-            Cell::quantity(pose.roll_pitch_yaw[i], SiUnit::RADIAN)
+    let platforms = Table::of(&of.platforms.0)
+        .words("platform", |(name, _)| name.as_str())
+        .each(["x", "y", "z"], |(_, pose), i| {
+            Cell::metres(pose.frame.position[i])
         })
-    });
-    let mut section = section.table(joints);
-    if !of.platforms.is_empty() {
-        section = section.table(platforms);
-    }
-    section = section.text(format!(
-        "potential energy {}, forces left over below {} N and N·m",
-        joules(of.potential),
-        bound(of.left)
-    ));
-    if !of.outside_limits.is_empty() {
-        section = section.text(format!(
-            "outside their limits: {}",
-            listed(&of.outside_limits)
-        ));
-    }
-    if !of.modes.is_empty() {
-        section = section.section(modes(&of.modes, unit));
-    }
+        .each(["roll", "pitch", "yaw"], |(_, pose), i| {
+            Cell::radians(pose.roll_pitch_yaw[i])
+        });
+    let outside = |joints| format!("outside their limits: {joints}");
+    let section = section
+        .table(joints)
+        .table(platforms)
+        .text(format!(
+            "potential energy {}, forces left over below {} N and N·m",
+            joules(of.potential),
+            bound(of.left)
+        ))
+        .text(if_any(&of.outside_limits, outside))
+        .section(modes(&of.modes, unit));
     of.stiffness
         .iter()
         .fold(section, |section, of| section.section(matrix(of)))
@@ -152,32 +137,19 @@ fn modes(modes: &[Mode], unit: impl Fn(&str) -> SiUnit) -> Section {
 }
 
 fn matrix(of: &Stiffness) -> Section {
-    let (title, matrix, columns) = match &of.stiffness {
-        Some(stiffness) => (
-            format!(
-                "Stiffness of {} at its origin, in N, N·m, m and rad",
-                of.name
-            ),
-            stiffness,
-            ["x", "y", "z", "turn x", "turn y", "turn z"],
-        ),
+    const MOTIONS: [&str; 6] = ["x", "y", "z", "turn x", "turn y", "turn z"];
+    let (what, units, matrix, rows, columns) = match &of.stiffness {
+        Some(of) => ("Stiffness", "N, N·m, m and rad", of, EFFORTS, MOTIONS),
         None => (
-            format!(
-                "Compliance of {} at its origin, in m, rad, N and N·m",
-                of.name
-            ),
+            "Compliance",
+            "m, rad, N and N·m",
             &of.compliance,
-            ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
+            MOTIONS,
+            EFFORTS,
         ),
     };
-    let rows = match of.stiffness {
-        Some(_) => ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
-        None => ["x", "y", "z", "turn x", "turn y", "turn z"],
-    };
-    let table = Table::of(rows.iter().zip(matrix)).words("", |(name, _)| *name);
-    let columns = columns.into_iter().enumerate();
-    let table = columns.fold(table, |table, (i, name)| {
-        table.numbers(name, move |(_, row)| row[i])
-    });
-    Section::new(title).table(table)
+    let table = Table::of(rows.into_iter().zip(matrix))
+        .words("", |(name, _)| name)
+        .each(columns, |(_, row), i| row[i]);
+    Section::new(format!("{what} of {} at its origin, in {units}", of.name)).table(table)
 }

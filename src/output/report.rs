@@ -1,7 +1,7 @@
 //! Traits of reports by which they are shown.
 
 pub use super::document::Remarks;
-use super::document::{Cell, Document};
+use super::document::{Cell, Column, Document, Table};
 
 /// A report that can be shown. Commands print it as a [`Document`], as JSON or as rows.
 pub trait Report {
@@ -53,6 +53,14 @@ pub struct Rows<'a> {
     pub columns: Vec<String>,
     /// The rows, made as they are asked for.
     pub rows: Box<dyn Iterator<Item = RowCells> + 'a>,
+}
+
+/// The rows of a table, whose headers name the columns with their units.
+impl<T: Into<Table>> From<T> for Rows<'static> {
+    fn from(table: T) -> Self {
+        let Table { columns, rows, .. } = table.into();
+        Rows::new(columns.iter().map(Column::header), rows.into_iter())
+    }
 }
 
 impl<'a> Rows<'a> {

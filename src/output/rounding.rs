@@ -2,12 +2,11 @@
 
 use serde::{Serialize, Serializer};
 
-use super::document::{Align, Column, Document, Section, Table, cells};
+use super::document::{Document, Section, Table};
 use super::report::{Report, Rows};
-use crate::algebra::SiUnit;
 use crate::analysis::rounding::Snapped;
 use crate::description::count;
-use crate::mechanism::{Mechanism, Rounded, Rounding};
+use crate::mechanism::{Mechanism, NumberChange, Rounding};
 
 /// A report about a mechanism, which says first what the rounding of its numbers means.
 pub struct Prefaced<R> {
@@ -110,39 +109,22 @@ impl Report for Snapped {
             Some(rounding) => sentence(rounding),
             None => "No loop closes only within the rounding of the file's numbers.".into(),
         };
-        let mut document = Document::new(&self.mechanism, answer);
-        if let Some(Rounding::Nearest(Rounded { changes, .. })) = &self.rounding {
-            let column = |title: &str, align| Column {
-                title: title.into(),
-                unit: SiUnit::ONE,
-                align,
-            };
-            let rows = changes.iter().map(|change| {
-                let by = (change.to - change.from).abs();
-                let by = match change.is_length {
-                    true => small(by),
-                    false => small_angle(by),
-                };
-                cells![
-                    change.place.as_str(),
-                    change.from.to_string(),
-                    change.to.to_string(),
-                    by
-                ]
-            });
-            let table = Table {
-                columns: vec![
-                    column("in", Align::Left),
-                    column("written (m, rad)", Align::Right),
-                    column("exact (m, rad)", Align::Right),
-                    column("change", Align::Right),
-                ],
-                rows: rows.collect(),
-                ruled: false,
-            };
-            document = document.section(Section::new("Changes").table(table));
-        }
-        document.section(Section::new("Mechanism file").code("ron", &self.file))
+        let changes = match &self.rounding {
+            Some(Rounding::Nearest(rounded)) => &rounded.changes[..],
+            _ => &[],
+        };
+        let by = |change: &NumberChange| match ((change.to - change.from).abs(), change.is_length) {
+            (by, true) => small(by),
+            (by, false) => small_angle(by),
+        };
+        let table = Table::of(changes)
+            .words("in", |change| &change.place)
+            .numbers("written (m, rad)", |change| change.from.to_string())
+            .numbers("exact (m, rad)", |change| change.to.to_string())
+            .numbers("change", by);
+        Document::new(&self.mechanism, answer)
+            .table("Changes", table)
+            .section(Section::new("Mechanism file").code("ron", &self.file))
     }
 
     fn file(&self) -> Option<Result<String, ron::Error>> {

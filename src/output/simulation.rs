@@ -40,13 +40,9 @@ impl Report for SimulationReport {
     }
 
     fn rows(&self) -> Option<Rows<'_>> {
-        let columns = self.columns.iter();
-        let columns = columns.map(|column| format!("{} ({})", column.name, column.unit));
         let rows = self.rows.iter();
-        Some(Rows::new(
-            columns,
-            rows.map(|row| row.iter().map(|x| Cell::from(*x)).collect()),
-        ))
+        let rows = rows.map(|row| row.iter().map(|x| Cell::from(*x)).collect());
+        Some(Rows::new(heads(&self.columns), rows))
     }
 }
 
@@ -123,21 +119,18 @@ fn balance(report: &SimulationReport) -> String {
     )
 }
 
+fn heads(columns: &[SimulationColumn]) -> Vec<String> {
+    let head = |column: &SimulationColumn| format!("{} ({})", column.name, column.unit);
+    columns.iter().map(head).collect()
+}
+
 /// The matrices of linear equations, with f beside A; D is zero.
 fn linearised(of: &Linear) -> [Section; 3] {
-    let head = |column: &SimulationColumn| format!("{} ({})", column.name, column.unit);
     let matrix = |title: &str, rows: &[String], columns: &[String], entries: &[Vec<f64>]| {
-        let rows = rows.iter().zip(entries);
-        let table = Table::of(rows).words("", |(name, _)| name.as_str());
-        let columns = columns.iter().enumerate();
-        let table = columns.fold(table, |table, (i, name)| {
-            table.numbers(name.clone(), move |(_, row)| row[i])
-        });
-        Section::new(title).table(table)
+        let table = Table::of(rows.iter().zip(entries)).words("", |(name, _)| name);
+        Section::new(title).table(table.each(columns, |(_, row), i| row[i]))
     };
-    let [states, inputs, outputs] = [&of.states, &of.inputs, &of.outputs];
-    let heads = |of: &[SimulationColumn]| of.iter().map(head).collect::<Vec<String>>();
-    let (states, inputs, outputs) = (heads(states), heads(inputs), heads(outputs));
+    let [states, inputs, outputs] = [&of.states, &of.inputs, &of.outputs].map(|of| heads(of));
     let rates: Vec<String> = states.iter().map(|name| format!("d/dt {name}")).collect();
     let widened = |(row, f): (&Vec<f64>, &f64)| row.iter().chain([f]).copied().collect();
     let with_f: Vec<Vec<f64>> = of.a.iter().zip(&of.change).map(widened).collect();
@@ -174,11 +167,8 @@ fn motion(report: &SimulationReport) -> Section {
     let last = report.rows.len() - 1;
     let rows = report.rows.iter().enumerate();
     let rows = rows.filter(|(i, _)| i % every == 0 || *i == last);
-    let columns = report.columns.iter().enumerate();
-    let table = columns.fold(Table::of(rows), |table, (i, column)| {
-        table.numbers(column.name.clone(), |(_, row)| {
-            Cell::quantity(row[i], column.unit)
-        })
-    });
-    Section::new("Motion").table(table)
+    let names = report.columns.iter().map(|column| &column.name);
+    let value =
+        |(_, row): (usize, &Vec<f64>), i: usize| Cell::quantity(row[i], report.columns[i].unit);
+    Section::new("Motion").table(Table::of(rows).each(names, value))
 }

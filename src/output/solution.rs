@@ -192,7 +192,6 @@ fn found(report: &AssemblyReport) -> String {
 
 fn joints(report: &AssemblyReport) -> TableOf<(&JointVariable, f64)> {
     type Joint<'a> = (&'a JointVariable, f64);
-    let radians = |(of, value): Joint| of.unit.is_angle().then(|| format!("{} rad", number(value)));
     let limits = |(of, _): Joint| {
         let (low, high) = of.limits?;
         let outside = if of.within_limits { "" } else { ", outside" };
@@ -200,41 +199,39 @@ fn joints(report: &AssemblyReport) -> TableOf<(&JointVariable, f64)> {
         Some(format!("{low} to {high}{outside}"))
     };
     let joints = report.variables.iter();
-    Table::of(joints.zip(report.joints.values().copied()))
+    let table = Table::of(joints.zip(report.joints.values().copied()))
         .words("name", |(of, _)| &of.name)
         .words("role", |(of, _)| of.role.word().to_lowercase())
-        .words("", |(of, _)| if of.held { "held" } else { "solved" })
-        .numbers("value", |(of, value)| Cell::quantity(value, of.unit))
-        .numbers("", radians)
-        .words("limits", limits)
+        .words("", |(of, _)| if of.held { "held" } else { "solved" });
+    values(table, |(of, value)| (value, of.unit)).words("limits", limits)
 }
 
 /// Outputs that depend on joints alone.
-fn outputs(report: &AssemblyReport) -> TableOf<((&str, f64), SiUnit)> {
-    let outputs = report
-        .outputs
-        .0
-        .iter()
-        .map(|(name, value)| (name.as_str(), *value));
-    let units = report.output_units.iter().copied();
-    let radians = |((_, value), unit): ((&str, f64), SiUnit)| {
-        unit.is_angle().then(|| format!("{} rad", number(value)))
-    };
-    Table::of(outputs.zip(units))
-        .words("name", |((name, _), _)| name.to_owned())
-        .numbers("value", |((_, value), unit)| Cell::quantity(value, unit))
-        .numbers("", radians)
+fn outputs(report: &AssemblyReport) -> Table {
+    let outputs = report.outputs.0.iter().zip(&report.output_units);
+    let table = Table::of(outputs.map(|((name, value), unit)| (name, *value, *unit)));
+    values(
+        table.words("name", |(name, ..)| name),
+        |(_, value, unit)| (value, unit),
+    )
+    .into()
+}
+
+/// With a quantity, also in rad if it is an angle.
+fn values<T: Copy>(table: TableOf<T>, of: impl Fn(T) -> (f64, SiUnit)) -> TableOf<T> {
+    let radians =
+        |(value, unit): (f64, SiUnit)| unit.is_angle().then(|| format!("{} rad", number(value)));
+    table
+        .numbers("value", |row| Cell::quantity(of(row).0, of(row).1))
+        .numbers("", |row| radians(of(row)))
 }
 
 fn pose(name: &str, platform: &PlatformRecord) -> Section {
     let frame = &platform.frame;
-    let column = |j: usize| move |i: usize| frame.rotation[i][j];
     let table = Table::of(0..3)
         .words("", |i: usize| ["x", "y", "z"][i])
         .numbers("position", |i| Cell::metres(frame.position[i]))
-        .numbers("n", column(0))
-        .numbers("s", column(1))
-        .numbers("a", column(2));
+        .each(["n", "s", "a"], |i, j| frame.rotation[i][j]);
     let [w, x, y, z] = frame.quaternion.map(number);
     let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
     Section::new(format!("Platform {name}")).table(table).list([
@@ -246,9 +243,7 @@ fn pose(name: &str, platform: &PlatformRecord) -> Section {
 fn tips(report: &AssemblyReport) -> TableOf<&(String, FrameRecord)> {
     Table::of(&report.frames.0)
         .words("frame", |(frame, _)| frame)
-        .numbers("x", |(_, tip)| Cell::metres(tip.position[0]))
-        .numbers("y", |(_, tip)| Cell::metres(tip.position[1]))
-        .numbers("z", |(_, tip)| Cell::metres(tip.position[2]))
+        .each(["x", "y", "z"], |(_, tip), i| Cell::metres(tip.position[i]))
 }
 
 fn gaps(report: &AssemblyReport) -> TableOf<&(String, Gap)> {

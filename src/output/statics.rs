@@ -142,14 +142,16 @@ fn starred(value: f64, unit: SiUnit, star: bool) -> Cell {
     }
 }
 
+/// Components of a force and a moment.
+pub(super) const EFFORTS: [&str; 6] = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
+
 /// With columns of a force and a moment; a `*` follows components that are not unique.
 fn components<T: Copy>(
     table: TableOf<T>,
     rounding: [f64; 2],
     of: impl Fn(T) -> ([f64; 3], [f64; 3], [bool; 6]),
 ) -> TableOf<T> {
-    let names = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
-    (0..).zip(names).fold(table, |table, (i, name)| {
+    (0..).zip(EFFORTS).fold(table, |table, (i, name)| {
         let component = |row| {
             let (force, moment, unique) = of(row);
             let value = if i < 3 { force[i] } else { moment[i - 3] };

@@ -141,16 +141,14 @@ fn extremes(motion: &MotionReport) -> Section {
                 (None, true) => "not determined".into(),
             },
         });
-        driven
-            .iter()
-            .enumerate()
-            .fold(table, |table, (i, &(name, unit))| {
-                table.numbers(format!("at {name}"), move |of| {
-                    let found = side(of).as_ref()?;
-                    let place = found.inputs.get(i).or(found.joints.first());
-                    place.map(|x| Cell::quantity(*x, unit))
-                })
-            })
+        table.each(
+            driven.iter().map(|(name, _)| format!("at {name}")),
+            |of, i| {
+                let found = side(of).as_ref()?;
+                let place = found.inputs.get(i).or(found.joints.first());
+                place.map(|x| Cell::quantity(*x, driven[i].1))
+            },
+        )
     });
     Section::new("Extremes").table(table)
 }
@@ -186,10 +184,11 @@ fn rows(motion: &MotionReport) -> Section {
     let places = motion.columns.len() - motion.extremes.len();
     let columns = columns.filter(|(i, of)| of.unit != SiUnit::ONE || *i >= places);
     let flat = flat(&motion.columns[..places], values);
-    let columns = columns.filter(|(i, _)| !flat.contains(i));
+    let columns: Vec<_> = columns.filter(|(i, _)| !flat.contains(i)).collect();
     let steps = Table::of(shown.map(|(_, row)| row)).words("step", |row| row[0]);
-    let table = columns.fold(steps, |table, (i, of)| {
-        table.numbers(&of.name, |row| row[i].map(|x| Cell::quantity(x, of.unit)))
+    let table = steps.each(columns.iter().map(|(_, of)| &of.name), |row, k| {
+        let (i, of) = columns[k];
+        row[i].map(|x| Cell::quantity(x, of.unit))
     });
     let table = Table::from(table);
     let title = match all > table.rows.len() {

@@ -190,12 +190,9 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
         return section.text("nothing held drives an output");
     }
     let named = |axis: &JacobianAxis| format!("{} ({})", axis.name, axis.unit);
-    let rows = Table::of(jacobian.rows.iter().zip(&jacobian.entries));
-    let rows = rows.words("output", |(axis, _)| named(axis));
-    let columns = jacobian.columns.iter().enumerate();
-    let matrix = columns.fold(rows, |table, (i, axis)| {
-        table.numbers(named(axis), |(_, row)| row[i])
-    });
+    let matrix = Table::of(jacobian.rows.iter().zip(&jacobian.entries))
+        .words("output", |(axis, _)| named(axis))
+        .each(jacobian.columns.iter().map(named), |(_, row), i| row[i]);
     let condition = match jacobian.condition {
         Some(condition) => size(condition),
         None => format!("infinite: {} lost", count(jacobian.loss, "freedom")),

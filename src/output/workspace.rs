@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub use picture::{left_out, svg};
 use words::{completeness, sentence};
 
-use super::document::{Cell, Document, Section, Table, cells};
+use super::document::{Cell, Document, Section, Table};
 use super::quantity::{number, quantity};
 use super::report::{Remarks, Report, Rows};
 use crate::analysis::workspace::{
@@ -49,20 +49,24 @@ impl Report for WorkspaceReport {
 
 /// The points of the boundary curves as rows, in SI units and rad.
 pub fn boundary_rows(report: &WorkspaceReport) -> Rows<'_> {
-    let own = ["curve", "kind", "ends reach"].map(str::to_owned);
     let axes = report.axes.iter();
     let axes = axes.map(|axis| Variable::new(&axis.name, axis.unit).to_string());
-    let joints = report.variables.iter().map(Variable::to_string);
-    let rows = report.curves.iter().enumerate().flat_map(|(i, curve)| {
+    let points = (1..).zip(&report.curves).flat_map(|(i, curve)| {
         let points = curve.points.iter().zip(&curve.joints);
-        points.map(move |(point, joints)| {
-            let mut row = cells![i + 1, words::kind(&curve.kind), curve.ends_reach];
-            let values = point.iter().chain(&curve.slice).chain(joints);
-            row.extend(values.map(|value| Cell::from(*value)));
-            row
-        })
+        points.map(move |(point, joints)| (i, curve, point, joints))
     });
-    Rows::new(own.into_iter().chain(axes).chain(joints), rows)
+    let table = Table::of(points)
+        .numbers("curve", |(i, ..)| Cell::Count(i))
+        .words("kind", |(_, curve, ..)| words::kind(&curve.kind))
+        .words("ends reach", |(_, curve, ..)| curve.ends_reach)
+        .each(axes, |(_, curve, point, _), k| {
+            point.get(k).copied().or(curve.slice)
+        })
+        .each(
+            report.variables.iter().map(Variable::to_string),
+            |(.., joints), k| joints[k],
+        );
+    table.into()
 }
 
 fn modes(report: &WorkspaceReport) -> Section {

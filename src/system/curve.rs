@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use super::equations::{System, Work};
 use crate::algebra::SiUnit;
 use crate::linear::RowGroup;
-use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
+use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, Variable, turn_near};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
 use crate::system::{Coordinate, Held, Unknown};
@@ -59,6 +59,11 @@ pub struct Bound {
 }
 
 impl Bound {
+    /// Header of a column of its values: `theta1 (rad)`.
+    pub fn head(&self) -> String {
+        Variable::new(&self.name, self.unit).to_string()
+    }
+
     pub(crate) fn new(mechanism: &Mechanism, driven: &Driven) -> Self {
         Bound {
             name: driven.coordinate.name(mechanism),

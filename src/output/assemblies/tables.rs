@@ -148,13 +148,12 @@ pub(super) fn joints(report: &AssembliesReport) -> Vec<Section> {
     let free: Vec<(usize, &ListedJoint)> = variables.filter(|(_, joint)| !joint.held).collect();
     let blocks = free.chunks(ABREAST).enumerate().map(|(block, free)| {
         let modes = Table::of(&report.assemblies).numbers("mode", |a| a.mode);
-        let table = free.iter().fold(modes, |table, &(j, joint)| {
-            table.numbers(&joint.name, |a| {
-                let value = settled(a.joints.0[j].1, report, joint.unit);
-                let text = quantity(value, joint.unit);
-                // −180° may be within limits where 180° is not
-                if joint.periodic { once(text) } else { text }
-            })
+        let table = modes.each(free.iter().map(|(_, joint)| &joint.name), |a, k| {
+            let (j, joint) = free[k];
+            let value = settled(a.joints.0[j].1, report, joint.unit);
+            let text = quantity(value, joint.unit);
+            // −180° may be within limits where 180° is not
+            if joint.periodic { once(text) } else { text }
         });
         let title = match block {
             0 => "Joints",
@@ -186,15 +185,13 @@ pub(super) fn platforms(report: &AssembliesReport) -> Vec<Section> {
     };
     let parts = parts.map(|(p, (name, _))| {
         let numbered = Table::of(rows.iter().copied()).numbers(title, |(number, _)| number);
-        let table = (0..).zip(HEADER).fold(numbered, |table, (i, title)| {
-            table.numbers(title, |(_, a)| {
-                let (_, pose) = &a.platforms.0[p];
-                let (value, unit) = match i {
-                    0..3 => (pose.position[i], SiUnit::METRE),
-                    _ => (pose.roll_pitch_yaw[i - 3], SiUnit::RADIAN),
-                };
-                once(quantity(settled(value, report, unit), unit))
-            })
+        let table = numbered.each(HEADER, |(_, a), i| {
+            let (_, pose) = &a.platforms.0[p];
+            let (value, unit) = match i {
+                0..3 => (pose.position[i], SiUnit::METRE),
+                _ => (pose.roll_pitch_yaw[i - 3], SiUnit::RADIAN),
+            };
+            once(quantity(settled(value, report, unit), unit))
         });
         Section::new(format!("Platform {name}")).table(table)
     });

@@ -1,10 +1,11 @@
 //! Singularities along a motion.
 
 use super::{details, note, words};
-use crate::analysis::singularities::AlongReport;
+use crate::analysis::singularities::{AlongReport, Crossing};
 use crate::mechanism::Variable;
-use crate::output::document::{Cell, Document, Section, cells};
+use crate::output::document::{Document, Section, Table};
 use crate::output::report::{Remarks, Report, Rows};
+use crate::system::Bound;
 
 impl Report for AlongReport {
     fn document(&self) -> Document {
@@ -25,28 +26,25 @@ impl Report for AlongReport {
 
     /// The singularities on the way, in SI units and rad.
     fn rows(&self) -> Option<Rows<'_>> {
-        let own = ["number", "part", "type", "zlatanov", "fold", "branches"];
-        let moved = self.moved.iter();
-        let moved = moved.map(|of| Variable::new(&of.name, of.unit).to_string());
-        let joints = self.variables.iter().map(Variable::to_string);
-        let columns = own.map(str::to_owned).into_iter().chain(moved);
-        let rows = self.crossings.iter().enumerate();
-        let rows = rows.map(|(i, crossing)| {
-            let singularity = &crossing.singularity;
-            let zlatanov = singularity.zlatanov.iter();
-            let zlatanov: Vec<&str> = zlatanov.map(|kind| words::letters(*kind)).collect();
-            let mut row = cells![
-                i + 1,
-                crossing.part,
-                singularity.gosselin_angeles.map(usize::from),
-                zlatanov.join(" "),
-                crossing.fold,
-                crossing.branches,
-            ];
-            let values = crossing.moved.iter().chain(&crossing.joints);
-            row.extend(values.map(|value| Cell::from(*value)));
-            row
-        });
-        Some(Rows::new(columns.chain(joints), rows).once())
+        let zlatanov = |(_, of): (usize, &Crossing)| {
+            let kinds = of.singularity.zlatanov.iter();
+            let letters: Vec<&str> = kinds.map(|kind| words::letters(*kind)).collect();
+            letters.join(" ")
+        };
+        let table = Table::of((1..).zip(&self.crossings))
+            .numbers("number", |(i, _)| i)
+            .numbers("part", |(_, of)| of.part)
+            .numbers("type", |(_, of)| {
+                of.singularity.gosselin_angeles.map(usize::from)
+            })
+            .words("zlatanov", zlatanov)
+            .words("fold", |(_, of)| of.fold)
+            .words("branches", |(_, of)| of.branches)
+            .each(self.moved.iter().map(Bound::head), |(_, of), k| of.moved[k])
+            .each(
+                self.variables.iter().map(Variable::to_string),
+                |(_, of), k| of.joints[k],
+            );
+        Some(Rows::from(table).once())
     }
 }

@@ -4,9 +4,10 @@ use super::{kind_word, note, words};
 use crate::analysis::singularities::{Cusp, ImageShape, Kind, Locus, LocusReport};
 use crate::description::count;
 use crate::mechanism::Variable;
-use crate::output::document::{Cell, Document, Section, Table, cells};
+use crate::output::document::{Cell, Document, Section, Table};
 use crate::output::quantity::quantity;
 use crate::output::report::{Remarks, Report, Rows};
+use crate::system::Bound;
 
 impl Report for LocusReport {
     fn document(&self) -> Document {
@@ -28,12 +29,6 @@ impl Report for LocusReport {
 
     /// The points of the loci, then their cusps, in SI units and rad.
     fn rows(&self) -> Option<Rows<'_>> {
-        let own = ["locus", "kind", "type", "shape", "configurations"];
-        let sides = self.bounds.iter();
-        let sides = sides.map(|of| Variable::new(&of.name, of.unit).to_string());
-        let variables = self.variables.iter().chain(&self.pose_variables);
-        let columns = own.map(str::to_owned).into_iter().chain(sides);
-        let columns = columns.chain(variables.map(Variable::to_string));
         let points = self.loci.iter().enumerate().flat_map(|(i, locus)| {
             let points = locus.points.iter().zip(&locus.joints).zip(&locus.poses);
             let points = points.map(|((point, joints), poses)| (None, point, joints, poses));
@@ -41,22 +36,33 @@ impl Report for LocusReport {
                 (locus.cusps.iter()).map(|of| (Some("cusp"), &of.point, &of.joints, &of.poses));
             (points.chain(cusps)).map(move |point| (i, locus, point))
         });
-        let rows = points.map(|(i, locus, (cusp, point, joints, poses))| {
-            let mut row = cells![
-                i + 1,
-                kind_word(locus.kind),
-                locus.singularity.gosselin_angeles.map(usize::from),
-                cusp.unwrap_or(match locus.shape {
-                    ImageShape::Curve => "curve",
-                    ImageShape::Point => "point",
-                }),
-                locus.configurations,
-            ];
-            let values = point.iter().chain(joints).chain(poses.iter().flatten());
-            row.extend(values.map(|value| Cell::from(*value)));
-            row
-        });
-        Some(Rows::new(columns, rows).once())
+        let shape = |locus: &Locus| match locus.shape {
+            ImageShape::Curve => "curve",
+            ImageShape::Point => "point",
+        };
+        let variables = self.variables.iter().chain(&self.pose_variables);
+        let table = Table::of(points)
+            .numbers("locus", |(i, ..)| i + 1)
+            .words("kind", |(_, locus, _)| kind_word(locus.kind))
+            .numbers("type", |(_, of, _)| {
+                of.singularity.gosselin_angeles.map(usize::from)
+            })
+            .words("shape", |(_, locus, (cusp, ..))| {
+                cusp.unwrap_or(shape(locus))
+            })
+            .numbers("configurations", |(_, locus, _)| locus.configurations)
+            .each(
+                self.bounds.iter().map(Bound::head),
+                |(.., (_, point, ..)), k| point[k],
+            )
+            .each(
+                variables.map(Variable::to_string),
+                |(.., (_, _, joints, poses)), k| {
+                    let pose = || poses.as_flattened()[k - joints.len()];
+                    joints.get(k).copied().unwrap_or_else(pose)
+                },
+            );
+        Some(Rows::from(table).once())
     }
 }
 
@@ -107,22 +113,19 @@ fn cusps(report: &LocusReport) -> Option<Section> {
         any(Kind::Inverse).then(|| "inverse: three configurations for the same outputs meet there".to_owned()),
     ];
     let bounds = &report.bounds;
-    let side = |k: usize| {
-        move |(_, _, cusp): (i64, &Locus, &Cusp)| Cell::quantity(cusp.point[k], bounds[k].unit)
-    };
+    let boxed = |name: &str| bounds.iter().any(|bound| bound.name == name);
+    let joints = report.variables.iter().enumerate();
+    let joints: Vec<(usize, &Variable)> = joints.filter(|(_, of)| !boxed(&of.name)).collect();
     let table = Table::of(cusps.iter().copied())
         .numbers("locus", |(i, _, _)| Cell::Count(i))
         .words("kind", |(_, locus, _)| kind_word(locus.kind))
-        .numbers(&bounds[0].name, side(0))
-        .numbers(&bounds[1].name, side(1));
-    let boxed = |name: &str| bounds.iter().any(|bound| bound.name == name);
-    let joints = report.variables.iter().enumerate();
-    let joints = joints.filter(|(_, joint)| !boxed(&joint.name));
-    let table = joints.fold(table, |table, (k, joint)| {
-        table.numbers(&joint.name, move |(_, _, cusp)| {
-            Cell::quantity(cusp.joints[k], joint.unit)
+        .each(bounds.iter().map(|of| &of.name), |(.., cusp), k| {
+            Cell::quantity(cusp.point[k], bounds[k].unit)
         })
-    });
+        .each(joints.iter().map(|(_, of)| &of.name), |(.., cusp), i| {
+            let (k, of) = joints[i];
+            Cell::quantity(cusp.joints[k], of.unit)
+        });
     (!cusps.is_empty()).then(|| {
         Section::new("Cusps")
             .table(table)

@@ -1,6 +1,6 @@
 //! Cusps and double points of paths.
 
-use crate::analysis::sweep::{PathPoint, PathReport};
+use crate::analysis::sweep::PathReport;
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Section, Table};
 
@@ -30,20 +30,18 @@ fn section(path: &PathReport, circuits: bool) -> Section {
             (0..point.joints.len()).map(move |k| (what, number, point, k))
         })
     });
-    type Row<'p> = (&'p str, usize, &'p PathPoint, usize);
-    let metres = |axis: usize| move |(.., of, _): Row| Cell::metres(of.position[axis]);
     let table = Table::of(rows).words("what", |(what, number, ..)| format!("{what} {number}"));
     let table = match circuits {
         true => table.numbers("circuit", |(.., of, k)| of.circuits[k]),
         false => table,
     };
-    let table = (table.numbers("x", metres(0)))
-        .numbers("y", metres(1))
-        .numbers("z", metres(2));
-    let joints = path.variables.iter().enumerate();
-    section.table(joints.fold(table, |table, (k, joint)| {
-        table.numbers(&joint.name, move |(.., of, row)| {
-            Cell::quantity(of.joints[row][k], joint.unit)
+    let (joints, names) = (&path.variables, path.variables.iter().map(|of| &of.name));
+    let table = table
+        .each(["x", "y", "z"], |(.., of, _), axis| {
+            Cell::metres(of.position[axis])
         })
-    }))
+        .each(names, |(.., of, row), k| {
+            Cell::quantity(of.joints[row][k], joints[k].unit)
+        });
+    section.table(table)
 }

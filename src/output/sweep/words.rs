@@ -286,8 +286,8 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
     let worth = |met: &&Met| !matches!(met.kind, MetKind::End | MetKind::Closed);
     let all = report.met.iter().filter(worth).count() + report.more_met;
     let joints = report.met.first()?.joints.len();
-    let joints = motion.columns.get(1..=joints)?.iter().enumerate();
-    let met = Table::of(report.met.iter().filter(worth).take(SHOWN))
+    let joints = motion.columns.get(1..=joints)?;
+    let table = Table::of(report.met.iter().filter(worth).take(SHOWN))
         .words("what", |met| match &met.kind {
             MetKind::Turning { joint } => format!("{joint} turns back"),
             MetKind::Fold { locked, .. } => format!("dead point of {}", listed(locked)),
@@ -299,10 +299,10 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
             MetKind::Cusp { point } => format!("cusp of the path of {point}"),
             MetKind::End | MetKind::Closed => String::new(),
         })
-        .numbers("type", |met| met.singularity.map(usize::from));
-    let table = joints.fold(met, |table, (i, joint)| {
-        table.numbers(&joint.name, |met| Cell::quantity(met.joints[i], joint.unit))
-    });
+        .numbers("type", |met| met.singularity.map(usize::from))
+        .each(joints.iter().map(|joint| &joint.name), |met, i| {
+            Cell::quantity(met.joints[i], joints[i].unit)
+        });
     let more = match all > SHOWN {
         true => format!(", {SHOWN} of {all}"),
         false => String::new(),
