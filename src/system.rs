@@ -51,7 +51,7 @@ pub use question::{
     actuated, check_angle, check_angles, check_count, coordinate_outputs, default_outputs,
     free_outputs, inputs_of, platform_outputs, redundant_motors, with_coordinates,
 };
-pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
+pub use record::{FormulaNames, FrameRecord, Named, NamedUnit, PlatformRecord, infinite_if_null};
 pub(crate) use record::{is_origin, uncut};
 pub use search::{
     Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, RESTARTS, Search, Searched,

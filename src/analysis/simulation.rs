@@ -12,8 +12,8 @@ use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, NoDynamics, Question,
-    RegularFreedoms,
+    Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, NamedUnit, NoDynamics,
+    Question, RegularFreedoms,
 };
 
 use run::Run;
@@ -69,7 +69,7 @@ pub struct SimulationReport {
     /// Freedoms with which it moves.
     pub freedoms: usize,
     /// Names and units of the columns: time, joints with their rates, platforms and points, energies.
-    pub columns: Vec<SimulationColumn>,
+    pub columns: Vec<NamedUnit>,
     /// Values at equal times, and at the end.
     pub rows: Vec<Vec<f64>>,
     /// The time reached, in s.
@@ -92,16 +92,6 @@ pub struct SimulationReport {
     /// Correction of the given pose.
     #[serde(flatten)]
     pub pose: GivenPose,
-}
-
-/// A column of a simulation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SimulationColumn {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: SiUnit,
 }
 
 /// The end of a simulation.

@@ -23,7 +23,7 @@ use crate::system::{
 
 pub use centres::InstantCentre;
 pub(crate) use frames::Spins;
-pub use jacobian::{InputOutput, JacobianAxis};
+pub use jacobian::InputOutput;
 pub(crate) use jacobian::{Normalised, Outputs, axes, condition, row_count};
 pub use planar::Transmission;
 pub(crate) use planar::TransmissionAngles;

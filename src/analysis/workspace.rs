@@ -22,8 +22,8 @@ mod problem;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
 pub use map::{
-    AspectReport, AxisReport, BoundaryPoint, Cell, Cells, Conditioned, CoordinateReport,
-    HeldReport, HomeReport, ModeReport, WorkspaceReport,
+    AspectReport, AxisReport, BoundaryPoint, Cell, Cells, Conditioned, HeldReport, HomeReport,
+    ModeReport, WorkspaceReport,
 };
 
 use crate::mechanism::{Configuration, PlatformPose};

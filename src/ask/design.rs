@@ -10,11 +10,12 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::Question;
-use crate::analysis::design::{self, DesignReport, FoundEnd, Task, VariedNumber};
+use crate::analysis::design::{self, DesignReport, FoundEnd, Task};
 use crate::description::{Description, DesignDescription, DesignPart, DesignProblem, Problem};
 use crate::mechanism::Mechanism;
 use crate::number::sorting::sort_by;
 use crate::solve::{LeastSquares, Watch};
+use crate::system::Bound;
 pub use drawn::DrawnDesign;
 use judge::Judge;
 use read::Read;
@@ -211,7 +212,7 @@ impl Design {
         Ok(DesignReport {
             mechanism: mechanism.name().to_owned(),
             varied: (read.varied.iter())
-                .map(|of| VariedNumber {
+                .map(|of| Bound {
                     name: parameters[of.parameter].name.to_string(),
                     unit: of.unit,
                     from: of.range.0,

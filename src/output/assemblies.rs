@@ -11,7 +11,7 @@ pub(crate) use proof::reason;
 
 use super::closing;
 use super::document::{Document, Section};
-use super::quantity::{are, at, clause, form};
+use super::quantity::{are, clause, form, values};
 use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
@@ -234,8 +234,7 @@ fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> Section {
     };
     let gaps = (closest.gaps.0.iter())
         .map(|(name, gap)| format!("{name}: {}", closing::gap(gap.distance, gap.angle)));
-    let joints = report.variables.iter().zip(closest.joints.values());
-    let joints = joints.map(|(joint, value)| at(&joint.name, *value, joint.unit));
+    let joints = values(&report.variables, closest.joints.values());
     let squared = (closest.squared_lengths).then(|| closing::SQUARED_LENGTHS.to_owned());
     Section::new(title).list(gaps).list(joints).list(squared)
 }

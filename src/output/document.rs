@@ -14,6 +14,7 @@ pub use remarks::Remarks;
 
 use serde::{Deserialize, Serialize};
 
+use super::quantity::Quantified;
 use crate::algebra::SiUnit;
 
 /// Something to read, whatever the format. In all its texts names and commands stand between back
@@ -350,6 +351,27 @@ impl<T: Copy> TableOf<T> {
         titles.fold(self, |table, (i, title)| {
             table.numbers(title, |item| cell(item, i))
         })
+    }
+
+    /// With a column for each of several quantities; each number says its unit.
+    pub fn quantities<Q: Quantified, V: Into<Option<f64>>>(
+        self,
+        of: &[Q],
+        value: impl Fn(T, usize) -> V,
+    ) -> Self {
+        self.each(of.iter().map(Q::name), |item, k| {
+            let value = value(item, k).into();
+            value.map(|value| Cell::quantity(value, of[k].unit()))
+        })
+    }
+
+    /// With a column for each of several quantities; headers say the units.
+    pub fn values<Q: Quantified, V: Into<Option<f64>>>(
+        self,
+        of: &[Q],
+        value: impl Fn(T, usize) -> V,
+    ) -> Self {
+        self.each(of.iter().map(Q::head), |item, k| value(item, k).into())
     }
 
     /// With a unit for all numbers of the last column.

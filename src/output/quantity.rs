@@ -1,9 +1,12 @@
 //! Numbers as people read them; JSON keeps every digit. Every unit that is printed comes from here.
 
 use crate::algebra::SiUnit;
+use crate::analysis::assemblies::ListedJoint;
+use crate::analysis::workspace::{AxisReport, HeldReport};
 use crate::description::{count, listed};
 use crate::mechanism::Variable;
 use crate::number::tolerance::WRITTEN_ZERO;
+use crate::system::{Bound, NamedUnit};
 
 /// A count with the minus sign of the formulas it stands in.
 pub(super) fn signed(count: i64) -> String {
@@ -68,6 +71,45 @@ pub(super) fn metres(length: f64) -> String {
     quantity(length, SiUnit::METRE)
 }
 
+/// Something that has a name and numbers in a unit.
+pub(super) trait Quantified {
+    fn name(&self) -> &str;
+    fn unit(&self) -> SiUnit;
+
+    /// Header of a column of its numbers: `theta1 (rad)`.
+    fn head(&self) -> String {
+        Variable::new(self.name(), self.unit()).to_string()
+    }
+
+    /// `theta1 = 60°`
+    fn at(&self, value: f64) -> String {
+        at(self.name(), value, self.unit())
+    }
+}
+
+macro_rules! quantified {
+    ($($T:ty),+) => {$(
+        impl Quantified for $T {
+            fn name(&self) -> &str {
+                &self.name
+            }
+
+            fn unit(&self) -> SiUnit {
+                self.unit
+            }
+        }
+    )+};
+}
+
+quantified!(
+    Variable,
+    NamedUnit,
+    Bound,
+    AxisReport,
+    HeldReport,
+    ListedJoint
+);
+
 /// `theta1 = 60°`
 pub(super) fn at(name: &str, value: f64, unit: SiUnit) -> String {
     format!("{name} = {}", quantity(value, unit))
@@ -75,19 +117,22 @@ pub(super) fn at(name: &str, value: f64, unit: SiUnit) -> String {
 
 /// The values of variables: `theta1 = 60°`, `l1 = 0.5 m`.
 pub(super) fn values<'v>(
-    variables: &[Variable],
+    of: &[impl Quantified],
     values: impl IntoIterator<Item = &'v f64>,
 ) -> Vec<String> {
-    let values = variables.iter().zip(values);
-    values
-        .map(|(of, &value)| at(&of.name, value, of.unit))
-        .collect()
+    let values = of.iter().zip(values);
+    values.map(|(of, &value)| of.at(value)).collect()
 }
 
 /// `theta1 from 0° to 60°`
 pub(super) fn range(name: &str, from: f64, to: f64, unit: SiUnit) -> String {
     let [from, to] = [from, to].map(|x| quantity(x, unit));
     format!("{name} from {from} to {to}")
+}
+
+/// The ranges of all: `theta1 from 0° to 60° and l1 from 0.5 m to 0.6 m`
+pub(super) fn ranges(of: &[Bound]) -> String {
+    listed(of.iter().map(|of| range(&of.name, of.from, of.to, of.unit)))
 }
 
 /// `(0, 0.5, -1)`, with four decimals at most.

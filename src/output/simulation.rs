@@ -2,14 +2,14 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
-use super::quantity::{bound, number, quantity};
+use super::quantity::{Quantified, bound, number, quantity};
 use super::report::{Report, Rows};
 use crate::algebra::SiUnit;
 use crate::analysis::simulation::{
-    Happened, Linear, NoSimulation, SimulationColumn, SimulationEnd, SimulationEvent,
-    SimulationReport,
+    Happened, Linear, NoSimulation, SimulationEnd, SimulationEvent, SimulationReport,
 };
 use crate::description::{count, listed};
+use crate::system::NamedUnit;
 
 impl Report for SimulationReport {
     fn document(&self) -> Document {
@@ -42,7 +42,7 @@ impl Report for SimulationReport {
     fn rows(&self) -> Option<Rows<'_>> {
         let rows = self.rows.iter();
         let rows = rows.map(|row| row.iter().map(|x| Cell::from(*x)).collect());
-        Some(Rows::new(heads(&self.columns), rows))
+        Some(Rows::new(self.columns.iter().map(Quantified::head), rows))
     }
 }
 
@@ -119,18 +119,14 @@ fn balance(report: &SimulationReport) -> String {
     )
 }
 
-fn heads(columns: &[SimulationColumn]) -> Vec<String> {
-    let head = |column: &SimulationColumn| format!("{} ({})", column.name, column.unit);
-    columns.iter().map(head).collect()
-}
-
 /// The matrices of linear equations, with f beside A; D is zero.
 fn linearised(of: &Linear) -> [Section; 3] {
     let matrix = |title: &str, rows: &[String], columns: &[String], entries: &[Vec<f64>]| {
         let table = Table::of(rows.iter().zip(entries)).words("", |(name, _)| name);
         Section::new(title).table(table.each(columns, |(_, row), i| row[i]))
     };
-    let [states, inputs, outputs] = [&of.states, &of.inputs, &of.outputs].map(|of| heads(of));
+    let heads = |of: &Vec<NamedUnit>| of.iter().map(Quantified::head).collect::<Vec<_>>();
+    let [states, inputs, outputs] = [&of.states, &of.inputs, &of.outputs].map(heads);
     let rates: Vec<String> = states.iter().map(|name| format!("d/dt {name}")).collect();
     let widened = |(row, f): (&Vec<f64>, &f64)| row.iter().chain([f]).copied().collect();
     let with_f: Vec<Vec<f64>> = of.a.iter().zip(&of.change).map(widened).collect();
@@ -167,8 +163,6 @@ fn motion(report: &SimulationReport) -> Section {
     let last = report.rows.len() - 1;
     let rows = report.rows.iter().enumerate();
     let rows = rows.filter(|(i, _)| i % every == 0 || *i == last);
-    let names = report.columns.iter().map(|column| &column.name);
-    let value =
-        |(_, row): (usize, &Vec<f64>), i: usize| Cell::quantity(row[i], report.columns[i].unit);
-    Section::new("Motion").table(Table::of(rows).each(names, value))
+    let table = Table::of(rows).quantities(&report.columns, |(_, row), i| row[i]);
+    Section::new("Motion").table(table)
 }

@@ -142,11 +142,11 @@ fn extremes(motion: &MotionReport) -> Section {
             },
         });
         table.each(
-            driven.iter().map(|(name, _)| format!("at {name}")),
+            driven.iter().map(|of| format!("at {}", of.name)),
             |of, i| {
                 let found = side(of).as_ref()?;
                 let place = found.inputs.get(i).or(found.joints.first());
-                place.map(|x| Cell::quantity(*x, driven[i].1))
+                place.map(|x| Cell::quantity(*x, driven[i].unit))
             },
         )
     });
@@ -184,12 +184,11 @@ fn rows(motion: &MotionReport) -> Section {
     let places = motion.columns.len() - motion.extremes.len();
     let columns = columns.filter(|(i, of)| of.unit != SiUnit::ONE || *i >= places);
     let flat = flat(&motion.columns[..places], values);
-    let columns: Vec<_> = columns.filter(|(i, _)| !flat.contains(i)).collect();
+    let columns = columns.filter(|(i, _)| !flat.contains(i));
+    let (places, columns): (Vec<usize>, Vec<Variable>) =
+        columns.map(|(i, of)| (i, of.clone())).unzip();
     let steps = Table::of(shown.map(|(_, row)| row)).words("step", |row| row[0]);
-    let table = steps.each(columns.iter().map(|(_, of)| &of.name), |row, k| {
-        let (i, of) = columns[k];
-        row[i].map(|x| Cell::quantity(x, of.unit))
-    });
+    let table = steps.quantities(&columns, |row, k| row[places[k]]);
     let table = Table::from(table);
     let title = match all > table.rows.len() {
         true => format!(

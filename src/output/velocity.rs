@@ -2,12 +2,12 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table, TableOf};
-use super::quantity::{metres, number, size, triple};
+use super::quantity::{Quantified, metres, number, size, triple};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::velocity::{
-    FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, JacobianAxis, JointRate,
-    Transmission, VelocityReport,
+    FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, JointRate, Transmission,
+    VelocityReport,
 };
 use crate::description::{count, listed};
 
@@ -189,10 +189,9 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
     if jacobian.rows.is_empty() || jacobian.columns.is_empty() {
         return section.text("nothing held drives an output");
     }
-    let named = |axis: &JacobianAxis| format!("{} ({})", axis.name, axis.unit);
     let matrix = Table::of(jacobian.rows.iter().zip(&jacobian.entries))
-        .words("output", |(axis, _)| named(axis))
-        .each(jacobian.columns.iter().map(named), |(_, row), i| row[i]);
+        .words("output", |(axis, _)| axis.head())
+        .values(&jacobian.columns, |(_, row), i| row[i]);
     let condition = match jacobian.condition {
         Some(condition) => size(condition),
         None => format!("infinite: {} lost", count(jacobian.loss, "freedom")),

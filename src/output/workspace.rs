@@ -49,8 +49,6 @@ impl Report for WorkspaceReport {
 
 /// The points of the boundary curves as rows, in SI units and rad.
 pub fn boundary_rows(report: &WorkspaceReport) -> Rows<'_> {
-    let axes = report.axes.iter();
-    let axes = axes.map(|axis| Variable::new(&axis.name, axis.unit).to_string());
     let points = (1..).zip(&report.curves).flat_map(|(i, curve)| {
         let points = curve.points.iter().zip(&curve.joints);
         points.map(move |(point, joints)| (i, curve, point, joints))
@@ -59,13 +57,10 @@ pub fn boundary_rows(report: &WorkspaceReport) -> Rows<'_> {
         .numbers("curve", |(i, ..)| Cell::Count(i))
         .words("kind", |(_, curve, ..)| words::kind(&curve.kind))
         .words("ends reach", |(_, curve, ..)| curve.ends_reach)
-        .each(axes, |(_, curve, point, _), k| {
+        .values(&report.axes, |(_, curve, point, _), k| {
             point.get(k).copied().or(curve.slice)
         })
-        .each(
-            report.variables.iter().map(Variable::to_string),
-            |(.., joints), k| joints[k],
-        );
+        .values(&report.variables, |(.., joints), k| joints[k]);
     table.into()
 }
 

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use super::equations::{System, Work};
 use crate::algebra::SiUnit;
 use crate::linear::RowGroup;
-use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, Variable, turn_near};
+use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
 use crate::system::{Coordinate, Held, Unknown};
@@ -44,26 +44,21 @@ impl Driven {
     }
 }
 
-/// Range of a coordinate that moves, or of a side of a box.
+/// Range of a coordinate that moves, of a side of a box, or of a number that is sought.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Bound {
-    /// The coordinate.
+    /// Its name.
     pub name: String,
-    /// rad or m.
+    /// Its unit.
     pub unit: SiUnit,
-    /// Its value at the start of a segment, the least of a box.
+    /// Its value at the start of a segment, otherwise the least.
     pub from: f64,
-    /// Its value at the end, the greatest of a box.
+    /// Its value at the end, otherwise the greatest.
     pub to: f64,
 }
 
 impl Bound {
-    /// Header of a column of its values: `theta1 (rad)`.
-    pub fn head(&self) -> String {
-        Variable::new(&self.name, self.unit).to_string()
-    }
-
     pub(crate) fn new(mechanism: &Mechanism, driven: &Driven) -> Self {
         Bound {
             name: driven.coordinate.name(mechanism),

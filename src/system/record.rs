@@ -6,6 +6,8 @@ use std::marker::PhantomData;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::Coordinate;
+use crate::algebra::SiUnit;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{Configuration, Mechanism, Variable};
 
@@ -64,6 +66,28 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
             }
         }
         deserializer.deserialize_map(InOrder(PhantomData))
+    }
+}
+
+/// The name of a number with its unit: a coordinate, a column of values, a row of a matrix.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct NamedUnit {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: SiUnit,
+}
+
+impl NamedUnit {
+    pub(crate) fn new(name: impl Into<String>, unit: SiUnit) -> Self {
+        let name = name.into();
+        NamedUnit { name, unit }
+    }
+
+    pub(crate) fn of(mechanism: &Mechanism, coordinate: Coordinate) -> Self {
+        let unit = SiUnit::of_coordinate(coordinate.is_angle(mechanism));
+        NamedUnit::new(coordinate.name(mechanism), unit)
     }
 }
 

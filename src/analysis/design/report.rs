@@ -4,20 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::exact::{Exact, NotAll};
 use crate::algebra::SiUnit;
-
-/// A number of the mechanism that is sought, with the range in which it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct VariedNumber {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: SiUnit,
-    /// The least value.
-    pub from: f64,
-    /// The greatest value.
-    pub to: f64,
-}
+use crate::system::Bound;
 
 /// A target in one position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -156,7 +143,7 @@ pub struct DesignReport {
     /// The mechanism's name.
     pub mechanism: String,
     /// The numbers that are sought.
-    pub varied: Vec<VariedNumber>,
+    pub varied: Vec<Bound>,
     /// Number of positions.
     pub positions: usize,
     /// Number of targets beyond given inputs, and how many numbers they leave open at the best design.

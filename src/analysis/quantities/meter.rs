@@ -13,12 +13,12 @@ use crate::analysis::singularities::Classifier;
 use crate::analysis::statics::determined;
 use crate::analysis::sweep::{Pace, Row, Schedule};
 use crate::analysis::velocity::{
-    JacobianAxis, Normalised, Outputs, Spins, TransmissionAngles, axes, condition, outputs,
+    Normalised, Outputs, Spins, TransmissionAngles, axes, condition, outputs,
 };
 use crate::linear::DENSE_LIMIT;
 use crate::mechanism::{Configuration, Figure, Frame, Measured, Order, Point, Quantity};
 use crate::number::Number;
-use crate::system::{self, Balance, Coordinate, Driven, Load, Lock, Neighbourhood};
+use crate::system::{self, Balance, Coordinate, Driven, Load, Lock, NamedUnit, Neighbourhood};
 pub(crate) use block::MeterBlock;
 use found::KnownHere;
 use probe::{Plan, Probe};
@@ -291,7 +291,7 @@ impl<'q> Meter<'q> {
     }
 
     /// The rows and columns of the Jacobian.
-    pub fn axes(&self) -> [Vec<JacobianAxis>; 2] {
+    pub fn axes(&self) -> [Vec<NamedUnit>; 2] {
         let outputs = self.plan.outputs.as_deref().unwrap_or_default();
         axes(self.of.question.mechanism(), outputs, &self.coordinates)
     }

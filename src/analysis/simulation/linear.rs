@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::SimulationColumn;
+use crate::system::NamedUnit;
 
 /// ẋ = f + A·Δx + B·u and y = y₀ + C·Δx + D·u near the start of a motion, at its time 0.
 ///
@@ -13,11 +13,11 @@ use super::SimulationColumn;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Linear {
     /// x, by name and unit.
-    pub states: Vec<SimulationColumn>,
+    pub states: Vec<NamedUnit>,
     /// u, by name and unit.
-    pub inputs: Vec<SimulationColumn>,
+    pub inputs: Vec<NamedUnit>,
     /// y, by name and unit.
-    pub outputs: Vec<SimulationColumn>,
+    pub outputs: Vec<NamedUnit>,
     /// ẋ at the start, in units of x per s.
     pub change: Vec<f64>,
     /// ∂ẋ/∂x, row by row.

@@ -7,8 +7,8 @@ mod linearise;
 mod rows;
 
 use super::{
-    EnergyBalance, Happened, SimulationColumn, SimulationEnd, SimulationEvent, SimulationReport,
-    SimulationSettings, Speed,
+    EnergyBalance, Happened, SimulationEnd, SimulationEvent, SimulationReport, SimulationSettings,
+    Speed,
 };
 use across::across;
 use events::EarliestEvent;
@@ -18,7 +18,7 @@ use crate::linear::{Decomposition, add, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate};
 use crate::number::tolerance::SUMMED;
 use crate::solve::{Flow, Integrator, Stage, Watch, edge};
-use crate::system::{Accelerated, Coordinate, Dynamics, FrameTwists, GivenPose};
+use crate::system::{Accelerated, Coordinate, Dynamics, FrameTwists, GivenPose, NamedUnit};
 
 /// A simulation under way: the state is the values of the coordinates that move, the rates of the independent ones and the
 /// work supplied.

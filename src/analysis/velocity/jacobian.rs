@@ -10,7 +10,7 @@ use crate::geometry::Vector3;
 use crate::linear::{CANCELLED, Factorable, RANK_TOLERANCE, rank, singular_values};
 use crate::mechanism::{Configuration, Frame, Mechanism, Placement, Point};
 use crate::number::Number;
-use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
+use crate::system::{Coordinate, FrameTwists, Lock, Motion, NamedUnit, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time. Of a mechanism that moves parallel to a plane it has no
 /// rows across that plane: a platform has two velocities and one angular velocity.
@@ -21,9 +21,9 @@ pub struct InputOutput {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub directions: Option<[[f64; 3]; 3]>,
     /// The outputs.
-    pub rows: Vec<JacobianAxis>,
+    pub rows: Vec<NamedUnit>,
     /// The inputs.
-    pub columns: Vec<JacobianAxis>,
+    pub columns: Vec<NamedUnit>,
     /// Row by row; an entry has the unit of its row over that of its column.
     pub entries: Vec<Vec<f64>>,
     /// Number of rows at the end that belong to points followed. Rank, condition and manipulability leave them out,
@@ -40,23 +40,6 @@ pub struct InputOutput {
     /// Its determinant if it is square, which changes sign at a singular configuration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub determinant: Option<f64>,
-}
-
-/// A row or column.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct JacobianAxis {
-    /// Name of the coordinate or component.
-    pub name: String,
-    /// `rad/s` or `m/s`.
-    pub unit: SiUnit,
-}
-
-impl JacobianAxis {
-    fn new(name: String, is_angle: bool) -> Self {
-        let unit = SiUnit::of_coordinate(is_angle).per_second();
-        JacobianAxis { name, unit }
-    }
 }
 
 /// The points followed that are no outputs already, each once.
@@ -123,18 +106,19 @@ pub(crate) fn axes(
     mechanism: &Mechanism,
     outputs: &[Lock],
     inputs: &[Coordinate],
-) -> [Vec<JacobianAxis>; 2] {
+) -> [Vec<NamedUnit>; 2] {
     let directions = Directions::of(mechanism);
     let rows = (outputs.iter()).flat_map(|&output| rows_of(mechanism, output, &directions));
+    let rate = |name, is_angle| NamedUnit::new(name, SiUnit::of_coordinate(is_angle).per_second());
     let kept = rows
         .zip(rows_kept(&directions, outputs))
         .filter(|row| row.1);
     let inputs = inputs.iter();
     [
-        kept.map(|((name, is_angle), _)| JacobianAxis::new(name, is_angle))
+        kept.map(|((name, is_angle), _)| rate(name, is_angle))
             .collect(),
         inputs
-            .map(|input| JacobianAxis::new(input.name(mechanism), input.is_angle(mechanism)))
+            .map(|input| rate(input.name(mechanism), input.is_angle(mechanism)))
             .collect(),
     ]
 }

@@ -6,8 +6,7 @@ mod table;
 
 pub use cells::{AxisReport, Cell, Cells};
 pub use report::{
-    AspectReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, HomeReport, ModeReport,
-    WorkspaceReport,
+    AspectReport, BoundaryPoint, Conditioned, HeldReport, HomeReport, ModeReport, WorkspaceReport,
 };
 
 use std::collections::HashMap;
@@ -21,7 +20,7 @@ use crate::algebra::SiUnit;
 use crate::mechanism::{PoseCoordinate, Variable, turn_near};
 use crate::number::sorting::sort_by;
 use crate::solve::each;
-use crate::system::Coordinate;
+use crate::system::{Coordinate, NamedUnit};
 
 /// Solutions with their modes and aspects.
 pub(super) struct WorkspaceMap<'a> {
@@ -153,11 +152,7 @@ impl<'a> WorkspaceMap<'a> {
                 .collect(),
             following: self
                 .following()
-                .map(|(p, c)| Coordinate::Pose(p, c))
-                .map(|of| CoordinateReport {
-                    name: name(&of),
-                    unit: unit(of),
-                })
+                .map(|(p, c)| NamedUnit::of(mechanism, Coordinate::Pose(p, c)))
                 .collect(),
             inputs: self.problem.inputs.iter().map(name).collect(),
             outputs: self.problem.outputs.iter().map(name).collect(),

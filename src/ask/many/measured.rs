@@ -5,13 +5,12 @@ use std::sync::Arc;
 use super::{Many, Unreached};
 use crate::analysis::quantities::{Meter, Metered};
 use crate::analysis::sweep::Pace;
-use crate::analysis::velocity::JacobianAxis;
 use crate::ask::preparation::with_joint;
 use crate::ask::{AskError, Question, Role};
 use crate::geometry::{RollPitchYaw, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, Quantity, Variable};
 use crate::solve::{Progress, Stage, Watch, each};
-use crate::system::Coordinate;
+use crate::system::{Coordinate, NamedUnit};
 
 /// Rows for which the quantities are planned once.
 const ROWS: usize = 256;
@@ -32,9 +31,9 @@ pub struct ManyMeasured {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobians {
     /// The outputs: rows of each Jacobian.
-    pub rows: Vec<JacobianAxis>,
+    pub rows: Vec<NamedUnit>,
     /// The held coordinates: columns of each Jacobian.
-    pub columns: Vec<JacobianAxis>,
+    pub columns: Vec<NamedUnit>,
     /// The entries.
     pub entries: Vec<f64>,
 }

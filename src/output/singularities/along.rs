@@ -2,10 +2,8 @@
 
 use super::{details, note, words};
 use crate::analysis::singularities::{AlongReport, Crossing};
-use crate::mechanism::Variable;
 use crate::output::document::{Document, Section, Table};
 use crate::output::report::{Remarks, Report, Rows};
-use crate::system::Bound;
 
 impl Report for AlongReport {
     fn document(&self) -> Document {
@@ -40,11 +38,8 @@ impl Report for AlongReport {
             .words("zlatanov", zlatanov)
             .words("fold", |(_, of)| of.fold)
             .words("branches", |(_, of)| of.branches)
-            .each(self.moved.iter().map(Bound::head), |(_, of), k| of.moved[k])
-            .each(
-                self.variables.iter().map(Variable::to_string),
-                |(_, of), k| of.joints[k],
-            );
+            .values(&self.moved, |(_, of), k| of.moved[k])
+            .values(&self.variables, |(_, of), k| of.joints[k]);
         Some(Rows::from(table).once())
     }
 }

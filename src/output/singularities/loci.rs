@@ -7,7 +7,6 @@ use crate::mechanism::Variable;
 use crate::output::document::{Cell, Document, Section, Table};
 use crate::output::quantity::quantity;
 use crate::output::report::{Remarks, Report, Rows};
-use crate::system::Bound;
 
 impl Report for LocusReport {
     fn document(&self) -> Document {
@@ -40,7 +39,6 @@ impl Report for LocusReport {
             ImageShape::Curve => "curve",
             ImageShape::Point => "point",
         };
-        let variables = self.variables.iter().chain(&self.pose_variables);
         let table = Table::of(points)
             .numbers("locus", |(i, ..)| i + 1)
             .words("kind", |(_, locus, _)| kind_word(locus.kind))
@@ -51,17 +49,11 @@ impl Report for LocusReport {
                 cusp.unwrap_or(shape(locus))
             })
             .numbers("configurations", |(_, locus, _)| locus.configurations)
-            .each(
-                self.bounds.iter().map(Bound::head),
-                |(.., (_, point, ..)), k| point[k],
-            )
-            .each(
-                variables.map(Variable::to_string),
-                |(.., (_, _, joints, poses)), k| {
-                    let pose = || poses.as_flattened()[k - joints.len()];
-                    joints.get(k).copied().unwrap_or_else(pose)
-                },
-            );
+            .values(&self.bounds, |(.., (_, point, ..)), k| point[k])
+            .values(&self.variables, |(.., (_, _, joints, _)), k| joints[k])
+            .values(&self.pose_variables, |(.., (.., poses)), k| {
+                poses.as_flattened()[k]
+            });
         Some(Rows::from(table).once())
     }
 }
@@ -119,9 +111,7 @@ fn cusps(report: &LocusReport) -> Option<Section> {
     let table = Table::of(cusps.iter().copied())
         .numbers("locus", |(i, _, _)| Cell::Count(i))
         .words("kind", |(_, locus, _)| kind_word(locus.kind))
-        .each(bounds.iter().map(|of| &of.name), |(.., cusp), k| {
-            Cell::quantity(cusp.point[k], bounds[k].unit)
-        })
+        .quantities(bounds, |(.., cusp), k| cusp.point[k])
         .each(joints.iter().map(|(_, of)| &of.name), |(.., cusp), i| {
             let (k, of) = joints[i];
             Cell::quantity(cusp.joints[k], of.unit)

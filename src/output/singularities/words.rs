@@ -6,7 +6,7 @@ use crate::analysis::singularities::{
     Zlatanov,
 };
 use crate::description::{count, listed};
-use crate::output::quantity::{are, at, clause, form, range};
+use crate::output::quantity::{are, clause, form, ranges, values};
 use crate::system::SweepEnd;
 
 pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
@@ -107,8 +107,7 @@ pub(super) fn zlatanov(kind: Zlatanov) -> String {
 
 /// `theta1 = 60° and l2 = 0.5 m`
 pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
-    let values = report.moved.iter().zip(moved);
-    listed(values.map(|(m, x)| at(&m.name, *x, m.unit)))
+    listed(values(&report.moved, moved))
 }
 
 pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
@@ -126,8 +125,7 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
 
 /// End of a motion, in a sentence.
 pub(super) fn ending(report: &AlongReport) -> String {
-    let way = report.moved.iter();
-    let way = listed(way.map(|m| range(&m.name, m.from, m.to, m.unit)));
+    let way = ranges(&report.moved);
     let found = match report.crossings.len() {
         0 => "no singularity".to_owned(),
         n => count(n, "singularity"),
@@ -170,8 +168,6 @@ pub(super) fn loci(report: &LocusReport) -> String {
         let loci = loci.filter(|locus| locus.kind == kind && locus.shape == shape);
         loci.count()
     };
-    let bounds = report.bounds.iter();
-    let in_box = bounds.map(|of| range(&of.name, of.from, of.to, of.unit));
     let curves = |kind: Kind, word: &str| {
         let of = [
             (ImageShape::Curve, "curve"),
@@ -205,7 +201,7 @@ pub(super) fn loci(report: &LocusReport) -> String {
         .collect();
     format!(
         "In the box {}: {} and {inverse}.{}",
-        listed(in_box),
+        ranges(&report.bounds),
         curves(Kind::Direct, "direct"),
         meeting.concat(),
     )

@@ -35,13 +35,10 @@ fn section(path: &PathReport, circuits: bool) -> Section {
         true => table.numbers("circuit", |(.., of, k)| of.circuits[k]),
         false => table,
     };
-    let (joints, names) = (&path.variables, path.variables.iter().map(|of| &of.name));
     let table = table
         .each(["x", "y", "z"], |(.., of, _), axis| {
             Cell::metres(of.position[axis])
         })
-        .each(names, |(.., of, row), k| {
-            Cell::quantity(of.joints[row][k], joints[k].unit)
-        });
+        .quantities(&path.variables, |(.., of, row), k| of.joints[row][k]);
     section.table(table)
 }

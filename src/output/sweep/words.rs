@@ -5,27 +5,22 @@ use crate::analysis::sweep::{
     Law, Met, MetKind, Missing, MotionReport, Pole, SweepEnd, SweepReport,
 };
 use crate::description::{count, listed};
+use crate::mechanism::Variable;
 use crate::output::assemblies::reason;
-use crate::output::document::{Cell, Section, Table};
-use crate::output::quantity::{at, form, metres, number, quantity, range};
+use crate::output::document::{Section, Table};
+use crate::output::quantity::{form, if_any, metres, number, quantity, range, ranges, values};
 
 /// `theta1 = 60° and l2 = 0.5 m`
 fn inputs_at(report: &SweepReport, met: &Met) -> String {
-    let inputs = report.inputs.iter().zip(&met.inputs);
-    let inputs = inputs.map(|(input, value)| at(&input.name, *value, input.unit));
-    listed(inputs)
+    listed(values(&report.inputs, &met.inputs))
 }
 
 /// End of a motion, in a sentence or two.
 pub fn sentence(report: &SweepReport) -> String {
     let last = report.met.last();
-    let inputs = report.inputs.iter();
-    let way: Vec<String> = inputs
-        .map(|input| range(&input.name, input.from, input.to, input.unit))
-        .collect();
-    let way = match way.is_empty() {
+    let way = match report.inputs.is_empty() {
         true => "The whole curve".to_owned(),
-        false => listed(&way),
+        false => ranges(&report.inputs),
     };
     let met = |wanted: fn(&MetKind) -> bool| report.met.iter().filter(|m| wanted(&m.kind)).count();
     let folds = met(|kind| matches!(kind, MetKind::Fold { .. }));
@@ -37,10 +32,7 @@ pub fn sentence(report: &SweepReport) -> String {
     if crossings > 0 {
         through.push(format!("straight through {}", count(crossings, "crossing")));
     }
-    let through = match through.is_empty() {
-        true => String::new(),
-        false => format!(", {}", listed(&through)),
-    };
+    let through = if_any(&through, |through| format!(", {through}"));
     let place = last.map(|met| inputs_at(report, met)).unwrap_or_default();
     let limit = match last.map(|met| &met.kind) {
         Some(MetKind::Limit {
@@ -191,14 +183,11 @@ pub(super) fn paced(motion: &MotionReport) -> Option<String> {
 }
 
 /// Coordinates that tell the place on a motion: its inputs; without any, the first joint.
-pub(super) fn driven(motion: &MotionReport) -> Vec<(&str, SiUnit)> {
+pub(super) fn driven(motion: &MotionReport) -> Vec<Variable> {
     match &motion.sweep.inputs[..] {
-        [] => (motion.columns.get(1).iter().take(1))
-            .map(|of| (of.name.as_str(), of.unit))
-            .collect(),
-        inputs => inputs
-            .iter()
-            .map(|input| (input.name.as_str(), input.unit))
+        [] => motion.columns.get(1).cloned().into_iter().collect(),
+        inputs => (inputs.iter())
+            .map(|input| Variable::new(&input.name, input.unit))
             .collect(),
     }
 }
@@ -211,9 +200,7 @@ pub(super) fn poles(motion: &MotionReport) -> Vec<String> {
             true => &pole.joints,
             false => &pole.inputs,
         };
-        let places = driven.iter().zip(values);
-        let places = places.map(|((name, unit), value)| at(name, *value, *unit));
-        listed(places)
+        listed(self::values(&driven, values))
     };
     let unbounded = motion.extremes.iter().filter(|of| !of.unbounded.is_empty());
     let missing = motion.extremes.iter().filter_map(|of| {
@@ -300,9 +287,7 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
             MetKind::End | MetKind::Closed => String::new(),
         })
         .numbers("type", |met| met.singularity.map(usize::from))
-        .each(joints.iter().map(|joint| &joint.name), |met, i| {
-            Cell::quantity(met.joints[i], joints[i].unit)
-        });
+        .quantities(joints, |met, i| met.joints[i]);
     let more = match all > SHOWN {
         true => format!(", {SHOWN} of {all}"),
         false => String::new(),

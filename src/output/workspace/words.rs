@@ -4,7 +4,7 @@ use super::percent;
 use crate::analysis::workspace::{AspectReport, AxisReport, BoundaryKind, WorkspaceReport};
 use crate::description::{count, listed};
 use crate::number::real;
-use crate::output::quantity::{at, if_any, metres, number, range};
+use crate::output::quantity::{Quantified, if_any, metres, number, range, values};
 
 pub(super) fn question(report: &WorkspaceReport) -> String {
     let axes = report.axes.iter();
@@ -12,8 +12,7 @@ pub(super) fn question(report: &WorkspaceReport) -> String {
         let range = range(&a.name, a.from, a.to, a.unit);
         format!("{range} in {} nodes", a.nodes)
     }));
-    let held = report.held.iter();
-    let held: Vec<String> = held.map(|h| at(&h.name, h.value, h.unit)).collect();
+    let held: Vec<String> = report.held.iter().map(|of| of.at(of.value)).collect();
     let held = if_any(&held, |held| format!(", with {held}"));
     format!("Map of {axes}{held}.")
 }
@@ -23,9 +22,7 @@ pub(super) fn home(report: &WorkspaceReport) -> String {
         return "The home configuration does not assemble with the held values: no mode is marked."
             .into();
     };
-    let axes = report.axes.iter().zip(&home.at);
-    let values = axes.map(|(a, x)| at(&a.name, *x, a.unit));
-    let there = format!("Home, at {},", listed(values));
+    let there = format!("Home, at {},", listed(values(&report.axes, &home.at)));
     let outside = |(axis, x): (&AxisReport, &f64)| !(axis.from..=axis.to).contains(x);
     match (home.mode, home.aspect) {
         (Some(mode), Some(aspect)) => format!("{there} is in mode {mode}, aspect {aspect}."),

@@ -12,18 +12,12 @@ impl Run<'_, '_> {
         let (rates, instant) = at(self.dynamics, &self.laws, 0.0, &self.state)?;
         let names = self.dynamics.coordinates().iter();
         let names = names.map(|of| (of.name(mechanism), of.is_angle(mechanism)));
-        let states: Vec<(String, SiUnit)> = names
-            .map(|(name, angle)| (name, SiUnit::of_coordinate(angle)))
+        let states: Vec<NamedUnit> = names
+            .map(|(name, angle)| NamedUnit::new(name, SiUnit::of_coordinate(angle)))
             .collect();
         let rates_of = states
             .iter()
-            .map(|(name, unit)| (format!("rate:{name}"), unit.per_second()));
-        let columns = |of: Vec<(String, SiUnit)>| -> Vec<SimulationColumn> {
-            let named = of.into_iter();
-            named
-                .map(|(name, unit)| SimulationColumn { name, unit })
-                .collect()
-        };
+            .map(|of| NamedUnit::new(format!("rate:{}", of.name), of.unit.per_second()));
         let joints = mechanism.joints().iter().enumerate();
         let driven = |joint: usize| {
             let held = self.settings.locked.iter();
@@ -37,13 +31,13 @@ impl Run<'_, '_> {
         let effort = |&i: &usize| {
             let joint = &mechanism.joints()[i];
             let unit = SiUnit::of_effort(joint.kind.is_angle());
-            (format!("force:{}", joint.name), unit)
+            NamedUnit::new(format!("force:{}", joint.name), unit)
         };
         let mass = Decomposition::of(free, free, &instant.mass);
         let shares: Vec<Vec<f64>> = (actuated.iter())
             .map(|&i| mass.solve(&self.dynamics.rates_of(Coordinate::Joint(i))[..free]))
             .collect();
-        let outputs: Vec<SimulationColumn> = {
+        let outputs: Vec<NamedUnit> = {
             let all = self.columns();
             let energies = 3 + self.settings.speeds.len();
             all[1..all.len() - energies].to_vec()
@@ -88,8 +82,8 @@ impl Run<'_, '_> {
                 .collect(),
             c: (0..outputs.len()).map(|i| row(free + i)).collect(),
             d: (0..outputs.len()).map(|_| none()).collect(),
-            inputs: columns(actuated.iter().map(effort).collect()),
-            states: columns(states.iter().cloned().chain(rates_of).collect()),
+            inputs: actuated.iter().map(effort).collect(),
+            states: states.iter().cloned().chain(rates_of).collect(),
             outputs,
         })
     }

@@ -24,8 +24,8 @@ impl Run<'_, '_> {
         true
     }
 
-    pub(super) fn columns(&self) -> Vec<SimulationColumn> {
-        let column = |name: String, unit: SiUnit| SimulationColumn { name, unit };
+    pub(super) fn columns(&self) -> Vec<NamedUnit> {
+        let column = |name: String, unit| NamedUnit::new(name, unit);
         let mut columns = vec![column("t".into(), SiUnit::SECOND)];
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
             let unit = SiUnit::of_coordinate(Coordinate::Joint(i).is_angle(self.mechanism));

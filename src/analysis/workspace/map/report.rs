@@ -7,6 +7,7 @@ use super::cells::{AxisReport, Cells};
 use crate::algebra::SiUnit;
 use crate::analysis::workspace::boundary::{BoundaryCurve, BoundaryKind};
 use crate::mechanism::Variable;
+use crate::system::NamedUnit;
 
 /// Workspace of a mechanism in a box of coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +23,7 @@ pub struct WorkspaceReport {
     /// Coordinates held but not mapped, with their values.
     pub held: Vec<HeldReport>,
     /// Coordinates of platforms that are neither mapped nor held.
-    pub following: Vec<CoordinateReport>,
+    pub following: Vec<NamedUnit>,
     /// The joints of direct singularities; none if not as many are actuated as there are freedoms.
     pub inputs: Vec<String>,
     /// The coordinates that inverse singularities refer to; none if platforms have too few.
@@ -88,16 +89,6 @@ impl<'de> Deserialize<'de> for WorkspaceReport {
         report.cells = cells.ok_or_else(|| D::Error::custom("rows do not fit their columns"))?;
         Ok(report)
     }
-}
-
-/// A coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct CoordinateReport {
-    /// Its name.
-    pub name: String,
-    /// rad or m.
-    pub unit: SiUnit,
 }
 
 /// A coordinate that is held.
