@@ -88,6 +88,56 @@ pub struct Question {
     ready: OnceLock<Arc<Mechanism>>,
 }
 
+/// Methods that add a demand of a role, each with the name and the values that it takes.
+macro_rules! demands {
+    ($($(#[$doc:meta])* $method:ident($name:ident $(, $value:ident)*) = $Role:ident;)+) => {
+        impl Question {$(
+            $(#[$doc])*
+            pub fn $method(self, $name: impl Into<String> $(, $value: impl Into<Value>)*) -> Self {
+                let values = Vec::<Value>::from([$($value.into()),*]);
+                self.demand(Demand::new(Role::$Role, $name, values))
+            }
+        )+}
+    };
+}
+
+demands! {
+    /// Holds a joint, a coordinate of a platform or of a point, `left+0.5,0.2.x`, or a whole platform. What is freed is
+    /// freed first: `actuated` may be free and one actuated joint held.
+    hold(name, value) = Hold;
+    /// Lets a joint be solved for; `actuated` frees all actuated joints.
+    free(name) = Free;
+    /// Starts the search at a value.
+    guess(name, value) = Guess;
+    /// For mobilities: makes a joint, a coordinate of a platform or a whole platform stand still where the mechanism is
+    /// closed; `actuated` locks all actuated joints.
+    lock(name) = Lock;
+    /// Moves a coordinate over a range; for loci a side of their box, for a map a mapped coordinate.
+    input(name, from, to) = Input;
+    /// Adds an output of singularities: a joint, a coordinate of a platform or of a point, or a frame with its orientation.
+    output(name) = Output;
+    /// Adds a point ([`Point::read`](crate::mechanism::Point::read)), such as `left` or `left+0.5,0.2`: for singularities
+    /// an output, for velocities one that is followed, for a motion one whose path is traced.
+    point(name) = Point;
+    /// Adds quantities that motions report ([`Quantity::read`](crate::mechanism::Quantity::read)): a list such as
+    /// `transmission, velocity:left+1, reach=hypot(left.x, left.y)`, with names of the file's `outputs` too.
+    report(list) = Report;
+    /// Asks for the longest part of a motion over which a quantity stays within a tolerance, to either side, of one value.
+    dwell(quantity, tolerance) = Dwell;
+    /// Gives a held coordinate a rate, in m/s or rad/s.
+    rate(name, value) = Rate;
+    /// Gives a held coordinate an acceleration, in m/s² or rad/s².
+    acceleration(name, value) = Acceleration;
+    /// Applies a force (N) or a moment (N·m) along a joint variable.
+    load(joint, value) = Load;
+    /// Leaves out what the file says acts: `weight`, `inertia`, `springs`, `forces`, `friction`, or one of them by its name.
+    without(name) = Without;
+    /// Varies a parameter or a coordinate of a [`Study`] over a range.
+    vary(name, from, to) = Vary;
+    /// Varies a parameter or a held coordinate of a [`Study`] normally about its value, with this standard deviation.
+    deviate(name, deviation) = Deviate;
+}
+
 impl Question {
     /// The file's own question: actuated joints held at home, all else to be found.
     pub fn new(mechanism: impl Into<Arc<Mechanism>>) -> Self {
@@ -127,41 +177,10 @@ impl Question {
         self.ready = OnceLock::new();
     }
 
-    fn put(
-        self,
-        role: Role,
-        name: impl Into<String>,
-        values: impl IntoIterator<Item = Value>,
-    ) -> Self {
-        self.demand(Demand::new(role, name, values))
-    }
-
-    /// Holds a joint, a coordinate of a platform or of a point, `left+0.5,0.2.x`, or a whole platform. What is freed is
-    /// freed first: `actuated` may be free and one actuated joint held.
-    pub fn hold(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.put(Role::Hold, name, [value.into()])
-    }
-
-    /// Lets a joint be solved for; `actuated` frees all actuated joints.
-    pub fn free(self, name: impl Into<String>) -> Self {
-        self.put(Role::Free, name, [])
-    }
-
-    /// Starts the search at a value.
-    pub fn guess(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.put(Role::Guess, name, [value.into()])
-    }
-
     /// Starts the search at a whole configuration, such as that of a mode; held coordinates keep their values.
     pub fn near(mut self, at: Configuration<f64>) -> Self {
         self.near = Some(at);
         self
-    }
-
-    /// For mobilities: makes a joint, a coordinate of a platform or a whole platform stand still where the mechanism is
-    /// closed; `actuated` locks all actuated joints.
-    pub fn lock(self, name: impl Into<String>) -> Self {
-        self.put(Role::Lock, name, [])
     }
 
     /// Chooses one of several assemblies.
@@ -176,82 +195,15 @@ impl Question {
         self
     }
 
-    /// Moves a coordinate over a range; for loci a side of their box, for a map a mapped coordinate.
-    pub fn input(
-        self,
-        name: impl Into<String>,
-        from: impl Into<Value>,
-        to: impl Into<Value>,
-    ) -> Self {
-        self.put(Role::Input, name, [from.into(), to.into()])
-    }
-
-    /// Adds an output of singularities: a joint, a coordinate of a platform or of a point, or a frame with its orientation.
-    pub fn output(self, name: impl Into<String>) -> Self {
-        self.put(Role::Output, name, [])
-    }
-
-    /// Adds a point ([`Point::read`](crate::mechanism::Point::read)), such as `left` or `left+0.5,0.2`: for singularities
-    /// an output, for velocities one that is followed, for a motion one whose path is traced.
-    pub fn point(self, name: impl Into<String>) -> Self {
-        self.put(Role::Point, name, [])
-    }
-
-    /// Adds quantities that motions report ([`Quantity::read`](crate::mechanism::Quantity::read)): a list such as
-    /// `transmission, velocity:left+1, reach=hypot(left.x, left.y)`, with names of the file's `outputs` too.
-    pub fn report(self, list: impl Into<String>) -> Self {
-        self.put(Role::Report, list, [])
-    }
-
-    /// Asks for the longest part of a motion over which a quantity stays within a tolerance, to either side, of one value.
-    pub fn dwell(self, quantity: impl Into<String>, tolerance: impl Into<Value>) -> Self {
-        self.put(Role::Dwell, quantity, [tolerance.into()])
-    }
-
-    /// Gives a held coordinate a rate, in m/s or rad/s.
-    pub fn rate(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.put(Role::Rate, name, [value.into()])
-    }
-
-    /// Gives a held coordinate an acceleration, in m/s² or rad/s².
-    pub fn acceleration(self, name: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.put(Role::Acceleration, name, [value.into()])
-    }
-
     /// Applies a force (N) and a moment (N·m) at a point, in ground.
     pub fn wrench(self, frame: impl Into<String>, force: [f64; 3], moment: [f64; 3]) -> Self {
         let components = [force, moment].concat().into_iter().map(Value::Number);
-        self.put(Role::Wrench, frame, components)
+        self.demand(Demand::new(Role::Wrench, frame, components))
     }
 
     /// Applies a force or a moment written `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
     pub fn wrench_text(self, frame: impl Into<String>, text: impl Into<String>) -> Self {
-        self.put(Role::Wrench, frame, [Value::Text(text.into())])
-    }
-
-    /// Applies a force (N) or a moment (N·m) along a joint variable.
-    pub fn load(self, joint: impl Into<String>, value: impl Into<Value>) -> Self {
-        self.put(Role::Load, joint, [value.into()])
-    }
-
-    /// Leaves out what the file says acts: `weight`, `inertia`, `springs`, `forces`, `friction`, or one of them by its name.
-    pub fn without(self, name: impl Into<String>) -> Self {
-        self.put(Role::Without, name, [])
-    }
-
-    /// Varies a parameter or a coordinate of a [`Study`] over a range.
-    pub fn vary(
-        self,
-        name: impl Into<String>,
-        from: impl Into<Value>,
-        to: impl Into<Value>,
-    ) -> Self {
-        self.put(Role::Vary, name, [from.into(), to.into()])
-    }
-
-    /// Varies a parameter or a held coordinate of a [`Study`] normally about its value, with this standard deviation.
-    pub fn deviate(self, name: impl Into<String>, deviation: impl Into<Value>) -> Self {
-        self.put(Role::Deviate, name, [deviation.into()])
+        self.demand(Demand::new(Role::Wrench, frame, [text.into()]))
     }
 
     /// Keeps generic solutions where they are found again.

@@ -47,6 +47,7 @@ use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
+use self::asked::Asking;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use linkwork::output::complaint::Complaint;
 use linkwork::output::diagnostics::Style;
@@ -62,12 +63,11 @@ struct Arguments {
 const EXIT_CODES: &str = "Exit codes: 0 success, 1 negative or incomplete answer, 2 invalid input or system error.\n\
      Answers go to stdout, as text or JSON; with exit code 2 there is none, and stderr says why, always as text.";
 
-/// Each command is the type of that name in its module.
 macro_rules! commands {
-    ($($module:ident: $Command:ident),+ $(,)?) => {
+    ($($Command:ident: $Type:ty),+ $(,)?) => {
         #[derive(Subcommand)]
         enum Command {
-            $($Command($module::$Command),)+
+            $($Command($Type),)+
         }
 
         impl Command {
@@ -81,11 +81,14 @@ macro_rules! commands {
 }
 
 commands! {
-    check: Check, solve: Solve, assemblies: Assemblies, compare: Compare, convert: Convert, draw: Draw, frames: Frames,
-    export: Export, import: Import, formulas: Formulas, generate: Generate, mobility: Mobility, velocity: Velocity,
-    view: View, statics: Statics, equilibrium: Equilibrium, simulate: Simulate, sweep: Sweep,
-    singularities: Singularities, workspace: Workspace, study: Study,
-    merge: Merge, snap: Snap, handout: Handout, new: New, examples: Examples, setup: Setup, design: Design,
+    Check: check::Check, Solve: Asking<solve::Solve>, Assemblies: assemblies::Assemblies, Compare: compare::Compare,
+    Convert: convert::Convert, Draw: draw::Draw, Frames: frames::Frames, Export: export::Export, Import: import::Import,
+    Formulas: Asking<formulas::Formulas>, Generate: generate::Generate, Mobility: Asking<mobility::Mobility>,
+    Velocity: Asking<velocity::Velocity>, View: view::View, Statics: Asking<statics::Statics>,
+    Equilibrium: Asking<equilibrium::Equilibrium>, Simulate: Asking<simulate::Simulate>, Sweep: Asking<sweep::Sweep>,
+    Singularities: Asking<singularities::Singularities>, Workspace: Asking<workspace::Workspace>, Study: study::Study,
+    Merge: merge::Merge, Snap: snap::Snap, Handout: handout::Handout, New: new::New, Examples: examples::Examples,
+    Setup: setup::Setup, Design: design::Design,
 }
 
 /// Answer of a command.

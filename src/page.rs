@@ -25,10 +25,9 @@ use crate::analysis::sweep::{MetKind, MotionReport, Row, SweepEnd, SweepSettings
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::output::JsonReport;
 use crate::output::drawing::{DrawingSettings, Panel, Viewpoint, sheet};
-use crate::output::json::render;
 use crate::output::rounding::Prefaced;
+use crate::output::{JsonReport, Report};
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
@@ -150,11 +149,7 @@ impl Page {
                 let view = from.map_or(Viewpoint::Natural, |(azimuth, elevation)| {
                     Viewpoint::From(azimuth, elevation)
                 });
-                let panel = Panel {
-                    title: mechanism.name().to_owned(),
-                    scene: self.here(&mechanism).1,
-                    ghosts: Vec::new(),
-                };
+                let panel = Panel::new(mechanism.name(), None, self.here(&mechanism).1);
                 let picture = sheet(&[panel], &DrawingSettings { view, labels });
                 Ok(json!({ "svg": picture.svg() }))
             }
@@ -378,9 +373,13 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
 }
 
 /// A report as the command line prints it, with the configurations that it lists. It may be long: it is written once.
-fn answered(mechanism: &Mechanism, report: &impl JsonReport, states: &[impl Serialize]) -> String {
+fn answered(
+    mechanism: &Mechanism,
+    report: &(impl Report + Serialize),
+    states: &[impl Serialize],
+) -> String {
     let report = Prefaced::new(mechanism, report);
-    let (report, states) = (render(&report), serde_json::to_string(states));
+    let (report, states) = (report.json(), serde_json::to_string(states));
     let states = states.expect("what a page is shown can be written");
     format!("{{\"report\":{report},\"states\":{states}}}")
 }

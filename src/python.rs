@@ -230,11 +230,7 @@ impl Mechanism {
         let modes = watched(py, None, true, |watch| asked.question.configurations(watch))?;
         let modes = modes.map_err(|error| asked.refusal(&error.into()))?;
         let name = self.mechanism.name();
-        let panel = |(mode, at): &(Option<usize>, _)| Panel {
-            title: mode.map_or_else(|| name.to_owned(), |mode| format!("{name}: mode {mode}")),
-            scene: Scene::of(&self.mechanism, at),
-            ghosts: Vec::new(),
-        };
+        let panel = |(mode, at): &(_, _)| Panel::new(name, *mode, Scene::of(&self.mechanism, at));
         let panels: Vec<Panel> = modes.iter().map(panel).collect();
         let settings = DrawingSettings {
             labels,

@@ -2,10 +2,9 @@
 
 use super::{AskError, Role, Steering};
 use crate::algebra::SiUnit;
-use crate::analysis::quantities::{Meter, Metered};
+use crate::analysis::quantities::Meter;
 use crate::analysis::singularities::SingularitiesReport;
 use crate::analysis::statics::StaticsReport;
-use crate::analysis::sweep::Pace;
 use crate::mechanism::{Configuration, Measured, Order, Point};
 use crate::solve::Watch;
 use crate::system::{Analysed, Freedoms, System};
@@ -45,15 +44,7 @@ impl Steering {
         let question = asked.resolved()?;
         // what is held decides the configuration, as inputs do
         let quantities = asked.quantities(&question, asked.has(Role::Hold), &[])?;
-        let metered = Metered {
-            quantities,
-            inputs: Vec::new(),
-            pace: Pace::default(),
-            schedule: None,
-            load: asked.load_of(&question)?,
-            outputs: Vec::new(),
-            question,
-        };
+        let metered = asked.metered(question, quantities, Vec::new())?;
         let at = (asked.mechanism()).completed(self.mechanism(), self.at());
         let mut meter = Meter::new(&metered, &at);
         let values = meter.read(&at, 0.0).iter();

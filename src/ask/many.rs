@@ -3,7 +3,6 @@
 mod measured;
 mod rows;
 
-use std::sync::atomic::AtomicUsize;
 use std::sync::{Mutex, PoisonError};
 
 use super::preparation::with_joint;
@@ -12,9 +11,10 @@ use crate::algebra::BATCH;
 use crate::analysis::solver::{Follower, Following};
 use crate::linear::DENSE_LIMIT;
 use crate::solve::{Watch, each};
-use crate::system::{self, Coordinate, HeldPlatform, check_count};
+use crate::system::{self, check_count};
 pub use measured::{Jacobians, ManyMeasured};
-use rows::{BlockOfRows, RowSeries};
+use rows::BlockOfRows;
+pub(super) use rows::RowSeries;
 
 /// The most rows that are followed from the start; they decide where following begins again, and so belong to the answer.
 const ROWS: usize = 256;
@@ -105,27 +105,8 @@ impl Question {
         let question = begins.resolved()?;
         check_count(&question).map_err(AskError::Question)?;
         let question = question.with_spins_still();
-        let held = question.held();
-        let by_value = |of: &Coordinate| match of.platform() {
-            Some(platform) => match &held.platforms[platform] {
-                HeldPlatform::Partly(parts) => parts.orientation.is_none(),
-                _ => false,
-            },
-            None => true,
-        };
-        let mut all = RowSeries {
-            question: &question,
-            coordinates: &coordinates,
-            columns: Coordinate::all(mechanism).collect(),
-            system: question.system(),
-            by_value: coordinates.iter().all(by_value),
-            start: begins.start(&question, watch)?,
-            values,
-            order: Vec::new(),
-            scales: coordinates.iter().map(|c| c.scale(mechanism)).collect(),
-            watch,
-            done: AtomicUsize::new(0),
-        };
+        let start = begins.start(&question, watch)?;
+        let mut all = RowSeries::new(&question, &coordinates, values, start, watch);
         let rows = match names.len() {
             0 => 0,
             width => {

@@ -1,14 +1,16 @@
 //! The options that pose a question, and the one way from a question to its answer.
 
 use clap::Args;
+use clap::builder::ValueParser;
 use linkwork::ask::{AskError, Demand, Mode, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::output::JsonReport;
+use linkwork::output::Report;
 use linkwork::output::complaint::{Complaint, Door, Given, Ranged, Wording, unknown_frame};
 use linkwork::solve::Watch;
 use linkwork::system;
+use serde::Serialize;
 
-use super::format::Format;
+use super::format::{Format, readable, with_rows};
 use super::source::{Assignment, LoadedFile, Source};
 use super::watched::watched;
 use super::words::{self, Options};
@@ -80,6 +82,43 @@ impl Forces {
         posed.values(Role::Wrench, &self.wrench);
         posed.values(Role::Load, &self.load);
         posed.names(Role::Without, &self.without);
+    }
+}
+
+/// An analysis with its own options.
+pub trait Analysis: Args {
+    /// True if its answer can be rows.
+    const ROWS: bool = false;
+
+    /// The answer to a question with these options.
+    fn answer(&self, posed: Posed, format: Format) -> Result<Answer, Refusal>;
+}
+
+// a command that asks a question of a mechanism; its help begins with the words of the analysis
+#[derive(Args)]
+pub struct Asking<A: Analysis> {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    asked: Asked,
+    #[command(flatten)]
+    analysis: A,
+    /// Format of the answer; errors are always text on stderr
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = formats(A::ROWS))]
+    format: Format,
+}
+
+fn formats(rows: bool) -> ValueParser {
+    match rows {
+        true => with_rows().into(),
+        false => readable().into(),
+    }
+}
+
+impl<A: Analysis> Asking<A> {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let posed = self.asked.pose(&self.source)?;
+        self.analysis.answer(posed, self.format)
     }
 }
 
@@ -173,7 +212,7 @@ impl Posed {
         })
     }
 
-    pub fn answer<'q, R: JsonReport>(
+    pub fn answer<'q, R: Report + Serialize>(
         &'q self,
         format: Format,
         work: impl FnOnce(&'q Question, &Watch) -> Result<R, AskError>,

@@ -96,10 +96,6 @@ impl Draw {
         }
         let modes = posed.ask(Question::configurations)?;
         let name = posed.loaded.mechanism.name();
-        let title = |mode: Option<usize>| match mode {
-            Some(mode) => format!("{name}: mode {mode}"),
-            None => name.to_owned(),
-        };
         let mut notes = Vec::new();
         let mut scene = |at: &Configuration<f64>| self.scene(&posed, at, &mut notes);
         let panels: Vec<Panel> = match self.ghosts {
@@ -114,20 +110,15 @@ impl Draw {
                 };
                 let others = modes.iter().enumerate().filter(|(i, _)| *i != main);
                 let ghosts = others.map(|(_, (_, at))| Scene::of(&posed.loaded.mechanism, at));
+                let (mode, at) = &modes[main];
                 vec![Panel {
-                    title: title(modes[main].0),
-                    scene: scene(&modes[main].1)?,
                     ghosts: ghosts.collect(),
+                    ..Panel::new(name, *mode, scene(at)?)
                 }]
             }
             false => {
-                let panels = modes.iter().map(|(mode, at)| {
-                    Ok(Panel {
-                        title: title(*mode),
-                        scene: scene(at)?,
-                        ghosts: Vec::new(),
-                    })
-                });
+                let panels = modes.iter();
+                let panels = panels.map(|(mode, at)| Ok(Panel::new(name, *mode, scene(at)?)));
                 panels.collect::<Result<_, Refusal>>()?
             }
         };

@@ -4,10 +4,9 @@ use clap::Args;
 use linkwork::analysis::equilibrium::EquilibriumSettings;
 use linkwork::ask::{Question, Role};
 
-use super::asked::{Asked, Forces};
-use super::format::{Format, readable};
+use super::asked::{Analysis, Forces, Posed};
+use super::format::Format;
 use super::search::seed;
-use super::source::Source;
 use super::{Answer, Refusal};
 
 /// Find where the mechanism rests under weights, springs and forces, whether it is stable, and how it swings about it.
@@ -19,10 +18,6 @@ use super::{Answer, Refusal};
     linkwork equilibrium mechanisms/loads/four_bar_let_go.ron\n  \
     linkwork equilibrium mechanisms/loads/four_bar_let_go.ron --all")]
 pub struct Equilibrium {
-    #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
     #[command(flatten)]
     forces: Forces,
     /// Look for all rest positions, stable or not, from random starts
@@ -38,14 +33,10 @@ pub struct Equilibrium {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = EquilibriumSettings::default().seed)]
     seed: u64,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
-    format: Format,
 }
 
-impl Equilibrium {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Equilibrium {
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.forces.pose(&mut posed);
         posed.names(Role::Lock, &self.lock);
         posed.ask_with(|question| question.seed(self.seed));
@@ -55,7 +46,7 @@ impl Equilibrium {
             seed: self.seed,
             ..EquilibriumSettings::default()
         };
-        posed.answer(self.format, |question: &Question, watch| {
+        posed.answer(format, |question: &Question, watch| {
             question.equilibrium(&settings, watch)
         })
     }

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use linkwork::output::{Document, JsonReport, Report, html, json, markdown, text};
+use linkwork::output::{Document, JsonReport, Report, html, markdown, text};
 
 use super::written::rows;
 use super::{Answer, Refusal, lines};
@@ -29,7 +29,7 @@ impl Format {
     pub fn shown(self, report: &impl JsonReport, document: &Document) -> String {
         match self {
             Format::Text => text::render(document),
-            Format::Json => json::render(report),
+            Format::Json => report.json(),
             Format::Markdown => markdown::render(document),
             Format::Html => html::render(document),
             Format::Csv | Format::Ron => String::new(),

@@ -9,9 +9,9 @@ use linkwork::mechanism::Frame;
 use linkwork::output::complaint::Complaint;
 use linkwork::output::formulas as output;
 
-use super::asked::{self, Asked};
-use super::format::{Format, readable};
-use super::source::{LoadedFile, Source};
+use super::asked::{self, Analysis, Posed};
+use super::format::Format;
+use super::source::LoadedFile;
 use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
@@ -28,8 +28,6 @@ use super::{Answer, Refusal, lines};
     linkwork formulas mechanisms/puma560_modified.ron --of arm.3 --latex\n  \
     linkwork formulas mechanisms/four_bar.ron --solve")]
 pub struct Formulas {
-    #[command(flatten)]
-    source: Source,
     /// The frame whose transform is wanted, e.g. --of arm.3
     #[arg(long, value_name = "FRAME")]
     of: Option<String>,
@@ -39,8 +37,6 @@ pub struct Formulas {
     /// Solve the closures for the unknowns in closed form
     #[arg(long, conflicts_with_all = ["of", "ron"])]
     solve: bool,
-    #[command(flatten)]
-    asked: Asked,
     /// Write LaTeX, displayed equations for amsmath or KaTeX
     #[arg(long, group = "script", conflicts_with = "format")]
     latex: bool,
@@ -53,17 +49,14 @@ pub struct Formulas {
     /// Write Rust functions
     #[arg(long, group = "script", conflicts_with = "format")]
     rust: bool,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
-    format: Format,
 }
 
-impl Formulas {
-    pub fn run(&self) -> Result<Answer, Refusal> {
+impl Analysis for Formulas {
+    fn answer(&self, posed: Posed, format: Format) -> Result<Answer, Refusal> {
         if self.solve {
-            return self.solved();
+            return self.solved(&posed, format);
         }
-        let loaded = self.source.load()?;
+        let loaded = &posed.loaded;
         let named = |name: &Option<String>, option| {
             let frame = |name| asked::frame(&loaded.mechanism, name, option);
             name.as_deref().map(frame).transpose()
@@ -79,27 +72,33 @@ impl Formulas {
             ..FormulasSettings::default()
         };
         let report = formulas(&loaded.mechanism, &settings);
-        let report = report.map_err(|error| too_long(&loaded, &error))?;
-        let answer = self.written(&loaded, &report)?;
+        let report = report.map_err(|error| too_long(loaded, &error))?;
+        let answer = self.written(loaded, &report, format)?;
         let set = (!settings.numbers.is_empty()).then(|| {
             let set = quoted(&settings.numbers);
             format!("{set} set by --set, written out; other parameters are letters")
         });
         Ok(answer.after(lines("note", set)))
     }
+}
 
-    fn solved(&self) -> Result<Answer, Refusal> {
-        let posed = self.asked.pose(&self.source)?;
+impl Formulas {
+    fn solved(&self, posed: &Posed, format: Format) -> Result<Answer, Refusal> {
         // what is too long stands in the file
         let report = match watched(|watch| posed.question.solution(watch)) {
             Err(AskError::Formula(error)) => Err(too_long(&posed.loaded, &error)),
             report => posed.ask(|_, _| report),
         }?;
-        self.written(&posed.loaded, &report)
+        self.written(&posed.loaded, &report, format)
     }
 
-    fn written(&self, loaded: &LoadedFile, report: &FormulasReport) -> Result<Answer, Refusal> {
-        let mut answer = loaded.answer(self.format, report)?;
+    fn written(
+        &self,
+        loaded: &LoadedFile,
+        report: &FormulasReport,
+        format: Format,
+    ) -> Result<Answer, Refusal> {
+        let mut answer = loaded.answer(format, report)?;
         match (self.latex, self.ron, self.rust) {
             (true, ..) => answer.data = output::latex(report),
             (_, true, _) => answer.data = output::ron(report),

@@ -46,11 +46,7 @@ impl Handout {
         let mut page = overview(&mechanism).document();
         let drawn = posed.ask(Question::configurations);
         let at = drawn.map_or_else(|_| mechanism.home(), |mut modes| modes.swap_remove(0).1);
-        let panel = Panel {
-            title: String::new(),
-            scene: Scene::of(&mechanism, &at),
-            ghosts: Vec::new(),
-        };
+        let panel = Panel::new("", None, Scene::of(&mechanism, &at));
         let settings = DrawingSettings {
             labels: true,
             ..DrawingSettings::default()

@@ -4,10 +4,9 @@ use clap::Args;
 use linkwork::analysis::mobility::MobilitySettings;
 use linkwork::ask::{Question, Role};
 
-use super::asked::Asked;
-use super::format::{Format, readable};
+use super::asked::{Analysis, Posed};
+use super::format::Format;
 use super::search::seed;
-use super::source::Source;
 use super::{Answer, Refusal};
 
 /// Find the mobility of the assembled mechanism, the joints that move, and redundant constraints.
@@ -21,10 +20,6 @@ use super::{Answer, Refusal};
     linkwork mobility mechanisms/three_rps.ron --lock actuated\n  \
     linkwork mobility mechanisms/three_rps.ron --hold l1=0.7 --lock l1 --lock l2")]
 pub struct Mobility {
-    #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
     /// Lock a joint, a platform coordinate or a platform where it is; `actuated` locks all actuated joints
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
@@ -32,16 +27,12 @@ pub struct Mobility {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
-    format: Format,
 }
 
-impl Mobility {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Mobility {
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         posed.names(Role::Lock, &self.lock);
         posed.ask_with(|question| question.seed(self.seed));
-        posed.answer(self.format, Question::mobility)
+        posed.answer(format, Question::mobility)
     }
 }

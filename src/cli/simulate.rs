@@ -4,9 +4,9 @@ use clap::Args;
 use linkwork::analysis::simulation::SimulationSettings;
 use linkwork::ask::Role;
 
-use super::asked::{Asked, Forces};
-use super::format::{Format, with_rows};
-use super::source::{Assignment, Source};
+use super::asked::{Analysis, Forces, Posed};
+use super::format::Format;
+use super::source::Assignment;
 use super::{Answer, Refusal};
 
 /// Let the mechanism go: its motion under weights, springs, forces and inertia.
@@ -18,10 +18,6 @@ use super::{Answer, Refusal};
     linkwork simulate mechanisms/loads/four_bar_let_go.ron --time 1\n  \
     linkwork simulate mechanisms/loads/four_bar_let_go.ron --time 5 --rate theta=2 --format csv")]
 pub struct Simulate {
-    #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
     #[command(flatten)]
     forces: Forces,
     /// Time simulated, in s
@@ -56,14 +52,12 @@ pub struct Simulate {
     #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance)]
     #[arg(value_parser = |text: &str| within(text, 1e-14, 1e-2), allow_negative_numbers = true)]
     error: f64,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
-    format: Format,
 }
 
-impl Simulate {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Simulate {
+    const ROWS: bool = true;
+
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.forces.pose(&mut posed);
         posed.values(Role::Rate, &self.rate);
         posed.names(Role::Lock, &self.lock);
@@ -77,7 +71,7 @@ impl Simulate {
             linearised: self.linearise,
             ..SimulationSettings::default()
         };
-        posed.answer(self.format, |question, watch| {
+        posed.answer(format, |question, watch| {
             question.simulation(&settings, watch)
         })
     }

@@ -7,10 +7,10 @@ use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::ask::Role;
 use linkwork::output::singularities as output;
 
-use super::asked::Asked;
-use super::format::{Format, with_rows};
+use super::asked::{Analysis, Posed};
+use super::format::Format;
 use super::search::{SearchArgs, mode};
-use super::source::{Assignment, Source};
+use super::source::Assignment;
 use super::written::{file, save};
 use super::{Answer, Refusal};
 use linkwork::output::complaint::Ranged;
@@ -28,10 +28,6 @@ use linkwork::output::complaint::Ranged;
     linkwork singularities mechanisms/four_bar.ron --input theta1=0deg..360deg\n  \
     linkwork singularities mechanisms/three_rps.ron --locus l1=0.4..1 --locus l2=0.4..1 --svg loci.svg")]
 pub struct Singularities {
-    #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
     /// Move a joint or coordinate, e.g. --input theta1=0deg..360deg; several move together
     #[arg(long, value_name = "NAME=FROM..TO")]
     input: Vec<Assignment>,
@@ -57,22 +53,20 @@ pub struct Singularities {
     starts: usize,
     #[command(flatten)]
     search: SearchArgs,
-    /// Format of the answer
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
-    format: Format,
     /// Draw the loci to a file
     #[arg(long, value_name = "FILE", requires = "locus", value_parser = file(&["svg"]))]
     svg: Option<PathBuf>,
 }
 
-impl Singularities {
-    pub fn run(&self) -> Result<Answer, Refusal> {
+impl Analysis for Singularities {
+    const ROWS: bool = true;
+
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         let settings = SingularitiesSettings {
             starts: self.starts,
             follow: self.follow,
             ..SingularitiesSettings::default()
         };
-        let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
         posed.names(Role::Output, &self.output);
         posed.names(Role::Point, &self.point);
@@ -80,8 +74,8 @@ impl Singularities {
         posed.mode(self.mode);
         if self.locus.is_empty() {
             return match self.input.is_empty() {
-                true => posed.answer(self.format, |q, watch| q.singularities(&settings, watch)),
-                false => posed.answer(self.format, |q, watch| q.along(&settings, watch)),
+                true => posed.answer(format, |q, watch| q.singularities(&settings, watch)),
+                false => posed.answer(format, |q, watch| q.along(&settings, watch)),
             };
         }
         posed.ranges(Ranged::Locus, &self.locus)?;
@@ -89,6 +83,6 @@ impl Singularities {
         if let Some(path) = &self.svg {
             save(path, output::svg(&report).as_bytes())?;
         }
-        posed.loaded.answer(self.format, &report)
+        posed.loaded.answer(format, &report)
     }
 }

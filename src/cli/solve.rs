@@ -4,10 +4,9 @@ use clap::Args;
 use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::ask::Solved;
 
-use super::asked::Asked;
-use super::format::{Format, readable};
+use super::asked::{Analysis, Posed};
+use super::format::Format;
 use super::search::{SearchArgs, mode};
-use super::source::Source;
 use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.
@@ -23,10 +22,6 @@ use super::{Answer, Refusal};
     linkwork solve mechanisms/four_bar.ron --mode 2 --hold theta1=\"60 deg\"\n  \
     linkwork solve mechanisms/three_rps.ron --free actuated --hold top.z=0.5 --hold top.roll=0 --hold top.pitch=0")]
 pub struct Solve {
-    #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
     /// Assemble this mode, numbered as `assemblies` lists it at the home values of the held coordinates, and follow it to
     /// their given values
     #[arg(long, value_name = "NUMBER", conflicts_with = "guess")]
@@ -34,20 +29,16 @@ pub struct Solve {
     mode: Option<usize>,
     #[command(flatten)]
     search: SearchArgs,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
-    format: Format,
 }
 
-impl Solve {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Solve {
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.search.pose(&mut posed)?;
         posed.mode(self.mode);
         let settings = AssemblySettings::default();
         match posed.ask(|question, watch| question.solve(&settings, watch))? {
-            Solved::Ended(report) => posed.loaded.answer(self.format, &*report),
-            Solved::Lost(lost) => posed.loaded.answer(self.format, &*lost),
+            Solved::Ended(report) => posed.loaded.answer(format, &*report),
+            Solved::Lost(lost) => posed.loaded.answer(format, &*lost),
         }
     }
 }

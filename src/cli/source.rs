@@ -11,7 +11,8 @@ use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given};
 use linkwork::output::rounding::{Prefaced, sentence};
 use linkwork::output::view::Viewed;
-use linkwork::output::{JsonReport, diagnostics};
+use linkwork::output::{Report, diagnostics};
+use serde::Serialize;
 
 use super::format::Format;
 use super::read::{called, help, is_stdin, text};
@@ -175,7 +176,11 @@ impl From<LoadError> for Refusal {
 }
 
 impl LoadedFile {
-    pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
+    pub fn answer(
+        &self,
+        format: Format,
+        report: &(impl Report + Serialize),
+    ) -> Result<Answer, Refusal> {
         let report = self.prefaced(report);
         Ok(format.answer(&report)?.after(self.warnings_beside(format)))
     }

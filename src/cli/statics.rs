@@ -3,9 +3,8 @@
 use clap::Args;
 use linkwork::ask::Question;
 
-use super::asked::{Asked, Forces};
-use super::format::{Format, readable};
-use super::source::Source;
+use super::asked::{Analysis, Forces, Posed};
+use super::format::Format;
 use super::{Answer, Refusal};
 
 /// Find the actuator forces that balance a load, and the reactions in all joints and closures.
@@ -20,20 +19,12 @@ use super::{Answer, Refusal};
     linkwork statics mechanisms/four_bar.ron --load phi1=2")]
 pub struct Statics {
     #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
-    #[command(flatten)]
     forces: Forces,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
-    format: Format,
 }
 
-impl Statics {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Statics {
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.forces.pose(&mut posed);
-        posed.answer(self.format, Question::statics)
+        posed.answer(format, Question::statics)
     }
 }

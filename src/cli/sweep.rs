@@ -11,16 +11,16 @@ use linkwork::output::Report;
 use linkwork::output::canvas::gif;
 use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
-use linkwork::output::drawing::{DrawingSettings, Viewpoint, frames};
+use linkwork::output::drawing::{DrawingSettings, Panel, Viewpoint, frames};
 use linkwork::output::glb::glb;
 use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, sentence};
 
-use super::asked::{Asked, Forces, Posed};
-use super::format::{Format, with_rows};
+use super::asked::{Analysis, Forces, Posed};
+use super::format::Format;
 use super::pictures::{LASTS, keep, view};
 use super::read::{called, text};
 use super::search::{SearchArgs, mode};
-use super::source::{Assignment, Source};
+use super::source::Assignment;
 use super::watched::watched;
 use super::words;
 use super::written::{StdoutLines, file, save, unwritten};
@@ -44,8 +44,6 @@ use super::{Answer, Refusal, lines};
     linkwork sweep mechanisms/jansen_leg.ron --input theta=0deg..360deg --animate leg.gif\n  \
     linkwork sweep mechanisms/four_bar.ron --circuits")]
 pub struct Sweep {
-    #[command(flatten)]
-    source: Source,
     /// Move a joint or coordinate, e.g. --input theta1=0deg..360deg; several move together
     #[arg(long, value_name = "NAME=FROM..TO")]
     input: Vec<Assignment>,
@@ -54,8 +52,6 @@ pub struct Sweep {
     #[arg(long, value_name = "FILE.csv")]
     #[arg(conflicts_with_all = ["input", "law", "duration", "follow", "circuits"])]
     motion: Option<PathBuf>,
-    #[command(flatten)]
-    asked: Asked,
     /// Number of steps, equal in time
     #[arg(long, value_name = "NUMBER", default_value_t = SweepSettings::default().steps)]
     steps: usize,
@@ -106,9 +102,6 @@ pub struct Sweep {
     forces: Forces,
     #[command(flatten)]
     search: SearchArgs,
-    /// Format of the answer
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
-    format: Format,
     /// Draw the mechanism in several places with the traced paths, then the quantities or else the joints over the input,
     /// to a file
     #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
@@ -134,9 +127,10 @@ fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
 
 const MOST_KEPT: usize = 1_000_000;
 
-impl Sweep {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Sweep {
+    const ROWS: bool = true;
+
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.search.pose(&mut posed)?;
         posed.ranges(Ranged::Input, &self.input)?;
         if let Some(path) = &self.motion {
@@ -155,18 +149,20 @@ impl Sweep {
             posed.ask_with(|question| question.mode(Mode::All));
         }
         match self.circuits {
-            true => self.circuits(&posed),
-            false => self.moved(&posed),
+            true => self.circuits(&posed, format),
+            false => self.moved(&posed, format),
         }
     }
+}
 
-    fn circuits(&self, posed: &Posed) -> Result<Answer, Refusal> {
+impl Sweep {
+    fn circuits(&self, posed: &Posed, format: Format) -> Result<Answer, Refusal> {
         let report = posed.ask(Question::circuits)?;
         self.keep(
             posed,
             &Picture::of_circuits(posed.question.mechanism(), &report),
         )?;
-        posed.loaded.answer(self.format, &report)
+        posed.loaded.answer(format, &report)
     }
 
     fn is_drawn(&self) -> bool {
@@ -186,23 +182,20 @@ impl Sweep {
         let Some(path) = &self.animate else {
             return Ok(());
         };
-        let title = |mode: Option<usize>| match mode {
-            Some(mode) => format!("{}: mode {mode}", mechanism.name()),
-            None => mechanism.name().to_owned(),
-        };
-        let scenes: Vec<_> = places().map(|(mode, scene)| (title(mode), scene)).collect();
+        let panel = |(mode, scene)| Panel::new(mechanism.name(), mode, scene);
+        let panels: Vec<Panel> = places().map(panel).collect();
         let settings = DrawingSettings {
             view: self.view.unwrap_or_default(),
             labels: false,
         };
-        let hundredths = (100.0 * LASTS / scenes.len().max(1) as f64).round() as u16;
-        let moving = gif(&frames(scenes, &settings), hundredths.max(2));
+        let hundredths = (100.0 * LASTS / panels.len().max(1) as f64).round() as u16;
+        let moving = gif(&frames(&panels, &settings), hundredths.max(2));
         let said = |error| format!("{} cannot be written: {error}", path.display());
         save(path, &moving.map_err(|error| Refusal::error(said(error)))?)
     }
 
-    fn moved(&self, posed: &Posed) -> Result<Answer, Refusal> {
-        if self.format == Format::Json && self.steps > MOST_KEPT {
+    fn moved(&self, posed: &Posed, format: Format) -> Result<Answer, Refusal> {
+        if format == Format::Json && self.steps > MOST_KEPT {
             return Err(words::too_many_kept(self.steps, MOST_KEPT).into());
         }
         let settings = SweepSettings {
@@ -221,18 +214,18 @@ impl Sweep {
         let (mechanism, columns) = (&**posed.question.mechanism(), all.columns());
         let quantities = all.quantities();
         let mut picture = Picture::new(mechanism, all.inputs(), all.points(), &quantities);
-        let out = StdoutLines::new(self.format == Format::Csv);
+        let out = StdoutLines::new(format == Format::Csv);
         let mut csv = Csv::new(out, row_columns(&columns)).map_err(unwritten)?;
         let mut sink = |mode: Option<usize>, row: &Row| {
             if self.is_drawn() {
                 picture.take(mechanism, mode, row);
             }
-            if self.format == Format::Csv && !row.between {
+            if format == Format::Csv && !row.between {
                 // lines keep what goes wrong
                 let _ = csv.row(row_values(&columns, mode, row));
             }
         };
-        let kept = match self.format {
+        let kept = match format {
             Format::Json => MOST_KEPT + 2,
             Format::Csv => 2,
             _ => SHOWN,
@@ -242,18 +235,18 @@ impl Sweep {
         picture.completed(mechanism, &report);
         self.keep(posed, &picture)?;
         let unfinished = report.motions.iter().filter(|m| !m.sweep.ending.is_whole());
-        let unfinished = unfinished.filter(|_| self.format == Format::Csv);
+        let unfinished = unfinished.filter(|_| format == Format::Csv);
         let unfinished = unfinished.map(|motion| match motion.mode {
             Some(mode) => format!("mode {mode}: {}", sentence(&motion.sweep)),
             None => sentence(&motion.sweep),
         });
-        let rows_alone = report.motions.iter().filter(|_| self.format == Format::Csv);
+        let rows_alone = report.motions.iter().filter(|_| format == Format::Csv);
         let certified = rows_alone.flat_map(|motion| certified(&motion.sweep));
         let report = posed.loaded.prefaced(&report);
         let document = report.document();
         Ok(Answer {
-            data: self.format.shown(&report, &document),
-            remarks: posed.loaded.warnings_beside(self.format)
+            data: format.shown(&report, &document),
+            remarks: posed.loaded.warnings_beside(format)
                 + &lines("note", unfinished.chain(certified)),
             yes: !document.no,
         })

@@ -3,9 +3,9 @@
 use clap::Args;
 use linkwork::ask::{Question, Role};
 
-use super::asked::Asked;
-use super::format::{Format, readable};
-use super::source::{Assignment, Source};
+use super::asked::{Analysis, Posed};
+use super::format::Format;
+use super::source::Assignment;
 use super::{Answer, Refusal};
 
 /// Find rates, accelerations and the input–output Jacobian for given rates of the inputs.
@@ -17,10 +17,6 @@ use super::{Answer, Refusal};
     linkwork velocity mechanisms/three_rps.ron --rate l1=0.1\n  \
     linkwork velocity mechanisms/four_bar.ron --rate theta1=1 --point left+0.5,0.2")]
 pub struct Velocity {
-    #[command(flatten)]
-    source: Source,
-    #[command(flatten)]
-    asked: Asked,
     /// Rate of a held joint or coordinate, e.g. --rate l1=0.1; where the orientation of a platform is held, its angular
     /// velocity about ground axes, e.g. --rate top.wx=0.1
     #[arg(long, value_name = "NAME=RATE")]
@@ -31,17 +27,13 @@ pub struct Velocity {
     /// Also report the velocity of a frame's origin, or of a point beside it in its axes, e.g. --point left+0.5,0.2
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     point: Vec<String>,
-    /// Format of the answer; errors are always text on stderr
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
-    format: Format,
 }
 
-impl Velocity {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Velocity {
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         posed.values(Role::Rate, &self.rate);
         posed.values(Role::Acceleration, &self.acceleration);
         posed.names(Role::Point, &self.point);
-        posed.answer(self.format, Question::velocity)
+        posed.answer(format, Question::velocity)
     }
 }

@@ -7,10 +7,10 @@ use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Mode;
 use linkwork::output::{Report, workspace as output};
 
-use super::asked::Asked;
-use super::format::{Format, beside_rows, with_rows};
+use super::asked::{Analysis, Posed};
+use super::format::{Format, beside_rows};
 use super::search::SearchArgs;
-use super::source::{Assignment, Source};
+use super::source::Assignment;
 use super::words;
 use super::written::{file, rows, save};
 use super::{Answer, Refusal, lines, style};
@@ -29,13 +29,9 @@ use linkwork::output::complaint::Ranged;
     linkwork workspace mechanisms/three_rps.ron --map top.roll=-60deg..60deg --map top.pitch=-60deg..60deg --hold top.z=0.6\n  \
     linkwork workspace mechanisms/five_bar.ron --map theta1=-180deg..180deg --map theta2=-180deg..180deg --format csv")]
 pub struct Workspace {
-    #[command(flatten)]
-    source: Source,
     /// Range of a mapped coordinate, e.g. --map hand.x=-1..1; one to three of them
     #[arg(long, value_name = "NAME=FROM..TO")]
     map: Vec<Assignment>,
-    #[command(flatten)]
-    asked: Asked,
     /// Nodes along each mapped coordinate, or one number for all [default: 200, 60 or 24 each]
     #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
     grid: Vec<usize>,
@@ -50,9 +46,6 @@ pub struct Workspace {
     assemblies: bool,
     #[command(flatten)]
     search: SearchArgs,
-    /// Format of the answer
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
-    format: Format,
     /// Write the points of boundary curves as rows, instead of the nodes
     #[arg(long)]
     boundary: bool,
@@ -61,12 +54,13 @@ pub struct Workspace {
     svg: Option<PathBuf>,
 }
 
-impl Workspace {
-    pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.asked.pose(&self.source)?;
+impl Analysis for Workspace {
+    const ROWS: bool = true;
+
+    fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.search.pose(&mut posed)?;
         posed.ranges(Ranged::Map, &self.map)?;
-        if self.boundary && (self.map.len() == 1 || self.format != Format::Csv) {
+        if self.boundary && (self.map.len() == 1 || format != Format::Csv) {
             return Err(Refusal(words::no_boundary(self.map.len()).render(style())));
         }
         if self.assemblies {
@@ -87,7 +81,7 @@ impl Workspace {
             drawn = lines("note", part);
         }
         let answer = match self.boundary {
-            false => posed.loaded.answer(self.format, &report)?,
+            false => posed.loaded.answer(format, &report)?,
             true => {
                 let whole = rows(output::boundary_rows(&report))?;
                 Answer {

@@ -374,6 +374,20 @@ impl<T: Copy> TableOf<T> {
         self.each(of.iter().map(Q::head), |item, k| value(item, k).into())
     }
 
+    /// Without columns that come again: a coordinate that moves or bounds a box is also a joint or part of a pose.
+    pub fn once(mut self) -> Self {
+        let Table { columns, rows, .. } = &mut self.table;
+        let heads: Vec<String> = columns.iter().map(Column::header).collect();
+        for i in (0..heads.len())
+            .rev()
+            .filter(|&i| heads[..i].contains(&heads[i]))
+        {
+            columns.remove(i);
+            rows.iter_mut().for_each(|row| drop(row.remove(i)));
+        }
+        self
+    }
+
     /// With a unit for all numbers of the last column.
     pub fn in_unit(mut self, unit: SiUnit) -> Self {
         let last = self.table.columns.last_mut();

@@ -38,6 +38,20 @@ pub struct Panel {
     pub ghosts: Vec<Scene>,
 }
 
+impl Panel {
+    /// A scene of a mechanism, in one of its modes if that has a number.
+    pub fn new(mechanism: &str, mode: Option<usize>, scene: Scene) -> Self {
+        Panel {
+            title: match mode {
+                Some(mode) => format!("{mechanism}: mode {mode}"),
+                None => mechanism.to_owned(),
+            },
+            scene,
+            ghosts: Vec::new(),
+        }
+    }
+}
+
 /// Size of a picture in pixels, and its margin.
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 520.0;
@@ -107,27 +121,20 @@ pub fn sheet(panels: &[Panel], settings: &DrawingSettings) -> Canvas {
     canvas
 }
 
-/// One mechanism in several configurations, each with its title, seen from one place.
-pub fn frames(scenes: Vec<(String, Scene)>, settings: &DrawingSettings) -> Vec<Canvas> {
-    let Some((_, first)) = scenes.first() else {
+/// One mechanism in several configurations, seen from one place.
+pub fn frames(panels: &[Panel], settings: &DrawingSettings) -> Vec<Canvas> {
+    let Some(Panel { scene: first, .. }) = panels.first() else {
         return Vec::new();
     };
     let camera = Camera::new(settings.view, first.normal);
-    let fit = Framing::of(&camera, scenes.iter().map(|(_, scene)| scene));
+    let fit = Framing::of(&camera, panels.iter().map(|panel| &panel.scene));
     let size = StagedScene::new(first, settings.view, fit, (0.0, 0.0)).size;
-    let frame = |(title, scene): (String, Scene)| {
-        let panel = Panel {
-            title,
-            scene,
-            ghosts: Vec::new(),
-        };
-        Canvas {
-            width: WIDTH,
-            height: HEIGHT,
-            shapes: draw(&panel, settings, (0.0, 0.0), fit, Some(size)),
-        }
+    let frame = |panel: &Panel| Canvas {
+        width: WIDTH,
+        height: HEIGHT,
+        shapes: draw(panel, settings, (0.0, 0.0), fit, Some(size)),
     };
-    scenes.into_iter().map(frame).collect()
+    panels.iter().map(frame).collect()
 }
 
 /// The middle of the view, in m across and up, and the number of pixels for a metre.

@@ -60,22 +60,21 @@ impl<'de, R: DeserializeOwned> Deserialize<'de> for AnswerJson<R> {
 }
 
 /// A report that can be written as JSON too.
-pub trait JsonReport: Report + Serialize {}
-
-impl<R: Report + Serialize> JsonReport for R {}
-
-/// The report as JSON. Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as
-/// zero.
-pub fn render(report: &impl JsonReport) -> String {
-    let envelope = Envelope::of(report);
-    written(&AnswerJson { envelope, report })
+pub trait JsonReport: Report {
+    /// The report as JSON. Numbers keep all their digits; one that is not finite is written as `null`, a negative zero
+    /// as zero.
+    fn json(&self) -> String;
 }
 
-fn written(answer: &impl Serialize) -> String {
-    let mut value = serde_json::to_value(answer)
-        .expect("the keys of every map in a report are texts, which alone could fail");
-    unsign_zeros(&mut value);
-    format!("{value:#}\n")
+impl<R: Report + Serialize> JsonReport for R {
+    fn json(&self) -> String {
+        let envelope = Envelope::of(self);
+        let report = self;
+        let mut value = serde_json::to_value(AnswerJson { envelope, report })
+            .expect("the keys of every map in a report are texts, which alone could fail");
+        unsign_zeros(&mut value);
+        format!("{value:#}\n")
+    }
 }
 
 /// Zeros without sign: the sign depends on how a number was computed.

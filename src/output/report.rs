@@ -74,25 +74,4 @@ impl<'a> Rows<'a> {
             rows: Box::new(rows),
         }
     }
-
-    /// Drops columns that come again: a coordinate that moves or bounds a box is also a joint or part of a pose.
-    #[must_use]
-    pub fn once(self) -> Self {
-        let columns = self.columns.iter().enumerate();
-        let first: Vec<bool> = columns
-            .map(|(i, of)| !self.columns[..i].contains(of))
-            .collect();
-        let columns = self.columns.into_iter().zip(first.clone());
-        let rows = self.rows.map(move |row| {
-            let cells = row.into_iter().zip(&first);
-            cells
-                .filter(|(_, first)| **first)
-                .map(|(cell, _)| cell)
-                .collect()
-        });
-        Rows::new(
-            columns.filter(|(_, first)| *first).map(|(name, _)| name),
-            rows,
-        )
-    }
 }

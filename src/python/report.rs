@@ -3,6 +3,7 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use serde::Serialize;
 
 use super::asked::Asked;
 use super::words::Refused;
@@ -13,47 +14,21 @@ use crate::analysis::sweep::Row;
 use crate::ask::Solved;
 use crate::mechanism::{Frame, Mechanism};
 use crate::output::complaint::unknown_frame;
-use crate::output::document::{Cell, Document};
+use crate::output::document::Cell;
 use crate::output::rounding::Prefaced;
 use crate::output::sweep::{SHOWN, row_columns, row_values};
-use crate::output::{JsonReport, Rows, html, json, markdown, text};
+use crate::output::{JsonReport, Report as Shown, Rows, html, markdown, text};
 use crate::solve::Watch;
 
-/// A report, shown in the way that is asked for.
-trait Shown: Send + Sync {
-    fn document(&self) -> Document;
-    fn json(&self) -> String;
-    fn yes(&self) -> bool;
-    fn warnings(&self) -> Vec<String>;
-}
-
-impl<R: JsonReport + Send + Sync> Shown for R {
-    fn document(&self) -> Document {
-        crate::output::Report::document(self)
-    }
-
-    fn json(&self) -> String {
-        json::render(self)
-    }
-
-    fn yes(&self) -> bool {
-        self.is_yes()
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        crate::output::Report::warnings(self)
-    }
-}
-
 #[pyclass(frozen, module = "linkwork._linkwork")]
-pub struct Report(Box<dyn Shown>);
+pub struct Report(Box<dyn JsonReport + Send + Sync>);
 
 #[pymethods]
 impl Report {
     /// False if the answer is negative (exit status 1).
     #[getter]
     fn yes(&self) -> bool {
-        self.0.yes()
+        self.0.is_yes()
     }
 
     #[getter]
@@ -131,7 +106,7 @@ impl Column {
     }
 }
 
-pub fn prefaced<R: JsonReport + Send + Sync + 'static>(
+pub fn prefaced<R: Shown + Serialize + Send + Sync + 'static>(
     mechanism: &Mechanism,
     report: R,
 ) -> (Report, Vec<Column>) {

@@ -9,7 +9,7 @@ use linkwork::analysis::singularities::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
-use linkwork::output::{self, Report};
+use linkwork::output::{self, JsonReport, Report};
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
 use linkwork::system::{Driven, Lock, Question, Search, SweepEnd};
@@ -1280,7 +1280,7 @@ fn no_report_of_a_shipped_mechanism_holds_nan() {
             output::text::render(&document),
             output::html::render(&document),
         );
-        for written in [text, html, output::json::render(&report)] {
+        for written in [text, html, report.json()] {
             assert!(
                 !written.contains("NaN") && !written.contains("inf "),
                 "{written}"

@@ -7,7 +7,7 @@ use linkwork::output::csv::Csv;
 use linkwork::output::diagnostics::{self, Style};
 use linkwork::output::document::{Align, Cell, Column, Document, FormulaBlock, Section, Table};
 use linkwork::output::quantity::{number, quantity};
-use linkwork::output::{Report, html, json, markdown, text};
+use linkwork::output::{JsonReport, Report, html, markdown, text};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
@@ -237,7 +237,7 @@ impl Serialize for Said {
 #[test]
 fn zeros_have_no_sign_however_deep() {
     let report = serde_json::json!({ "a": [-0.0, [-1.5, { "b": -0.0 }]], "c": -0.0 });
-    let written: Value = serde_json::from_str(&json::render(&Said(report))).unwrap();
+    let written: Value = serde_json::from_str(&Said(report).json()).unwrap();
     assert_eq!(written["a"].to_string(), "[0.0,[-1.5,{\"b\":0.0}]]");
     assert_eq!(written["c"].to_string(), "0.0");
 }

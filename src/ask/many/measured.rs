@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::{Many, Unreached};
-use crate::analysis::quantities::{Meter, Metered};
-use crate::analysis::sweep::Pace;
+use crate::analysis::quantities::Meter;
 use crate::ask::preparation::with_joint;
 use crate::ask::{AskError, Question, Role};
 use crate::geometry::{RollPitchYaw, Vector3};
@@ -75,15 +74,7 @@ impl Question {
         let shown = quantities.len() - usize::from(more);
         let columns = quantities[..shown].iter();
         let columns = columns.map(|of| Variable::new(&of.name, of.unit)).collect();
-        let metered = Metered {
-            quantities,
-            inputs,
-            pace: Pace::default(),
-            schedule: None,
-            load: asked.load_of(&held)?,
-            outputs: asked.asked_outputs()?,
-            question: held,
-        };
+        let metered = asked.metered(held, quantities, inputs)?;
         let axes = Meter::new(&metered, &start).axes();
         let entries: usize = axes.iter().map(Vec::len).product();
         let (rows, width) = (many.reached.len(), many.names.len());

@@ -6,7 +6,7 @@ use crate::algebra::BATCH;
 use crate::analysis::solver::Follower;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Progress, Stage, Watch};
-use crate::system::{self, Coordinate, MotionTracker, System};
+use crate::system::{self, Coordinate, HeldPlatform, MotionTracker, System};
 
 /// The longest step of the held coordinates, in rad or characteristic lengths.
 const LONGEST: f64 = 0.2;
@@ -31,7 +31,7 @@ fn steps_of(distance: f64, finite: bool) -> usize {
 }
 
 /// Rows to be followed, with the question and its equations.
-pub(super) struct RowSeries<'a> {
+pub(in crate::ask) struct RowSeries<'a> {
     pub question: &'a system::Question<'a>,
     pub coordinates: &'a [Coordinate],
     pub columns: Vec<Coordinate>,
@@ -79,7 +79,38 @@ impl BlockOfRows<'_> {
     }
 }
 
-impl RowSeries<'_> {
+impl<'a> RowSeries<'a> {
+    /// Rows of values of coordinates that a question holds, in the order in which they are given.
+    pub fn new(
+        question: &'a system::Question<'a>,
+        coordinates: &'a [Coordinate],
+        values: &'a [f64],
+        start: Configuration<f64>,
+        watch: &'a Watch<'a>,
+    ) -> Self {
+        let (mechanism, held) = (question.mechanism(), question.held());
+        let by_value = |of: &Coordinate| match of.platform() {
+            Some(platform) => match &held.platforms[platform] {
+                HeldPlatform::Partly(parts) => parts.orientation.is_none(),
+                _ => false,
+            },
+            None => true,
+        };
+        RowSeries {
+            question,
+            coordinates,
+            columns: Coordinate::all(mechanism).collect(),
+            system: question.system(),
+            by_value: coordinates.iter().all(by_value),
+            start,
+            values,
+            order: Vec::new(),
+            scales: coordinates.iter().map(|c| c.scale(mechanism)).collect(),
+            watch,
+            done: AtomicUsize::new(0),
+        }
+    }
+
     /// The values of the row that is followed at a place.
     fn row(&self, place: usize) -> &[f64] {
         let row = (self.order.get(place)).map_or(place, |row| *row as usize);
@@ -152,13 +183,13 @@ impl RowSeries<'_> {
         let now = Progress {
             stage: Stage::Motion,
             done,
-            of: Some(self.values.len() / self.coordinates.len()),
+            of: self.values.len().checked_div(self.coordinates.len()),
         };
         self.watch.at(now).is_continue()
     }
 
     /// The rows of a block in as many paths as there are motions side by side; true if all were followed.
-    pub fn side_by_side(&self, follower: &Follower, block: &mut BlockOfRows) -> bool {
+    pub(super) fn side_by_side(&self, follower: &Follower, block: &mut BlockOfRows) -> bool {
         let (first, rows) = (block.first, block.reached.len());
         let length = rows.div_ceil(BATCH);
         let mut single = MotionTracker::new(self.system.clone(), self.start.clone());
@@ -234,7 +265,7 @@ impl RowSeries<'_> {
     }
 
     /// The rows of a block in one path; true if all were followed.
-    pub fn one_by_one(&self, block: &mut BlockOfRows) -> bool {
+    pub(super) fn one_by_one(&self, block: &mut BlockOfRows) -> bool {
         let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
         let mut place = self.begin();
         for row in 0..block.reached.len() {
@@ -246,6 +277,16 @@ impl RowSeries<'_> {
             }
         }
         true
+    }
+
+    /// The configurations of the first rows, as far as they can be followed one after the other.
+    pub fn followed(&self, rows: usize) -> impl Iterator<Item = Configuration<f64>> {
+        let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
+        let mut place = self.begin();
+        (0..rows).map_while(move |row| {
+            let goes = self.goes(&mut tracker, &mut place, self.row(row));
+            goes.then(|| place.at.clone())
+        })
     }
 
     fn begin(&self) -> SolvedRow {

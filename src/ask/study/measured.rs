@@ -47,6 +47,24 @@ impl Question {
         }
     }
 
+    /// What is measured where what is held moves at these rates.
+    pub(in crate::ask) fn metered<'q>(
+        &self,
+        question: system::Question<'q>,
+        quantities: Vec<Quantity>,
+        inputs: Vec<Driven>,
+    ) -> Result<Metered<'q>, AskError> {
+        Ok(Metered {
+            quantities,
+            inputs,
+            pace: Pace::default(),
+            schedule: None,
+            load: self.load_of(&question)?,
+            outputs: self.asked_outputs()?,
+            question,
+        })
+    }
+
     /// The row of results: 1 if the mechanism assembles, else 0, the number of assemblies if it is asked for, and the
     /// quantities.
     pub(in crate::ask) fn measured_here(
@@ -69,15 +87,7 @@ impl Question {
             Err(_) => return Ok([Some(0.0)].into_iter().chain(count).collect()),
         };
         let (quantities, inputs) = self.measured_by_rates(&held)?;
-        let metered = Metered {
-            quantities,
-            inputs,
-            pace: Pace::default(),
-            schedule: None,
-            load: self.load_of(&held)?,
-            outputs: self.asked_outputs()?,
-            question: held,
-        };
+        let metered = self.metered(held, quantities, inputs)?;
         let mut values: Vec<Option<f64>> = [Some(1.0)].into_iter().chain(count).collect();
         values.extend_from_slice(Meter::new(&metered, &start).read(&start, 0.0));
         Ok(values)

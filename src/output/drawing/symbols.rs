@@ -6,6 +6,9 @@ use crate::number::real;
 use crate::output::canvas::{Colour, INK, OutlineStyle, WHITE};
 use crate::scene::{JointShape, JointSymbol, across};
 
+/// Corners of a square, in order round it.
+const CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+
 /// The pieces of a joint.
 pub(super) fn joint(stage: &StagedScene, joint: &JointShape) -> Vec<Painted> {
     let at = Vector3(joint.at);
@@ -98,12 +101,7 @@ fn bearing(stage: &StagedScene, joint: &JointShape, axis: &Position) -> Vec<Pain
         ),
     };
     let square = |x: f64, y: f64| place(1.75 * x, 1.2 * y, 1.35);
-    let mut faces = vec![face([
-        square(-1.0, -1.0),
-        square(1.0, -1.0),
-        square(1.0, 1.0),
-        square(-1.0, 1.0),
-    ])];
+    let mut faces = vec![face(CORNERS.map(|(x, y)| square(x, y)))];
     for end in [-1.4, 1.4] {
         faces.push(face([
             place(end, -0.7, 1.35),
@@ -193,12 +191,7 @@ fn block(
         let corner = |a: f64, b: f64| {
             middle + edges[u].times(a * halves[u] * metres) + edges[v].times(b * halves[v] * metres)
         };
-        let face = [
-            corner(-1.0, -1.0),
-            corner(1.0, -1.0),
-            corner(1.0, 1.0),
-            corner(-1.0, 1.0),
-        ];
+        let face = CORNERS.map(|(a, b)| corner(a, b));
         faces.push(solid(stage, &face, fill, 0.5));
     }
     faces
@@ -274,13 +267,9 @@ fn plate(stage: &StagedScene, at: &Position, axis: &Position) -> Vec<Painted> {
         true => axis.times(1.3 * metres),
         false => axis.times(-1.3 * metres),
     };
-    let corner = |x: f64, y: f64| *at + down + right.times(x * metres) + up.times(y * metres);
-    let corners = [
-        corner(-1.6, -1.6),
-        corner(1.6, -1.6),
-        corner(1.6, 1.6),
-        corner(-1.6, 1.6),
-    ];
+    let side = 1.6 * metres;
+    let corner = |(x, y): (f64, f64)| *at + down + right.times(x * side) + up.times(y * side);
+    let corners = CORNERS.map(corner);
     let style = OutlineStyle::filled(Colour(0xcccccc)).edged(GROUND, 1.0);
     vec![Painted {
         layer: Layer::Ground,
