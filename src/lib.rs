@@ -97,7 +97,7 @@ pub use description::{Description, FileError, LoadError, Problem, ProblemKind};
 #[doc(inline)]
 pub use mechanism::{Configuration, Frame, Mechanism, Point, Quantity};
 #[doc(inline)]
-pub use output::{JsonReport, Report};
+pub use output::{AnyReport, JsonReport, Report};
 #[doc(inline)]
 pub use solve::{Progress, Pruning, Stage, Watch};
 #[doc(inline)]

@@ -13,7 +13,7 @@ mod report;
 pub mod text;
 
 pub use document::Document;
-pub use json::JsonReport;
+pub use json::{AnyReport, JsonReport};
 pub use report::{Remarks, Report, Rows};
 
 pub mod assemblies;

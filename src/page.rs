@@ -27,7 +27,7 @@ use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::output::drawing::{DrawingSettings, Panel, Viewpoint, sheet};
 use crate::output::rounding::Prefaced;
-use crate::output::{JsonReport, Report};
+use crate::output::{AnyReport, JsonReport};
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
@@ -373,11 +373,7 @@ fn holding(mechanism: &Arc<Mechanism>, names: &[String], at: &Configuration<f64>
 }
 
 /// A report as the command line prints it, with the configurations that it lists. It may be long: it is written once.
-fn answered(
-    mechanism: &Mechanism,
-    report: &(impl Report + Serialize),
-    states: &[impl Serialize],
-) -> String {
+fn answered(mechanism: &Mechanism, report: &impl JsonReport, states: &[impl Serialize]) -> String {
     let report = Prefaced::new(mechanism, report);
     let (report, states) = (report.json(), serde_json::to_string(states));
     let states = states.expect("what a page is shown can be written");

@@ -20,7 +20,6 @@ use pyo3::types::{PyDict, PyFloat};
 
 use crate::algebra::Measure;
 use crate::analysis::convert::to_axes;
-use crate::analysis::rounding::posed;
 use crate::ask::{AskError, Points, Study, Unreached};
 use crate::description::{Description, FileError, Role};
 use crate::mechanism;
@@ -88,34 +87,23 @@ impl Mechanism {
     #[new]
     fn new(text: String, name: &str, parameters: &Bound<'_, PyAny>) -> PyResult<Self> {
         let parameters = values("parameters", parameters)?;
-        let wrong = |problems| FileError::new(name, &text, problems);
         let style = Style::Plain;
-        let mut description = Description::read(&text).map_err(|_| {
-            let problems = mechanism::Mechanism::problems(&text);
-            MechanismError::new_err(diagnostics::render(&wrong(problems), style))
+        let description = Description::read(&text).map_err(|_| {
+            let wrong = FileError::new(name, &text, mechanism::Mechanism::problems(&text));
+            MechanismError::new_err(diagnostics::render(&wrong, style))
         })?;
         let values: Vec<String> = parameters.iter().map(|(_, v)| v.to_string()).collect();
         let set: Vec<Given> = (parameters.iter().zip(&values))
             .map(|((name, _), value)| Given::new("with_parameters", name, Some(value)))
             .collect();
-        for (given, value) in set.iter().zip(&values) {
-            description = (description.with_parameter(given.name, value)).map_err(|refused| {
-                MechanismError::new_err(diagnostics::replacement(&refused, given, style))
-            })?;
-        }
-        match posed(description.clone()) {
-            Ok((description, mechanism)) => Ok(Mechanism {
-                text: text.into(),
-                description: description.into(),
-                set: Vec::new(),
-                mechanism: mechanism.into(),
-            }),
-            Err(problems) => {
-                let error = wrong(problems);
-                let said = diagnostics::with_replacements(error, &description, &set, style);
-                Err(MechanismError::new_err(said))
-            }
-        }
+        let made = diagnostics::made(name, &text, description, &set, style);
+        let (description, mechanism) = made.map_err(MechanismError::new_err)?;
+        Ok(Mechanism {
+            text: text.into(),
+            description: description.into(),
+            set: Vec::new(),
+            mechanism: mechanism.into(),
+        })
     }
 
     #[getter]

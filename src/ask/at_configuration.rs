@@ -142,18 +142,10 @@ impl Question {
         (what, known): (&'static str, impl Fn(&Measured) -> bool),
     ) -> Result<Expression<Measured>, AskError> {
         let text = demand.value(0).to_string();
-        let refused = |error| AskError::Quantity {
-            item,
-            text: text.clone(),
-            error: Box::new(error),
-        };
-        let read = Quantity::read(self.mechanism(), &demand.name, &text).map_err(refused)?;
+        let refused = item.quantity(&text);
+        let read = Quantity::read(self.mechanism(), &demand.name, &text).map_err(&refused)?;
         if !read.measured().all(known) {
-            return Err(AskError::Unmeasured {
-                item,
-                quantity: text,
-                error: Unmeasured::Follows { what },
-            });
+            return Err(item.unmeasured(&text, Unmeasured::Follows { what }));
         }
         match [SiUnit::ONE, unit.without_angle()].contains(&read.unit.without_angle()) {
             true => Ok(read.expression),
@@ -264,7 +256,7 @@ impl Question {
         {
             for &angle in angles {
                 let checked = check_angle(self.mechanism(), &closed.configuration, angle);
-                checked.map_err(AskError::Question)?;
+                checked?;
             }
         }
         Ok(locked)

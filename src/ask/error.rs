@@ -41,6 +41,24 @@ impl Item {
         move |error| AskError::Load(self, Box::new(error))
     }
 
+    /// The error for a quantity that cannot be known.
+    pub(super) fn unmeasured(self, quantity: &str, error: Unmeasured) -> AskError {
+        AskError::Unmeasured {
+            item: self,
+            quantity: quantity.to_owned(),
+            error,
+        }
+    }
+
+    /// The error for a text that is no quantity.
+    pub(super) fn quantity(self, text: &str) -> impl Fn(QuantityError) -> AskError {
+        move |error| AskError::Quantity {
+            item: self,
+            text: text.to_owned(),
+            error: Box::new(error),
+        }
+    }
+
     /// The error for a name or a value.
     pub(super) fn named(self) -> impl Fn(QuestionError) -> AskError {
         move |error| AskError::Named(self, Box::new(error))
@@ -56,7 +74,7 @@ pub enum AskError {
     Named(Item, Box<QuestionError>),
     /// The question as a whole holds too much or too little.
     #[error("{0}")]
-    Question(QuestionError),
+    Question(#[from] QuestionError),
     /// The question of a map holds too much or too little.
     #[error("{error}")]
     Mapped {

@@ -93,7 +93,7 @@ impl Question {
         let mut coordinates = Vec::new();
         let mut begins = self.clone();
         for name in names {
-            let (coordinate, _) = (plain.value(name, "home")).map_err(AskError::Question)?;
+            let (coordinate, _) = (plain.value(name, "home"))?;
             if coordinates.contains(&coordinate) {
                 return Err(AskError::TwoColumns(name.clone()));
             }
@@ -103,7 +103,7 @@ impl Question {
             }
         }
         let question = begins.resolved()?;
-        check_count(&question).map_err(AskError::Question)?;
+        check_count(&question)?;
         let question = question.with_spins_still();
         let start = begins.start(&question, watch)?;
         let mut all = RowSeries::new(&question, &coordinates, values, start, watch);

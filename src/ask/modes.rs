@@ -103,7 +103,7 @@ impl Question {
             ..settings.clone()
         };
         if let Mode::Number(mode) = self.mode {
-            check_count(&question).map_err(AskError::Question)?;
+            check_count(&question)?;
             let still = question.clone().with_spins_still();
             let solver = self.solver(&still, watch)?;
             match solver.follow(mode, &still.start(), &still.held(), watch)? {
@@ -116,7 +116,7 @@ impl Question {
             // another start could end in another mode
             settings.restarts = 0;
         }
-        let report = assemble(&question, &settings, watch).map_err(AskError::Question)?;
+        let report = assemble(&question, &settings, watch)?;
         Ok(Solved::Ended(Box::new(report)))
     }
 

@@ -50,17 +50,9 @@ impl Question {
             Some(output) => Ok(output.clone()),
             None => Quantity::read(mechanism, name, text),
         };
-        let quantity = read.map_err(|error| AskError::Quantity {
-            item,
-            text: text.to_owned(),
-            error: Box::new(error),
-        })?;
+        let quantity = read.map_err(item.quantity(text))?;
         match self.unmeasured(held, moving, &quantity) {
-            Some(error) => Err(AskError::Unmeasured {
-                item,
-                quantity: quantity.name,
-                error,
-            }),
+            Some(error) => Err(item.unmeasured(&quantity.name, error)),
             None => Ok(quantity),
         }
     }
@@ -96,11 +88,7 @@ impl Question {
             let number = number.map_err(item.named())?;
             match moving {
                 true => Ok((place, number.abs())),
-                false => Err(AskError::Unmeasured {
-                    item,
-                    quantity: text.clone(),
-                    error: Unmeasured::NoInput,
-                }),
+                false => Err(item.unmeasured(text, Unmeasured::NoInput)),
             }
         });
         dwells.collect()

@@ -141,7 +141,7 @@ impl Question {
             posed = with_inputs(self.released()?)?;
             count = check_count(&posed.0);
         }
-        count.map_err(AskError::Question)?;
+        count?;
         Ok(posed)
     }
 }

@@ -57,7 +57,7 @@ impl Question {
     fn posed(&self, watch: &Watch) -> Result<(system::Question<'_>, Configuration<f64>), AskError> {
         let question = self.resolved()?;
         if self.mode == Mode::Nearest {
-            check_count(&question).map_err(AskError::Question)?;
+            check_count(&question)?;
         }
         let question = question.with_spins_still();
         let start = self.start(&question, watch)?;

@@ -310,7 +310,7 @@ impl Study {
         }
         let posed = self.at(&self.point(0), mechanism.clone());
         let held = posed.resolved()?;
-        check_count(&held).map_err(AskError::Question)?;
+        check_count(&held)?;
         let (quantities, _) = posed.measured_by_rates(&held)?;
         columns.extend(quantities.iter().map(|of| Variable::new(&of.name, of.unit)));
         let spins = !held.with_spins_still().still().is_empty();

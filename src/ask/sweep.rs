@@ -73,7 +73,7 @@ impl Question {
         // everything but the inputs stands still; where none is given, the freedom is let go
         let held = match inputs.is_empty() {
             false => {
-                check_count(&question).map_err(AskError::Question)?;
+                check_count(&question)?;
                 question = question.with_spins_still();
                 still(question.with_still(self.resolved()?.held()), &inputs)
             }

@@ -4,11 +4,10 @@ use clap::Args;
 use clap::builder::ValueParser;
 use linkwork::ask::{AskError, Demand, Mode, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::output::Report;
+use linkwork::output::JsonReport;
 use linkwork::output::complaint::{Complaint, Door, Given, Ranged, Wording, unknown_frame};
 use linkwork::solve::Watch;
 use linkwork::system;
-use serde::Serialize;
 
 use super::format::{Format, readable, with_rows};
 use super::source::{Assignment, LoadedFile, Source};
@@ -212,7 +211,7 @@ impl Posed {
         })
     }
 
-    pub fn answer<'q, R: Report + Serialize>(
+    pub fn answer<'q, R: JsonReport>(
         &'q self,
         format: Format,
         work: impl FnOnce(&'q Question, &Watch) -> Result<R, AskError>,

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use linkwork::output::{Document, JsonReport, Report, html, markdown, text};
+use linkwork::output::{AnyReport, Document, JsonReport, Report, html, markdown, text};
 
 use super::written::rows;
 use super::{Answer, Refusal, lines};

@@ -1,7 +1,7 @@
 //! The mechanisms that the program brings with it.
 
 use linkwork::description::nearest;
-use linkwork::output::complaint::Complaint;
+use linkwork::output::complaint::{Complaint, suggested};
 use linkwork::output::view::shipped;
 
 use super::Refusal;
@@ -63,13 +63,9 @@ pub fn find(name: &str) -> Result<Example, Refusal> {
         Some(found) => Ok(all.swap_remove(found)),
         None => {
             let meant = nearest(name, all.iter().map(|of| of.name.as_str()));
-            let help = match meant {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => "`linkwork examples` lists them".into(),
-            };
-            Err(Complaint::new(format!("there is no example `{name}`"))
-                .help(help)
-                .into())
+            let help = suggested(meant, || "`linkwork examples` lists them".into());
+            let said = Complaint::new(format!("there is no example `{name}`"));
+            Err(said.help(help).into())
         }
     }
 }

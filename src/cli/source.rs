@@ -5,14 +5,12 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use linkwork::analysis::rounding::posed;
-use linkwork::description::{Description, FileError, LoadError, MAX_BYTES};
+use linkwork::description::{Description, LoadError, MAX_BYTES};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given};
 use linkwork::output::rounding::{Prefaced, sentence};
 use linkwork::output::view::Viewed;
-use linkwork::output::{Report, diagnostics};
-use serde::Serialize;
+use linkwork::output::{JsonReport, diagnostics};
 
 use super::format::Format;
 use super::read::{called, help, is_stdin, text};
@@ -107,35 +105,16 @@ impl Source {
                 Refusal::from(Complaint::new(title))
             })?;
         }
-        let mut refused = Vec::new();
-        for assignment in &self.set {
-            let Assignment { name, value } = assignment;
-            match description.clone().with_parameter(name, value) {
-                Ok(changed) => description = changed,
-                Err(error) => {
-                    let given = assignment.given("--set");
-                    refused.push(diagnostics::replacement(&error, &given, style()));
-                }
-            }
-        }
-        if !refused.is_empty() {
-            return Err(Refusal(refused.join("\n")));
-        }
-        match posed(description.clone()) {
-            Ok((description, mechanism)) => Ok(LoadedFile {
-                path,
-                set: self.set.iter().map(|given| given.name.clone()).collect(),
-                text,
-                description,
-                mechanism: Arc::new(mechanism),
-            }),
-            Err(problems) => {
-                let error = FileError::new(&path, text, problems);
-                let set: Vec<Given> = self.set.iter().map(|set| set.given("--set")).collect();
-                let wrong = diagnostics::with_replacements(error, &description, &set, style());
-                Err(Refusal(wrong))
-            }
-        }
+        let set: Vec<Given> = self.set.iter().map(|set| set.given("--set")).collect();
+        let made = diagnostics::made(&path, &text, description, &set, style());
+        let (description, mechanism) = made.map_err(Refusal)?;
+        Ok(LoadedFile {
+            path,
+            set: self.set.iter().map(|given| given.name.clone()).collect(),
+            text,
+            description,
+            mechanism: Arc::new(mechanism),
+        })
     }
 
     /// The file as a page shows it, with its problems if it has any.
@@ -176,11 +155,7 @@ impl From<LoadError> for Refusal {
 }
 
 impl LoadedFile {
-    pub fn answer(
-        &self,
-        format: Format,
-        report: &(impl Report + Serialize),
-    ) -> Result<Answer, Refusal> {
+    pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
         let report = self.prefaced(report);
         Ok(format.answer(&report)?.after(self.warnings_beside(format)))
     }

@@ -1,7 +1,7 @@
 //! The words of the command line: its options, and what is wrong with those that no other door has.
 
 use linkwork::ask::{Demand, Remedy, Role, TableError, TableErrorKind};
-use linkwork::output::complaint::{Complaint, Door, OptionPart, Ranged, Wording};
+use linkwork::output::complaint::{Complaint, Door, OptionPart, Ranged, Wording, suggested};
 
 /// Demands, settings and analyses as options and commands.
 #[derive(Default)]
@@ -98,10 +98,9 @@ pub fn table(path: &std::path::Path, error: &TableError) -> Complaint {
             "write comma-separated values, in the first line `time (s)` and the inputs".into()
         }
         TableErrorKind::NoTime(_) => "begin with a column `time (s)`".into(),
-        TableErrorKind::Unknown { suggestion, .. } => match suggestion {
-            Some(meant) => format!("did you mean `{meant}`?"),
-            None => "name joints or coordinates, with their units, e.g. `theta1 (deg)`".into(),
-        },
+        TableErrorKind::Unknown { suggestion, .. } => suggested(suggestion.as_ref(), || {
+            "name joints or coordinates, with their units, e.g. `theta1 (deg)`".into()
+        }),
         TableErrorKind::Twice(_) => "give each input one column".into(),
         TableErrorKind::Gap(_) => {
             "give every row a value in every column, or leave the row out".into()

@@ -8,6 +8,7 @@ use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::complaint::{Complaint, Given, OptionPart, Wording};
+use crate::analysis::rounding::posed;
 use crate::ask::{AskError, Question};
 use crate::description::{
     Description, FileError, Lines, Problem, ReplacementError, Severity, count, listed,
@@ -322,8 +323,37 @@ pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> Str
     }
 }
 
+/// A description with other values of parameters, and the mechanism it describes, closed exactly where the rounding of its
+/// numbers allows it.
+///
+/// # Errors
+/// Everything that is wrong, in words.
+pub fn made(
+    path: impl AsRef<Path>,
+    text: &str,
+    mut description: Description,
+    set: &[Given],
+    style: Style,
+) -> Result<(Description, Mechanism), String> {
+    let mut refused = Vec::new();
+    for given in set {
+        let value = given.value.unwrap_or_default();
+        match description.clone().with_parameter(given.name, value) {
+            Ok(changed) => description = changed,
+            Err(error) => refused.push(replacement(&error, given, style)),
+        }
+    }
+    match refused.is_empty() {
+        false => Err(refused.join("\n")),
+        true => posed(description.clone()).map_err(|problems| {
+            let error = FileError::new(path, text, problems);
+            with_replacements(error, &description, set, style)
+        }),
+    }
+}
+
 /// All problems of a file some of whose parameters have other values: those of such a value are shown where it was given.
-pub fn with_replacements(
+fn with_replacements(
     error: FileError,
     description: &Description,
     set: &[Given],

@@ -228,6 +228,15 @@ impl<'s> StagedScene<'s> {
         self.size / self.fit.scale
     }
 
+    /// A face as far from the viewer as its corners are on the mean.
+    fn face(&self, layer: Layer, corners: &[Vector3<f64>], style: OutlineStyle) -> Painted {
+        Painted {
+            layer,
+            near: self.near(corners),
+            shape: self.polygon(corners, style),
+        }
+    }
+
     fn polygon(&self, points: &[Vector3<f64>], style: OutlineStyle) -> Shape {
         Shape::polygon(points.iter().map(|point| self.pixel(point)), style)
     }
@@ -377,11 +386,7 @@ fn body(stage: &StagedScene, index: usize, body: &BodyShape) -> Vec<Painted> {
             fill: Some((colour, fill)),
             ..OutlineStyle::line(colour, edge)
         };
-        pieces.push(Painted {
-            layer: Layer::Body,
-            near: stage.near(&outline),
-            shape: stage.polygon(&outline, style),
-        });
+        pieces.push(stage.face(Layer::Body, &outline, style));
     }
     // a leg that telescopes: its cylinder, and its piston rod
     let [barrel, piston] = [0, 1].map(|end| {

@@ -60,13 +60,18 @@ impl<'de, R: DeserializeOwned> Deserialize<'de> for AnswerJson<R> {
 }
 
 /// A report that can be written as JSON too.
-pub trait JsonReport: Report {
+pub trait JsonReport: Report + Serialize {}
+
+impl<R: Report + Serialize> JsonReport for R {}
+
+/// Any report, with its JSON.
+pub trait AnyReport: Report {
     /// The report as JSON. Numbers keep all their digits; one that is not finite is written as `null`, a negative zero
     /// as zero.
     fn json(&self) -> String;
 }
 
-impl<R: Report + Serialize> JsonReport for R {
+impl<R: JsonReport> AnyReport for R {
     fn json(&self) -> String {
         let envelope = Envelope::of(self);
         let report = self;

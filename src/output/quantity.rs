@@ -140,6 +140,16 @@ pub(super) fn triple(v: &[f64; 3]) -> String {
     format!("({})", v.map(short).join(", "))
 }
 
+/// Numbers in ascending order, those that follow one another as `1 to 4`.
+pub(super) fn runs(numbers: &[usize]) -> Vec<String> {
+    let runs = numbers.chunk_by(|a, b| *b == a + 1);
+    let runs = runs.flat_map(|run| match run {
+        [first, _, .., last] => vec![format!("{first} to {last}")],
+        few => few.iter().map(usize::to_string).collect(),
+    });
+    runs.collect()
+}
+
 /// The form of a word that goes with a number of things: `is` or `are`.
 pub(super) fn form<'w>(number: usize, one: &'w str, many: &'w str) -> &'w str {
     match number {

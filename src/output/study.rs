@@ -4,6 +4,7 @@ use std::{fmt, iter};
 
 use super::csv::render;
 use super::document::Cell;
+use super::quantity::runs;
 use super::report::Rows;
 use crate::ask::{Study, StudyRows, part_of, regions};
 use crate::mechanism::Variable;
@@ -139,7 +140,7 @@ pub enum MergeError {
     Grid(usize, Vec<usize>),
     /// Missing shards, of how many.
     #[error("shard{plural} {listed} of {of} {are} missing", plural = if shards.len() == 1 { "" } else { "s" },
-            listed = runs(shards), are = if shards.len() == 1 { "is" } else { "are" })]
+            listed = runs(shards).join(", "), are = if shards.len() == 1 { "is" } else { "are" })]
     MissingShards {
         /// Their numbers.
         shards: Vec<usize>,
@@ -159,15 +160,6 @@ pub enum MergeError {
         /// The file that should have them.
         file: Option<String>,
     },
-}
-
-/// Numbers in their order, those that follow on one another from the first to the last: `2, 5 to 9`.
-fn runs(numbers: &[usize]) -> String {
-    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
-        [one] => one.to_string(),
-        run => format!("{} to {}", run[0], run[run.len() - 1]),
-    });
-    runs.collect::<Vec<_>>().join(", ")
 }
 
 /// The rows of a whole grid with the number of the region to which each belongs: nodes beside each other where the mechanism

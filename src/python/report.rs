@@ -3,7 +3,6 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use serde::Serialize;
 
 use super::asked::Asked;
 use super::words::Refused;
@@ -17,11 +16,11 @@ use crate::output::complaint::unknown_frame;
 use crate::output::document::Cell;
 use crate::output::rounding::Prefaced;
 use crate::output::sweep::{SHOWN, row_columns, row_values};
-use crate::output::{JsonReport, Report as Shown, Rows, html, markdown, text};
+use crate::output::{AnyReport, JsonReport, Rows, html, markdown, text};
 use crate::solve::Watch;
 
 #[pyclass(frozen, module = "linkwork._linkwork")]
-pub struct Report(Box<dyn JsonReport + Send + Sync>);
+pub struct Report(Box<dyn AnyReport + Send + Sync>);
 
 #[pymethods]
 impl Report {
@@ -106,7 +105,7 @@ impl Column {
     }
 }
 
-pub fn prefaced<R: Shown + Serialize + Send + Sync + 'static>(
+pub fn prefaced<R: JsonReport + Send + Sync + 'static>(
     mechanism: &Mechanism,
     report: R,
 ) -> (Report, Vec<Column>) {

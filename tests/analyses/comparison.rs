@@ -7,7 +7,7 @@ use linkwork::analysis::compare::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
-use linkwork::output::{Report, json, text};
+use linkwork::output::{AnyReport, Report, text};
 use linkwork::solve::Watch;
 
 fn compared(text: &str) -> CompareReport {
@@ -52,7 +52,7 @@ fn a_wrong_sign_is_shown_with_its_component_and_joint_values() {
 #[test]
 fn json_says_the_same() {
     let report = compared(&wrong());
-    let json = json::render(&report);
+    let json = report.json();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["agree"], false);
     assert_eq!(json["seed"], 1);
@@ -94,7 +94,7 @@ fn a_wrong_sign_is_refuted_with_the_exact_difference() {
     let said = text::render(&report.document());
     let expected = "S2, py: the form has √3/2 l₂ cos θ₂ where the chains give −√3/2 l₂ cos θ₂; difference √3 l₂ cos θ₂.";
     assert!(said.contains(expected), "{said}");
-    let json = json::render(&report);
+    let json = report.json();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let proof = &json["closed_forms"][3]["components"][1]["proof"];
     assert_eq!(proof["outcome"], "different");

@@ -9,7 +9,7 @@ use linkwork::analysis::singularities::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
-use linkwork::output::{self, JsonReport, Report};
+use linkwork::output::{self, AnyReport, Report};
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
 use linkwork::system::{Driven, Lock, Question, Search, SweepEnd};

@@ -32,11 +32,7 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 fn panel(scene: Scene) -> Panel {
-    Panel {
-        title: "drawn".into(),
-        scene,
-        ghosts: Vec::new(),
-    }
+    Panel::new("drawn", None, scene)
 }
 
 /// Width, height, and the dots that are not white.
@@ -74,9 +70,9 @@ fn an_animation_has_a_picture_for_each_place_and_they_differ() {
     let settings = DrawingSettings::default();
     let scenes = [0.5, 1.0, 1.5].map(|angle| {
         let (mechanism, at) = four_bar(angle);
-        (format!("{angle}"), Scene::of(&mechanism, &at))
+        panel(Scene::of(&mechanism, &at))
     });
-    let bytes = gif(&frames(scenes.to_vec(), &settings), 7).unwrap();
+    let bytes = gif(&frames(&scenes, &settings), 7).unwrap();
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
     let mut decoder = options.read_info(&bytes[..]).unwrap();

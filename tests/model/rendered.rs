@@ -7,7 +7,7 @@ use linkwork::output::csv::Csv;
 use linkwork::output::diagnostics::{self, Style};
 use linkwork::output::document::{Align, Cell, Column, Document, FormulaBlock, Section, Table};
 use linkwork::output::quantity::{number, quantity};
-use linkwork::output::{JsonReport, Report, html, markdown, text};
+use linkwork::output::{AnyReport, Report, html, markdown, text};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 

@@ -37,12 +37,9 @@ impl Question {
         let at_rest = quantities
             .iter()
             .find(|of| !drive.given && of.measured().any(moves));
+        let item = (self.of(Role::Report).next()).map_or(Item::new(0), |(item, _)| item);
         match at_rest {
-            Some(quantity) => Err(AskError::Unmeasured {
-                item: (self.of(Role::Report).next()).map_or(Item::new(0), |(item, _)| item),
-                quantity: quantity.name.clone(),
-                error: Unmeasured::NoInput,
-            }),
+            Some(quantity) => Err(item.unmeasured(&quantity.name, Unmeasured::NoInput)),
             None => Ok((quantities, inputs)),
         }
     }

@@ -5,7 +5,7 @@ use crate::analysis::assemblies::{AssembliesReport, Assembly, ComplexAssembly, F
 use crate::description::listed;
 use crate::number::tolerance::NOT_PRINTED;
 use crate::output::document::{Cell, Section, Table, TableOf};
-use crate::output::quantity::{number, quantity, shown, size, with_unit};
+use crate::output::quantity::{number, quantity, runs, shown, size, with_unit};
 
 /// Columns of joint values that stand beside each other.
 const ABREAST: usize = 8;
@@ -64,7 +64,7 @@ pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<PoseGroup<'_>>> {
 pub(super) fn by_pose<'p>(poses: &'p [PoseGroup<'_>]) -> Table {
     let numbers = |pose: &PoseGroup| {
         let modes: Vec<usize> = pose.modes.iter().map(|a| a.mode).collect();
-        ranges(&modes).join(", ")
+        runs(&modes).join(", ")
     };
     let condition = |pose: &PoseGroup| {
         let of = pose.modes.iter();
@@ -96,16 +96,6 @@ pub(super) fn by_pose<'p>(poses: &'p [PoseGroup<'_>]) -> Table {
             part(pose, |a| a.certified, "unique", "none")
         })
         .into()
-}
-
-/// Numbers in ascending order, those that follow one another as `1 to 4`.
-fn ranges(numbers: &[usize]) -> Vec<String> {
-    let runs = numbers.chunk_by(|a, b| *b == a + 1);
-    let runs = runs.flat_map(|run| match run {
-        [first, _, .., last] => vec![format!("{first} to {last}")],
-        few => few.iter().map(usize::to_string).collect(),
-    });
-    runs.collect()
 }
 
 pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
@@ -211,7 +201,7 @@ pub(super) fn reasons(report: &AssembliesReport) -> Section {
         }
     }
     let lines = reasons.iter();
-    let lines = lines.map(|(reason, modes)| format!("{}: {reason}", listed(ranges(modes))));
+    let lines = lines.map(|(reason, modes)| format!("{}: {reason}", listed(runs(modes))));
     Section::new("Not certified").list(lines)
 }
 

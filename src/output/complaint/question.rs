@@ -1,5 +1,7 @@
 //! Words for questions that cannot be put, with the remedies that would put them right.
 
+use std::fmt::Display;
+
 use super::door::Wording;
 use super::{Complaint, OptionPart};
 use crate::algebra::Expression;
@@ -24,12 +26,11 @@ impl Wording<'_> {
         let said = Complaint::new(error.title());
         match error {
             QuestionError::UnknownName { suggestion, .. } => {
-                said.label("not known").help(match suggestion {
-                    Some(meant) => format!("did you mean `{meant}`?"),
-                    None => "a coordinate is a joint, `platform.x`, `.y`, `.z`, `.roll`, `.pitch` or \
-                             `.yaw`, a point's `left+0.5,0.2.x`, `.y` or `.z`, or a whole platform"
-                        .into(),
-                })
+                said.label("not known").help(suggested(suggestion.as_ref(), || {
+                    "a coordinate is a joint, `platform.x`, `.y`, `.z`, `.roll`, `.pitch` or \
+                     `.yaw`, a point's `left+0.5,0.2.x`, `.y` or `.z`, or a whole platform"
+                        .into()
+                }))
             }
             QuestionError::NotAJoint(_) => said.label("not a joint").help(format!(
                 "a platform is free unless it is held with {}",
@@ -114,14 +115,13 @@ impl Wording<'_> {
         DriveError::Question(error) => self.question(error),
         DriveError::UnknownName {
             suggestion, held, ..
-        } => said("not known").help(match (suggestion, held.is_empty()) {
-            (Some(meant), _) => format!("did you mean `{meant}`?"),
-            (None, false) => format!("drive a held coordinate: {}", held_at(held)),
-            (None, true) => format!(
+        } => said("not known").help(suggested(suggestion.as_ref(), || match held.is_empty() {
+            false => format!("drive a held coordinate: {}", held_at(held)),
+            true => format!(
                 "hold a joint with {}, and give the rate of that",
                 self.role(Role::Hold)
             ),
-        }),
+        })),
         DriveError::Whole { platform, held } => said("a platform").help(match held.is_empty() {
             true => format!(
                 "hold it, and give rates of its coordinates: {} {}",
@@ -183,16 +183,15 @@ impl Wording<'_> {
                 .at(OptionPart::WholeValue),
             ForceError::UnknownJoint {
                 suggestion, known, ..
-            } => said("not known").help(match (suggestion, known.is_empty()) {
-                (Some(meant), _) => format!("did you mean `{meant}`?"),
-                (None, false) => format!("the joints are {}", listed(known)),
-                (None, true) => {
-                    format!(
+            } => {
+                said("not known").help(suggested(suggestion.as_ref(), || match known.is_empty() {
+                    false => format!("the joints are {}", listed(known)),
+                    true => format!(
                         "there are no joints: load a frame with {}",
                         self.role(Role::Wrench)
-                    )
-                }
-            }),
+                    ),
+                }))
+            }
             ForceError::Platform {
                 platform,
                 component,
@@ -212,10 +211,12 @@ impl Wording<'_> {
 
 /// A known name that is nearly the same, or else something more general.
 pub(super) fn meant(name: &str, known: &[String], other: impl FnOnce() -> String) -> String {
-    match nearest(name, known.iter().map(String::as_str)) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None => other(),
-    }
+    suggested(nearest(name, known.iter().map(String::as_str)), other)
+}
+
+/// The name that was probably meant, or else something more general.
+pub fn suggested<S: Display>(meant: Option<S>, other: impl FnOnce() -> String) -> String {
+    meant.map_or_else(other, |meant| format!("did you mean `{meant}`?"))
 }
 
 /// The names of all frames.

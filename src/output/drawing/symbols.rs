@@ -92,14 +92,8 @@ fn bearing(stage: &StagedScene, joint: &JointShape, axis: &Position) -> Vec<Pain
     let place = |along: f64, over: f64, below: f64| {
         at + axis.times(along * metres) + third.times(over * metres) + side.times(below * metres)
     };
-    let face = |corners: [Position; 4]| Painted {
-        layer: Layer::Ground,
-        near: stage.near(&corners),
-        shape: stage.polygon(
-            &corners,
-            OutlineStyle::filled(Colour(0xcccccc)).edged(GROUND, 1.0),
-        ),
-    };
+    let style = OutlineStyle::filled(Colour(0xcccccc)).edged(GROUND, 1.0);
+    let face = |corners: [Position; 4]| stage.face(Layer::Ground, &corners, style);
     let square = |x: f64, y: f64| place(1.75 * x, 1.2 * y, 1.35);
     let mut faces = vec![face(CORNERS.map(|(x, y)| square(x, y)))];
     for end in [-1.4, 1.4] {
@@ -226,9 +220,8 @@ fn support(stage: &StagedScene, at: &Position, carried: Option<Position>) -> Vec
     let triangle = [*at, foot(-1.1), foot(1.1)];
     let style = OutlineStyle::filled(Colour(0xdddddd)).edged(GROUND, 1.2);
     let mut pieces = vec![Painted {
-        layer: Layer::Ground,
         near: stage.near(&[*at]) - 0.2 * metres,
-        shape: stage.polygon(&triangle, style),
+        ..stage.face(Layer::Ground, &triangle, style)
     }];
     let base = *at - up.times(1.9 * metres);
     pieces.push(line(stage, &[foot(-1.6), foot(1.6)], GROUND, 1.5));
@@ -271,11 +264,7 @@ fn plate(stage: &StagedScene, at: &Position, axis: &Position) -> Vec<Painted> {
     let corner = |(x, y): (f64, f64)| *at + down + right.times(x * side) + up.times(y * side);
     let corners = CORNERS.map(corner);
     let style = OutlineStyle::filled(Colour(0xcccccc)).edged(GROUND, 1.0);
-    vec![Painted {
-        layer: Layer::Ground,
-        near: stage.near(&corners),
-        shape: stage.polygon(&corners, style),
-    }]
+    vec![stage.face(Layer::Ground, &corners, style)]
 }
 
 fn line(stage: &StagedScene, points: &[Position], colour: Colour, width: f64) -> Painted {
@@ -289,11 +278,13 @@ fn line(stage: &StagedScene, points: &[Position], colour: Colour, width: f64) ->
 
 /// A filled outline, a little nearer than its base.
 fn solid(stage: &StagedScene, points: &[Position], fill: Colour, nearer: f64) -> Painted {
-    Painted {
-        layer: Layer::Slide,
-        near: stage.near(points) + nearer * stage.metres(),
-        shape: stage.polygon(points, OutlineStyle::filled(fill).edged(INK, 1.3)),
-    }
+    let mut face = stage.face(
+        Layer::Slide,
+        points,
+        OutlineStyle::filled(fill).edged(INK, 1.3),
+    );
+    face.near += nearer * stage.metres();
+    face
 }
 
 fn ring(middle: &Position, right: &Position, up: &Position, radius: f64) -> Vec<Position> {
