@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::algebra::BATCH;
 use crate::analysis::solver::Follower;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Progress, Stage, Watch};
+use crate::solve::{Newton, Progress, Stage, Watch};
 use crate::system::{self, Coordinate, HeldPlatform, MotionTracker, System};
 
 /// The longest step of the held coordinates, in rad or characteristic lengths.
@@ -279,13 +279,15 @@ impl<'a> RowSeries<'a> {
         true
     }
 
-    /// The configurations of the first rows, as far as they can be followed one after the other.
+    /// The configurations of the first rows, as far as they can be followed one after the other, closed to rounding.
     pub fn followed(&self, rows: usize) -> impl Iterator<Item = Configuration<f64>> {
         let mut tracker = MotionTracker::new(self.system.clone(), self.start.clone());
-        let mut place = self.begin();
+        let (mut place, mut work) = (self.begin(), self.system.work());
         (0..rows).map_while(move |row| {
             let goes = self.goes(&mut tracker, &mut place, self.row(row));
-            goes.then(|| place.at.clone())
+            let (mut at, mut trial) = (place.at.clone(), place.at.clone());
+            Newton::default().solve(tracker.system(), &mut at, &mut trial, &mut work);
+            goes.then_some(at)
         })
     }
 
