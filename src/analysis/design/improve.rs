@@ -30,17 +30,17 @@ impl Task<'_> {
         let zero = EXACT * self.size * self.size;
         let nearest = all.found.iter().take(JUDGED);
         let nearest = nearest.filter(|of| of.squares <= least * (1.0 + SAME) + zero);
-        let mut costs: Vec<(f64, &FoundEnd)> = nearest
+        let mut first: Vec<(FoundEnd, f64)> = nearest
             .filter(|of| (self.bundle.model(&of.at)).is_some_and(|model| !model.open().is_empty()))
-            .filter_map(|of| Some((cost(of)?, of)))
+            .filter_map(|of| Some((of.clone(), cost(of)?)))
             .collect();
-        sort_by(&mut costs, |a, b| a.0.total_cmp(&b.0));
-        costs.truncate(most);
-        let count = costs.len();
-        let first = costs.into_iter().map(|(_, of)| of.clone()).collect();
-        let coarse = self.improved_all(first, &COARSE, cost, watch);
+        sort_by(&mut first, |a, b| a.1.total_cmp(&b.1));
+        first.truncate(most);
+        let count = first.len();
+        let coarse = self.improved_all(&first, &COARSE, cost, watch);
         if count > 0 {
-            all.found = self.improved_all(coarse, &FINE, cost, watch);
+            let fine = self.improved_all(&coarse, &FINE, cost, watch);
+            all.found = fine.into_iter().map(|(end, _)| end).collect();
         }
         count
     }
@@ -48,20 +48,20 @@ impl Task<'_> {
     /// Improves designs: those that are different then, best first.
     fn improved_all(
         &self,
-        from: Vec<FoundEnd>,
+        from: &[(FoundEnd, f64)],
         sizes: &[f64],
         cost: &Cost,
         watch: &Watch,
-    ) -> Vec<FoundEnd> {
-        let ends = each(from.len(), &(), |(), i| {
+    ) -> Vec<(FoundEnd, f64)> {
+        let mut ends = each(from.len(), &(), |(), i| {
             self.improved(&from[i], sizes, cost, watch)
         });
-        let mut ends: Vec<(FoundEnd, f64)> = ends.into_iter().flatten().collect();
         sort_by(&mut ends, |a, b| a.1.total_cmp(&b.1));
-        let mut distinct: Vec<FoundEnd> = Vec::new();
-        for (end, _) in ends {
-            match distinct.iter_mut().find(|of| self.near(&of.at, &end.at)) {
-                Some(of) => of.reached += end.reached,
+        let mut distinct: Vec<(FoundEnd, f64)> = Vec::new();
+        for end in ends {
+            let same = |of: &&mut (FoundEnd, f64)| self.near(&of.0.at, &end.0.at);
+            match distinct.iter_mut().find(same) {
+                Some(of) => of.0.reached += end.0.reached,
                 None => distinct.push(end),
             }
         }
@@ -69,27 +69,28 @@ impl Task<'_> {
     }
 
     /// The cheapest design to which the simplex method of Nelder and Mead (1965) leads among those that meet the targets, with
-    /// what it costs; `None` if the first is none.
+    /// what it costs.
     ///
     /// A simplex moves in the numbers that the targets leave open; what it reaches is brought back to the targets by Gauss and
     /// Newton's method. It is begun anew, ever smaller, from where it came to rest.
     fn improved(
         &self,
-        from: &FoundEnd,
+        from: &(FoundEnd, f64),
         sizes: &[f64],
         cost: &Cost,
         watch: &Watch,
-    ) -> Option<(FoundEnd, f64)> {
+    ) -> (FoundEnd, f64) {
         /// Rounds of one size at most.
-        const ROUNDS: usize = 6;
+        const ROUNDS: usize = 4;
         /// A part of the cost that is worth another round.
         const GAIN: f64 = 1e-4;
-        let mut best = (from.clone(), cost(from)?);
+        let mut best = from.clone();
         for size in sizes {
             for _ in 0..ROUNDS {
-                let open = self.bundle.model(&best.0.at)?.open();
+                let model = self.bundle.model(&best.0.at);
+                let open = model.map_or_else(Vec::new, |model| model.open());
                 if open.is_empty() || watch.is_stopped() {
-                    return Some(best);
+                    return best;
                 }
                 let (base, before) = best.clone();
                 simplex(open.len(), *size, watch, |along| {
@@ -105,7 +106,7 @@ impl Task<'_> {
                 }
             }
         }
-        Some(best)
+        best
     }
 
     /// The design some way along open directions of the numbers that meets the targets as well.

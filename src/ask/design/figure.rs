@@ -1,6 +1,7 @@
 //! Figures of quantities over a motion, which a design bounds or improves.
 
 use crate::analysis::sweep::{Extreme, Extremum};
+use crate::description::DesignProblem;
 use crate::mechanism::{Mechanism, Quantity, QuantityError};
 
 /// A figure of the values that a quantity takes.
@@ -84,6 +85,16 @@ impl Figure {
             Over::Rms => mean(1).map(f64::sqrt),
         }
     }
+}
+
+/// The problem of a text that is no quantity.
+pub(super) fn no_quantity(error: QuantityError) -> DesignProblem {
+    let why = error.to_string();
+    let suggestion = match error {
+        QuantityError::Unknown { suggestion, .. } => suggestion,
+        _ => None,
+    };
+    DesignProblem::Quantity { why, suggestion }
 }
 
 /// True for what is one argument in a pair of brackets.

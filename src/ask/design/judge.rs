@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::DesignError;
-use super::figure::{Figure, Over, Seen};
+use super::figure::{Figure, Over, Seen, no_quantity};
 use super::read::Read;
 use crate::algebra::{Measure, SiUnit};
 use crate::analysis::design::{Defect, DesignCourse, FoundEnd, Moves, course};
@@ -65,7 +65,6 @@ impl<'a> Judge<'a> {
                 if let Err(error) = plain.value(&named.name.value, text) {
                     let problem = DesignProblem::Motion {
                         why: error.to_string(),
-                        help: None,
                     };
                     let (part, value) = (DesignPart::Motion(i), value > 0);
                     return Err(DesignError::Part {
@@ -79,17 +78,12 @@ impl<'a> Judge<'a> {
         for (i, output) in asked.outputs.iter().enumerate() {
             let question = Question::new(mechanism.clone()).output(output.value.clone());
             question.asked_outputs().map_err(|error| {
-                let (why, help) = (error.to_string(), None);
-                DesignProblem::Quantity { why, help }.at(DesignPart::Output(i))
+                let (why, suggestion) = (error.to_string(), None);
+                DesignProblem::Quantity { why, suggestion }.at(DesignPart::Output(i))
             })?;
         }
-        let figure = |name: &str, otherwise| {
-            let read = Figure::read(mechanism, name, otherwise);
-            read.map_err(|error| DesignProblem::Quantity {
-                why: error.to_string(),
-                help: None,
-            })
-        };
+        let figure =
+            |name: &str, otherwise| Figure::read(mechanism, name, otherwise).map_err(no_quantity);
         let least = asked.at_least.iter().enumerate();
         let most = asked.at_most.iter().enumerate();
         let least = least.map(|(i, named)| (DesignPart::AtLeast(i), named, true));

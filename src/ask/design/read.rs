@@ -1,5 +1,6 @@
 //! The parts of a design question, resolved.
 
+use super::figure::no_quantity;
 use super::{Design, DesignError};
 use crate::algebra::{Measure, SiUnit};
 use crate::ask::{Question, study};
@@ -278,11 +279,8 @@ fn targets_of(
         };
         let number = value.expression.as_number();
         let read = |text: &str| {
-            Quantity::read(mechanism, &label, text).map_err(|error| {
-                let why = error.to_string();
-                let help = None;
-                DesignProblem::Quantity { why, help }.at(part)
-            })
+            let read = Quantity::read(mechanism, &label, text);
+            read.map_err(|error| no_quantity(error).at(part))
         };
         let (quantity, value) = match number {
             Some(number) => (read(&text)?, number),

@@ -31,7 +31,10 @@ pub enum DesignProblem {
     #[error("the range of `{name}` is reversed")]
     Reversed { name: String },
     #[error("{why}")]
-    Quantity { why: String, help: Option<String> },
+    Quantity {
+        why: String,
+        suggestion: Option<String>,
+    },
     #[error("`{name}` is no point, and has {count} coordinates")]
     NotAPoint { name: String, count: usize },
     #[error("`{name}` is a rate, a force or a figure, which a position alone does not have")]
@@ -43,7 +46,7 @@ pub enum DesignProblem {
     #[error("no mechanism in these ranges can be assembled in all positions ({tried} were tried)")]
     NothingAssembles { tried: usize },
     #[error("{why}")]
-    Motion { why: String, help: Option<String> },
+    Motion { why: String },
 }
 
 impl DesignProblem {
@@ -71,7 +74,8 @@ impl DesignProblem {
                 .unwrap_or_else(|| "use it in a position, or vary a parameter of the file".into()),
             Self::Value { .. } => "write a number or an expression such as `60 deg`".into(),
             Self::Reversed { .. } => "write the least value first".into(),
-            Self::Quantity { help, .. } | Self::Motion { help, .. } => help.clone()?,
+            Self::Quantity { suggestion, .. } => near(suggestion)?,
+            Self::Motion { .. } => return None,
             Self::NotAPoint { .. } => {
                 "give coordinates to a frame or a body, such as `coupler` or `coupler+u,v`".into()
             }
