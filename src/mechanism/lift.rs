@@ -1,5 +1,6 @@
 //! Evaluates formulas to dimensions over a number type: the only place where this happens.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::dimensions::{
@@ -220,16 +221,28 @@ impl Mechanism {
     }
 }
 
-/// Distances between the bases of one part of the mechanism on ground. Where the frame of ground stands and how it is
-/// turned is no dimension, nor is the distance between parts that have nothing to do with one another.
-fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> impl Iterator<Item = f64> {
+/// Distances of the bases of one part of the mechanism on ground from their mean; the distance of two. Where the frame of ground
+/// stands and how it is turned is no dimension, nor is the distance between parts that have nothing to do with one another.
+fn on_ground<T: Number>(dimensions: &Dimensions<T>) -> Vec<f64> {
     let places = places_on_ground(dimensions);
-    let mut distances = Vec::new();
-    for (i, (part, place)) in places.iter().enumerate() {
-        let others = places[..i].iter().filter(|(of, _)| of == part);
-        distances.extend(others.map(|(_, other)| (Vector3(*place) - Vector3(*other)).norm()));
+    let mut parts: BTreeMap<usize, Vec<Vector3<f64>>> = BTreeMap::new();
+    for (part, place) in places {
+        let (known, place) = (parts.entry(part).or_default(), Vector3(place));
+        if !known.contains(&place) {
+            known.push(place);
+        }
     }
-    distances.into_iter()
+    let distances = parts.into_values().flat_map(|bases| {
+        let from = match bases[..] {
+            [first, _] => first,
+            _ => {
+                let sum = bases.iter().fold(Vector3([0.0; 3]), |sum, of| sum + *of);
+                Vector3(sum.0.map(|x| x / bases.len() as f64))
+            }
+        };
+        bases.into_iter().map(move |of| (of - from).norm())
+    });
+    distances.collect()
 }
 
 /// The place of the box round some places that is nearest to the centre.

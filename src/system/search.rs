@@ -16,7 +16,7 @@ use rand_pcg::Pcg64Mcg;
 use super::equations::{System, Work, solve};
 use super::question::{Count, Question};
 use crate::description::Role;
-use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
+use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stage, Stop, Watch};
 use crate::system::{Freedoms, Held, HeldPlatform};
@@ -119,10 +119,11 @@ impl<'a> Search<'a> {
 
     /// The search after the [`first`](Self::first) attempt.
     pub fn go_on(&mut self, first: Attempt, restarts: usize, seed: u64, watch: &Watch) -> Searched {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let mut best = first;
         let most = if self.settles(&best) { 0 } else { restarts };
         let mut made = 0;
-        for (start, at) in (1..).zip(self.random_starts(most, seed)) {
+        for start in 1..=most {
             let assembled = best.report.stop == Stop::Solved;
             // an assembled configuration outside limits justifies a few more starts, not all
             if assembled && start > restarts / 4
@@ -131,8 +132,7 @@ impl<'a> Search<'a> {
                 break;
             }
             made = start;
-            let joints = vec![true; at.joints.len()];
-            let at = self.fit(at, joints, &vec![false; self.held.platforms.len()]);
+            let at = self.random_start(&mut rng);
             let attempt = self.from(at);
             if self.settles(&attempt) {
                 best = attempt;
@@ -250,20 +250,12 @@ impl<'a> Search<'a> {
         at
     }
 
-    /// So many starts, those nearest to a pose that is given first.
-    fn random_starts(&self, count: usize, seed: u64) -> Vec<Configuration<f64>> {
-        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    fn random_start(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
         let start = self.question.start();
-        let random = |_| {
-            // drawn for what is held too, so that the draws of the rest do not depend on the split
-            let mut at = random_configuration(self.mechanism, &start, &mut rng);
-            self.held.keep(&start, &mut at);
-            (norm(&self.system.difference(&start, &at)), at)
-        };
-        let mut starts: Vec<(f64, Configuration<f64>)> = (0..count).map(random).collect();
-        if self.question.gives_pose() {
-            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
-        starts.into_iter().map(|(_, at)| at).collect()
+        // drawn for what is held too, so that the draws of the rest do not depend on the split
+        let mut at = random_configuration(self.mechanism, &start, rng);
+        self.held.keep(&start, &mut at);
+        let joints = vec![true; at.joints.len()];
+        self.fit(at, joints, &vec![false; self.held.platforms.len()])
     }
 }

@@ -194,8 +194,7 @@ fn three_rps_of_nanometres_has_its_eight_assemblies() {
             .unwrap();
         assert_eq!((report.real, report.complex), (8, 16), "{scale:e}");
         let length = report.characteristic_length / scale;
-        // two bases on the circle of radius b = 1 m, 120° apart
-        assert!((length - 3f64.sqrt()).abs() < 1e-12, "{length}");
+        assert!((length - 1.0).abs() < 1e-12, "{length}");
     }
     // out of reach at every scale
     for scale in SCALES {

@@ -81,7 +81,7 @@ fn whatever_was_changed_is_refused() {
         ("all of it", String::new(), StoredError::SomethingElse),
         (
             "the version",
-            text.replacen("version 4", "version 3", 1),
+            text.replacen("version 5", "version 4", 1),
             StoredError::OtherVersion,
         ),
     ] {
