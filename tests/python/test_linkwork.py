@@ -560,3 +560,21 @@ def test_a_pendulum_is_let_go_and_rests() -> None:
     with pytest.raises(linkwork.QuestionError, match="time"):
         pendulum.simulate(-1.0)
     assert not pendulum.simulate(1.0, lock="pin")
+
+
+def test_designs(four_bar):
+    # Freudenstein's linkage for y = log10 x: one four-bar for three pairs of angles
+    crank = np.array([0.855547097937193, 1.30899693899575, 1.7624467800543])
+    rocker = np.array([2.50313149378569, 3.27505143763789, 3.84978793301345])
+    positions = [{"theta1": x, "phi1": y} for x, y in zip(crank, rocker)]
+    report = four_bar.design({"l1": (-50, 50), "l2": (0, 50), "l3": (-50, 50)}, positions)
+    found = report.to_dict()
+    assert report and found["exact"]["real"] == 1 and len(found["designs"]) == 1
+    made = linkwork.parse(found["designs"][0]["file"])
+    assert coupler(made.parameters, crank, rocker) == pytest.approx(made.parameters["l2"], abs=1e-9)
+    assert coupler(four_bar.parameters, crank, rocker) != pytest.approx(four_bar.parameters["l2"], abs=1e-3)
+    # a quantity alone is no figure over the motion
+    with pytest.raises(QuestionError, match="no figure"):
+        four_bar.design({"l1": (0.5, 2)}, positions, maximise="transmission")
+    with pytest.raises(TypeError, match="maximise"):
+        four_bar.design({"l1": (0.5, 2)}, positions, maximise=3)

@@ -442,10 +442,11 @@ class Mechanism:
 
         ``vary`` gives ranges to parameters and to further unknowns, and ``positions`` values of quantities or
         coordinates of points, ``{"theta1": 0.5, "coupler": (0.3, 0.2)}``; ``contains`` spans a box of positions.
-        ``motion``, ``at_least``, ``at_most`` bound the motion, ``minimise`` and ``maximise`` improve a figure of it such
-        as ``"max(force:theta1)"``. Where there are as many targets as unknowns all designs are sought, otherwise
+        ``motion``, ``at_least`` and ``at_most`` bound the motion, ``minimise`` and ``maximise`` improve a figure of it
+        such as ``"max(force:theta1)"``. Where there are as many targets as unknowns all designs are sought, otherwise
         (or if ``approximate``) from random ``starts``.
         """
+
         def named(of: Mapping[str, Any]) -> str:
             return parts.written({name: tuple(x) if isinstance(x, list) else x for name, x in of.items()})
 
