@@ -6,7 +6,7 @@ use crate::mechanism::{Mechanism, Quantity, QuantityError};
 
 /// A figure of the values that a quantity takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Over {
+pub(super) enum Statistic {
     Least,
     Greatest,
     Range,
@@ -17,7 +17,7 @@ pub(super) enum Over {
 /// A figure of a quantity.
 #[derive(Clone, Debug)]
 pub(super) struct Figure {
-    pub over: Over,
+    pub over: Statistic,
     pub quantity: Quantity,
     /// The text of the quantity.
     pub text: String,
@@ -25,7 +25,7 @@ pub(super) struct Figure {
 
 /// The values of a quantity along a motion, or in positions.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Seen {
+pub(super) struct Observed {
     /// The weight of its means.
     pub duration: f64,
     /// The least and the greatest, unless there is none or there may be values beyond it.
@@ -36,19 +36,19 @@ pub(super) struct Seen {
 
 impl Figure {
     /// Words of figures, as functions of a quantity.
-    const WORDS: [(&str, Over); 5] = [
-        ("min", Over::Least),
-        ("max", Over::Greatest),
-        ("range", Over::Range),
-        ("mean", Over::Mean),
-        ("rms", Over::Rms),
+    const WORDS: [(&str, Statistic); 5] = [
+        ("min", Statistic::Least),
+        ("max", Statistic::Greatest),
+        ("range", Statistic::Range),
+        ("mean", Statistic::Mean),
+        ("rms", Statistic::Rms),
     ];
 
     /// Reads a quantity, or a figure of it as in `max(force:theta1)`; of a quantity alone the figure is `otherwise`.
     pub fn read(
         mechanism: &Mechanism,
         name: &str,
-        otherwise: Option<Over>,
+        otherwise: Option<Statistic>,
     ) -> Result<Option<Self>, QuantityError> {
         let split = Figure::WORDS.iter().find_map(|(word, over)| {
             let rest = name.trim().strip_prefix(word)?.trim_start();
@@ -66,7 +66,7 @@ impl Figure {
     }
 
     /// The figure of values seen; `None` if one of them is not known.
-    pub fn of(&self, seen: &[Seen]) -> Option<f64> {
+    pub fn of(&self, seen: &[Observed]) -> Option<f64> {
         let ends = || {
             let all: Option<Vec<[f64; 2]>> = seen.iter().map(|of| of.ends).collect();
             let both = all?.into_iter();
@@ -78,11 +78,11 @@ impl Figure {
             Some(parts.sum::<Option<f64>>()? / time)
         };
         match self.over {
-            Over::Least => Some(ends()?[0]),
-            Over::Greatest => Some(ends()?[1]),
-            Over::Range => ends().map(|[least, greatest]| greatest - least),
-            Over::Mean => mean(0),
-            Over::Rms => mean(1).map(f64::sqrt),
+            Statistic::Least => Some(ends()?[0]),
+            Statistic::Greatest => Some(ends()?[1]),
+            Statistic::Range => ends().map(|[least, greatest]| greatest - least),
+            Statistic::Mean => mean(0),
+            Statistic::Rms => mean(1).map(f64::sqrt),
         }
     }
 }
@@ -114,7 +114,7 @@ fn one_argument(text: &str) -> bool {
     depth == 0
 }
 
-impl Seen {
+impl Observed {
     /// What a motion of some duration shows.
     pub fn of(extremum: &Extremum, duration: f64) -> Self {
         let all = extremum.unbounded.is_empty() && !extremum.at_least;
@@ -128,7 +128,7 @@ impl Seen {
                 square(constant.or(extremum.rms)?),
             ])
         };
-        Seen {
+        Observed {
             duration,
             ends: if all { ends() } else { None },
             means: means(),
@@ -137,7 +137,7 @@ impl Seen {
 
     /// What a value in one position shows.
     pub fn here(value: Option<f64>) -> Self {
-        Seen {
+        Observed {
             duration: 1.0,
             ends: value.map(|x| [x, x]),
             means: value.map(|x| [x, x * x]),
