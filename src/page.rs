@@ -25,6 +25,7 @@ use crate::analysis::sweep::{MetKind, MotionReport, Row, SweepEnd, SweepSettings
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::output::complaint::no_value;
 use crate::output::drawing::{DrawingSettings, Panel, Viewpoint, sheet};
 use crate::output::rounding::Prefaced;
 use crate::output::{AnyReport, JsonReport};
@@ -133,7 +134,10 @@ impl Page {
                     MeasureKind::Force => Measure::Force,
                 };
                 let value = Written::from(text.as_str()).number(&mechanism, measure);
-                let value = value.map_err(|error| nothing(&format!("{text}: {error}")))?;
+                let value = value.map_err(|error| {
+                    let why = words::in_a_line(no_value(&text, &error));
+                    nothing(&format!("{text}: {why}"))
+                })?;
                 Ok(json!({ "value": value }))
             }
             Request::Show { at, frames } => {
@@ -171,7 +175,7 @@ impl Page {
         };
         for (name, value) in &load.set {
             description = (description.with_parameter(name, value))
-                .map_err(|error| nothing(&format!("{name} = {value}: {error}")))?;
+                .map_err(|error| nothing(&words::parameter(name, value, &error)))?;
         }
         let (description, mechanism) = posed(description).map_err(|problems| wrong(&problems))?;
         let mechanism = Arc::new(mechanism);

@@ -8,6 +8,7 @@ use crate::algebra::SiUnit;
 use crate::ask::Steering;
 use crate::geometry::Vector3;
 use crate::mechanism::Point;
+use crate::output::complaint::no_point;
 use crate::output::drawing::movement;
 use crate::output::quantity::{quantity, three_digits};
 use crate::scene::{ForceArrow, Scene};
@@ -53,7 +54,10 @@ pub fn pressed(steering: &Steering, load: &Press, scene: Scene) -> (Scene, Value
     let mechanism = steering.mechanism();
     let point = match Point::read(mechanism, &load.point) {
         Ok(point) => point,
-        Err(error) => return (scene, json!({ "error": error.to_string() })),
+        Err(error) => {
+            let why = words::in_a_line(no_point(mechanism, &error));
+            return (scene, json!({ "error": why }));
+        }
     };
     let found = steering.forces(&point, load.force, &Watch::none());
     let report = match found {

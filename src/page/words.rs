@@ -4,8 +4,8 @@
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{MetKind, SweepEnd, SweepReport};
 use crate::ask::{AskError, Demand, Question, Remedy, Role, Steering};
-use crate::description::listed;
-use crate::output::complaint::{Door, Ranged, Wording};
+use crate::description::{ReplacementError, listed};
+use crate::output::complaint::{Complaint, Door, Ranged, Wording};
 use crate::output::quantity::quantity;
 use crate::output::sweep::sentence;
 use crate::system::QuestionError;
@@ -83,12 +83,26 @@ pub fn refused(question: &Question, error: &AskError) -> String {
                 door: &ByHand,
                 ranged: Ranged::Input,
             };
-            let said = wording.asked(question, error);
-            match said.help {
-                Some(help) => format!("{}; {help}", said.title),
-                None => said.title,
-            }
+            in_a_line(wording.asked(question, error))
         }
+    }
+}
+
+/// A complaint with its remedy.
+pub fn in_a_line(said: Complaint) -> String {
+    match said.help {
+        Some(help) => format!("{}; {help}", said.title),
+        None => said.title,
+    }
+}
+
+/// Reason for which a parameter cannot have a value.
+pub fn parameter(name: &str, value: &str, error: &ReplacementError) -> String {
+    match error {
+        ReplacementError::Value(problems) if !problems.is_empty() => {
+            format!("{name} = {value}: {}", in_a_line(Complaint::of(&problems[0])))
+        }
+        _ => error.to_string(),
     }
 }
 

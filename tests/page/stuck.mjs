@@ -76,6 +76,17 @@ const tests = {
     for (let i = 1; i <= 40; i++) await page.evaluate((to) => globalThis.linkwork.move("phi1", to), before[2] + 0.05 * i);
     check(/dead point of phi1/.test(await said(page)), `it says: ${await said(page)}`);
     await page.waitForSelector("[data-way='1']");
+    // a new drawing has none
+    const file = await page.evaluate(() => [globalThis.linkwork.file, globalThis.linkwork.place()]);
+    await page.evaluate(() => globalThis.desk.begin());
+    await rest(200);
+    check((await page.$$("[data-way]")).length === 0, "ways on are offered where nothing is drawn");
+    await page.evaluate(([file, place]) => {
+      globalThis.desk.open(false);
+      globalThis.linkwork.load(file, place);
+    }, file);
+    for (let i = 1; i <= 10; i++) await page.evaluate(() => globalThis.linkwork.move("phi1", globalThis.linkwork.frame.values[2][0] + 0.05));
+    await page.waitForSelector("[data-way='1']");
     const side = ([, phi2]) => Math.sign(Math.sin(phi2));
     await page.click("[data-way='1']");
     check(side(await values(page)) !== side(before), "the way across leads to the same branch");
@@ -160,13 +171,17 @@ const tests = {
 
   async "values, parameters and loads take expressions, and sliders of parameters act while they move"() {
     const page = await loaded("mechanisms/four_bar.ron");
-    for (const [text, degrees] of [["45 deg", 45], ["80", 80], ["pi/2", 90], ["l1*50 deg", 50]]) {
+    for (const [text, degrees] of [["45 deg", 45], ["80", 80], ["pi/2", 90], ["l1*50 deg", 50], ["30+15", 45], ["sqrt(2)*30", 30 * Math.SQRT2], ["-4e1", -40], ["1,5", 1.5]]) {
       await written(page, "[data-value=theta1]", text);
       const [theta] = await values(page);
       check(Math.abs((theta * 180) / Math.PI - degrees) < 1e-9, `${text} is ${(theta * 180) / Math.PI}°; ${await said(page)}`);
     }
     await written(page, "[data-value=theta1]", "banana");
     check(/banana/.test(await said(page)), `a wrong value is answered by: ${await said(page)}`);
+    await written(page, "[data-value=theta1]", "l11*1 deg");
+    check(/did you mean `l1`/.test(await said(page)), `a wrong name is answered by: ${await said(page)}`);
+    await written(page, "[data-written=l1]", "45 deg");
+    check(/^l1 = 45 deg: /.test(await said(page)), `an angle for a length is answered by: ${await said(page)}`);
     await written(page, "[data-written=l1]", "2*0.6");
     check(await page.evaluate(() => globalThis.linkwork.file.set.some(([name, text]) => name === "l1" && text === "2*0.6")), "the parameter is not set");
     // while it is held down nothing but `input` is told
@@ -177,6 +192,12 @@ const tests = {
     await drawn(page);
     const length = await page.evaluate(() => globalThis.linkwork.mechanism.parameters.find((of) => of.name === "l1").value);
     check(Math.abs(length - 0.95) < 1e-9, `the parameter is ${length} while its slider moves`);
+    await written(page, "#loaded", "left");
+    await written(page, "[aria-label='Force along y in N']", "-0.006 kN");
+    check(await page.evaluate(() => globalThis.linkwork.pressed?.force[1] === -6), "kN is no unit");
+    await written(page, "#loaded", "lft");
+    const refused = await page.$eval("#load-said", (element) => element.textContent);
+    check(refused.includes("did you mean `left`?"), `a wrong point is answered by: ${refused}`);
     await written(page, "#loaded", "left");
     await written(page, "[aria-label='Force along y in N']", "-2*3 N");
     check(await page.evaluate(() => globalThis.linkwork.pressed?.force[1] === -6), "the load is not an expression");

@@ -6,6 +6,7 @@ import type { Model } from "./model";
 import type { Pick } from "./shapes";
 import { expression } from "./sliders";
 import type { Named, Triple } from "./types";
+import { rounded } from "./values";
 
 /** In N. */
 const FIRST = 10;
@@ -72,7 +73,7 @@ export class Load {
   private written() {
     const point = this.point.value.trim();
     if (!point) return this.remove();
-    const force = this.parts.map((part) => this.model.number(expression(part.value.replace(/N\s*$/, ""), false), "force"));
+    const force = this.parts.map((part) => this.model.number(expression(part.value, false), "force"));
     if (force.every((part) => part !== null)) this.press(point, force as Triple);
   }
 
@@ -88,7 +89,7 @@ export class Load {
     const forces = frame?.forces ?? null;
     const rows: Named[] = forces && "held" in forces ? forces.held : [];
     find("forces").replaceChildren(...rows.map(([name, shown]) =>
-      element("tr", {}, element("th", { scope: "row" }, name), element("td", { class: "right" }, shown))));
+      element("tr", {}, element("th", { scope: "row" }, name), element("td", { class: "right", title: shown }, rounded(shown)))));
     if (forces && "error" in forces) find("load-said").textContent = forces.error;
     else if (forces) {
       const { unbalanced } = forces;

@@ -61,7 +61,7 @@ export class Model {
   }
 
   /** Reads a file; the mechanism stays near where it was if a place is given. Whether it could be read. */
-  load(file: File, place?: Place): boolean {
+  load(file: File, place?: Place, refused?: (error: Refused) => void): boolean {
     return this.attempt(() => {
       const near = place?.at ?? null;
       const held = place?.held ?? null;
@@ -76,16 +76,19 @@ export class Model {
       if (!near) this.branch = "the branch of the home configuration";
       this.loaded.forEach((act) => act());
       this.show(loaded);
-    });
+    }, refused);
   }
 
   /** Gives parameters other values, unless the mechanism does not assemble with them. */
   set(set: [string, string][]) {
     const [before, place] = [this.file, this.place()];
-    if (!this.load({ ...before, set }, place) || this.frame?.assembled !== false) return;
+    const wrong = (why: string) => this.say(`${set.map(([name, value]) => `${name} = ${value}`).join(", ")}: ${why}`);
+    // the text of the file is not what is wrong
+    const refused = (error: Refused) => (error.problems[0] ? wrong(error.problems[0].title) : this.say(error.message));
+    if (!this.load({ ...before, set }, place, refused) || this.frame?.assembled !== false) return;
     const why = this.frame.said ?? "";
     this.load(before, place);
-    this.say(`${set.map(([name, value]) => `${name} = ${value}`).join(", ")}: ${why}`);
+    wrong(why);
   }
 
   /** As the file has it: what is held and where it is. */
@@ -203,12 +206,13 @@ export class Model {
     this.moved.forEach((act) => act());
   }
 
-  private attempt(act: () => void): boolean {
+  private attempt(act: () => void, refused = (error: Refused) => this.refuse(error)): boolean {
     try {
       act();
       return true;
     } catch (error) {
-      this.refuse(error);
+      if (!(error instanceof Refused)) throw error;
+      refused(error);
       return false;
     }
   }

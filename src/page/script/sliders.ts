@@ -1,6 +1,7 @@
 // A slider and a field for each coordinate that is held.
 import { element, find } from "./elements";
 import type { Coordinate, Frame, Mechanism } from "./types";
+import { rounded } from "./values";
 
 const STEPS = 2000;
 const TURN = 2 * Math.PI;
@@ -33,7 +34,8 @@ export class Sliders {
     for (const slider of this.sliders) {
       const [value, shown] = frame.values[slider.index]!;
       const limit = limits.get(slider.of.name);
-      fill(slider.value, shown);
+      fill(slider.value, rounded(shown));
+      slider.value.title = shown;
       slider.range.setAttribute("aria-valuetext", limit ?? shown);
       slider.row.classList.toggle("limit", limit !== undefined);
       slider.row.title = limit ?? "";
@@ -95,8 +97,9 @@ export function onWritten(field: HTMLInputElement, act: () => void) {
   });
 }
 
-/** A number alone is in degrees where an angle is meant; the sign of degrees is their unit. */
+/** Numbers alone are in degrees where an angle is meant; the sign of degrees is their unit. */
 export function expression(text: string, angle: boolean): string {
   const written = text.trim().replaceAll("°", " deg").replace(/(\d),(\d)/g, "$1.$2").replaceAll("−", "-");
-  return angle && /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(written) ? `${written} deg` : written;
+  const named = /[a-z]/i.test(written.replace(/\d\.?e(?=[-+\d])|sqrt|abs/gi, ""));
+  return angle && written && !named ? `(${written})*1 deg` : written;
 }

@@ -36,7 +36,7 @@ impl Wording<'_> {
                 "a platform is free unless it is held with {}",
                 self.role(Role::Hold)
             )),
-            QuestionError::Value { text, error, .. } => value(text, error),
+            QuestionError::Value { text, error, .. } => no_value(text, error),
             QuestionError::Contradiction { first, second } => self.contradiction(first, second),
             QuestionError::TooMany {
                 mobility,
@@ -238,7 +238,7 @@ pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
 pub fn no_point(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
-        PointError::Value { text, error } => value(text, error).at(OptionPart::Name),
+        PointError::Value { text, error } => no_value(text, error).at(OptionPart::Name),
         PointError::TooMany(_) => Complaint::new(error.to_string())
             .label("too many")
             .help("write FRAME+X,Y,Z, e.g. left+0.5,0.2,0"),
@@ -255,7 +255,19 @@ pub(super) fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityErr
             suggestion: suggestion.clone(),
             scope: Scope::Outputs,
         },
-        QuantityError::Point { error, .. } => return no_point(mechanism, error),
+        QuantityError::Point { name, error } => {
+            return match error {
+                // joints have rates too
+                PointError::NoFrame(of) if name.contains(':') => {
+                    let joints = mechanism.joints().iter().map(|joint| joint.name.clone());
+                    let known: Vec<String> = frame_names(mechanism).chain(joints).collect();
+                    Complaint::new(format!("`{of}` is neither a frame nor a joint"))
+                        .label("not known")
+                        .help(meant(of, &known, || format!("there are {}", listed(&known))))
+                }
+                _ => no_point(mechanism, error),
+            };
+        }
     };
     let mut said = Complaint::kind(&kind);
     if let QuantityError::Parse(_) = error {
@@ -277,7 +289,7 @@ pub(super) fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityErr
 }
 
 /// The words for a value that is none.
-pub(super) fn value(text: &str, error: &ValueError) -> Complaint {
+pub fn no_value(text: &str, error: &ValueError) -> Complaint {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);
     let whole = |kind: ProblemKind| Complaint::kind(&kind).at(OptionPart::WholeValue);
