@@ -788,6 +788,40 @@ fn a_drawing_goes_to_stdout_and_shows_every_mode() {
 }
 
 #[test]
+fn a_rate_of_a_joint_that_is_misspelt_gets_the_name_that_was_meant() {
+    let sweep = |report: &str| {
+        refusal(&[
+            "sweep", FOUR_BAR, "--input", "theta1=0..1", "--report", report,
+        ])
+    };
+    let joint = sweep("velocity:ph1");
+    assert!(joint.contains("`ph1` is neither a frame nor a joint"), "{joint}");
+    assert!(joint.contains("did you mean `phi1`?"), "{joint}");
+    assert!(sweep("velocity:lefft").contains("did you mean `left`?"));
+}
+
+#[test]
+fn a_base_on_two_bearings_is_a_bar_between_them() {
+    // the bar is drawn in pieces; the triad in the corner has thinner lines
+    let length = |arguments: &[&str]| -> f64 {
+        let svg = answer(&[&["draw"], arguments].concat());
+        let bars = svg.split("<polyline points=\"").skip(1);
+        let bars = bars.filter(|of| of.contains("stroke=\"#666666\" stroke-width=\"2\""));
+        let ends = bars.map(|of| {
+            let points = of.split('"').next().unwrap().split([' ', ',']);
+            points.map(|x| x.parse().unwrap()).collect::<Vec<f64>>()
+        });
+        ends.map(|of| (of[2] - of[0]).hypot(of[3] - of[1])).sum()
+    };
+    // its bearings are the farther apart the longer its ground link is
+    let bennett = length(&["mechanisms/bennett.ron"]);
+    assert!(bennett > 100.0, "{bennett}");
+    assert!(length(&[FOUR_BAR, "--view", "iso"]) > 100.0);
+    // in its plane a linkage has the symbol of ground at each pin
+    assert_eq!(length(&[FOUR_BAR]), 0.0);
+}
+
+#[test]
 fn pictures_are_written_whole_or_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();

@@ -402,8 +402,8 @@ fn body(stage: &StagedScene, index: usize, body: &BodyShape) -> Vec<Painted> {
     let style = OutlineStyle::line(colour, width);
     let lines = body.lines.iter();
     pieces.extend(lines.flat_map(|points| stage.line(points, Layer::Body, style)));
-    // a platform has no lines of a table: its corners are all that is known of it
-    if !body.ground && !plate && body.lines.is_empty() {
+    // a platform has no lines of a table, and a base on two bearings no plate: their corners are all that is known of them
+    if !(plate || body.ground && stage.flat) && body.lines.is_empty() {
         pieces.extend(stage.line(&body.corners, Layer::Body, style));
     }
     pieces
