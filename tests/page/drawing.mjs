@@ -381,15 +381,31 @@ const tests = {
 
   async "platforms and loops are made by their kinds"() {
     const page = await begun();
-    for (const [legs, kind, held] of [["3", "RPS", 3], ["6", "UPS", 6], ["6", "PSS", 6], ["3", "RRR", 3]]) {
+    for (const [legs, kind, held] of [["3", "RPS", 3], ["6", "UPS", 6], ["4", "RUS", 6], ["6", "PSS", 6], ["3", "RRR", 3]]) {
       await page.click("#new");
       await page.select("#legs", legs);
       await page.select("#leg-kind", kind);
       await page.click("#new-platform");
       await drawn(page);
-      const found = await page.evaluate(() => [globalThis.linkwork.frame.assembled, globalThis.linkwork.frame.held.length]);
-      check(found[0] && found[1] === held, `${legs}-${kind}: ${found}`);
+      const found = await page.evaluate(() => [globalThis.linkwork.frame.assembled, globalThis.linkwork.frame.held.length, globalThis.linkwork.frame.figures.condition]);
+      check(found[0] && found[1] === held && found[2] !== null && found[2] < 1000, `${legs}-${kind}: ${found}`);
+      // a point in the middle of a platform is no corner of it
+      const corners = await page.evaluate(() => {
+        const { drawing } = globalThis.picture;
+        const platform = globalThis.linkwork.frame.scene.bodies.findIndex((body) => body.platform);
+        const plate = drawing.shapes.group.children.find((mesh) => mesh.visible && mesh.material.transparent && mesh.userData.body === platform);
+        return plate && plate.geometry.getAttribute("position").count / 3 + 2;
+      });
+      check(corners === undefined || corners === Number(legs), `the platform on ${legs} legs has ${corners} corners`);
+      // it is looked at, not drawn on
+      check((await page.$eval("#edit", (of) => of.getAttribute("aria-pressed"))) === "false", `${legs}-${kind} is on the drawing board`);
     }
+    await page.click("#new");
+    await page.select("#legs", "6");
+    await page.select("#leg-kind", "PRS");
+    await page.click("#new-platform");
+    check(/choose 2 or 3 legs/.test(await page.$eval("#new-said", (of) => of.textContent)), "six PRS legs are made");
+    await page.keyboard.press("Escape");
     for (const [kinds, axes] of [["RRRR", "through one point"], ["RRRRRRR", "skew"], ["RSSR", "skew"], ["RRRP", "parallel"]]) {
       await page.click("#new");
       await page.$eval("#loop-kinds", (field, kinds) => (field.value = kinds), kinds);

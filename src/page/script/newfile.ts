@@ -1,9 +1,9 @@
 // What to begin with: an empty drawing, or a spatial mechanism by its kind.
 import { button, element, find } from "./elements";
 import type { Model } from "./model";
-import { AXES, LEGS, loop, platform } from "./templates";
+import { AXES, FIVE, LEGS, loop, platform } from "./templates";
 
-export function newFile(model: Model, draw: () => void) {
+export function newFile(model: Model, draw: () => void, leave: () => void) {
   const choice = (id: string, label: string, options: string[]) =>
     element("select", { id, "aria-label": label }, ...options.map((option) => element("option", {}, option)));
   const dialog = element("dialog", { id: "new-dialog", "aria-label": "New mechanism" });
@@ -13,8 +13,9 @@ export function newFile(model: Model, draw: () => void) {
   const axes = choice("loop-axes", "Axes of the loop", AXES);
   const said = element("p", { id: "new-said", role: "status" });
   const open = (text: string, file: string) => {
-    if (!model.load({ file, text, set: [] })) return void (said.textContent = "There is no such mechanism.");
     dialog.close();
+    leave();
+    model.load({ file, text, set: [] });
     find<HTMLDetailsElement>("file-part").open = true;
   };
   dialog.append(
@@ -22,7 +23,10 @@ export function newFile(model: Model, draw: () => void) {
       dialog.close();
       draw();
     }, { id: "new-drawing", autofocus: "" })),
-    element("p", {}, "Platform on ", legs, " legs ", kind, " ", button("Make", () => open(platform(Number(legs.value), kind.value), "platform.ron"), { id: "new-platform" })),
+    element("p", {}, "Platform on ", legs, " legs ", kind, " ", button("Make", () => {
+      if (Number(legs.value) > 3 && FIVE.test(kind.value)) return void (said.textContent = `Each ${kind.value} leg takes a freedom from the platform: choose 2 or 3 legs.`);
+      open(platform(Number(legs.value), kind.value), "platform.ron");
+    }, { id: "new-platform" })),
     element("p", {}, "Loop of joints ", kinds, " with axes ", axes, " ", button("Make", () => {
       const letters = kinds.value.trim().toUpperCase();
       if (!/^[RPCUS]{3,8}$/.test(letters)) return void (said.textContent = "Three to eight letters: R turns, P slides, C does both, U and S are universal and ball joints.");

@@ -4,6 +4,9 @@ import { quoted } from "./ron";
 /** Kinds of legs from the base to the platform, the driven joint underlined in the literature. */
 export const LEGS = ["UPS", "SPS", "RPS", "PRS", "RRS", "RUS", "PUS", "RSS", "PSS", "RRR", "RPR", "PRR"];
 
+/** Legs in space with five freedoms. */
+export const FIVE = /^(RPS|PRS|RRS)$/;
+
 const file = (name: string, parameters: string[], joints: string[], more = "") => `Axes(
     version: 1,
     name: ${quoted(name)},
@@ -24,10 +27,11 @@ export function platform(legs: number, kind: string): string {
   const z = (part: number) => (planar ? "0" : part === 1 ? "height" : `${part}*height`);
   const joints = Array.from({ length: legs }, (_, k) => {
     const pairs = !planar && legs > 4;
-    // pairs of legs that stand near one another on the base go to different corners of the platform
+    // pairs of legs that stand near one another on the base go to different corners of the platform; four legs that met in
+    // one point would hold no more than three
     const corner = Math.floor((k + 1) / 2) * 120;
     const turn = pairs ? `${Math.floor(k / 2) * 120} deg ${k % 2 ? "+" : "-"} spread` : `${Math.round((360 * k) / legs)} deg`;
-    const far = pairs ? `${corner - 60} deg ${k % 2 ? "-" : "+"} spread` : planar ? `${turn} + 25 deg` : turn;
+    const far = pairs ? `${corner - 60} deg ${k % 2 ? "-" : "+"} spread` : planar ? `${turn} + 25 deg` : legs === 4 ? `${turn} ${k < 2 ? "-" : "+"} spread` : turn;
     const on = (radius: string, angle: string) => [`${radius}*cos(${angle})`, `${radius}*sin(${angle})`] as const;
     const base = on("base", turn);
     const top = on("top", far);
@@ -59,7 +63,7 @@ export function platform(legs: number, kind: string): string {
       return [`${name}: Revolute(point: ${triple(...place)}, direction: ${triple(...tangent)}, ${role}${between}),`];
     });
   });
-  const parameters = [`"base": "300 mm",`, `"top": "150 mm",`, ...(planar ? [] : [`"height": "350 mm",`]), ...(legs < 5 || planar ? [] : [`"spread": "12 deg",`])];
+  const parameters = [`"base": "300 mm",`, `"top": "150 mm",`, ...(planar ? [] : [`"height": "350 mm",`]), ...(legs < 4 || planar ? [] : [`"spread": "12 deg",`])];
   const point = `\n    points: { "tool": (body: "platform", at: (0, 0, ${planar ? 0 : quoted("height")})) },`;
   return file(`${legs}-${kind}`, parameters, joints.flat(), `\n    bodies: { "platform": (origin: (0, 0, ${planar ? 0 : quoted("height")})) },${point}`);
 }
