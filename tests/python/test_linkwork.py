@@ -130,6 +130,7 @@ def test_reports_say_what_the_command_line_says(four_bar):
     shown = report._repr_html_()
     assert shown.startswith('<div class="linkwork">') and "<meta" not in shown and "\n.linkwork {" in shown
     assert "sentence" in dir(report) and report["sentence"] == report.sentence
+    assert len(dir(report)) == len(set(dir(report)))
     with pytest.raises(AttributeError, match="there is no `freedom`"):
         report.freedom  # noqa: B018
     # a report of the same question from the command line
@@ -524,6 +525,7 @@ def test_parts_are_listed_and_imported():
     exec("from linkwork.parts import *", names)
     assert repr(names["Revolute"]("a", "b")) == 'Revolute("a", "b")' and "Mechanism" not in names
     assert {"Tx", "Chain", "Actuated"} <= set(dir(linkwork.parts))
+    assert "Mechanism" in dir(linkwork) and "np" not in dir(linkwork)
     for name in linkwork.parts.__all__:
         assert isinstance(names[name](), linkwork.parts.Part)
 

@@ -62,6 +62,11 @@ __all__ = [
     "study_into",
 ]
 
+
+def __dir__() -> list[str]:
+    return __all__
+
+
 Values = Mapping[str, Value]
 Ranges = Mapping[str, "tuple[Value, Value]"]
 Names = Union[str, Sequence[str]]

@@ -47,7 +47,7 @@ class Fields:
         return self.to_dict().keys()
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.to_dict()]
+        return sorted({*super().__dir__(), *self.to_dict()})
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Fields) and self.to_dict() == other.to_dict()
