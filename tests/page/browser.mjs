@@ -83,11 +83,13 @@ const tests = {
     const page = await loaded("mechanisms/four_bar.ron");
     for (const crank of [1.1, 2, 3]) {
       await page.evaluate((to) => globalThis.linkwork.move("theta1", to), crank);
-      const [name, shown] = await page.$eval("#readings", (all) => [all.querySelector("th").textContent, all.querySelector("td").textContent]);
+      const [name, shown, read] = await page.$eval("#readings", (all) => [all.querySelector("th").textContent, all.querySelector("td").title, all.querySelector("td").textContent]);
       // law of cosines on l0 = 5, l1 = 1, l2 = 3, l3 = 4
       const cosine = (9 + 16 - (26 - 10 * Math.cos(crank))) / 24;
       const angle = (Math.acos(Math.abs(cosine)) * 180) / Math.PI;
       check(name === "transmission" && Math.abs(parseFloat(shown) - angle) < 1e-5, `${name} is ${shown}, not ${angle}°`);
+      // five digits are read, the others when the pointer is over them
+      check(Math.abs(parseFloat(read) - angle) < 5e-3 && read.length < shown.length, `${shown} is shown as ${read}`);
     }
     await page.evaluate(() => globalThis.linkwork.watch("transmision"));
     const said = await page.$eval("#readings-said", (element) => element.textContent);
@@ -289,6 +291,17 @@ const tests = {
     const names = await page.evaluate(() => globalThis.linkwork.mechanism.coordinates.map((of) => of.name));
     const held = await page.evaluate(() => globalThis.linkwork.frame.held);
     check(held.every((name) => (after[names.indexOf(name)] !== before[names.indexOf(name)]) === (name === second)), "another is moved");
+    // the view is turned, and in its plane moved
+    for (const view of ["2", "1"]) {
+      await page.focus("#canvas");
+      await page.keyboard.press(view);
+      const seen = () => page.evaluate(() => globalThis.picture.stage.camera.position.toArray());
+      for (const key of ["a", "w"]) {
+        const from = await seen();
+        await page.keyboard.press(key);
+        check((await seen()).some((x, i) => Math.abs(x - from[i]) > 1e-3), `${key} does not change the view ${view}`);
+      }
+    }
     await page.focus(`[type=range][data-name="${held[0]}"]`);
     await page.keyboard.press("ArrowRight");
     check((await values(page))[names.indexOf(held[0])] !== after[names.indexOf(held[0])], "a slider does not move by keys");

@@ -16,7 +16,7 @@ const tests = {
         const box = picture.stage.canvas.getBoundingClientRect();
         return linkwork.frame.scene.joints.filter((joint) => {
           const [x, y] = picture.pixel(joint.at);
-          return !picture.stage.hit({ clientX: box.left + x, clientY: box.top + y });
+          return !picture.stage.hits({ clientX: box.left + x, clientY: box.top + y }).length;
         }).length;
       });
       check(missed === 0, `${missed} pins float away from their links in the view ${view}`);
@@ -67,7 +67,7 @@ const tests = {
       const { picture } = globalThis;
       const box = picture.stage.canvas.getBoundingClientRect();
       const [x, y] = picture.pixelOf("left.1");
-      return picture.stage.hit({ clientX: box.left + x, clientY: box.top + y })?.pick ?? null;
+      return picture.stage.hits({ clientX: box.left + x, clientY: box.top + y })[0]?.pick ?? null;
     });
     check(hit !== null, "nothing is taken hold of in perspective");
     await page.evaluate(() => [...document.querySelectorAll("#views button")].find((of) => of.textContent === "Perspective").click());
@@ -111,6 +111,43 @@ const tests = {
     const found = await page.$$eval("#gallery-items button:not([hidden])", (all) => all.map((of) => of.dataset.file));
     check(found.includes("jansen_leg.ron") && found.length < 6, `found are ${found}`);
     await page.close();
+  },
+
+  async "arrows of reactions stay in the picture, near a dead point too"() {
+    const page = await loaded("mechanisms/four_bar.ron");
+    await page.evaluate(() => globalThis.holding.hold("phi1"));
+    await page.evaluate(() => globalThis.linkwork.press({ point: "left+0.5", force: [0, -5, 0] }));
+    for (let i = 0; i < 40; i++) await page.evaluate(() => globalThis.linkwork.move("phi1", globalThis.linkwork.frame.values[2][0] + 0.05));
+    await rest(700);
+    const outside = await page.evaluate(() => {
+      const { picture, linkwork } = globalThis;
+      const [above] = picture.stage.covered();
+      const { clientWidth, clientHeight } = picture.stage.canvas;
+      return linkwork.frame.scene.arrows.filter((arrow) => {
+        const [x, y] = picture.stage.pixel(picture.scenery.arrows.tip(arrow));
+        return !(x > 0 && x < clientWidth && y > above - 14 && y < clientHeight);
+      }).length;
+    });
+    check(outside === 0, `${outside} arrows leave the picture`);
+    await page.evaluate(() => globalThis.linkwork.press(null));
+  },
+
+  async "a spatial loop has a bar from bearing to bearing, and what is behind the base can be taken hold of"() {
+    const page = await loaded("mechanisms/bennett.ron");
+    const bars = await page.evaluate(() => globalThis.picture.drawing.shapes.group.children.filter((mesh) => mesh.visible && mesh.userData.body === 0).length);
+    check(bars > 0, "the ground link is not drawn");
+    const platform = await loaded("mechanisms/three_rps.ron");
+    await platform.click("[data-view=top]");
+    await drawn(platform);
+    const picks = await platform.evaluate(() => {
+      const { picture, linkwork } = globalThis;
+      const plate = linkwork.frame.scene.bodies.find((body) => body.platform);
+      const middle = plate.corners[0].map((_, i) => plate.corners.reduce((sum, p) => sum + p[i] / plate.corners.length, 0));
+      const box = picture.stage.canvas.getBoundingClientRect();
+      const [x, y] = picture.pixel(middle);
+      return picture.stage.hits({ clientX: box.left + x, clientY: box.top + y }).map(({ pick }) => pick.body);
+    });
+    check(picks[0] === 1 && picks.includes(0), `under the pointer are ${picks}`);
   },
 
   async "names stand clear of pins"() {

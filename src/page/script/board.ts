@@ -1,5 +1,7 @@
 // The drawing board: what is drawn as lines over the picture, with grid, dimensions and what is being drawn.
 import { Vector3 } from "three";
+import { hull } from "./hull";
+import { apart } from "./labels";
 import { distance, type Point, type Sketch, type Spot } from "./sketch";
 import type { Stage } from "./stage";
 import { bodyColour, theme } from "./theme";
@@ -70,7 +72,8 @@ export class Board {
     if (grid) this.grid(grid);
     if (sketch) this.sketch(sketch);
     for (const pin of pins) this.support(this.pixel(pin), true);
-    for (const dimension of dimensions) this.dimension(dimension);
+    const taken: DOMRect[] = [];
+    for (const dimension of dimensions) this.dimension(dimension, taken);
     if (rubber) {
       this.line(rubber[0], rubber[1], theme().driven, 4);
       const [x, y] = this.pixel([(rubber[0][0] + rubber[1][0]) / 2, (rubber[0][1] + rubber[1][1]) / 2]);
@@ -115,7 +118,8 @@ export class Board {
     for (const body of bodies) {
       const spots = spotsOf(sketch, body);
       if (spots.length > 2) {
-        const points = around(spots.map(({ at }) => at)).map((at) => this.pixel(at).join(",")).join(" ");
+        const all = spots.map(({ at }) => this.pixel(at));
+        const points = hull(all).map((i) => all[i]!.join(",")).join(" ");
         this.front.append(shape("polygon", { points, fill: colour(body), "fill-opacity": 0.25, stroke: colour(body), "stroke-width": 5, "stroke-linejoin": "round", "data-body": body }));
       } else if (spots.length === 2) this.line(spots[0]!.at, spots[1]!.at, colour(body), 7, { "data-body": body });
     }
@@ -166,15 +170,23 @@ export class Board {
     }));
   }
 
-  private dimension({ from, to, name, set }: Dimension) {
+  /** A length beside its line, clear of those that stand there. */
+  private dimension({ from, to, name, set }: Dimension, taken: DOMRect[]) {
     const [a, b] = [this.pixel(from), this.pixel(to)];
     const length = Math.max(distance(a, b), 1e-9);
     if (length < 20) return;
     const words = millimetres(distance(from, to));
     const across: Point = [-(b[1] - a[1]) / length, (b[0] - a[0]) / length];
     // clear of the line, on which one clicks for something else
-    const off = 9 + 3.4 * words.length * Math.abs(across[0]) + 6 * Math.abs(across[1]);
-    const [x, y] = [(a[0] + b[0]) / 2 + off * across[0], (a[1] + b[1]) / 2 + off * across[1]];
+    const half = 3.4 * words.length;
+    const off = 9 + half * Math.abs(across[0]) + 6 * Math.abs(across[1]);
+    const places = [0.5, 0.35, 0.65].flatMap((part) => [1, -1].map((side): Point => [
+      a[0] + part * (b[0] - a[0]) + side * off * across[0], a[1] + part * (b[1] - a[1]) + side * off * across[1],
+    ]));
+    const boxes = places.map(([x, y]) => new DOMRect(x - half, y - 8, 2 * half, 16));
+    const clear = boxes.findIndex((box) => taken.every((other) => apart(box, other)));
+    const [x, y] = places[Math.max(clear, 0)]!;
+    taken.push(boxes[Math.max(clear, 0)]!);
     const label = shape("text", {
       x, y: y + 4, class: "dimension", tabindex: 0, role: "button", "text-anchor": "middle", "data-dimension": name, "aria-label": `${name}: ${words}, change`,
     }, words);
@@ -220,10 +232,4 @@ export const millimetres = (length: number): string => `${Number((1000 * length)
 /** All places on a body, those of joints first. */
 export function spotsOf({ joints, tips }: Sketch, body: string): Spot[] {
   return [...joints.flatMap((joint) => joint.spots), ...tips.map(({ spot }) => spot)].filter((spot) => spot.body === body);
-}
-
-/** Points in order around their middle. */
-function around(points: Point[]): Point[] {
-  const middle = [0, 1].map((i) => points.reduce((sum, p) => sum + p[i]!, 0) / points.length) as Point;
-  return points.toSorted((a, b) => Math.atan2(a[1] - middle[1], a[0] - middle[0]) - Math.atan2(b[1] - middle[1], b[0] - middle[0]));
 }

@@ -65,7 +65,9 @@ export class Desk {
     model.onBlank(() => this.read());
     model.onProblems((problems) => {
       const [first] = problems.filter((of) => of.severity === "error");
-      if (this.on && first) this.said.textContent = `Line ${first.line}: ${first.title}`;
+      if (!this.on) return;
+      if (first) this.said.textContent = `Line ${first.line}: ${first.title}`;
+      else if (this.said.textContent?.startsWith("Line ")) this.said.textContent = this.tool.hint;
     });
   }
 
@@ -213,8 +215,7 @@ export class Desk {
     this.pressed = { id: event.pointerId, x: event.clientX, y: event.clientY, pan };
     this.board.svg.setPointerCapture(event.pointerId);
     (this.board.svg as unknown as HTMLElement).focus();
-    if (pan || this.backdrop.take(this.board.place(event))) return;
-    this.press(this.board.place(event));
+    if (!pan) this.press(this.board.place(event));
   }
 
   private moved(event: PointerEvent) {
@@ -244,6 +245,7 @@ export class Desk {
 
   /** Something is begun or, if it was begun by a click, ended. */
   private press(at: Point) {
+    if (this.backdrop.take(at)) return;
     if (this.from) return this.end(at);
     const begun = this.snap(at, null);
     if (this.tool.click) {

@@ -51,11 +51,14 @@ export function dragging(stage: Stage, model: Model, aim: Aim, point: (name: str
   /** What is under a pointer, if it can be moved. */
   const under = (event: PointerEvent) => {
     const { frame } = model;
-    const hit = frame?.assembled ? stage.hit(event) : null;
-    if (!frame || !hit) return null;
-    const tip = aim.tip(hit.pick);
-    const part = partOf(frame.scene, hit.pick);
-    return tip || part ? { at: hit.at, tip, part } : null;
+    if (!frame?.assembled) return null;
+    // the base can be seen through
+    for (const { at, pick } of stage.hits(event)) {
+      const tip = aim.tip(pick);
+      const part = partOf(frame.scene, pick);
+      if (tip || part) return { at, tip, part };
+    }
+    return null;
   };
 
   /** Takes hold of a part, unless the click was for something else; nothing if the part cannot be moved. */

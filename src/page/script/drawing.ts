@@ -1,5 +1,6 @@
 // A scene as solids: links as bars and plates, joints by the symbols of the field.
 import { Vector3 } from "three";
+import { hull } from "./hull";
 import { across, type Pick, Shapes } from "./shapes";
 import { bodyColour, theme } from "./theme";
 import type { BodyShape, JointShape, Scene, Triple } from "./types";
@@ -106,7 +107,7 @@ export class Drawing {
     if (corners.length > 2) {
       shapes.plate(corners, colour, body.ground ? 0.16 : 0.4, pick);
       corners.forEach((corner, i) => shapes.rod(corner, corners[(i + 1) % corners.length]!, (body.ground ? 0.1 : 0.18) * size, colour, pick));
-    }
+    } else if (body.ground && !this.plane && body.lines.length === 0) this.along(body, 0.18 * size, colour, pick);
     const [barrel, piston] = [0, 1].map((end) => !this.plane && scene.joints.some((joint) =>
       joint.kind === "prismatic" && joint.bodies[end] === index && joint.bodies.every((of) => !scene.bodies[of]?.ground)));
     const radius = (body.ground ? 0.18 : barrel ? 0.6 : piston ? 0.26 : 0.36) * size;
@@ -114,10 +115,13 @@ export class Drawing {
       for (let i = 0; i + 1 < line.length; i++) shapes.rod(v(line[i]!), v(line[i + 1]!), radius, colour, pick);
     }
     // a platform has no lines of a table: its corners are all that is known of it
-    if (!body.ground && corners.length <= 2 && body.lines.length === 0) {
-      const ends = body.corners.map(v);
-      for (let i = 0; i + 1 < ends.length; i++) shapes.rod(ends[i]!, ends[i + 1]!, radius, colour, pick);
-    }
+    if (!body.ground && corners.length <= 2 && body.lines.length === 0) this.along(body, radius, colour, pick);
+  }
+
+  /** A bar from corner to corner of a body. */
+  private along(body: BodyShape, radius: number, colour: string, pick: Pick) {
+    const ends = body.corners.map(v);
+    for (let i = 0; i + 1 < ends.length; i++) this.shapes.rod(ends[i]!, ends[i + 1]!, radius, colour, pick);
   }
 
   private joint(scene: Scene, joint: JointShape, index: number) {
@@ -276,7 +280,7 @@ export class Drawing {
   }
 }
 
-/** Points in order around their middle; none if they are on a line. */
+/** Corners of the convex hull of points near a plane, in order; none if they are on a line. */
 function outline(points: Vector3[]): Vector3[] {
   if (points.length < 3) return [];
   const middle = points.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(points.length);
@@ -286,9 +290,5 @@ function outline(points: Vector3[]): Vector3[] {
   if (normal.length() < 1e-6 * first.lengthSq()) return [];
   const right = first.normalize();
   const up = normal.normalize().clone().cross(right);
-  const angle = (p: Vector3) => {
-    const from = p.clone().sub(middle);
-    return Math.atan2(from.dot(up), from.dot(right));
-  };
-  return [...points].sort((a, b) => angle(a) - angle(b));
+  return hull(points.map((p) => [p.dot(right), p.dot(up)])).map((i) => points[i]!);
 }

@@ -14,6 +14,7 @@ export class GainedFreedoms {
   private shown = false;
 
   constructor(private readonly model: Model, private readonly draw: (screws: Screw[], swung: Scene[]) => void) {
+    model.onBlank(() => this.end());
     model.onMoved(() => {
       this.end();
       const figures = model.frame?.figures;

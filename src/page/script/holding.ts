@@ -87,6 +87,7 @@ export class Holding {
 
   private ask(words: string, names: string[], act: (name: string) => void) {
     const buttons = names.slice(0, 12).flatMap((name) => [" ", button(name, () => act(name), { "data-choice": name })]);
+    this.model.say("");
     find("ask").replaceChildren(words, ...buttons);
     find("ask").querySelector("button")?.focus();
   }

@@ -30,7 +30,9 @@ export class Labels {
       layer.replaceChildren(...this.spans);
     }
     const taken: DOMRect[] = [];
-    const picture = new DOMRect(0, 0, stage.canvas.clientWidth, stage.canvas.clientHeight);
+    // below the buttons
+    const [above] = stage.covered();
+    const picture = new DOMRect(0, above, stage.canvas.clientWidth, stage.canvas.clientHeight - above);
     // beside the symbols of joints, not over them
     const things = this.shown && scene ? seen(stage, scene) : { pins: [], lines: [] };
     const off = Math.max(8, 1.3 * size * stage.pixelsPerMetre());
@@ -80,5 +82,5 @@ function covered(box: DOMRect, { pins, lines }: Things): number {
 
 const within = (a: DOMRect, b: DOMRect) => a.left >= b.left && a.right <= b.right && a.top >= b.top && a.bottom <= b.bottom;
 
-const apart = (a: DOMRect, b: DOMRect) =>
+export const apart = (a: DOMRect, b: DOMRect) =>
   a.right < b.left || b.right < a.left || a.bottom < b.top || b.bottom < a.top;

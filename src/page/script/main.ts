@@ -73,18 +73,18 @@ class Picture {
       clearTimeout(this.rest);
       this.rest = setTimeout(() => this.follow(), REST);
     });
-    onThemeChange(() => this.draw());
+    onThemeChange(() => (this.scene ? this.draw() : this.stage.draw()));
     const perspective = button("Perspective", () => {
       const on = !this.stage.camera.perspective;
       perspective.setAttribute("aria-pressed", String(on));
       this.stage.view(on);
       this.label();
-    }, { "aria-pressed": "false" });
+    }, { "aria-pressed": "false", "data-solid": "" });
     const names = button("Names", () => {
       this.labels.shown = !this.labels.shown;
       names.setAttribute("aria-pressed", String(this.labels.shown));
       this.label();
-    }, { "aria-pressed": "false" });
+    }, { "aria-pressed": "false", "data-solid": "" });
     find("views").append(
       ...VIEWS.map(([words, view]) => button(words, () => this.look(view), { "data-view": view })),
       button("Fit", () => this.fit(), { title: "All of the mechanism and its motion" }),
@@ -98,7 +98,7 @@ class Picture {
   /** What has moved out of the picture is brought back, unless somebody has chosen what to see. */
   private follow() {
     const { stage, scene } = this;
-    if (scene && !this.drawn && stage.camera.zoom === 1 && !stage.canvas.classList.contains("dragging")) stage.include(points(scene));
+    if (scene && !this.drawn && stage.camera.zoom === 1 && !stage.canvas.classList.contains("dragging")) stage.include([...points(scene), ...this.tips]);
   }
 
   instead(scene: Scene | null) {
@@ -157,11 +157,17 @@ class Picture {
     this.stage.zoom(0.75);
   }
 
+  /** Of the forces that are shown. */
+  private get tips(): Vector3[] {
+    const { arrows } = this.scenery;
+    return (this.scene?.arrows ?? []).map((arrow) => arrows.tip(arrow));
+  }
+
   /** Shows all of the mechanism, of its motion and of what stands beside it. */
   fit() {
     if (!this.scene) return;
     const beside = [...this.scenery.ghosts, ...this.motion].flatMap(points);
-    this.stage.fit([...points(this.scene), ...guides(this.scene, this.drawing.size), ...beside, ...traced(this)]);
+    this.stage.fit([...points(this.scene), ...guides(this.scene, this.drawing.size), ...beside, ...traced(this), ...this.tips]);
     this.draw();
   }
 
@@ -265,7 +271,7 @@ async function begin() {
     trace: (point) => motion.tracePoint(point),
   });
   find("edit").addEventListener("click", () => desk.open(!desk.on));
-  newFile(model, () => desk.begin());
+  newFile(model, () => desk.begin(), () => desk.open(false));
   model.onBlank(() => {
     document.body.classList.add("blank");
     find("name").textContent = "New drawing";
@@ -282,9 +288,10 @@ async function begin() {
   }, { id: "share" });
   find("export").append(" ", share);
 
-  keyboard(picture.stage.canvas, model, say, (factor) => picture.stage.zoom(factor), (view) => picture.look(VIEWS[view]![1]));
+  keyboard(picture.stage, model, say, (view) => picture.look(VIEWS[view]![1]));
   const browse = gallery(module, (file) => {
     history.replaceState(null, "", " ");
+    desk.open(false);
     model.load(file);
   });
   find("browse").addEventListener("click", () => void browse());

@@ -2,6 +2,7 @@
 import { button, element, find } from "./elements";
 import type { Model } from "./model";
 import { Plot } from "./plot";
+import { onThemeChange } from "./theme";
 import { Refused, type Row, type Scene, type Swept, type Triple } from "./types";
 
 export interface Trace {
@@ -17,6 +18,8 @@ export class Motion {
   private rows: Row[] = [];
   private swept: Swept | null = null;
   private playing = 0;
+  /** The mechanism that points and quantities are of. */
+  private of = "";
   /** Whether the end is the beginning. */
   private round = false;
   private readonly cursor = element("input", { type: "range", min: "0", max: "0", value: "0", id: "cursor", "aria-label": "Place in the motion" });
@@ -48,7 +51,13 @@ export class Motion {
     this.cursor.hidden = true;
     this.cursor.addEventListener("input", () => this.to(Number(this.cursor.value)));
     this.quantity.addEventListener("change", () => this.draw());
-    model.onLoaded(() => this.clear());
+    onThemeChange(() => this.draw());
+    model.onLoaded(() => {
+      this.clear();
+      const name = model.mechanism!.name;
+      if (name !== this.of) this.point.value = this.report.value = "";
+      this.of = name;
+    });
     model.onMoved(() => this.inputs());
   }
 
@@ -122,8 +131,8 @@ export class Motion {
     this.plot.values = values;
     this.plot.unbounded = unbounded;
     this.plot.marks = this.rows.flatMap((row, i) => (row.special ? [i] : []));
-    const chosen = this.quantity.value;
-    this.quantity.replaceChildren(...columns.slice(1).map((name, i) => element("option", { value: String(i + 1) }, name)));
+    const chosen = this.quantity.selectedOptions[0]?.textContent;
+    this.quantity.replaceChildren(...columns.slice(1).map((_, i) => element("option", { value: String(i + 1) }, this.plot.title(i + 1))));
     const again = [...this.quantity.options].find((option) => option.textContent === chosen);
     const wanted = this.report.value.trim() ? columns.length - 1 : -1;
     const free = columns.findIndex((name, i) => i > 0 && !name.startsWith(`${this.input.value} `));

@@ -33,7 +33,7 @@ export class Plot {
     return this.columns[column]!.endsWith("(rad)") ? 180 / Math.PI : 1;
   }
 
-  private title(column: number): string {
+  title(column: number): string {
     return column > 0 ? this.columns[column]!.replace("(rad)", "(°)") : "row";
   }
 

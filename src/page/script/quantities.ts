@@ -1,6 +1,7 @@
 // Quantities that are read as the mechanism moves: those of the file and the transmission angle, or a list of one's own.
 import { element, find } from "./elements";
 import type { Model } from "./model";
+import { rounded } from "./values";
 
 export class Quantities {
   private readonly list = element("input", {
@@ -19,6 +20,6 @@ export class Quantities {
     const rows = "error" in read ? [] : read;
     find("readings-said").textContent = "error" in read ? read.error : "";
     find("readings").replaceChildren(...rows.map(([name, shown]) =>
-      element("tr", {}, element("th", { scope: "row" }, name), element("td", { class: "right" }, shown))));
+      element("tr", {}, element("th", { scope: "row" }, name), element("td", { class: "right", title: shown }, rounded(shown)))));
   }
 }

@@ -32,7 +32,10 @@ export class Scenery {
       for (let i = 0; i + 1 < points.length; i++) {
         shapes.cylinder(...between(points[i]!, points[i + 1]!, 0.13 * size), theme().trace);
       }
-      for (const mark of trace.marks) shapes.ball(v(mark.at), 0.5 * size, theme().trace);
+      for (const { at, words } of trace.marks) {
+        shapes.ball(v(at), 0.5 * size, theme().trace);
+        this.notes.push({ words, at: v(at) });
+      }
     }
     shapes.end();
   }

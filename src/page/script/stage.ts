@@ -159,7 +159,7 @@ export class Stage {
   }
 
   /** Pixels that buttons cover above, and words below. */
-  private covered(): [number, number] {
+  covered(): [number, number] {
     const [above, below] = ["#views", "#under"].map((part) => (this.canvas.parentElement!.querySelector<HTMLElement>(part)?.offsetHeight ?? 0) + 14);
     return [above!, below!];
   }
@@ -175,20 +175,39 @@ export class Stage {
     this.draw();
   }
 
+  /** Turns the view about its middle by so much to the right and upwards, in rad; a plane is moved instead. */
+  turn(right: number, up: number) {
+    const { camera, orbit } = this;
+    if (orbit.mouseButtons.LEFT === MOUSE.PAN) return this.shift(right, up);
+    const arm = camera.position.clone().sub(orbit.target).applyAxisAngle(camera.up, -right);
+    const from = arm.angleTo(camera.up);
+    const to = Math.min(Math.max(from - up, 0.01), Math.PI - 0.01);
+    arm.applyAxisAngle(camera.up.clone().cross(arm).normalize(), to - from);
+    camera.position.copy(orbit.target).add(arm);
+    orbit.update();
+    this.draw();
+  }
+
+  /** Moves the view by parts of its height. */
+  private shift(right: number, up: number) {
+    const { camera, orbit, half } = this;
+    const way = new Vector3(right, up, 0).multiplyScalar((2 * half) / camera.zoom).applyQuaternion(camera.quaternion);
+    for (const moved of [camera.position, orbit.target]) moved.add(way);
+    orbit.update();
+    this.draw();
+  }
+
   zoom(factor: number) {
     this.camera.zoom *= factor;
     this.camera.updateProjectionMatrix();
     this.draw();
   }
 
-  /** What is under a pointer. */
-  hit(event: { clientX: number; clientY: number }): Hit | null {
-    const ray = this.ray(event);
-    const found = ray.intersectObject(this.world, true).filter(
-      (hit) => hit.object.visible && Object.keys(hit.object.userData).length > 0,
-    );
-    const first = found[0];
-    return first ? { at: first.point, pick: first.object.userData as Pick } : null;
+  /** What is under a pointer, the nearest first. */
+  hits(event: { clientX: number; clientY: number }): Hit[] {
+    const found = this.ray(event).intersectObject(this.world, true);
+    const shown = found.filter(({ object }) => object.visible && Object.keys(object.userData).length > 0);
+    return shown.map(({ point, object }) => ({ at: point, pick: object.userData as Pick }));
   }
 
   /** Where a pointer is in the plane through a point that faces the viewer. */

@@ -17,7 +17,7 @@ export function thumbnail(canvas: HTMLCanvasElement, scene: Scene) {
   };
   const lines: { line: [number, number][]; colour: string }[] = [
     ...scene.bodies.flatMap((body, i) => {
-      const outline = body.lines.length || body.ground ? [] : [[...body.corners, ...body.corners.slice(0, 1)]];
+      const outline = body.lines.length || (body.ground && plane) ? [] : [[...body.corners, ...body.corners.slice(0, 1)]];
       const colour = body.ground ? theme().ground : bodyColour(i);
       return [...body.lines, ...outline].map((line) => ({ line: line.map(seen), colour }));
     }),

@@ -35,7 +35,8 @@ export class Values {
       this.boxes[i]!.disabled = frame.held === null;
     });
     const { figures } = frame;
-    find("condition").textContent = figures ? `condition number ${figures.shown}` : "";
+    find("condition").textContent = figures ? `condition number ${rounded(figures.shown)}` : "";
+    find("condition").title = figures?.shown ?? "";
     find("condition").classList.toggle("poor", figures !== null && !((figures.condition ?? Infinity) < POOR));
   }
 

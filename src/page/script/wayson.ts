@@ -10,15 +10,19 @@ export class WaysOn {
   private pause = 0;
 
   constructor(private readonly model: Model, private readonly ghost: (scenes: Scene[]) => void) {
+    model.onBlank(() => this.clear());
     model.onMoved(() => {
-      clearTimeout(this.pause);
-      if (find("ways").children.length) {
-        find("ways").replaceChildren();
-        ghost([]);
-      }
+      this.clear();
       const figures = model.frame?.figures;
       if (figures && (figures.stopped || figures.condition === null)) this.pause = setTimeout(() => this.find(), PAUSE);
     });
+  }
+
+  private clear() {
+    clearTimeout(this.pause);
+    if (!find("ways").hasChildNodes()) return;
+    find("ways").replaceChildren();
+    this.ghost([]);
   }
 
   private find() {
