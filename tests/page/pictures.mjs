@@ -110,6 +110,8 @@ const tests = {
     await page.type("#gallery-search", "jansen");
     const found = await page.$$eval("#gallery-items button:not([hidden])", (all) => all.map((of) => of.dataset.file));
     check(found.includes("jansen_leg.ron") && found.length < 6, `found are ${found}`);
+    await page.type("#gallery-search", "zzz");
+    check(/No mechanism has “jansenzzz”/.test(await page.$eval("#gallery-said", (of) => of.textContent)), "nothing is said where nothing is found");
     await page.close();
   },
 

@@ -52,6 +52,8 @@ export function gallery(module: WebAssembly.Module, open: (file: File) => void) 
       if (!item.hidden && wanted) item.closest("details")?.setAttribute("open", "");
     }
     for (const topic of dialog.querySelectorAll<HTMLElement>(".topic")) topic.hidden = !topic.querySelector("button:not([hidden])");
+    const none = all?.every(({ item }) => item.hidden);
+    find("gallery-said").textContent = none ? `No mechanism has “${search.value.trim()}” in its name, source or description.` : "";
   });
   return async () => {
     if (!all) {

@@ -51,7 +51,8 @@ export class Motion {
     this.cursor.hidden = true;
     this.cursor.addEventListener("input", () => this.to(Number(this.cursor.value)));
     this.quantity.addEventListener("change", () => this.draw());
-    onThemeChange(() => this.draw());
+    // the colours of the page are the new ones with the next picture
+    onThemeChange(() => requestAnimationFrame(() => this.draw()));
     model.onLoaded(() => {
       this.clear();
       const name = model.mechanism!.name;

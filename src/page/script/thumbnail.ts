@@ -1,6 +1,7 @@
 // A small picture of a scene: links as lines and filled shapes.
 import { Vector3 } from "three";
 import { planeOf } from "./drawing";
+import { hull } from "./hull";
 import { bodyColour, theme } from "./theme";
 import type { Scene, Triple } from "./types";
 
@@ -17,9 +18,11 @@ export function thumbnail(canvas: HTMLCanvasElement, scene: Scene) {
   };
   const lines: { line: [number, number][]; colour: string }[] = [
     ...scene.bodies.flatMap((body, i) => {
-      const outline = body.lines.length || (body.ground && plane) ? [] : [[...body.corners, ...body.corners.slice(0, 1)]];
       const colour = body.ground ? theme().ground : bodyColour(i);
-      return [...body.lines, ...outline].map((line) => ({ line: line.map(seen), colour }));
+      const corners = body.ground && plane ? [] : body.corners.map(seen);
+      const round = hull(corners).map((k) => corners[k]!);
+      const outline = round.length > 2 || !body.lines.length ? [[...round, ...round.slice(0, 1)]] : [];
+      return [...body.lines.map((line) => line.map(seen)), ...outline].map((line) => ({ line, colour }));
     }),
     ...scene.rods.map((rod) => ({ line: rod.ends.map(seen), colour: theme().ink })),
   ];
@@ -41,7 +44,7 @@ export function thumbnail(canvas: HTMLCanvasElement, scene: Scene) {
     pen.beginPath();
     line.forEach((point, i) => (i ? pen.lineTo(...place(point)) : pen.moveTo(...place(point))));
     pen.globalAlpha = 0.25;
-    if (line.length > 2) pen.fill();
+    if (line.length > 3 && line[0] === line.at(-1)) pen.fill();
     pen.globalAlpha = 1;
     pen.stroke();
   }
