@@ -791,13 +791,31 @@ fn a_drawing_goes_to_stdout_and_shows_every_mode() {
 fn a_rate_of_a_joint_that_is_misspelt_gets_the_name_that_was_meant() {
     let sweep = |report: &str| {
         refusal(&[
-            "sweep", FOUR_BAR, "--input", "theta1=0..1", "--report", report,
+            "sweep",
+            FOUR_BAR,
+            "--input",
+            "theta1=0..1",
+            "--report",
+            report,
         ])
     };
     let joint = sweep("velocity:ph1");
-    assert!(joint.contains("`ph1` is neither a frame nor a joint"), "{joint}");
+    assert!(
+        joint.contains("`ph1` is neither a frame nor a joint"),
+        "{joint}"
+    );
     assert!(joint.contains("did you mean `phi1`?"), "{joint}");
     assert!(sweep("velocity:lefft").contains("did you mean `left`?"));
+}
+
+#[test]
+fn a_joint_that_passes_no_moment_is_drawn_without_one() {
+    let drawn = |file: &str| answer(&["draw", file, "--wrench", "top=0,50,-100"]);
+    // every leg of a 6-UPS has a ball and a universal joint: it passes a force along itself
+    let balls = drawn("mechanisms/stewart_gough_6ups.ron");
+    assert!(balls.contains(" N<") && !balls.contains("N·m"), "{balls}");
+    // the hinges of a 3-RPS pass moments across their axes
+    assert!(drawn(THREE_RPS).contains("N·m"));
 }
 
 #[test]

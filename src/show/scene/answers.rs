@@ -7,6 +7,9 @@ use crate::analysis::velocity::VelocityReport;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 
+/// Of the largest force or moment, what is rounding.
+const ROUNDING: f64 = 1e-9;
+
 impl Scene {
     /// Adds the instant centres beside the joints that are no farther from the mechanism than it is large.
     #[must_use]
@@ -123,6 +126,24 @@ impl Scene {
                     force: reaction.force,
                     moment: reaction.moment,
                 });
+            }
+        }
+        // what is as small as rounding beside the largest of them is nothing
+        let length = report.normalising_length;
+        let sizes = |arrow: &ForceArrow| {
+            [
+                Vector3(arrow.force).norm() * length,
+                Vector3(arrow.moment).norm(),
+            ]
+        };
+        let largest = self.arrows.iter().flat_map(sizes).fold(0.0, f64::max);
+        for arrow in &mut self.arrows {
+            let [force, moment] = sizes(arrow).map(|size| size > ROUNDING * largest);
+            if !force {
+                arrow.force = [0.0; 3];
+            }
+            if !moment {
+                arrow.moment = [0.0; 3];
             }
         }
         self

@@ -263,7 +263,9 @@ pub(super) fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityErr
                     let known: Vec<String> = frame_names(mechanism).chain(joints).collect();
                     Complaint::new(format!("`{of}` is neither a frame nor a joint"))
                         .label("not known")
-                        .help(meant(of, &known, || format!("there are {}", listed(&known))))
+                        .help(meant(of, &known, || {
+                            format!("there are {}", listed(&known))
+                        }))
                 }
                 _ => no_point(mechanism, error),
             };
