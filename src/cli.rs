@@ -85,10 +85,10 @@ commands! {
     Convert: convert::Convert, Draw: draw::Draw, Frames: frames::Frames, Export: export::Export, Import: import::Import,
     Formulas: Asking<formulas::Formulas>, Generate: generate::Generate, Mobility: Asking<mobility::Mobility>,
     Velocity: Asking<velocity::Velocity>, View: view::View, Statics: Asking<statics::Statics>,
-    Equilibrium: Asking<equilibrium::Equilibrium>, Simulate: Asking<simulate::Simulate>, Sweep: Asking<sweep::Sweep>,
-    Singularities: Asking<singularities::Singularities>, Workspace: Asking<workspace::Workspace>, Study: study::Study,
+    Equilibrium: Asking<equilibrium::EquilibriumArguments>, Simulate: Asking<simulate::Simulate>, Sweep: Asking<sweep::Sweep>,
+    Singularities: Asking<singularities::Singularities>, Workspace: Asking<workspace::Workspace>, Study: study::StudyArguments,
     Merge: merge::Merge, Snap: snap::Snap, Handout: handout::Handout, New: new::New, Examples: examples::Examples,
-    Setup: setup::Setup, Design: design::Design,
+    Setup: setup::Setup, Design: design::DesignArguments,
 }
 
 /// Answer of a command.

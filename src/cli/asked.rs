@@ -36,7 +36,7 @@ impl Split {
 }
 
 #[derive(Args)]
-pub struct Asked {
+pub struct QuestionOptions {
     #[command(flatten)]
     split: Split,
     /// Start the search at a value, e.g. --guess phi1="-30 deg"
@@ -44,7 +44,7 @@ pub struct Asked {
     guess: Vec<Assignment>,
 }
 
-impl Asked {
+impl QuestionOptions {
     /// The question with guesses for what is free.
     pub fn pose(&self, source: &Source) -> Result<Posed, Refusal> {
         let mut posed = self.split.pose(source)?;
@@ -99,7 +99,7 @@ pub struct Asking<A: Analysis> {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
-    asked: Asked,
+    asked: QuestionOptions,
     #[command(flatten)]
     analysis: A,
     /// Format of the answer; errors are always text on stderr

@@ -29,7 +29,7 @@ use super::{Answer, Refusal, style};
 #[command(after_help = "Examples:\n  \
     linkwork design lid.ron -o best.ron\n  \
     linkwork design mechanisms/four_bar.ron --vary l1,l2,l3,u=-5..5,v=-5..5 --path left+u,v --points path.csv")]
-pub struct Design {
+pub struct DesignArguments {
     /// A design file, or a mechanism file.
     file: PathBuf,
     /// Vary parameters, each in a range or from a tenth to ten times its value; new names are further unknowns, e.g. --vary
@@ -96,7 +96,7 @@ pub struct Design {
     format: Format,
 }
 
-impl Design {
+impl DesignArguments {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let text = load_text(&self.file)?;
         let (mut asked, mechanism) = match is_design(&text) {

@@ -13,7 +13,7 @@ use linkwork::output::glb::glb;
 use linkwork::output::sweep::sentence;
 use linkwork::scene::{Scene, Triple};
 
-use super::asked::{Asked, Forces, Posed};
+use super::asked::{Forces, Posed, QuestionOptions};
 use super::pictures::{keep, view};
 use super::search::{SearchArgs, mode};
 use super::source::Source;
@@ -36,7 +36,7 @@ pub struct Draw {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
-    asked: Asked,
+    asked: QuestionOptions,
     /// Draw this mode, numbered as `assemblies` lists it
     #[arg(long, value_name = "NUMBER", value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,

@@ -17,7 +17,7 @@ use super::{Answer, Refusal};
 #[command(after_help = "Examples:\n  \
     linkwork equilibrium mechanisms/loads/four_bar_let_go.ron\n  \
     linkwork equilibrium mechanisms/loads/four_bar_let_go.ron --all")]
-pub struct Equilibrium {
+pub struct EquilibriumArguments {
     #[command(flatten)]
     forces: Forces,
     /// Look for all rest positions, stable or not; from random starts where the equations are not algebraic
@@ -35,7 +35,7 @@ pub struct Equilibrium {
     seed: u64,
 }
 
-impl Analysis for Equilibrium {
+impl Analysis for EquilibriumArguments {
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.forces.pose(&mut posed);
         posed.names(Role::Lock, &self.lock);

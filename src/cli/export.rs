@@ -8,7 +8,7 @@ use linkwork::interchange::{Remark, tree_of, write_mjcf, write_sdf, write_urdf};
 use linkwork::output::{Report, closing, text};
 use linkwork::system::{Analysed, Closed};
 
-use super::asked::{Asked, Posed};
+use super::asked::{Posed, QuestionOptions};
 use super::source::Source;
 use super::written::{fits, written};
 use super::{Answer, Refusal, lines};
@@ -32,7 +32,7 @@ pub struct Export {
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    asked: Asked,
+    asked: QuestionOptions,
 }
 
 /// A format of another program.

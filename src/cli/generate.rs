@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use linkwork::output::solver::{Code, Language, Precision};
 
-use super::asked::{self, Asked};
+use super::asked::{self, QuestionOptions};
 use super::source::Source;
 use super::written::{fits, save, written};
 use super::{Answer, Refusal};
@@ -39,7 +39,7 @@ pub struct Generate {
         requires = "output", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     with_test: Option<u32>,
     #[command(flatten)]
-    asked: Asked,
+    asked: QuestionOptions,
     /// Solve in this mode, numbered as `assemblies` lists it
     #[arg(long, value_name = "NUMBER")]
     mode: Option<usize>,

@@ -13,7 +13,7 @@ use linkwork::output::drawing::{DrawingSettings, Panel, sheet};
 use linkwork::output::{Document, Report, html};
 use linkwork::scene::Scene;
 
-use super::asked::Asked;
+use super::asked::QuestionOptions;
 use super::search::SearchArgs;
 use super::source::Source;
 use super::written::{file, save};
@@ -30,7 +30,7 @@ pub struct Handout {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
-    asked: Asked,
+    asked: QuestionOptions,
     #[command(flatten)]
     search: SearchArgs,
     /// File to write [default: beside the mechanism file]

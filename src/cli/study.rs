@@ -9,7 +9,7 @@ use linkwork::ask::{self, Points, Role};
 use linkwork::output::complaint::Ranged;
 use linkwork::output::study::{Label, csv, spread};
 
-use super::asked::{Asked, Forces};
+use super::asked::{Forces, QuestionOptions};
 use super::search::SearchArgs;
 use super::source::{Assignment, Source};
 use super::watched::{cut_short_is_said, watched};
@@ -26,7 +26,7 @@ use super::{Answer, Refusal, lines};
     linkwork study mechanisms/three_rps.ron --vary a=0.3..0.6 --vary b=0.8..1.2 --samples 1000 --quantity condition,assemblies\n  \
     linkwork study mechanisms/four_bar.ron --deviate l2=0.001 --deviate theta1=0.1deg --samples 1000 --quantity phi1 --spread\n  \
     linkwork study mechanisms/four_bar.ron --vary l2=3..5 --samples 1000000 --quantity phi1 --shard 3/200 > part-3.csv")]
-pub struct Study {
+pub struct StudyArguments {
     #[command(flatten)]
     source: Source,
     /// Vary a parameter, or a coordinate, which is then held, e.g. --vary l2=3..5 or --vary theta1=0deg..360deg
@@ -59,7 +59,7 @@ pub struct Study {
     #[arg(long, value_name = "QUANTITIES", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
-    asked: Asked,
+    asked: QuestionOptions,
     /// Rate of a held joint or coordinate, for quantities such as velocity:left, e.g. --rate theta1=1
     #[arg(long, value_name = "NAME=RATE")]
     rate: Vec<Assignment>,
@@ -84,7 +84,7 @@ fn shard(text: &str) -> Result<(usize, usize), String> {
     parts.ok_or_else(|| "write PART/OF, e.g. 3/200".into())
 }
 
-impl Study {
+impl StudyArguments {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
