@@ -100,7 +100,10 @@ pub fn in_a_line(said: Complaint) -> String {
 pub fn parameter(name: &str, value: &str, error: &ReplacementError) -> String {
     match error {
         ReplacementError::Value(problems) if !problems.is_empty() => {
-            format!("{name} = {value}: {}", in_a_line(Complaint::of(&problems[0])))
+            format!(
+                "{name} = {value}: {}",
+                in_a_line(Complaint::of(&problems[0]))
+            )
         }
         _ => error.to_string(),
     }

@@ -37,10 +37,6 @@ export class Background {
     drop?.();
   }
 
-  get busy() {
-    return this.worker !== null;
-  }
-
   private end() {
     this.worker?.terminate();
     this.worker = null;

@@ -1,5 +1,6 @@
 // Changes of a drawing as changes of its file: every one leaves a file that can be read.
-import { type Model } from "./model";
+import { spotsOf } from "./board";
+import type { Model } from "./model";
 import { Changes, field, type Node, quoted, read } from "./ron";
 import { distance, type Joint, localOf, numberOf, type Place, type Point, type Sketch, type Spot, type Tip, turned } from "./sketch";
 
@@ -229,7 +230,7 @@ export class Draft {
 
   /** A link becomes two, with a pin between them: what lies beyond that place goes to the second. */
   split(body: string, at: Point) {
-    const spots = this.spots(body);
+    const spots = spotsOf(this.sketch, body);
     const [first] = spots;
     if (!first) return;
     const beyond = (spot: Spot) => distance(spot.at, at) < distance(spot.at, first.at) && spot !== first;
@@ -239,12 +240,6 @@ export class Draft {
     this.pin({ at, body }, other, place.angle, triple("0", "0"));
     this.rehang(body, other, beyond);
     if (!spots.some(beyond)) this.tip(other, this.spot("end", { at: [at[0] + 0.5 * (at[0] - first.at[0]), at[1] + 0.5 * (at[1] - first.at[1])] }, other));
-  }
-
-  /** All places on a body, those of joints first. */
-  spots(body: string): Spot[] {
-    const { joints, tips } = this.sketch;
-    return [...joints.flatMap((joint) => joint.spots), ...tips.map(({ spot }) => spot)].filter((spot) => spot.body === body);
   }
 
   /** Hangs what stands on a body on another one instead, where it is. */
@@ -298,7 +293,7 @@ export class Draft {
     for (const spot of joint.spots) {
       if (spot.body === "ground" || joint.kind === "Prismatic") continue;
       const [x, y] = spot.nodes.map((node) => this.changes.text.slice(node.from, node.to));
-      if (this.spots(spot.body).length > 1) this.tip(spot.body, triple(x!, y!), name ?? this.letter());
+      if (spotsOf(this.sketch, spot.body).length > 1) this.tip(spot.body, triple(x!, y!), name ?? this.letter());
       name = undefined;
     }
   }
@@ -346,7 +341,7 @@ export class Draft {
     const moved = (spot: Spot) => (spots.includes(spot) ? to : spot.at);
     const places = new Map(this.sketch.places);
     for (const body of new Set(spots.map((spot) => spot.body))) {
-      const all = this.spots(body);
+      const all = spotsOf(this.sketch, body);
       const first = all.find(({ local }) => local[0] === 0 && local[1] === 0);
       const second = all.find(({ local, nodes }) => local[0] > 0 && nodes[1].text === "0");
       if (body !== "ground" && first) {

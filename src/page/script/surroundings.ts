@@ -17,7 +17,7 @@ export class Surroundings {
   /** x, y and z beside their axes. */
   notes: Note[] = [];
   /** Of the plane, so that it does not jump as the mechanism moves. */
-  private level: { of: string; z: number; step: number; middle: [number, number]; half: number } | null = null;
+  private level: { z: number; step: number; middle: [number, number]; half: number } | null = null;
 
   constructor() {
     this.shapes.flat = true;
@@ -60,7 +60,7 @@ export class Surroundings {
     const [x, y] = [range(0), range(1)];
     const half = step * Math.ceil((0.5 * Math.max(x[1] - x[0], y[1] - y[0], 0.3 * extent)) / step + 0.6);
     const middle: [number, number] = [step * Math.round((x[0] + x[1]) / 2 / step), step * Math.round((y[0] + y[1]) / 2 / step)];
-    return { of: scene.mechanism, z, step, middle, half };
+    return { z, step, middle, half };
   }
 
   private grid({ z, step, middle: [x, y], half }: NonNullable<Surroundings["level"]>) {
