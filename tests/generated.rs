@@ -11,7 +11,7 @@ use std::process::Command;
 
 use linkwork::algebra::SiUnit;
 use linkwork::analysis::solver::{Component, NoSolver, Solver};
-use linkwork::ask::{AskError, Question, SampleAnswer};
+use linkwork::ask::{AskError, Question, SampleAnswer, SampleForces, SolverSettings};
 use linkwork::description::Description;
 use linkwork::linear::singular_values;
 use linkwork::mechanism::Mechanism;
@@ -38,7 +38,9 @@ fn load(name: &str) -> Question {
 }
 
 fn written(question: &Question) -> Option<Solver> {
-    let solver = question.solver_program(&[], &Watch::none()).ok()?;
+    let solver = question
+        .solver_program(&Default::default(), &Watch::none())
+        .ok()?;
     (solver.unknowns <= MOST_UNKNOWNS).then_some(solver)
 }
 
@@ -468,7 +470,9 @@ fn beyond_and_at_a_dead_point_there_is_a_verdict_and_never_nan() {
     let dead =
         std::f64::consts::PI - ((l0 * l0 + l3 * l3 - reach * reach) / (2.0 * l0 * l3)).acos();
     let question = load("four_bar").free("theta1").hold("phi1", dead + 0.1);
-    let solver = question.solver_program(&[], &Watch::none()).unwrap();
+    let solver = question
+        .solver_program(&Default::default(), &Watch::none())
+        .unwrap();
     let folder = folder("dead_point");
     let name = "rocker";
     fs::write(
@@ -530,7 +534,7 @@ int main(void)
 #[test]
 fn a_platform_on_three_balls_is_placed_from_them() {
     let iterated = |question: &Question| {
-        let solver = question.solver_program(&[], &Watch::none());
+        let solver = question.solver_program(&Default::default(), &Watch::none());
         let solver = solver.unwrap();
         (solver.step.len(), solver.placed.len(), solver.unknowns)
     };
@@ -542,7 +546,9 @@ fn a_platform_on_three_balls_is_placed_from_them() {
     if !has_cc() {
         return;
     }
-    let solver = rps.solver_program(&[], &Watch::none()).unwrap();
+    let solver = rps
+        .solver_program(&Default::default(), &Watch::none())
+        .unwrap();
     let folder = folder("three_balls");
     let text = code(Language::C, "made").solver(&solver);
     fs::write(folder.join("made.h"), text).unwrap();
@@ -603,7 +609,15 @@ fn twists_of_frames_are_the_derivatives_of_their_poses() {
             .chain(mechanism.chains().iter().map(|c| c.name.clone()))
             .map(|name| (name.clone(), mechanism.frame(&name).unwrap()))
             .collect();
-        let solver = question.solver_program(&frames, &Watch::none()).unwrap();
+        let solver = question
+            .solver_program(
+                &SolverSettings {
+                    frames,
+                    ..Default::default()
+                },
+                &Watch::none(),
+            )
+            .unwrap();
         let folder = folder(&format!("twists_{name}"));
         fs::write(
             folder.join("made.h"),
@@ -802,7 +816,7 @@ fn a_platform_whose_assemblies_are_close_is_followed_on_its_branch() {
     let code = code(Language::Rust, "close");
     fs::write(folder.join("close.rs"), code.solver(&solver)).unwrap();
     let run = |examples: &[SampleAnswer]| {
-        let program = rust_program(&folder, &code.test(&solver, examples));
+        let program = rust_program(&folder, &code.test(&solver, examples, &[]));
         let output = Command::new(program).output().unwrap();
         let said = String::from_utf8(output.stdout).unwrap();
         (output.status.code(), said)
@@ -839,7 +853,11 @@ fn configurations_to_test_with_are_near_one_another() {
 
 #[test]
 fn a_question_without_unknowns_or_inputs_has_no_solver() {
-    let none = |name: &str| load(name).solver_program(&[], &Watch::none()).unwrap_err();
+    let none = |name: &str| {
+        load(name)
+            .solver_program(&Default::default(), &Watch::none())
+            .unwrap_err()
+    };
     let refused = AskError::NoSolver;
     assert_eq!(none("axes/gears"), refused(NoSolver::NothingUnknown));
     assert_eq!(none("triangle"), refused(NoSolver::NothingHeld));
@@ -881,6 +899,133 @@ fn the_solvers_of_the_bench_are_those_that_the_program_writes() {
         assert!(
             fs::read_to_string(&path).unwrap() == written,
             "{name} is out of date"
+        );
+    }
+}
+
+/// Solvers with the forces that drive their inputs.
+fn with_forces(question: &Question) -> Result<Solver, AskError> {
+    let settings = SolverSettings {
+        forces: true,
+        ..SolverSettings::default()
+    };
+    question.solver_program(&settings, &Watch::none())
+}
+
+/// The forces in C and Rust beside those of the library, which eliminates numbers and no operations.
+#[test]
+fn forces_are_those_of_the_library() {
+    let moved_stop = r#"Axes(version: 1, name: "crank on a rope", gravity: (0, -9.81, 0),
+        parameters: { "k": "300 N/m" },
+        joints: {
+            "s": Prismatic(point: (0.35, 0, 0), direction: (1, 0, 0), between: ("ground", "slider")),
+            "turn": Revolute(point: (0, 0, 0), direction: (0, 0, 1), role: Actuated, home: 1, drawn: 0, between: ("ground", "crank")),
+            "A": Revolute(point: (0.1, 0, 0), direction: (0, 0, 1), between: ("crank", "rod")),
+            "B": Revolute(point: (0.35, 0, 0), direction: (0, 0, 1), between: ("rod", "slider")),
+        },
+        points: { "m": (body: "rod", at: (0.2, 0.02, 0)), "hook": (body: "ground", at: (0.4, 0.3, 0)) },
+        masses: { "m": (mass: 0.7, inertia: 0.006) },
+        loads: {
+            "rope": Spring(between: ("m", "hook"), stiffness: "k", length: 0.33, damping: 4, tension_only: true),
+            "gas": Force(joint: "s", table: [(-0.2, -50), (-0.1, -20), (0, 0)], over: "s"),
+            "motor": Force(joint: "turn", moment: "if(turn < 1.05, 2 N*m, -2 N*m*atan(s/(0.1 m))) + 1 N*m/s*time"),
+        },
+    )"#;
+    let inline = Mechanism::new(&Description::read(moved_stop).unwrap()).unwrap();
+    let mut questions = vec![("rope".to_owned(), Question::new(inline))];
+    for name in ["engine", "stewart_payload", "andrews_squeezer", "wishbone"] {
+        questions.push((name.to_owned(), load(&format!("loads/{name}"))));
+    }
+    let languages = match has_cc() {
+        true => vec![Language::Rust, Language::C],
+        false => vec![Language::Rust],
+    };
+    for (name, question) in &questions {
+        let solver = with_forces(question).unwrap();
+        let examples = question.examples(40, &Watch::none()).unwrap();
+        let forces = question.example_forces(&examples, &Watch::none()).unwrap();
+        let folder = folder(&format!("forces_{name}"));
+        for language in &languages {
+            let code = code(*language, name);
+            let ending = if *language == Language::C { "h" } else { "rs" };
+            fs::write(
+                folder.join(format!("{name}.{ending}")),
+                code.solver(&solver),
+            )
+            .unwrap();
+            let run = |forces: &[SampleForces]| {
+                let main = code.test(&solver, &examples, forces);
+                let program = match language {
+                    Language::C => c_program(&folder, &main),
+                    Language::Rust => rust_program(&folder, &main),
+                };
+                let output = Command::new(program).output().unwrap();
+                let said = String::from_utf8(output.stdout).unwrap();
+                (output.status.code(), said)
+            };
+            let (status, said) = run(&forces);
+            assert!(status == Some(0), "{name}: {said}");
+            assert!(said.contains("forces differ by up to"), "{said}");
+            if name == "rope" {
+                let mut wrong = forces.clone();
+                wrong[7][2][0] += 1e-6 * wrong[7][2][0].abs().max(1.0);
+                let (status, said) = run(&wrong);
+                let right = status == Some(1) && said.contains("1 configurations differ");
+                assert!(right, "{said}");
+            }
+        }
+    }
+    let rubs = with_forces(&load("loads/toggle_press")).unwrap_err();
+    assert_eq!(rubs, AskError::NoSolver(NoSolver::Friction));
+    assert!(with_forces(&load("loads/toggle_press").without("friction")).is_ok());
+}
+
+/// The torque of a crank at constant speed, from 40-digit Newton–Euler equations.
+#[test]
+fn torques_of_a_four_bar_are_those_of_another_program() {
+    let known: serde_json::Value =
+        serde_json::from_str(include_str!("data/loads_four_bar.json")).unwrap();
+    let text = r#"Mechanism(version: 1, name: "four-bar", convention: Modified,
+        joints: { "theta1": Actuated(home: 0), "phi2": Passive(home: 0.5), "phi1": Passive(home: 1.2) },
+        chains: {
+            "left": Chain(rows: [(theta: "theta1", link: "crank"), (a: 0.1, theta: "phi2", link: "coupler")], tip: [Tx(0.3)]),
+            "right": Chain(base: [Tx(0.38)], rows: [(theta: "phi1", link: "rocker")], tip: [Tx(0.2)]),
+        },
+        closures: { "B": Revolute("left", "right") },
+        gravity: (0, -9.81, 0),
+        masses: {
+            "crank": (mass: 0.6, centre: ("0.03*cos(30 deg)", "0.03*sin(30 deg)", 0), inertia: 0.0012),
+            "coupler": (mass: 2, centre: ("0.16*cos(15 deg)", "0.16*sin(15 deg)", 0), inertia: 0.018),
+            "rocker": (mass: 1.5, centre: (0.1, 0, 0), inertia: 0.009),
+        },
+    )"#;
+    let question = Question::new(Mechanism::new(&Description::read(text).unwrap()).unwrap());
+    let solver = with_forces(&question).unwrap();
+    let folder = folder("forces_torques");
+    fs::write(
+        folder.join("crank.rs"),
+        code(Language::Rust, "crank").solver(&solver),
+    )
+    .unwrap();
+    let rows = known["answer"]["rows"].as_array().unwrap();
+    let number = |row: &serde_json::Value, i: usize| row[i].as_f64().unwrap();
+    let omega = known["inputs"]["omega"].as_f64().unwrap();
+    let angles: Vec<f64> = rows.iter().map(|row| number(row, 0)).collect();
+    let main = format!(
+        "#[path = \"crank.rs\"]\nmod crank;\nfn main() {{\n let mut at = crank::Follower::new(crank::START_STATE);\n \
+         for angle in {angles:?} {{\n let mut torque = [0.0];\n let u = [angle];\n \
+         assert_eq!(at.solve(&u), crank::Verdict::Solved);\n \
+         assert!(crank::forces(&u, &at.state, &[{omega:?}], &[0.0], 0.0, &mut torque));\n \
+         println!(\"{{:e}}\", torque[0]);\n }}\n}}\n"
+    );
+    let output = Command::new(rust_program(&folder, &main)).output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    let found: Vec<f64> = said.lines().map(|line| line.parse().unwrap()).collect();
+    assert_eq!(found.len(), rows.len(), "{said}");
+    for (row, found) in rows.iter().zip(found) {
+        assert!(
+            (found - number(row, 1)).abs() < 1e-9 * 12.0,
+            "{found} {row}"
         );
     }
 }

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use linkwork::ask::SolverSettings;
 use linkwork::output::solver::{Code, Language, Precision};
 
-use super::asked::{self, QuestionOptions};
+use super::asked::{self, Forces, QuestionOptions};
 use super::source::Source;
 use super::written::{fits, save, written};
 use super::{Answer, Refusal};
@@ -18,7 +19,8 @@ use super::{Answer, Refusal};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork generate mechanisms/four_bar.ron --lang c --output four_bar.h --with-test\n  \
-    linkwork generate mechanisms/three_rps.ron --lang rust --frame top")]
+    linkwork generate mechanisms/three_rps.ron --lang rust --frame top\n  \
+    linkwork generate mechanisms/loads/engine.ron --lang c --dynamics --output engine.h --with-test")]
 pub struct Generate {
     #[command(flatten)]
     source: Source,
@@ -38,6 +40,11 @@ pub struct Generate {
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "100",
         requires = "output", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     with_test: Option<u32>,
+    /// Add a function for the forces that drive the inputs against weights, springs, dampers, given forces and inertia
+    #[arg(long)]
+    dynamics: bool,
+    #[command(flatten)]
+    forces: Forces,
     #[command(flatten)]
     asked: QuestionOptions,
     /// Solve in this mode, numbered as `assemblies` lists it
@@ -57,11 +64,15 @@ impl Generate {
             .map_err(Refusal::error)?;
         let mut posed = self.asked.pose(&self.source)?;
         posed.mode(self.mode);
+        self.forces.pose(&mut posed);
         let mechanism = posed.question.mechanism().clone();
         let named = |name: &String| Ok((name.clone(), asked::frame(&mechanism, name, "--frame")?));
         let frames = self.frame.iter().map(named);
-        let frames: Vec<_> = frames.collect::<Result<_, Refusal>>()?;
-        let solver = posed.ask(|question, watch| question.solver_program(&frames, watch))?;
+        let settings = SolverSettings {
+            frames: frames.collect::<Result<_, Refusal>>()?,
+            forces: self.dynamics,
+        };
+        let solver = posed.ask(|question, watch| question.solver_program(&settings, watch))?;
         let code = Code {
             language: self.lang,
             precision: self.precision,
@@ -69,9 +80,13 @@ impl Generate {
         };
         if let (Some(count), Some(path)) = (self.with_test, &self.output) {
             let examples = posed.ask(|question, watch| question.examples(count as usize, watch))?;
+            let forces = match self.dynamics {
+                true => posed.ask(|question, watch| question.example_forces(&examples, watch))?,
+                false => Vec::new(),
+            };
             let test = format!("{}_test.{}", code.name, code.language.program_ending());
             let path = path.with_file_name(test);
-            save(&path, code.test(&solver, &examples).as_bytes())?;
+            save(&path, code.test(&solver, &examples, &forces).as_bytes())?;
         }
         let data = written(code.solver(&solver), output)?;
         Ok(Answer::yes(data, posed.loaded.warnings()))

@@ -40,7 +40,7 @@ pub use many::{Jacobians, Many, ManyMeasured, Unreached};
 pub use modes::{Mode, Modes, Solved, Store};
 pub use remedy::Remedy;
 pub use schedule::{TableError, TableErrorKind};
-pub use solver::SampleAnswer;
+pub use solver::{SampleAnswer, SampleForces, SolverSettings};
 pub use steering::Steering;
 pub use study::{Points, ScatteredPoints, Study, StudyRows, part_of, regions};
 pub use study_error::StudyError;

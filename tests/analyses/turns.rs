@@ -38,7 +38,7 @@ fn question(mechanism: &Mechanism, s: f64) -> Question {
 }
 
 fn solved(question: &Question) -> f64 {
-    let solver = question.solver_program(&[], &Watch::none());
+    let solver = question.solver_program(&Default::default(), &Watch::none());
     let solver = solver.unwrap();
     let crank = solver.state.iter().find(|of| of.name == "crank").unwrap();
     crank.value.to_degrees()

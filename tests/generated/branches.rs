@@ -146,7 +146,7 @@ fn mechanisms() -> Vec<(String, Mechanism, Configuration<f64>)> {
                 continue;
             }
             let start = start.configuration();
-            if solver(&question, &start, &[]).is_err() {
+            if solver(&question, &start, &[], None).is_err() {
                 continue;
             }
             found += 1;
@@ -272,7 +272,7 @@ fn what_a_solver_finds_is_on_the_branch_that_fine_steps_follow() {
             back.reverse();
         }
         path.truncate(count + 1);
-        let solver = solver(&question, start, &[]).unwrap();
+        let solver = solver(&question, start, &[], None).unwrap();
         rows.push(path[1..].iter().map(|at| values(&question, at)).collect());
         solvers.push((name.clone(), ask::Question::new(mechanism.clone()), solver));
         paths.push(path);
@@ -329,7 +329,7 @@ fn a_solver_that_begins_at_its_start_keeps_to_the_branch_of_the_start() {
         }
         let question = Question::new(&mechanism);
         rows.push(found.iter().map(|at| values(&question, at)).collect());
-        let solver = solver(&question, &start, &[]).unwrap();
+        let solver = solver(&question, &start, &[], None).unwrap();
         solvers.push((name, ask::Question::new(mechanism.clone()), solver));
     }
     assert!(solvers.len() > SHIPPED.len());

@@ -6,16 +6,20 @@
 mod closed;
 mod curvature;
 mod follower;
+mod forces;
 mod iteration;
 mod placing;
 mod report;
 mod variable;
 
 pub use follower::{Follower, Following, Motions};
-pub use report::{ClosedProgram, Component, Divisor, FrameProgram, Radicand, Solver};
+pub use forces::forces;
+pub use report::{
+    ClosedProgram, Component, Divisor, ForceComponent, ForceProgram, FrameProgram, Radicand, Solver,
+};
 
 pub use crate::algebra::LEAST_PIVOT;
-use crate::algebra::{Recorded, eliminate, record};
+use crate::algebra::{Function, Recorded, eliminate, record};
 use crate::geometry::{Quaternion, RollPitchYaw, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{
@@ -23,7 +27,9 @@ use crate::mechanism::{
 };
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Question, System, Unknown};
+use crate::system::{
+    ClosedSolution, Coordinate, Held, HeldPlatform, Load, Question, System, Unknown,
+};
 use iteration::{Iteration, OpenRows, negated, numbered, places};
 use variable::StateVariable;
 
@@ -44,6 +50,15 @@ pub enum NoSolver {
         /// All of them.
         unknowns: usize,
     },
+    /// Forces are wanted where joints have friction.
+    #[error("friction is in proportion to reactions, which no straight-line program finds")]
+    Friction,
+    /// Forces are wanted that follow from a function which needs a library.
+    #[error("a force follows from `{}`, which needs a library of functions", _0.word())]
+    Function(Function),
+    /// Forces are wanted that the motion of the inputs does not determine.
+    #[error("the forces at the inputs are not determined")]
+    Undetermined,
 }
 
 /// Writes the solver of a question as a program.
@@ -51,14 +66,16 @@ pub enum NoSolver {
 /// Inputs are the held coordinates, the state is the value of every free joint and the pose of every free platform. `at`
 /// is an assembled configuration; there the order of elimination is chosen: among entries of at least a tenth of the
 /// largest in their column the one with the fewest others in its row and column (Markowitz 1957). For each of `frames`
-/// the pose and the twists for unit rates of the inputs are written too.
+/// the pose and the twists for unit rates of the inputs are written too, and with a load the forces that drive the inputs
+/// against it, inertia included.
 ///
 /// # Errors
-/// If nothing is unknown or nothing held, or the configuration is singular.
+/// If nothing is unknown or nothing held, the configuration is singular, or forces cannot be written.
 pub fn solver(
     question: &Question,
     at: &Configuration<f64>,
     frames: &[(String, Frame)],
+    load: Option<&Load>,
 ) -> Result<Solver, NoSolver> {
     let plan = VariablePlan::new(question);
     plan.check()?;
@@ -66,11 +83,10 @@ pub fn solver(
     let (inputs, state) = plan.values(at);
     let start = [inputs.clone(), state.clone()].concat();
     let mut sample = start.clone();
-    // as many steps as there are unknowns
-    sample.resize(
-        sample.len() + 6 * mechanism.platforms().len() + state.len(),
-        0.0,
-    );
+    // steps of the unknowns, then rates, accelerations and time
+    let first_rate = sample.len() + plan.unknowns();
+    sample.resize(first_rate, 0.0);
+    sample.resize(first_rate + 2 * inputs.len() + 1, 0.1);
     // a platform to be found is not solved for in closed form
     let joints = plan
         .state
@@ -80,8 +96,24 @@ pub fn solver(
         .then(|| ClosedSolution::of(question, at).ok())
         .flatten();
     let solution = solution.filter(|solution| solution.solves(question, at));
-    let (written, operations) = record(sample, || plan.write(solution.as_ref(), frames));
+    let (written, operations) = record(sample, || {
+        let written = plan.write(solution.as_ref(), frames)?;
+        let (inputs, state) = plan.variables();
+        let (_, at) = plan.posed(&inputs, &state);
+        let forces = load.map(|load| plan.forces(question, load, &at, first_rate));
+        Ok(Solver {
+            forces: forces.transpose()?,
+            ..written
+        })
+    });
     let written = written?;
+    let missing = written
+        .forces
+        .as_ref()
+        .and_then(|of| of.missing(&operations));
+    if let Some(function) = missing {
+        return Err(NoSolver::Function(function));
+    }
     let components = |variables: &[StateVariable], values: &[f64]| -> Vec<Component> {
         let all = variables.iter().zip(values);
         all.map(|(variable, &value)| Component {
@@ -164,6 +196,20 @@ impl<'a> VariablePlan<'a> {
         (of(&self.inputs), of(&self.state))
     }
 
+    /// The number of unknowns of a step.
+    fn unknowns(&self) -> usize {
+        System::new(self.mechanism.dimensions(), &self.held)
+            .unknowns()
+            .len()
+    }
+
+    /// Inputs and state as inputs of the program.
+    fn variables(&self) -> (Vec<Recorded>, Vec<Recorded>) {
+        let (given, kept) = (self.inputs.len(), self.state.len());
+        let inputs = |of: std::ops::Range<usize>| of.map(Recorded::input).collect();
+        (inputs(0..given), inputs(given..given + kept))
+    }
+
     /// The held coordinates and the configuration for given inputs and state.
     fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (Held<T>, Configuration<T>) {
         let value = |variable: StateVariable| {
@@ -233,8 +279,7 @@ impl<'a> VariablePlan<'a> {
         frames: &[(String, Frame)],
     ) -> Result<Solver, NoSolver> {
         let (given, kept) = (self.inputs.len(), self.state.len());
-        let inputs: Vec<Recorded> = (0..given).map(Recorded::input).collect();
-        let state: Vec<Recorded> = (given..given + kept).map(Recorded::input).collect();
+        let (inputs, state) = self.variables();
         let (held, at) = self.posed(&inputs, &state);
         let dimensions = self.dimensions();
         let system = System::new(&dimensions, &held);

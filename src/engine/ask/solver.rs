@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::many::RowSeries;
 use super::{AskError, Mode, Question};
-use crate::analysis::solver::{Solver, solver, values};
+use crate::analysis::solver::{Solver, forces, solver, values};
 use crate::mechanism::{Configuration, Frame};
 use crate::number::real;
 use crate::solve::Watch;
@@ -13,20 +13,64 @@ use crate::system::{self, Coordinate, check_count};
 /// Values of the inputs, then the state.
 pub type SampleAnswer = (Vec<f64>, Vec<f64>);
 
+/// Rates of the inputs, their accelerations, and the forces that drive the inputs so.
+pub type SampleForces = [Vec<f64>; 3];
+
+/// Settings of a solver.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SolverSettings {
+    /// Frames whose poses and twists for unit rates of the inputs are written too, with their names.
+    pub frames: Vec<(String, Frame)>,
+    /// True if the forces that drive the inputs are written too.
+    pub forces: bool,
+}
+
 impl Question {
-    /// The solver for what is held, in the assembly near the start or that of the mode asked for; with poses and twists
-    /// of frames.
+    /// The solver for what is held, in the assembly near the start or that of the mode asked for. With forces it takes the
+    /// wrenches and loads of the question.
     ///
     /// # Errors
-    /// If the question is wrong, holds more or less than the mechanism has freedoms, nothing assembles, or the assembly is
-    /// singular.
+    /// If the question is wrong, holds more or less than the mechanism has freedoms, nothing assembles, the assembly is
+    /// singular, or forces cannot be written.
     pub fn solver_program(
         &self,
-        frames: &[(String, Frame)],
+        settings: &SolverSettings,
         watch: &Watch,
     ) -> Result<Solver, AskError> {
+        self.takes(match settings.forces {
+            true => "generate with forces",
+            false => "generate",
+        })?;
         let (question, start) = self.posed(watch)?;
-        solver(&question, &start, frames).map_err(AskError::NoSolver)
+        let load = match settings.forces {
+            true => Some(self.load_of(&question)?),
+            false => None,
+        };
+        solver(&question, &start, &settings.frames, load.as_ref()).map_err(AskError::NoSolver)
+    }
+
+    /// Motions of the inputs at configurations of a solver, at a time of 0.25 s, with the forces that drive them; nothing where
+    /// the configuration is singular.
+    ///
+    /// # Errors
+    /// As for [`solver_program`](Self::solver_program).
+    pub fn example_forces(
+        &self,
+        examples: &[SampleAnswer],
+        watch: &Watch,
+    ) -> Result<Vec<SampleForces>, AskError> {
+        const TIME: f64 = 0.25;
+        let (question, _) = self.posed(watch)?;
+        let load = self.load_of(&question)?;
+        let driven = examples.iter().enumerate().map(|(k, (inputs, state))| {
+            // about one unit per s and per s², each input otherwise
+            let number = |i: usize, of: f64| real::sin(of + (3 * i + k) as f64);
+            let [rates, changes]: [Vec<f64>; 2] =
+                [1.0, 2.0].map(|of| (0..inputs.len()).map(|i| number(i, of)).collect());
+            let found = forces(&question, &load, (inputs, state), [&rates, &changes], TIME);
+            [rates, changes, found.unwrap_or_default()]
+        });
+        Ok(driven.collect())
     }
 
     /// Configurations along a closed curve of the inputs through the start, each near the one before it; fewer if the

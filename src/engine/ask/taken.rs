@@ -3,7 +3,7 @@
 use super::{AskError, Item, Question, Role};
 
 /// The roles of demands that each analysis takes beside those that hold, free and guess.
-const TAKES: [(&str, &[Role]); 13] = {
+const TAKES: [(&str, &[Role]); 15] = {
     use Role::*;
     [
         ("solve", &[]),
@@ -21,6 +21,8 @@ const TAKES: [(&str, &[Role]); 13] = {
         ),
         ("circuits", &[Point]),
         ("workspace", &[Input]),
+        ("generate", &[]),
+        ("generate with forces", &[Wrench, Load, Without]),
         (
             "study",
             &[

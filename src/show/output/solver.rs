@@ -6,7 +6,7 @@ mod sections;
 pub use language::{Language, Precision};
 
 use crate::analysis::solver::{Component, LEAST_PIVOT, Solver};
-use crate::ask::SampleAnswer;
+use crate::ask::{SampleAnswer, SampleForces};
 use sections::OperationWriter;
 
 /// Settings of generated code.
@@ -41,28 +41,61 @@ impl Code {
             ("frames", writer.frames()),
             ("sine", self.sine()),
             ("closed", writer.closed()),
+            ("forces", self.forces(solver)),
             ("arctangent", self.arctangent()),
         ];
-        let left_out = match solver.closed {
-            Some(_) => "iteration",
-            None => "closed form",
-        };
-        let mut filled = without(language.template(), left_out);
+        let parts = [
+            ("iteration", solver.closed.is_none()),
+            ("closed form", solver.closed.is_some()),
+            ("forces", solver.forces.is_some()),
+            (
+                "functions",
+                solver.closed.is_some() || solver.forces.is_some(),
+            ),
+        ];
+        let left_out = parts.iter().filter(|(_, kept)| !kept);
+        let left_out: Vec<&str> = left_out.map(|(part, _)| *part).collect();
+        let mut filled = without(language.template(), &left_out);
         for (name, section) in sections {
             filled = filled.replace(&format!("@{name}@\n"), &section);
         }
         self.named(filled, solver)
     }
 
-    /// A program that runs the solver through configurations found by the library, each from the one before it, and
-    /// fails if a number differs by more than it should.
-    pub fn test(&self, solver: &Solver, examples: &[SampleAnswer]) -> String {
-        let rows = examples.iter().map(|(inputs, state)| {
-            let row = self.numbers(inputs.iter().chain(state).copied());
+    /// The forces at the inputs; nothing if they are not wanted.
+    fn forces(&self, solver: &Solver) -> String {
+        // a sign of the closed form may be given there, but not here
+        let here = Solver {
+            closed: None,
+            ..solver.clone()
+        };
+        let writer = OperationWriter::new(self, &here);
+        let program = solver.forces.as_ref();
+        program.map_or(String::new(), |program| writer.forces(program))
+    }
+
+    /// A program that runs the solver through configurations found by the library, each from the one before it, with the
+    /// forces there if they are wanted, and fails if a number differs by more than it should.
+    pub fn test(
+        &self,
+        solver: &Solver,
+        examples: &[SampleAnswer],
+        forces: &[SampleForces],
+    ) -> String {
+        let written = |numbers: Vec<f64>| {
+            let row = self.numbers(numbers.into_iter());
             format!("    @open@{}@shut@,\n", row.trim_end().replace('\n', ""))
-        });
-        let text =
-            (self.language.test_template()).replace("@examples@\n", &rows.collect::<String>());
+        };
+        let rows = examples.iter();
+        let rows = rows.map(|(inputs, state)| written([&inputs[..], state].concat()));
+        let forces = forces.iter().map(|of| written(of.concat()));
+        let left_out: &[&str] = match solver.forces {
+            Some(_) => &[],
+            None => &["forces"],
+        };
+        let text = without(self.language.test_template(), left_out)
+            .replace("@examples@\n", &rows.collect::<String>())
+            .replace("@driven@\n", &forces.collect::<String>());
         self.named(
             text.replace("@example_count@", &examples.len().to_string()),
             solver,
@@ -131,6 +164,12 @@ impl Code {
                 lines += &format!("Its position is from ({x}, {y}, {z}) m in ground.\n");
             }
         }
+        if let Some(program) = &solver.forces {
+            lines += "\nForces, what drives the inputs:\n";
+            for (i, (input, force)) in solver.inputs.iter().zip(&program.forces).enumerate() {
+                lines += &format!("   {i:>3}  {}, {}\n", plain(&input.name), force.unit);
+            }
+        }
         if !solver.frames.is_empty() {
             lines += "\nFrames:\n";
             for (i, frame) in solver.frames.iter().enumerate() {
@@ -145,13 +184,13 @@ impl Code {
     }
 }
 
-/// A template without the parts of one kind, which stand between `@only <kind>@` and `@end@`.
-fn without(template: &str, kind: &str) -> String {
+/// A template without the parts of some kinds, which stand between `@only <kind>@` and `@end@`.
+fn without(template: &str, kinds: &[&str]) -> String {
     let mut left_out = false;
     let mut kept = String::with_capacity(template.len());
     for line in template.lines() {
         match line.strip_prefix("@only ") {
-            Some(of) => left_out = of.strip_suffix('@') == Some(kind),
+            Some(of) => left_out = (of.strip_suffix('@')).is_some_and(|of| kinds.contains(&of)),
             None if line == "@end@" => left_out = false,
             None if left_out => {}
             None => kept += &format!("{line}\n"),

@@ -30,6 +30,27 @@ pub struct FrameProgram {
     pub twists: Vec<Vec<Place>>,
 }
 
+/// The force or moment at an input.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ForceComponent {
+    /// N or N·m.
+    pub unit: SiUnit,
+    /// Its place.
+    pub place: Place,
+}
+
+/// Inverse dynamics: the forces that drive the inputs. Their further inputs are numbered after those of a step: rates of the
+/// inputs, accelerations of the inputs, the time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ForceProgram {
+    /// For each input the force or moment along it.
+    pub forces: Vec<ForceComponent>,
+    /// Places of numbers, each with true if it must be negative: elsewhere the configuration is singular.
+    pub decisions: Vec<(Place, bool)>,
+}
+
 /// A divisor, with its reciprocal and its natural size.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -124,6 +145,9 @@ pub struct Solver {
     pub rates: Vec<Vec<Place>>,
     /// Frames whose poses and twists are wanted.
     pub frames: Vec<FrameProgram>,
+    /// The forces that drive the inputs, if they are wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForceProgram>,
 }
 
 impl Solver {

@@ -226,6 +226,12 @@ impl Wording<'_> {
                     self.role(Role::Guess),
                     self.setting("mode", None)
                 ),
+                NoSolver::Friction => format!("leave it out with {}", self.give(Role::Without, "friction", &[])),
+                NoSolver::Function(_) => format!(
+                    "write the force as a table, or leave it out with {}",
+                    self.role(Role::Without)
+                ),
+                NoSolver::Undetermined => format!("hold what drives the mechanism with {}", self.role(Role::Hold)),
             }),
             _ => said,
         }

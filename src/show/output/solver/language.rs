@@ -1,7 +1,7 @@
 //! Differences between the languages.
 
 use super::Code;
-use crate::algebra::{Operation, Place};
+use crate::algebra::{Function, Operation, Place};
 
 /// The language of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,12 +148,22 @@ pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String
         Operation::Angle(y, x) => format!("@own@angle({}, {})", name(y), name(x)),
         Operation::Near(x, y) => format!("@own@nearest({}, {})", name(x), name(y)),
         Operation::Sign(x) => format!("@own@sign({})", name(x)),
-        Operation::Larger(..) | Operation::Call(..) => {
-            unreachable!("no closure equation uses them")
-        }
+        Operation::Larger(x, y) => format!("@own@greater({}, {})", name(x), name(y)),
+        Operation::Call(function, x) => called(function, &name(x)),
         Operation::Constant(_) | Operation::Input(_) | Operation::Sin(_) | Operation::Cos(_) => {
             unreachable!("numbers have names of their own, and sines come with their cosines")
         }
+    }
+}
+
+/// A function of an operand by an angle of two numbers.
+fn called(function: Function, x: &str) -> String {
+    let across = format!("@own@root_or_zero(1.0@f@ - {x} * {x})");
+    match function {
+        Function::Asin => format!("@own@angle({x}, {across})"),
+        Function::Acos => format!("@own@angle({across}, {x})"),
+        Function::Atan => format!("@own@angle({x}, 1.0@f@)"),
+        _ => unreachable!("a solver refuses other functions"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The straight-line parts of a solver.
 
 mod closed;
+mod forces;
 mod keeping;
 mod text;
 
@@ -54,7 +55,12 @@ impl<'a> OperationWriter<'a> {
             Operation::Input(i) => match i as usize {
                 i if i < given => format!("u{i}"),
                 i if i < given + kept => format!("x{}", i - given),
-                i => format!("d{}", i - given - kept),
+                i => match i.checked_sub(given + kept + self.solver.unknowns) {
+                    None => format!("d{}", i - given - kept),
+                    Some(i) if i < given => format!("v{i}"),
+                    Some(i) if i < 2 * given => format!("a{}", i - given),
+                    Some(_) => "time".into(),
+                },
             },
             Operation::Sin(angle) if carries && self.state_of(angle).is_some() => {
                 format!("s{}", self.state_of(angle).unwrap_or_default())

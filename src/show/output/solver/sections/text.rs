@@ -30,7 +30,10 @@ impl Text<'_, '_> {
         for &place in used {
             if let Operation::Input(_) = self.writer.solver.operations[place as usize] {
                 let name = self.writer.name(place, false);
-                if let Some(number) = name.strip_prefix(array) {
+                if let Some(number) = name
+                    .strip_prefix(array)
+                    .filter(|of| of.parse::<usize>().is_ok())
+                {
                     self.line(&bound(&name, &format!("{array}[{number}]")));
                 }
             }
